@@ -1,0 +1,1 @@
+"""How we know: engines, encoders, replay, renderers and the command line."""

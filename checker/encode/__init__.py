@@ -1,0 +1,1 @@
+"""From expressions and programs to what an engine runs: machine code, bit-vectors."""

@@ -1,0 +1,63 @@
+"""The contract of an engine, and how engines are found: by being in ``checker/engines``.
+
+An engine module has a ``NAME``, a one-line ``SUMMARY`` and a function ``check`` with the signature
+of ``Engine.check``.  It never raises for a hard problem (it answers ``Open`` with the reason) and
+never guesses.
+"""
+
+import importlib
+import pkgutil
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from time import monotonic
+from typing import Protocol
+
+from checker.verdict import Answer
+from spec_model.lang.expr import Var
+from spec_model.lang.system import TransitionSystem
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What an engine may spend: ticks of depth (None: no bound), wall seconds, bytes of memory."""
+
+    depth: int | None = None
+    seconds: float | None = None
+    memory: int = 8 << 30
+
+    def deadline(self) -> float | None:
+        """The moment on ``time.monotonic()`` at which the time is over."""
+        return None if self.seconds is None else monotonic() + self.seconds
+
+
+Progress = Callable[[str], None]
+"""Called now and then with one line that says what is being done (phase, depth, counts)."""
+
+
+def quiet(_: str) -> None:
+    """A progress that shows nothing."""
+
+
+class Engine(Protocol):
+    """Decides for each goal, a boolean variable of the system, whether it is ever true after a tick."""
+
+    NAME: str
+    SUMMARY: str
+
+    def check(
+        self, system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
+    ) -> Mapping[str, Answer]:
+        """An answer for each goal, by name.  Runs in ``Reached`` start before the first tick."""
+        ...
+
+
+def engines() -> dict[str, Engine]:
+    """The engines in ``checker/engines``, by name."""
+    import checker.engines as folder
+
+    found: dict[str, Engine] = {}
+    for entry in sorted(pkgutil.iter_modules(folder.__path__), key=lambda e: e.name):
+        module = importlib.import_module(f"{folder.__name__}.{entry.name}")
+        if hasattr(module, "NAME"):
+            found[module.NAME] = module  # type: ignore[assignment]
+    return found

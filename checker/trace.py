@@ -1,0 +1,69 @@
+"""A trace: the replayed run, tick by tick, with what fired and what the property says."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from spec_model.lang.expr import Expr, Var
+
+
+@dataclass(frozen=True)
+class Arrow:
+    """An arrow that fired: its chart, where it starts and ends, and its label as drawn.
+
+    ``order`` is its position among the arrows leaving ``source`` (1 is tested first; 0 for a
+    default transition).  ``event`` is the local event during whose processing it fired, if any.
+    """
+
+    chart: str
+    source: str
+    target: str
+    label: str
+    order: int
+    event: str | None = None
+
+    def __str__(self) -> str:
+        start = f"{self.source} -> {self.target}" if self.order else f"default -> {self.target}"
+        number = f" (arrow {self.order})" if self.order else ""
+        return f"{self.chart}: {start}{number}{' ' + self.label if self.label else ''}"
+
+
+@dataclass(frozen=True)
+class Tick:
+    """One tick: its number from 1, its inputs, the valuation after it and the arrows fired in it."""
+
+    number: int
+    inputs: Mapping[str, int]
+    after: Mapping[str, int]
+    arrows: tuple[Arrow, ...] = ()
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A run with everything a reader needs.
+
+    ``before`` is the valuation before the first tick (frozen variables included); ``false_parts``
+    are the conjuncts of the property that are false after the last tick (for a witness, empty).
+    """
+
+    system: str
+    tick_ms: int
+    variables: Mapping[str, Var]
+    inputs: tuple[str, ...]
+    before: Mapping[str, int]
+    ticks: tuple[Tick, ...]
+    false_parts: tuple[Expr, ...] = ()
+
+    def __len__(self) -> int:
+        return len(self.ticks)
+
+    def show(self, name: str, raw: int) -> str:
+        """A value as a person writes it."""
+        return self.variables[name].domain.show(raw)
+
+    def changes(self) -> Iterator[tuple[Tick, dict[str, int]]]:
+        """Each tick with the variables and inputs whose value differs from the tick before."""
+        last: Mapping[str, int] = self.before
+        for tick in self.ticks:
+            now = {**tick.after, **tick.inputs}
+            yield tick, {n: v for n, v in now.items() if last.get(n) != v}
+            last = now

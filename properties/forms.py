@@ -1,0 +1,178 @@
+"""The forms of properties, in the words of their definition; a form knows no chart.
+
+Conventions: a formula is read at the end of a tick, with the inputs of the tick.  "Within n ticks
+of k" is some tick of k..k+n.  ``from_tick`` is the first tick at which a property is required
+(2 where the specification says "for k >= 2").
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Union
+
+from spec_model.lang.errors import ModelError
+from spec_model.lang.expr import Expr
+from spec_model.lang.time import Span
+
+
+@dataclass(frozen=True)
+class Always:
+    """``that`` is true in every tick."""
+
+    that: Expr
+
+
+@dataclass(frozen=True)
+class Never:
+    """``that`` is true in no tick."""
+
+    that: Expr
+
+
+@dataclass(frozen=True)
+class Responds:
+    """If ``trigger`` is true in tick k, ``response`` is true in some tick of k..k+within."""
+
+    trigger: Expr
+    response: Expr
+    within: Span
+
+
+@dataclass(frozen=True)
+class HoldsAfter:
+    """If ``premise`` is true in every tick of k..k+for_, ``then`` is true in tick k+for_."""
+
+    premise: Expr
+    for_: Span
+    then: Expr
+
+
+@dataclass(frozen=True)
+class HoldsFor:
+    """If ``start`` becomes true in tick k, ``that`` is true in every tick of k..k+for_."""
+
+    start: Expr
+    that: Expr
+    for_: Span
+
+
+@dataclass(frozen=True)
+class LeavesOnlyIf:
+    """If ``leaving`` was true in tick k-1 and is false in k, ``only_if`` is true in k."""
+
+    leaving: Expr
+    only_if: Expr
+
+
+@dataclass(frozen=True)
+class EntersOnlyIf:
+    """If ``entering`` was false in tick k-1 (or k = 1) and is true in k, ``only_if`` is true in k."""
+
+    entering: Expr
+    only_if: Expr
+
+
+@dataclass(frozen=True)
+class Precedes:
+    """``then`` is true in tick k only if ``first`` is true in some tick of 1..k."""
+
+    first: Expr
+    then: Expr
+
+
+@dataclass(frozen=True)
+class Until:
+    """From a tick with ``start`` on, ``holds`` is true in every tick up to the first with ``release``.
+
+    The tick of ``start`` is included, the tick of ``release`` is not; release need not come.
+    """
+
+    start: Expr
+    holds: Expr
+    release: Expr
+
+
+@dataclass(frozen=True)
+class Reachable:
+    """``that`` is true in some tick of some run."""
+
+    that: Expr
+
+
+Form = Union[
+    Always, Never, Responds, HoldsAfter, HoldsFor, LeavesOnlyIf, EntersOnlyIf, Precedes, Until, Reachable
+]
+
+
+@dataclass(frozen=True)
+class Property:
+    """A requirement made precise: id, sentence, form, the requirements it covers, the system it is about.
+
+    ``readings`` names the readings of ambiguous sentences under which it is stated.
+    """
+
+    id: str
+    text: str
+    form: Form
+    covers: tuple[str, ...]
+    on: str
+    from_tick: int = 1
+    readings: tuple[str, ...] = ()
+    area: str = field(default="", compare=False)
+
+
+def _property(
+    id: str, text: str, form: Form, covers: Sequence[str], on: str, from_tick: int, readings: Sequence[str]
+) -> Property:
+    if not covers:
+        raise ModelError(f"{id} covers no requirement; write covers=[...] with at least one requirement id.")
+    return Property(id, text, form, tuple(covers), on, from_tick, tuple(readings))
+
+
+def always(id: str, text: str, *, that: Expr, covers: Sequence[str], on: str,
+           from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    return _property(id, text, Always(that), covers, on, from_tick, readings)
+
+
+def never(id: str, text: str, *, that: Expr, covers: Sequence[str], on: str,
+          from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    return _property(id, text, Never(that), covers, on, from_tick, readings)
+
+
+def responds(id: str, text: str, *, trigger: Expr, response: Expr, within: Span, covers: Sequence[str],
+             on: str, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    return _property(id, text, Responds(trigger, response, within), covers, on, from_tick, readings)
+
+
+def holds_after(id: str, text: str, *, premise: Expr, for_: Span, then: Expr, covers: Sequence[str],
+                on: str, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    return _property(id, text, HoldsAfter(premise, for_, then), covers, on, from_tick, readings)
+
+
+def holds_for(id: str, text: str, *, start: Expr, that: Expr, for_: Span, covers: Sequence[str],
+              on: str, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    return _property(id, text, HoldsFor(start, that, for_), covers, on, from_tick, readings)
+
+
+def leaves_only_if(id: str, text: str, *, leaving: Expr, only_if: Expr, covers: Sequence[str], on: str,
+                   from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    return _property(id, text, LeavesOnlyIf(leaving, only_if), covers, on, from_tick, readings)
+
+
+def enters_only_if(id: str, text: str, *, entering: Expr, only_if: Expr, covers: Sequence[str], on: str,
+                   from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    return _property(id, text, EntersOnlyIf(entering, only_if), covers, on, from_tick, readings)
+
+
+def precedes(id: str, text: str, *, first: Expr, then: Expr, covers: Sequence[str], on: str,
+             from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    return _property(id, text, Precedes(first, then), covers, on, from_tick, readings)
+
+
+def until(id: str, text: str, *, start: Expr, holds: Expr, release: Expr, covers: Sequence[str], on: str,
+          from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    return _property(id, text, Until(start, holds, release), covers, on, from_tick, readings)
+
+
+def reachable(id: str, text: str, *, that: Expr, covers: Sequence[str], on: str,
+              from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    return _property(id, text, Reachable(that), covers, on, from_tick, readings)

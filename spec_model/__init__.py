@@ -1,0 +1,1 @@
+"""What the rover does: signals, charts, environments and the named systems that are checked."""

@@ -1,0 +1,122 @@
+"""Actions: assignments, conditionals and directed sends of local events."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Union
+
+from spec_model.lang.domain import Bool, Num, show
+from spec_model.lang.errors import ModelError
+from spec_model.lang.expr import Expr, Operand, Temporal, Var, lift, nodes, rescale, variables
+from spec_model.lang.label import text
+
+
+@dataclass(frozen=True)
+class Assign:
+    """``var := value``, done at once; later actions see the new value."""
+
+    var: Var
+    value: Expr
+
+    def __str__(self) -> str:
+        return f"{self.var.name} := {text(self.value)}"
+
+
+@dataclass(frozen=True)
+class If:
+    """Run ``then`` where the condition holds now, ``otherwise`` elsewhere."""
+
+    condition: Expr
+    then: tuple["Action", ...]
+    otherwise: tuple["Action", ...] = ()
+
+    def __str__(self) -> str:
+        shown = f"if {text(self.condition)} {{{'; '.join(map(str, self.then))}}}"
+        return shown + (f" else {{{'; '.join(map(str, self.otherwise))}}}" if self.otherwise else "")
+
+
+@dataclass(frozen=True)
+class Send:
+    """``send(event, receiver)``: the receiving state is executed at once with the event (rule G10)."""
+
+    event: str
+    receiver: str
+
+    def __str__(self) -> str:
+        return f"send({self.event}, {self.receiver})"
+
+
+Action = Union[Assign, If, Send]
+
+
+def assign(var: Var, value: Operand | str) -> Assign:
+    """``assign(v_ref, 0)``.  Raises ``ModelError`` where the sorts do not fit."""
+    expr = lift(value, var.sort)
+    fits = type(expr.sort) is type(var.sort) and (isinstance(expr.sort, Num | Bool) or expr.sort == var.sort)
+    if not fits:
+        raise ModelError(f"{var.name} is a {var.sort} and cannot take `{expr}`, a {expr.sort}.")
+    if isinstance(expr.sort, Num) and isinstance(var.sort, Num) and expr.sort.unit != var.sort.unit:
+        raise ModelError(
+            f"{var.name} is in {var.sort.unit or 'no unit'} and `{expr}` in "
+            f"{expr.sort.unit or 'no unit'}; convert with a factor that has a unit."
+        )
+    return Assign(var, _in_steps_of(var, expr))
+
+
+def _in_steps_of(var: Var, expr: Expr) -> Expr:
+    if not (isinstance(expr.sort, Num) and isinstance(var.sort, Num)):
+        return expr
+    if (expr.sort.resolution / var.sort.resolution).denominator != 1:
+        raise ModelError(
+            f"{var.name} has steps of {show(var.sort.resolution)} and `{expr}` steps of "
+            f"{show(expr.sort.resolution)}; give {var.name} a resolution that divides both."
+        )
+    return rescale(expr, var.sort)
+
+
+def when(condition: Expr, then: Sequence[Action], otherwise: Sequence[Action] = ()) -> If:
+    """A conditional action."""
+    return If(condition, tuple(then), tuple(otherwise))
+
+
+def send(event: str, receiver: str) -> Send:
+    """A directed send of a local event to a state of the same chart, by name."""
+    return Send(event, receiver)
+
+
+def each_action(actions: Sequence[Action]) -> Iterator[Action]:
+    """Every action, inside conditionals too."""
+    for action in actions:
+        yield action
+        if isinstance(action, If):
+            yield from each_action(action.then)
+            yield from each_action(action.otherwise)
+
+
+def reads(actions: Sequence[Action]) -> dict[str, Var]:
+    """Variables read by the actions, by name."""
+    found: dict[str, Var] = {}
+    for action in each_action(actions):
+        if isinstance(action, Assign):
+            found |= variables(action.value)
+        elif isinstance(action, If):
+            found |= variables(action.condition)
+    return found
+
+
+def writes(actions: Sequence[Action]) -> dict[str, Var]:
+    """Variables written by the actions, by name."""
+    return {a.var.name: a.var for a in each_action(actions) if isinstance(a, Assign)}
+
+
+def expressions(actions: Sequence[Action]) -> Iterator[Expr]:
+    """Every expression that occurs in the actions."""
+    for action in each_action(actions):
+        if isinstance(action, Assign):
+            yield action.value
+        elif isinstance(action, If):
+            yield action.condition
+
+
+def temporals(*roots: Expr) -> list[Temporal]:
+    """The temporal words that occur, outermost first."""
+    return [e for e in nodes(*roots) if isinstance(e, Temporal)]

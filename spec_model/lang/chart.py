@@ -1,0 +1,305 @@
+"""Charts as they are drawn: states in states, junctions, arrows with guards, actions and priorities.
+
+A ``Chart`` is a tree of ``State``s.  A state with ``states`` is composite: exclusive (OR) by
+default, parallel (AND) with ``parallel=True``.  Arrows are listed in priority order, first tested
+first; an arrow ends on a state or on a junction, whose own arrows are again in priority order.
+A ``Block`` is a function block: actions run once in every step, with no states.
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+from spec_model.lang.action import Action, expressions, reads, writes
+from spec_model.lang.domain import Domain, Enum, enumeration
+from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.lang.expr import Const, Expr, Var, any_of, variables
+
+Path = tuple[str, ...]
+"""Names from the chart's outermost level down to a state; the chart itself is the empty path."""
+
+NOWHERE = "-"
+"""The location of an exclusive level none of whose states is active."""
+
+
+@dataclass(frozen=True)
+class Transition:
+    """One segment of an arrow: ``event [guard] {condition action} / transition action -> target``."""
+
+    target: str
+    guard: Expr | None = None
+    event: str | None = None
+    do: tuple[Action, ...] = ()
+    then: tuple[Action, ...] = ()
+
+
+def to(
+    target: str,
+    when: Expr | None = None,
+    on: str | None = None,
+    do: Sequence[Action] = (),
+    then: Sequence[Action] = (),
+) -> Transition:
+    """An arrow to a state or junction, by name.
+
+    ``when`` is the guard, ``on`` the local event, ``do`` the condition action (run as soon as the
+    segment is found valid) and ``then`` the transition action (run only on a complete path).
+    """
+    return Transition(target, when, on, tuple(do), tuple(then))
+
+
+@dataclass(frozen=True)
+class Junction:
+    """A connective junction; its arrows are tested in order (rule G7)."""
+
+    name: str
+    transitions: tuple[Transition, ...]
+
+    def __init__(self, name: str, transitions: Sequence[Transition]) -> None:
+        object.__setattr__(self, "name", name)
+        object.__setattr__(self, "transitions", tuple(transitions))
+
+
+Default = tuple[Transition, ...]
+
+
+def _default(default: "str | Transition | Sequence[Transition] | None") -> Default:
+    match default:
+        case None:
+            return ()
+        case str(name):
+            return (Transition(name),)
+        case Transition():
+            return (default,)
+        case _:
+            return tuple(default)
+
+
+@dataclass(frozen=True)
+class State:
+    """A state and what is inside it.
+
+    ``default`` is the default transition of an exclusive composite: a state's name, an arrow, or
+    several arrows in priority order.  Junctions belong to the composite they are drawn in.
+    """
+
+    name: str
+    entry: tuple[Action, ...]
+    during: tuple[Action, ...]
+    exit: tuple[Action, ...]
+    states: tuple["State", ...]
+    transitions: tuple[Transition, ...]
+    junctions: tuple[Junction, ...]
+    default: Default
+    parallel: bool
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        entry: Sequence[Action] = (),
+        during: Sequence[Action] = (),
+        exit: Sequence[Action] = (),
+        states: Sequence["State"] = (),
+        transitions: Sequence[Transition] = (),
+        junctions: Sequence[Junction] = (),
+        default: str | Transition | Sequence[Transition] | None = None,
+        parallel: bool = False,
+    ) -> None:
+        fields = dict(
+            name=name, entry=tuple(entry), during=tuple(during), exit=tuple(exit), states=tuple(states),
+            transitions=tuple(transitions), junctions=tuple(junctions), default=_default(default),
+            parallel=parallel,
+        )  # fmt: skip
+        for field, value in fields.items():
+            object.__setattr__(self, field, value)
+
+    def walk(self, path: Path = ()) -> Iterator[tuple[Path, "State"]]:
+        """This state and every state below it, with paths, parents first, in execution order."""
+        yield path, self
+        for child in self.states:
+            yield from child.walk((*path, child.name))
+
+
+class Chart:
+    """A chart: its name and its outermost level.
+
+    ``text`` says in one line what it does and where it comes from.  ``local_to`` lists data whose
+    value means something only while one of the named states is active: on leaving them it returns
+    to its initial value (Stateflow: data scoped to a state).
+    """
+
+    def __init__(
+        self,
+        name: str,
+        states: Sequence[State],
+        *,
+        default: str | Transition | Sequence[Transition] | None = None,
+        junctions: Sequence[Junction] = (),
+        parallel: bool = False,
+        text: str = "",
+        local_to: Sequence[tuple[Var, Sequence[str]]] = (),
+    ) -> None:
+        self.name = name
+        self.text = text
+        self.local_to = tuple((data, tuple(owners)) for data, owners in local_to)
+        self.root = State(name, states=states, junctions=junctions, default=default, parallel=parallel)
+
+    @cached_property
+    def states(self) -> dict[Path, State]:
+        """Every state by path, parents first, in execution order; the empty path is the chart."""
+        return dict(self.root.walk())
+
+    @cached_property
+    def junctions(self) -> dict[Path, Junction]:
+        """Every junction by path."""
+        return {(*path, j.name): j for path, state in self.states.items() for j in state.junctions}
+
+    def path(self, name: str) -> Path:
+        """The path of a state given by name, or dotted from any level when the name is not unique.
+
+        Raises ``ModelError`` for an unknown or ambiguous name.
+        """
+        wanted = tuple(name.split("."))
+        found = [p for p in self.states if p and p[-len(wanted) :] == wanted]
+        if len(found) == 1:
+            return found[0]
+        if not found:
+            names = [".".join(p) for p in self.states if p] + [p[-1] for p in self.states if p]
+            raise ModelError(f"{self.name} has no state {name!r}. {did_you_mean(name, names)}")
+        options = ", ".join(".".join(p) for p in found)
+        raise ModelError(f"{self.name} has {len(found)} states named {name!r}; write one of: {options}.")
+
+    def resolve(self, level: Path, name: str) -> Path | None:
+        """What an arrow drawn at ``level`` means by ``name``: the nearest match, looking outward."""
+        wanted = tuple(name.split("."))
+        for depth in range(len(level), -1, -1):
+            candidate = (*level[:depth], *wanted)
+            if candidate in self.states or candidate in self.junctions:
+                return candidate
+        found = [p for p in (*self.states, *self.junctions) if p and p[-len(wanted) :] == wanted]
+        return found[0] if len(found) == 1 else None
+
+    def location(self, path: Path = ()) -> Var:
+        """The variable that says which state of an exclusive composite is active."""
+        composite = self.states[path]
+        names = [NOWHERE, *(s.name for s in composite.states)]
+        name = ".".join((self.name, *path))
+        return Var(name, _location_domain(name, tuple(names)), 0, f"active state of {name}")
+
+    @cached_property
+    def entered(self) -> Var:
+        """True once the chart has had its first execution (rule G2)."""
+        return Var(f"{self.name}.entered", enumeration("Entered", ["no", "yes"]), 0)
+
+    @cached_property
+    def locations(self) -> tuple[Var, ...]:
+        """The location variables of every exclusive composite, in execution order."""
+        return tuple(self.location(p) for p, s in self.states.items() if s.states and not s.parallel)
+
+    def active(self, *names: str) -> Expr:
+        """The condition that one of the named states is active."""
+        return any_of(*(self.active_path(self.path(name)) for name in names))
+
+    def active_path(self, path: Path) -> Expr:
+        """The condition that the state at ``path`` is active; for the chart itself, that it was entered."""
+        while path:
+            parent = path[:-1]
+            if not self.states[parent].parallel:
+                place = self.location(parent)
+                return place == Const(place.domain.raw(path[-1]), place.sort)
+            path = parent
+        if self.root.parallel:
+            return self.entered == "yes"
+        return self.location() != NOWHERE
+
+    @cached_property
+    def written(self) -> dict[str, Var]:
+        """Data the chart writes, by name (locations and timers not included)."""
+        return writes(self.all_actions) | {data.name: data for data, _ in self.local_to}
+
+    @cached_property
+    def read(self) -> dict[str, Var]:
+        """Data the chart reads, by name."""
+        return reads(self.all_actions) | variables(*self.guards)
+
+    @cached_property
+    def all_actions(self) -> tuple[Action, ...]:
+        """Every action of the chart, in drawing order."""
+        found: list[Action] = []
+        for state in self.states.values():
+            found += [*state.entry, *state.during, *state.exit]
+        for arrow in self.arrows:
+            found += [*arrow.do, *arrow.then]
+        return tuple(found)
+
+    @cached_property
+    def arrows(self) -> tuple[Transition, ...]:
+        """Every segment of the chart, default transitions included."""
+        found = [t for s in self.states.values() for t in (*s.default, *s.transitions)]
+        return tuple(found + [t for j in self.junctions.values() for t in j.transitions])
+
+    @property
+    def guards(self) -> list[Expr]:
+        return [t.guard for t in self.arrows if t.guard is not None]
+
+    @property
+    def expressions(self) -> list[Expr]:
+        """Every guard and every expression in an action."""
+        return [*self.guards, *expressions(self.all_actions)]
+
+    def __repr__(self) -> str:
+        return f"Chart({self.name!r})"
+
+
+def _location_domain(name: str, members: tuple[str, ...]) -> Domain:
+    return enumeration(f"states of {name}", members)
+
+
+class Block:
+    """A function block: its actions run once in every step in which it is executed."""
+
+    def __init__(self, name: str, do: Sequence[Action], *, text: str = "") -> None:
+        self.name = name
+        self.text = text
+        self.do = tuple(do)
+
+    @cached_property
+    def written(self) -> dict[str, Var]:
+        return writes(self.do)
+
+    @cached_property
+    def read(self) -> dict[str, Var]:
+        return reads(self.do)
+
+    def __repr__(self) -> str:
+        return f"Block({self.name!r})"
+
+
+class Enabled:
+    """A subsystem that executes in a step iff ``by`` is true then; else everything in it is frozen (G12)."""
+
+    def __init__(self, by: Expr, *components: "Component") -> None:
+        self.by = by
+        self.components = components
+
+    def __repr__(self) -> str:
+        return f"Enabled({self.by}, {', '.join(map(repr, self.components))})"
+
+
+Component = Chart | Block | Enabled
+
+
+def parts(components: Sequence[Component]) -> Iterator[Chart | Block]:
+    """The charts and blocks in execution order, those of enabled subsystems too."""
+    for component in components:
+        if isinstance(component, Enabled):
+            yield from parts(component.components)
+        else:
+            yield component
+
+
+def location_enum(location: Var) -> Enum:
+    """The enumeration behind a location variable."""
+    assert isinstance(location.sort, Enum)
+    return location.sort

@@ -1,0 +1,135 @@
+"""Systems: the charts executed in order in one tick, and the transition system they lower to.
+
+``System`` is what people write: components in execution order, what is frozen, what is assumed.
+``TransitionSystem`` is what engines read: finite variables and a ``step``, a structured program
+that maps the valuation before a tick and the inputs of the tick to the valuation after it.
+All nondeterminism is an input or a frozen variable.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+from spec_model.lang.action import Assign, If
+from spec_model.lang.chart import Block, Chart, Component, Enabled, parts
+from spec_model.lang.expr import TRUE, Expr, Var, variables
+
+Valuation = Mapping[str, int]
+"""A raw value for every variable, by name."""
+
+Statement = Assign | If
+"""A statement of a step: no sends, no temporal words."""
+
+Program = tuple[Statement, ...]
+
+TICK_MS = 20
+
+
+@dataclass(frozen=True)
+class System:
+    """Components executed in order in every tick.
+
+    ``assume`` restricts the inputs of a tick (it may read the valuation before the tick); ``notes``
+    say in words what the system abstracts and assumes; ``over`` and ``under`` say whether it has
+    more or fewer behaviours than the specification.
+    """
+
+    name: str
+    components: tuple[Component, ...]
+    text: str = ""
+    frozen: tuple[Var, ...] = ()
+    assume: Expr = TRUE
+    notes: tuple[str, ...] = ()
+    tick_ms: int = TICK_MS
+    over: bool = False
+    under: bool = False
+
+    @property
+    def charts(self) -> tuple[Chart, ...]:
+        return tuple(p for p in parts(self.components) if isinstance(p, Chart))
+
+    @property
+    def blocks(self) -> tuple[Block, ...]:
+        return tuple(p for p in parts(self.components) if isinstance(p, Block))
+
+    @property
+    def written(self) -> dict[str, Var]:
+        """Data written by some component, by name."""
+        found: dict[str, Var] = {}
+        for part in parts(self.components):
+            found |= part.written
+        return found
+
+    @property
+    def inputs(self) -> dict[str, Var]:
+        """Data read by some component and written by none, except frozen data, by name."""
+        found = variables(self.assume)
+        for part in parts(self.components):
+            found |= part.read
+        for enabled in _enabled(self.components):
+            found |= variables(enabled.by)
+        own = {v.name for c in self.charts for v in (*c.locations, c.entered)}
+        hidden = {v.name for v in self.frozen} | set(self.written) | own
+        return {name: v for name, v in found.items() if name not in hidden}
+
+
+def _enabled(components: Sequence[Component]) -> Iterator[Enabled]:
+    for component in components:
+        if isinstance(component, Enabled):
+            yield component
+            yield from _enabled(component.components)
+
+
+def in_order(
+    name: str,
+    *components: Component,
+    text: str = "",
+    frozen: Sequence[Var] = (),
+    assume: Expr = TRUE,
+    notes: Sequence[str] = (),
+    over: bool = False,
+    under: bool = False,
+) -> System:
+    """A system whose components run in the order given, once per tick of 20 ms."""
+    return System(
+        name, tuple(components), text, tuple(frozen), assume, tuple(notes), TICK_MS, over, under
+    )
+
+
+@dataclass(frozen=True)
+class TransitionSystem:
+    """A finite transition system.
+
+    inputs     free in every tick, each within its domain and all together within ``assume``
+    frozen     free once, before the first tick, then constant
+    variables  everything ``step`` writes (temporaries excluded); ``init`` of each is its value
+               before the first tick
+    temps      written before being read in every tick; they are no part of a valuation
+    step       the program of one tick
+    assume     condition on the inputs of a tick, read before ``step`` runs
+    checks     conditions that must hold after every tick for the model to have a meaning: each is a
+               boolean variable of the system that is 1 when broken, and the sentence to show
+    """
+
+    name: str
+    inputs: tuple[Var, ...]
+    frozen: tuple[Var, ...]
+    variables: tuple[Var, ...]
+    temps: tuple[Var, ...]
+    step: Program
+    assume: Expr = TRUE
+    checks: tuple[tuple[Var, str], ...] = ()
+    tick_ms: int = TICK_MS
+    notes: tuple[str, ...] = ()
+    source: System | None = field(default=None, compare=False)
+
+    @property
+    def init(self) -> dict[str, int]:
+        """The valuation before the first tick, frozen variables left out."""
+        return {v.name: v.init for v in self.variables}
+
+    def var(self, name: str) -> Var:
+        """The variable, input or frozen variable of that name.  Raises ``KeyError``."""
+        for v in (*self.variables, *self.inputs, *self.frozen):
+            if v.name == name:
+                return v
+        raise KeyError(name)

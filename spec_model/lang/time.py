@@ -1,0 +1,40 @@
+"""Lengths of time: ``4 * sec``, ``500 * ms``, ``2 * ticks``, and their number of ticks."""
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from spec_model.lang.domain import Number, exact, show
+from spec_model.lang.errors import ModelError
+
+
+@dataclass(frozen=True)
+class Span:
+    """A length of time, in milliseconds or in ticks."""
+
+    amount: Fraction
+    unit: str
+
+    def __mul__(self, factor: Number) -> "Span":
+        return Span(self.amount * exact(factor), self.unit)
+
+    __rmul__ = __mul__
+
+    def ticks(self, tick_ms: int) -> int:
+        """The number of ticks.  Raises ``ModelError`` unless it is a whole number >= 0."""
+        count = self.amount if self.unit == "ticks" else self.amount / tick_ms
+        if count.denominator != 1 or count < 0:
+            raise ModelError(
+                f"{self} is not a whole number of ticks of {tick_ms} ms; write a multiple of the tick."
+            )
+        return int(count)
+
+    def __str__(self) -> str:
+        if self.unit == "ms" and self.amount % 1000 == 0:
+            return f"{show(self.amount / 1000)} s"
+        return f"{show(self.amount)} {'tick' if (self.amount, self.unit) == (1, 'ticks') else self.unit}"
+
+
+ms = Span(Fraction(1), "ms")
+sec = Span(Fraction(1000), "ms")
+ticks = Span(Fraction(1), "ticks")
+tick = ticks
