@@ -504,3 +504,19 @@ def plain(expr: Expr) -> Expr:
 def flag(name: str, doc: str = "") -> Var:
     """A boolean variable, false before the first tick."""
     return Var(name, boolean, 0, doc)
+
+
+def structure(expr: Expr) -> tuple[object, ...]:
+    """A key equal for two formulas iff they are built alike (names see-through)."""
+    match expr:
+        case Const(value, sort):
+            return ("const", value, sort)
+        case Var(name):
+            return ("var", name)
+        case Named(_, body):
+            return structure(body)
+        case Apply(op, args, _):
+            return (op, *(structure(a) for a in args))
+        case Temporal(when, arg, span, strict):
+            return (when, None if arg is None else structure(arg), span, strict)
+    raise AssertionError(expr.__class__)

@@ -30,7 +30,8 @@ class System:
 
     ``assume`` restricts the inputs of a tick (it may read the valuation before the tick); ``notes``
     say in words what the system abstracts and assumes; ``over`` and ``under`` say whether it has
-    more or fewer behaviours than the specification.
+    more or fewer behaviours than the specification.  ``concrete`` names the system that a violation
+    found on an over-approximation must be reproduced on.
     """
 
     name: str
@@ -42,6 +43,7 @@ class System:
     tick_ms: int = TICK_MS
     over: bool = False
     under: bool = False
+    concrete: str = ""
 
     @property
     def charts(self) -> tuple[Chart, ...]:
@@ -88,10 +90,11 @@ def in_order(
     notes: Sequence[str] = (),
     over: bool = False,
     under: bool = False,
+    concrete: str = "",
 ) -> System:
     """A system whose components run in the order given, once per tick of 20 ms."""
     return System(
-        name, tuple(components), text, tuple(frozen), assume, tuple(notes), TICK_MS, over, under
+        name, tuple(components), text, tuple(frozen), assume, tuple(notes), TICK_MS, over, under, concrete
     )
 
 

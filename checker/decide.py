@@ -1,0 +1,196 @@
+"""From properties to verdicts: properties that share a system and its monitors are searched together."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from checker.engine import Engine, Limits, Progress, engines
+from checker.replay import replay
+from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Verdict, Violated
+from properties.forms import Property
+from properties.reduce import Goal, Question, reduce
+from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.lang.expr import Var
+from spec_model.lang.lower import lower
+from spec_model.lang.system import System, TransitionSystem
+
+AUTO = "auto"
+ALL = "all"
+
+
+class Disagreement(Exception):
+    """Two engines gave answers that cannot both be true: a bug of ours."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """A property, its verdict, and the name of the system the verdict is about."""
+
+    property: Property
+    verdict: Verdict
+    system: str
+
+
+@dataclass(frozen=True)
+class Task:
+    """Properties of one system that are searched together."""
+
+    system: System
+    properties: tuple[Property, ...]
+
+    @property
+    def title(self) -> str:
+        return f"{self.system.name}: {', '.join(p.id for p in self.properties)}"
+
+
+def tasks(properties: Sequence[Property], systems: Mapping[str, System]) -> Iterator[Task]:
+    """Properties grouped by system, and within a system by the monitor variables they need.
+
+    Raises ``ModelError`` for a property about an unknown system, or an ill-formed one.
+    """
+    by_system: dict[str, list[Property]] = {}
+    for prop in properties:
+        if prop.on not in systems:
+            raise ModelError(f"{prop.id} is about {prop.on!r}, no known system. {did_you_mean(prop.on, systems)}")
+        by_system.setdefault(prop.on, []).append(prop)
+    for name, group in by_system.items():
+        question = reduce(lower(systems[name]), group)
+        by_memory: dict[frozenset[str], list[Property]] = {}
+        for goal in question.goals:
+            by_memory.setdefault(goal.memory, []).append(goal.property)
+        for together in by_memory.values():
+            yield Task(systems[name], tuple(together))
+
+
+def decide(
+    task: Task, systems: Mapping[str, System], engine: str, limits: Limits, progress: Progress
+) -> list[Result]:
+    """A verdict for each property of the task.
+
+    ``engine`` is the name of one, ``auto`` (explicit search first, then bounded model checking of
+    what it leaves open) or ``all`` (every engine, answers compared).  Raises ``Disagreement``,
+    ``ReplayError``, and ``ModelError`` when the model itself leaves a domain.
+    """
+    question = reduce(lower(task.system), task.properties)
+    found = _answers(question, engine, limits, progress)
+    _check_domains(question.system, found)
+    results = []
+    for goal in question.goals:
+        answer, by = found[goal.var.name]
+        verdict = _verdict(question.system, goal, answer, by)
+        if isinstance(verdict, Violated) and isinstance(answer, Reached) and task.system.over:
+            verdict = _reproduced(task.system, goal, answer, systems, limits, progress)
+        results.append(Result(goal.property, verdict, task.system.name))
+    return results
+
+
+Answers = dict[str, tuple[Answer, str]]
+
+
+def _answers(question: Question, engine: str, limits: Limits, progress: Progress) -> Answers:
+    goals = [g.var for g in question.goals] + [check for check, _ in question.system.checks]
+    known = engines()
+    if engine == ALL:
+        return _compared(question.system, goals, known, limits, progress)
+    if engine != AUTO:
+        return _ask(known[engine], question.system, goals, limits, progress)
+    found = _ask(known["explicit"], question.system, goals, limits, progress)
+    left = [g for g in goals if isinstance(found[g.name][0], Open)]
+    if left and limits.depth is None:
+        second = _ask(known["bmc"], question.system, left, limits, progress)
+        found |= {name: _better(found[name], answer) for name, answer in second.items()}
+    return found
+
+
+def _ask(
+    engine: Engine, system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
+) -> Answers:
+    return {n: (a, engine.NAME) for n, a in engine.check(system, goals, limits, progress).items()}
+
+
+def _better(first: tuple[Answer, str], second: tuple[Answer, str]) -> tuple[Answer, str]:
+    """Of two answers one of which is open: the decided one, or the deeper one, with both reasons."""
+    (a, by_a), (b, by_b) = first, second
+    if not (isinstance(a, Open) and isinstance(b, Open)):
+        return second if isinstance(a, Open) else first
+    reason = f"{by_a}: {a.reason}; {by_b}: {b.reason}"
+    return Open(reason, max(a.depth, b.depth)), by_a if a.depth > b.depth else by_b
+
+
+def _compared(
+    system: TransitionSystem, goals: Sequence[Var], known: Mapping[str, Engine], limits: Limits, progress: Progress
+) -> Answers:
+    each = [_ask(engine, system, goals, limits, progress) for engine in known.values()]
+    merged = each[0]
+    for other in each[1:]:
+        for name, answer in other.items():
+            _must_agree(name, merged[name], answer)
+            merged[name] = _better(merged[name], answer)
+    return merged
+
+
+def _must_agree(goal: str, first: tuple[Answer, str], second: tuple[Answer, str]) -> None:
+    (a, by_a), (b, by_b) = first, second
+    if isinstance(b, Reached) and not isinstance(a, Reached):
+        (a, by_a), (b, by_b) = (b, by_b), (a, by_a)
+    if isinstance(a, Reached):
+        same = isinstance(b, Reached) and not (a.shortest and b.shortest and len(a.run) != len(b.run))
+        if not same and not (isinstance(b, Open) and b.depth < len(a.run)):
+            raise Disagreement(
+                f"{goal}: {by_a} reaches it after {len(a.run)} ticks, {by_b} says {_word(b)}. "
+                "At least one engine is wrong; please report this with the model."
+            )
+
+
+def _word(answer: Answer) -> str:
+    match answer:
+        case Reached(run):
+            return f"after {len(run)} ticks"
+        case Unreachable():
+            return "never"
+        case Open(_, depth):
+            return f"not within {depth} ticks"
+
+
+def _check_domains(system: TransitionSystem, found: Answers) -> None:
+    for check, text in system.checks:
+        answer, _ = found[check.name]
+        if isinstance(answer, Reached):
+            raise ModelError(
+                f"{system.name}: {text}, first in tick {len(answer.run)}. "
+                "Widen the domain or saturate the assignment."
+            )
+
+
+def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Verdict:
+    match answer:
+        case Reached(run):
+            trace = replay(system, goal, run)
+            return Proved(trace, by) if goal.reach else Violated(trace, by)
+        case Unreachable(because):
+            return Violated(because, by) if goal.reach else Proved(because, by)
+        case Open(reason, depth):
+            return Unknown(reason, depth, by)
+
+
+def _reproduced(
+    system: System,
+    goal: Goal,
+    answer: Reached,
+    systems: Mapping[str, System],
+    limits: Limits,
+    progress: Progress,
+) -> Verdict:
+    """A violation of an over-approximation counts only if its concrete system shows it too."""
+    if not system.concrete:
+        return Unknown(f"violated on {system.name}, an over-approximation with no concrete system", 0, "replay")
+    prop = replace(goal.property, on=system.concrete)
+    [result] = decide(Task(systems[system.concrete], (prop,)), systems, "bmc", limits, progress)
+    if isinstance(result.verdict, Unknown):
+        reason = (
+            f"violated after {len(answer.run)} ticks on {system.name}, an over-approximation; "
+            f"not reproduced on {system.concrete} ({result.verdict.reason})"
+        )
+        return Unknown(reason, result.verdict.depth, "bmc")
+    return result.verdict
+
+

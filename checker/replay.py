@@ -1,0 +1,76 @@
+"""Replay: a run becomes a trace only after the lowered system and the chart interpreter agree on it.
+
+The engines read the lowered system; the interpreter reads the charts.  They share no code, so a
+trace that both produce is evidence about the charts.
+"""
+
+from collections.abc import Mapping
+
+from checker.trace import Arrow, Tick, Trace
+from checker.verdict import Run
+from properties.reduce import Goal
+from spec_model.lang.chart import Path
+from spec_model.lang.errors import ModelError
+from spec_model.lang.evaluate import admissible, evaluate, step
+from spec_model.lang.interpret import Fired, Interpreter
+from spec_model.lang.system import TransitionSystem
+
+
+class ReplayError(Exception):
+    """Two parts of the checker disagree about a run: a bug of ours, never a verdict."""
+
+
+def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
+    """The trace of a run that reaches the goal in its last tick.
+
+    Raises ``ReplayError`` when the run is not admissible, does not reach the goal, or when the
+    interpreter of the charts computes another valuation or refuses a step.
+    """
+    interpreter = Interpreter(system.source, run.frozen) if system.source is not None else None
+    at = {**system.init, **run.frozen}
+    before = dict(at)
+    ticks: list[Tick] = []
+    for number, inputs in enumerate(run.inputs, start=1):
+        if not admissible(system, at, inputs):
+            raise ReplayError(f"{goal.var.name}: the inputs of tick {number} are not admissible.")
+        after = step(system, at, inputs)
+        fired = _interpreted(interpreter, inputs, after, number) if interpreter else ()
+        ticks.append(Tick(number, dict(inputs), _visible(system, after), tuple(map(_arrow, fired))))
+        at = {n: v for n, v in after.items() if n not in inputs}
+        last = after
+    if not ticks or not last[goal.var.name]:
+        raise ReplayError(f"{goal.var.name}: the run of {len(ticks)} ticks does not reach the goal.")
+    false = tuple(shown for shown, formula in goal.parts if not evaluate(formula, last))
+    table = {v.name: v for v in (*system.variables, *system.inputs, *system.frozen)}
+    names = tuple(v.name for v in system.inputs)
+    return Trace(system.name, system.tick_ms, table, names, before, tuple(ticks), false)
+
+
+def _visible(system: TransitionSystem, after: Mapping[str, int]) -> dict[str, int]:
+    kept = {v.name for v in (*system.variables, *system.frozen)}
+    return {name: value for name, value in after.items() if name in kept}
+
+
+def _interpreted(
+    interpreter: Interpreter, inputs: Mapping[str, int], after: Mapping[str, int], number: int
+) -> tuple[Fired, ...]:
+    try:
+        fired = interpreter.step(inputs)
+    except ModelError as error:
+        raise ReplayError(f"tick {number}: the interpreter refuses the step: {error}") from error
+    for name, value in interpreter.valuation().items():
+        if name in after and after[name] != value:
+            raise ReplayError(
+                f"tick {number}: {name} is {value} in the interpreter and {after[name]} in the lowered system."
+            )
+    return fired
+
+
+def _arrow(fired: Fired) -> Arrow:
+    return Arrow(
+        fired.chart, _dotted(fired.source), _dotted(fired.target), fired.label, fired.order, fired.event
+    )
+
+
+def _dotted(path: Path) -> str:
+    return ".".join(path)

@@ -1,0 +1,64 @@
+"""The catalogue: every property of ``properties/areas`` and the verdict expected of each."""
+
+import importlib
+import pkgutil
+import tomllib
+from dataclasses import dataclass, replace
+from functools import cache
+from pathlib import Path
+
+from properties.forms import Property
+from properties.requirements import requirement
+from spec_model.lang.errors import ModelError, did_you_mean
+
+
+@dataclass(frozen=True)
+class Expected:
+    """A verdict on record: ``depth`` is the length in ticks of the shortest counterexample."""
+
+    verdict: str = "proved"
+    depth: int | None = None
+    because: str = ""
+
+
+@cache
+def catalogue() -> dict[str, Property]:
+    """Every property by id, area by area.  Raises ``ModelError`` for an id used twice."""
+    import properties.areas as folder
+
+    found: dict[str, Property] = {}
+    for entry in sorted(pkgutil.iter_modules(folder.__path__), key=lambda e: e.name):
+        module = importlib.import_module(f"{folder.__name__}.{entry.name}")
+        for thing in vars(module).values():
+            if isinstance(thing, Property):
+                _add(found, replace(thing, area=entry.name))
+    return found
+
+
+def _add(found: dict[str, Property], prop: Property) -> None:
+    if prop.id in found:
+        raise ModelError(f"The id {prop.id} names two properties; give one of them another suffix.")
+    for covered in prop.covers:
+        requirement(covered)
+    found[prop.id] = prop
+
+
+@cache
+def baseline() -> dict[str, Expected]:
+    """The verdicts on record; a property that is not listed is expected to be proved.
+
+    Raises ``ModelError`` for an entry that names no property or has no reason.
+    """
+    table = tomllib.loads((Path(__file__).parent / "baseline.toml").read_text(encoding="utf-8"))
+    expected = {id: Expected(**row) for id, row in table.items()}
+    for id, entry in expected.items():
+        if id not in catalogue():
+            raise ModelError(f"baseline.toml lists {id!r}, which is no property. {did_you_mean(id, catalogue())}")
+        if entry.verdict not in ("violated", "unknown") or not entry.because:
+            raise ModelError(f"baseline.toml: {id} needs verdict = \"violated\" or \"unknown\", and because = ...")
+    return expected
+
+
+def expected(id: str) -> Expected:
+    """The verdict expected of a property."""
+    return baseline().get(id, Expected())

@@ -1,0 +1,297 @@
+"""From a property to a goal that engines decide: monitor statements appended to the step, and the way home.
+
+A monitor reads the valuation at the end of a tick, with the inputs of the tick.  Memories that two
+properties share (the same ``previous(x)``, the same tick counter) are made once.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+from properties.forms import (
+    Always,
+    EntersOnlyIf,
+    HoldsAfter,
+    HoldsFor,
+    LeavesOnlyIf,
+    Never,
+    Precedes,
+    Property,
+    Reachable,
+    Responds,
+    Until,
+)
+from spec_model.lang.action import Assign
+from spec_model.lang.domain import Domain, boolean, integer
+from spec_model.lang.errors import ModelError
+from spec_model.lang.evaluate import evaluate
+from spec_model.lang.expr import (
+    TRUE,
+    Apply,
+    Const,
+    Expr,
+    Named,
+    Op,
+    Temporal,
+    Var,
+    When,
+    all_of,
+    ite,
+    maximum,
+    minimum,
+    plain,
+    structure,
+    variables,
+)
+from spec_model.lang.lower.ranges import possible
+from spec_model.lang.system import Statement, TransitionSystem
+from spec_model.lang.time import Span
+
+
+@dataclass(frozen=True)
+class Goal:
+    """What an engine is asked: is ``var`` ever 1 after a tick?
+
+    ``reach`` tells that reaching it is what the property wants.  ``parts`` pairs each conjunct of
+    the property, as written, with its formula over the monitored system's variables.
+    ``memory`` names the monitor variables that outlive a tick.
+    """
+
+    property: Property
+    var: Var
+    reach: bool
+    parts: tuple[tuple[Expr, Expr], ...]
+    memory: frozenset[str]
+
+
+@dataclass(frozen=True)
+class Question:
+    """A monitored system and its goals."""
+
+    system: TransitionSystem
+    goals: tuple[Goal, ...]
+
+
+def reduce(system: TransitionSystem, properties: Sequence[Property]) -> Question:
+    """Monitor the properties on the system.
+
+    Raises ``ModelError`` for a property that reads a variable the system does not have, or uses a
+    temporal word that belongs to charts.
+    """
+    made = _Monitors(system)
+    goals = tuple(made.goal(p) for p in properties)
+    statements = (*system.step, *made.before, *made.goals, *made.after)
+    monitored = replace(
+        system,
+        variables=(*system.variables, *made.variables.values()),
+        step=statements,
+    )
+    return Question(monitored, goals)
+
+
+class _Monitors:
+    """Monitor variables and statements under construction."""
+
+    def __init__(self, system: TransitionSystem) -> None:
+        self.system = system
+        self.known = {v.name for v in (*system.variables, *system.inputs, *system.frozen)}
+        self.variables: dict[str, Var] = {}
+        self.before: list[Statement] = []
+        self.goals: list[Statement] = []
+        self.after: list[Statement] = []
+        self._shared: dict[tuple[object, ...], Expr] = {}
+        self._owner = ""
+        self._used: set[str] = set()
+
+    def goal(self, prop: Property) -> Goal:
+        """Append the monitor of one property."""
+        self._owner, self._used = prop.id, set()
+        armed = self._armed(prop.from_tick)
+        bad, wanted = self._form(prop, armed)
+        var = self._variable(prop.id, boolean, 0, f"{prop.id} is reached" if wanted is None else f"{prop.id} is broken")
+        self.goals.append(Assign(var, bad))
+        parts = [(p, self.formula(p)) for p in (_conjuncts(wanted) if wanted is not None else ())]
+        return Goal(prop, var, wanted is None, tuple(parts), frozenset(self._used - {prop.id}))
+
+    def _form(self, prop: Property, armed: Expr) -> tuple[Expr, Expr | None]:
+        """The goal formula, and the formula whose falsity it reports (None: reaching is wanted)."""
+        f = self.formula
+        match prop.form:
+            case Always(that):
+                return all_of(armed, ~f(that)), that
+            case Never(that):
+                return all_of(armed, f(that)), ~that
+            case Reachable(that):
+                return all_of(armed, f(that)), None
+            case Responds(trigger, response, within):
+                return self._responds(all_of(armed, f(trigger)), f(response), self._ticks(within)), response
+            case HoldsAfter(premise, for_, then):
+                held = self._held(all_of(armed, f(premise)), self._ticks(for_))
+                return held & ~f(then), then
+            case HoldsFor(start, that, for_):
+                return self._holds_for(f(start), armed, f(that), self._ticks(for_)), that
+            case LeavesOnlyIf(leaving, only_if):
+                left = self._previous(f(leaving), 0) & ~f(leaving)
+                return all_of(armed, left, ~f(only_if)), only_if
+            case EntersOnlyIf(entering, only_if):
+                entered = ~self._previous(f(entering), 0) & f(entering)
+                return all_of(armed, entered, ~f(only_if)), only_if
+            case Precedes(first, then):
+                return all_of(armed, f(then), ~self._once(f(first))), first
+            case Until(start, holds, release):
+                return self._until(all_of(armed, f(start)), f(holds), f(release)), holds
+
+    # --- formulas about the past ---
+
+    def formula(self, expr: Expr) -> Expr:
+        """The formula with temporal words replaced by monitor variables."""
+        match expr:
+            case Temporal(_, arg, _, _):
+                if arg is None or expr.when in (When.AFTER, When.DURATION):
+                    raise ModelError(
+                        f"{self._owner}: `{expr}` belongs to an arrow of a chart; in a property write "
+                        "held(condition, for_=...) or previous(...)."
+                    )
+                return self._temporal(expr, self.formula(arg))
+            case Named(name, body):
+                return Named(name, self.formula(body))
+            case Apply(op, args, sort):
+                return Apply(op, tuple(self.formula(a) for a in args), sort)
+            case Var(name):
+                if name not in self.known:
+                    self._unknown(name)
+                return expr
+            case _:
+                return expr
+
+    def _unknown(self, name: str) -> None:
+        from spec_model.lang.errors import did_you_mean
+
+        raise ModelError(
+            f"{self._owner} reads {name}, which system {self.system.name} does not have. "
+            f"{did_you_mean(name, self.known)}"
+        )
+
+    def _temporal(self, word: Temporal, arg: Expr) -> Expr:
+        match word.when:
+            case When.PREVIOUS:
+                return self._previous(arg, self._initial(arg))
+            case When.RISING:
+                return arg & ~self._previous(arg, 1)
+            case When.HELD:
+                assert word.span is not None
+                return self._held(arg, self._ticks(word.span))
+            case _:
+                return self._once(arg)
+
+    def _previous(self, arg: Expr, init: int) -> Expr:
+        def make(name: str) -> Var:
+            memory = self._variable(name, _domain_of(arg), init, f"{arg} at the end of the tick before")
+            self.after.append(Assign(memory, arg))
+            return memory
+
+        return self._memory(("previous", structure(arg), init), f"previous({arg})", make)
+
+    def _held(self, arg: Expr, ticks: int) -> Expr:
+        if ticks == 0:
+            return arg
+
+        def make(name: str) -> Expr:
+            counter = self._variable(name, integer(0, ticks + 1), 0, f"ticks in a row with {arg}")
+            self.before.append(_count(counter, arg))
+            return counter >= ticks + 1
+
+        return self._memory(("held", structure(arg), ticks), f"held({arg}, {ticks})", make)
+
+    def _once(self, arg: Expr) -> Expr:
+        def make(name: str) -> Var:
+            seen = self._variable(name, boolean, 0, f"{arg} so far")
+            self.before.append(Assign(seen, seen | arg))
+            return seen
+
+        return self._memory(("once", structure(arg)), f"once({arg})", make)
+
+    def _armed(self, from_tick: int) -> Expr:
+        if from_tick <= 1:
+            return TRUE
+
+        def make(name: str) -> Expr:
+            past = self._variable(name, integer(0, from_tick - 1), 0, "ticks so far, saturating")
+            self.after.append(Assign(past, minimum(past + 1, from_tick - 1)))
+            return past >= from_tick - 1
+
+        return self._memory(("ticks", from_tick), f"ticks past {from_tick - 1}", make)
+
+    # --- forms with a counter of their own ---
+
+    def _responds(self, trigger: Expr, response: Expr, ticks: int) -> Expr:
+        if ticks == 0:
+            return trigger & ~response
+        waiting = self._own("waiting", integer(0, ticks + 1), "ticks a trigger has waited, this one included")
+        later = ite(waiting > 0, minimum(waiting + 1, ticks + 1), ite(trigger, _one(waiting), _zero(waiting)))
+        self.before.append(Assign(waiting, ite(response, _zero(waiting), later)))
+        return waiting >= ticks + 1
+
+    def _holds_for(self, start: Expr, armed: Expr, that: Expr, ticks: int) -> Expr:
+        left = self._own("left", integer(0, ticks + 1), "ticks for which it must still hold, this one included")
+        begins = all_of(armed, start & ~self._previous(start, 0))
+        self.before.append(Assign(left, ite(begins, Const(ticks + 1, left.sort), maximum(left - 1, 0))))
+        return (left > 0) & ~that
+
+    def _until(self, start: Expr, holds: Expr, release: Expr) -> Expr:
+        open_ = self._own("open", boolean, "started and not released")
+        self.before.append(Assign(open_, (open_ | start) & ~release))
+        return open_ & ~holds
+
+    # --- making variables ---
+
+    def _memory(self, key: tuple[object, ...], name: str, make) -> Expr:  # type: ignore[no-untyped-def]
+        if key not in self._shared:
+            unique = name if name not in self.variables else f"{name} #{len(self.variables)}"
+            self._shared[key] = make(unique)
+        self._used |= set(variables(self._shared[key]))
+        result: Expr = self._shared[key]
+        return result
+
+    def _own(self, name: str, domain: Domain, doc: str) -> Var:
+        return self._variable(f"{self._owner}.{name}", domain, 0, doc)
+
+    def _variable(self, name: str, domain: Domain, init: int, doc: str) -> Var:
+        made = Var(name, domain, init, doc)
+        self.variables[name] = made
+        self._used.add(name)
+        return made
+
+    def _ticks(self, span: Span) -> int:
+        return span.ticks(self.system.tick_ms)
+
+    def _initial(self, arg: Expr) -> int:
+        """The value of a formula before the first tick; inputs have their initial values then."""
+        return evaluate(arg, {name: v.init for name, v in variables(arg).items()})
+
+
+def _domain_of(expr: Expr) -> Domain:
+    inner = plain(expr)
+    if isinstance(inner, Var):
+        return inner.domain
+    values = possible(expr)
+    return Domain(expr.sort, range(min(values), max(values) + 1))
+
+
+def _conjuncts(expr: Expr) -> tuple[Expr, ...]:
+    inner = plain(expr)
+    return inner.args if isinstance(inner, Apply) and inner.op is Op.AND else (expr,)
+
+
+def _zero(counter: Var) -> Const:
+    return Const(0, counter.sort)
+
+
+def _one(counter: Var) -> Const:
+    return Const(1, counter.sort)
+
+
+def _count(counter: Var, condition: Expr) -> Assign:
+    return Assign(counter, ite(condition, minimum(counter + 1, counter.domain.high), _zero(counter)))
+
+
+__all__ = ["Goal", "Question", "reduce"]

@@ -1,0 +1,104 @@
+"""Assignments that provably stay in their domain, and checks for those that might not."""
+
+from itertools import product
+
+from spec_model.lang.action import Assign, If
+from spec_model.lang.domain import Bool, Domain, boolean
+from spec_model.lang.evaluate import operate
+from spec_model.lang.expr import (
+    COMPARISONS,
+    TRUE,
+    Apply,
+    Const,
+    Expr,
+    Named,
+    Op,
+    Var,
+    all_of,
+    any_of,
+    plain,
+)
+from spec_model.lang.system import Statement
+
+_FEW = 4096
+
+Possible = range | frozenset[int]
+
+
+def possible(expr: Expr) -> Possible:
+    """A superset of the raw values a formula can take, its variables ranging over their domains."""
+    match plain(expr):
+        case Const(value, _):
+            return frozenset({value})
+        case Var(_, domain):
+            return frozenset(domain.values) if len(domain) <= _FEW else domain.values  # type: ignore[return-value]
+        case Apply(op, _, _) if op in COMPARISONS or op in (Op.NOT, Op.AND, Op.OR, Op.BIT):
+            return frozenset({0, 1})
+        case Apply(Op.ITE, (_, then, otherwise), _):
+            return _union(possible(then), possible(otherwise))
+        case Apply(op, args, _):
+            return _image(op, [possible(a) for a in args])
+        case Named(_, body):
+            return possible(body)
+    return frozenset({0, 1})
+
+
+def _union(a: Possible, b: Possible) -> Possible:
+    if isinstance(a, frozenset) and isinstance(b, frozenset) and len(a) + len(b) <= _FEW:
+        return a | b
+    return range(min(min(a), min(b)), max(max(a), max(b)) + 1)
+
+
+def _image(op: Op, args: list[Possible]) -> Possible:
+    count = 1
+    for arg in args:
+        count *= len(arg)
+    if count <= _FEW:
+        return frozenset(operate(op, *values) for values in product(*args))
+    return _interval(op, [(min(a), max(a)) for a in args])
+
+
+def _interval(op: Op, ends: list[tuple[int, int]]) -> range:
+    """The hull of the image; each of these operators takes its extremes at ends of its arguments."""
+    if op is Op.MOD:
+        return range(ends[1][1])
+    corners = [operate(op, *corner) for corner in product(*ends)]
+    if op is Op.ABS and ends[0][0] <= 0 <= ends[0][1]:
+        corners.append(0)
+    return range(min(corners), max(corners) + 1)
+
+
+def fits(expr: Expr, domain: Domain) -> bool:
+    """Whether every possible value of the formula belongs to the domain."""
+    values = possible(expr)
+    if domain.dense:
+        return domain.low <= min(values) and max(values) <= domain.high
+    return isinstance(values, frozenset) and values <= frozenset(domain.values)
+
+
+def within(expr: Expr, domain: Domain) -> Expr:
+    """The condition that the value of the formula belongs to the domain."""
+    if isinstance(domain.sort, Bool):
+        return TRUE
+    raw = [Const(v, domain.sort) for v in domain.values] if not domain.dense else []
+    if raw:
+        return any_of(*(_raw(Op.EQ, expr, c) for c in raw))
+    low, high = Const(domain.low, domain.sort), Const(domain.high, domain.sort)
+    return all_of(_raw(Op.GE, expr, low), _raw(Op.LE, expr, high))
+
+
+def _raw(op: Op, left: Expr, right: Expr) -> Expr:
+    return Apply(op, (left, right), Bool())
+
+
+def broken(var: Var) -> Var:
+    """The check variable that is 1 after a tick in which ``var`` was to leave its domain."""
+    return Var(f"{var.name}.out_of_domain", boolean, 0, f"{var.name} was assigned a value outside {var.domain}")
+
+
+def guarded(statement: Assign) -> Statement:
+    """The assignment, or a check that raises a flag instead of leaving the domain."""
+    var, value = statement.var, statement.value
+    if fits(value, var.domain):
+        return statement
+    return If(within(value, var.domain), (statement,), (Assign(broken(var), TRUE),))

@@ -1,0 +1,83 @@
+"""A whole system as a transition system: components in order, enabled subsystems, domain checks."""
+
+from collections.abc import Sequence
+
+from spec_model.lang.action import Assign, If, each_action
+from spec_model.lang.chart import Block, Chart, Component, Enabled
+from spec_model.lang.expr import FALSE, Var
+from spec_model.lang.lower.flow import Flow
+from spec_model.lang.lower.ranges import guarded
+from spec_model.lang.system import Program, Statement, System, TransitionSystem
+from spec_model.lang.wellformed import check_system
+
+
+def lower(system: System) -> TransitionSystem:
+    """The transition system of a system.  Raises ``ModelError`` for an ill-formed one."""
+    check_system(system)
+    made = _Made(system.tick_ms)
+    body = made.run(system.components)
+    data = {n: v for n, v in system.written.items() if n not in {f.name for f in system.frozen}}
+    checks = _checks(body)
+    return TransitionSystem(
+        name=system.name,
+        inputs=tuple(system.inputs.values()),
+        frozen=system.frozen,
+        variables=(*made.locations, *data.values(), *made.timers, *checks),
+        temps=tuple(made.flags),
+        step=(*(Assign(check, FALSE) for check in checks), *body),
+        assume=system.assume,
+        checks=tuple((check, check.doc) for check in checks),
+        tick_ms=system.tick_ms,
+        notes=system.notes,
+        source=system,
+    )
+
+
+class _Made:
+    """What lowering the components creates besides their statements."""
+
+    def __init__(self, tick_ms: int) -> None:
+        self.tick_ms = tick_ms
+        self.locations: list[Var] = []
+        self.timers: list[Var] = []
+        self.flags: list[Var] = []
+
+    def run(self, components: Sequence[Component]) -> tuple[Statement, ...]:
+        out: list[Statement] = []
+        for component in components:
+            match component:
+                case Chart():
+                    out += self._chart(component)
+                case Block():
+                    out += _block(component.do)
+                case Enabled():
+                    out.append(If(component.by, self.run(component.components)))
+        return tuple(out)
+
+    def _chart(self, chart: Chart) -> list[Statement]:
+        flow = Flow(chart, self.tick_ms)
+        statements = flow.step()
+        self.locations += [*([chart.entered] if chart.root.parallel else []), *chart.locations]
+        self.timers += flow.timers.variables
+        self.flags += flow.flags
+        return statements
+
+
+def _block(actions: Sequence[object]) -> list[Statement]:
+    out: list[Statement] = []
+    for action in actions:
+        if isinstance(action, Assign):
+            out.append(guarded(action))
+        elif isinstance(action, If):
+            out.append(If(action.condition, tuple(_block(action.then)), tuple(_block(action.otherwise))))
+    return out
+
+
+def _checks(program: Program) -> list[Var]:
+    """The check variables that the program may raise, once each."""
+    found = {
+        a.var.name: a.var
+        for a in each_action(program)
+        if isinstance(a, Assign) and a.var.name.endswith(".out_of_domain")
+    }
+    return list(found.values())

@@ -1,0 +1,1 @@
+"""Signals of both boards: name, finite domain, unit and meaning of everything a chart reads or writes."""

@@ -1,0 +1,45 @@
+"""Enumerations and domains that both boards use; the names of the members are the document's own."""
+
+from spec_model.lang.domain import chosen, enumeration, fixed, integer
+
+COMMAND = enumeration(
+    "SupervisorCommand_t",
+    [
+        "CMD_NORMAL",
+        "CMD_ROTATE_180",
+        "CMD_GO_LEFT",
+        "CMD_GO_RIGHT",
+        "CMD_AVOID_RIGHT",
+        "CMD_AVOID_LEFT",
+        "CMD_STOP",
+        "CMD_ESTOP",
+    ],
+)
+"""The command of a supervisor, 0 to 7 [seed §2.2, Fig 12]."""
+
+SAFETY_STATUS = enumeration("SafetyStatus", ["SAFETY_OK", "SAFETY_DEGRADED", "SAFETY_CRITICAL"])
+"""The safety state from which the limits follow [seed §2.7, Fig 20]."""
+
+RX_STATUS = enumeration("RxStatus", ["RX_OK", "RX_DEGRADED", "RX_CRITICAL"])
+"""State of the reception from the other board [seed §2.4, Table 2]; each board has its own."""
+
+SUP_STATUS = enumeration("SupStatus", ["SUP_OK", "SUP_DEGRADED", "SUP_CRITICAL"])
+"""State of the supervisor of the other board, by its heartbeat [seed §2.4, Table 2]."""
+
+FAULT_MASK = integer(0, 255)
+"""A fault mask of 8 bits, bit 0 worth 1 [seed §2.3, Table 1]."""
+
+B2_FAULT_MASK = integer(0, 15)
+"""A fault mask of Board 2, of whose 8 bits the lowest four are used (S54, E24)."""
+
+USER_X = chosen([-1, 0, 1])
+"""The user's turning command: left, none, right; it is only scaled and compared with 0."""
+
+USER_Y = chosen([-1, "-0.5", "-0.4", 0, "0.4", 1])
+"""The user's speed command; -0.5 is the limit of the 180° rotation, 0.4 a part of full speed."""
+
+WHEEL_RPM = chosen([0, "2.4", "2.5", 60], "rpm")
+"""A wheel speed: at rest means below 2.5 rpm."""
+
+LINK_AGE = fixed(0, 140, 20, "ms")
+"""Time since an update of the link or the heartbeat; 140 ms stands for all that exceeds 120 ms."""

@@ -1,0 +1,61 @@
+"""Who may import whom: the contracts in pyproject.toml, and what imports alone can say about third parties."""
+
+import ast
+import sys
+import tomllib
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from importlinter.cli import lint_imports
+
+ROOT = Path(__file__).parents[1]
+CONFIG = ROOT / "pyproject.toml"
+SETTINGS = tomllib.loads(CONFIG.read_text(encoding="utf-8"))
+CONTRACTS = {c["id"]: c for c in SETTINGS["tool"]["importlinter"]["contracts"]}
+PACKAGES = SETTINGS["tool"]["importlinter"]["root_packages"]
+DISTRIBUTION = {"z3": "z3-solver", "vcd": "pyvcd"}
+"""Import names that differ from the name to install."""
+
+
+def modules(package: str) -> list[Path]:
+    return sorted((ROOT / package).rglob("*.py"))
+
+
+def imports(file: Path) -> Iterator[str]:
+    """The modules that a file imports, anywhere in it, by absolute name."""
+    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            yield node.module
+
+
+def third_party(package: str) -> dict[str, Path]:
+    """Top-level names that are neither the standard library's nor ours, each with a file that needs it."""
+    found = {name.partition(".")[0]: file for file in modules(package) for name in imports(file)}
+    return {n: f for n, f in found.items() if n not in sys.stdlib_module_names and n not in PACKAGES}
+
+
+@pytest.mark.parametrize("contract", CONTRACTS)
+def test_import_contract(contract: str, capsys: pytest.CaptureFixture[str]) -> None:
+    status = lint_imports(str(CONFIG), limit_to_contracts=(contract,), cache_dir=None, no_cache=True)
+    assert status == 0, f"{CONTRACTS[contract]['name']}\n{capsys.readouterr().out}"
+
+
+def test_the_model_needs_only_the_standard_library() -> None:
+    assert third_party("spec_model") == {}
+    assert third_party("properties") == {}
+
+
+@pytest.mark.parametrize("package", PACKAGES)
+def test_every_third_party_import_is_a_declared_dependency(package: str) -> None:
+    declared = " ".join(SETTINGS["project"]["dependencies"])
+    missing = {n: f for n, f in third_party(package).items() if f"{DISTRIBUTION.get(n, n)}>=" not in declared}
+    assert missing == {}
+
+
+def test_every_package_is_shipped_and_under_contract() -> None:
+    found = {p.parent.name for p in ROOT.glob("*/__init__.py")} - {"tests", "benchmarks", "reports"}
+    assert found == set(PACKAGES)
+    assert found == set(SETTINGS["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"])
