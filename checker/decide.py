@@ -76,10 +76,11 @@ def decide(
     results = []
     for goal in question.goals:
         answer, by = found[goal.var.name]
-        verdict = _verdict(question.system, goal, answer, by)
-        if isinstance(verdict, Violated) and isinstance(answer, Reached) and task.system.over:
-            verdict = _reproduced(task.system, goal, answer, systems, limits, progress)
-        results.append(Result(goal.property, verdict, task.system.name))
+        if isinstance(answer, Reached) and task.system.over:
+            results.append(_reproduced(task.system, goal, answer, systems, limits, progress))
+        else:
+            verdict = _verdict(question.system, goal, answer, by)
+            results.append(Result(goal.property, verdict, task.system.name))
     return results
 
 
@@ -179,18 +180,14 @@ def _reproduced(
     systems: Mapping[str, System],
     limits: Limits,
     progress: Progress,
-) -> Verdict:
-    """A violation of an over-approximation counts only if its concrete system shows it too."""
+) -> Result:
+    """A run of an over-approximation counts only if its concrete system has one too."""
+    found = f"reached after {len(answer.run)} ticks on {system.name}, an over-approximation"
     if not system.concrete:
-        return Unknown(f"violated on {system.name}, an over-approximation with no concrete system", 0, "replay")
+        return Result(goal.property, Unknown(f"{found} with no concrete system", 0, "replay"), system.name)
     prop = replace(goal.property, on=system.concrete)
     [result] = decide(Task(systems[system.concrete], (prop,)), systems, "bmc", limits, progress)
-    if isinstance(result.verdict, Unknown):
-        reason = (
-            f"violated after {len(answer.run)} ticks on {system.name}, an over-approximation; "
-            f"not reproduced on {system.concrete} ({result.verdict.reason})"
-        )
-        return Unknown(reason, result.verdict.depth, "bmc")
-    return result.verdict
-
-
+    verdict = result.verdict
+    if isinstance(verdict, Unknown):
+        verdict = replace(verdict, reason=f"{found}; not reproduced on {system.concrete}: {verdict.reason}")
+    return Result(goal.property, verdict, system.concrete)

@@ -5,15 +5,15 @@ Temporaries disappear.  Inside a branch, the condition is used as a fact: a loca
 way in is a constant further down.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from checker.encode.intervals import Interval, postorder
 from checker.encode.terms import Terms, is_apply
-from spec_model.lang.action import Assign, If
+from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var, variables
-from spec_model.lang.system import Program, TransitionSystem
+from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.system import TransitionSystem
 
 Store = dict[str, Expr]
 
@@ -110,27 +110,29 @@ class _Executor:
     def __init__(self, terms: Terms) -> None:
         self._terms = terms
 
-    def run(self, program: Program, store: Store, facts: _Facts) -> None:
+    def run(self, program: Sequence[Action], store: Store, facts: _Facts) -> None:
         """Run the statements, updating the store in place."""
         for statement in program:
             if isinstance(statement, Assign):
                 store[statement.var.name] = self.value(statement.value, store, facts)
-            else:
+            elif isinstance(statement, If):
                 self._branch(statement, store, facts)
+            else:
+                raise ModelError(f"`{statement}` is left in the step; lower the chart first.")
 
     def _branch(self, statement: If, store: Store, facts: _Facts) -> None:
         test = self.value(statement.condition, store, facts)
         if isinstance(test, Const):
-            self.run(statement.then if test.value else statement.otherwise, store, facts)  # type: ignore[arg-type]
+            self.run(statement.then if test.value else statement.otherwise, store, facts)
             return
         then, other = dict(store), dict(store)
-        self.run(statement.then, then, _assuming(facts, test, True, self._terms))  # type: ignore[arg-type]
-        self.run(statement.otherwise, other, _assuming(facts, test, False, self._terms))  # type: ignore[arg-type]
-        for name in then.keys() | other.keys():
-            a, b = then.get(name), other.get(name)
-            if a is b or b is None:
-                b = a  # a temporary written in one branch is read under the same condition only
-            store[name] = self._terms.ite(test, b if a is None else a, b) if a is not b else b  # type: ignore
+        self.run(statement.then, then, _assuming(facts, test, True, self._terms))
+        self.run(statement.otherwise, other, _assuming(facts, test, False, self._terms))
+        # A temporary written in one branch only is read later under the same condition only.
+        for name, value in {**other, **then}.items():
+            alternative = other.get(name, value)
+            store[name] = value if value is alternative else self._terms.ite(test, value, alternative)
+
     def value(self, expr: Expr, store: Store, facts: _Facts) -> Expr:
         """The value of an expression in a store."""
         done: dict[int, Expr] = {}

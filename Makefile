@@ -1,0 +1,88 @@
+# Everything a fresh machine needs is Python >= 3.11 and make: the first `make check` or `make test`
+# makes a virtual environment in .venv and installs the locked versions of requirements.lock in it.
+#
+#   PYTHON=python3.12       another interpreter
+#   VENV=.venv-3.12         another place for the environment
+#   JOBS=4                  processes for the tests
+#   ARGS="--system rover"   further arguments of `check`, `test`, `reports` and `bench`
+
+VENV ?= .venv
+JOBS ?= 2
+ARGS ?=
+NEW_ENOUGH := -c 'import sys; sys.exit(sys.version_info < (3, 11))'
+ifndef PYTHON
+PYTHON := $(or $(shell for p in python3 python3.13 python3.12 python3.11 python3.14 python; do \
+	"$$p" $(NEW_ENOUGH) 2>/dev/null && echo $$p && break; done),python3)
+endif
+
+RUN     := $(VENV)/bin/python
+# The stamp carries the version of the interpreter, so that another PYTHON makes a new environment.
+VERSION := $(shell "$(PYTHON)" -c 'import sys; print("%d.%d.%d" % sys.version_info[:3])' 2>/dev/null)
+STAMP   := $(VENV)/installed-for-$(VERSION)
+
+.DEFAULT_GOAL := help
+.PHONY: help setup check test lint types reports bench format lock clean
+.DELETE_ON_ERROR:
+
+help:
+	@echo "make check     check every property of the rover on the charts; exit code 0: all as expected"
+	@echo "make test      lint, types, import contracts and the whole test suite"
+	@echo "make reports   write the evidence in reports/ anew"
+	@echo "make lint      ruff only            make types     mypy only"
+	@echo "make format    lay the code out     make bench     time the engines"
+	@echo "make lock      choose new versions of the dependencies, with hashes"
+	@echo "make clean     remove the environment and every cache"
+
+check: $(STAMP)
+	@$(RUN) -m checker check $(ARGS)
+
+test: lint types
+	@echo "Tests, in $(JOBS) processes ..."
+	@$(RUN) -m pytest -q -n $(JOBS) --dist worksteal $(ARGS)
+
+lint: $(STAMP)
+	@echo "Lint ..."
+	@$(RUN) -m ruff check --quiet .
+
+types: $(STAMP)
+	@echo "Types ..."
+	@$(RUN) -m mypy
+
+format: $(STAMP)
+	@$(RUN) -m ruff check --quiet --fix-only .
+	@$(RUN) -m ruff format .
+
+reports: $(STAMP)
+	@$(RUN) -m checker report $(ARGS)
+
+bench: $(STAMP)
+	@$(RUN) -m benchmarks $(ARGS)
+
+setup: $(STAMP)
+
+$(STAMP): requirements.lock pyproject.toml
+	@"$(PYTHON)" $(NEW_ENOUGH) 2>/dev/null || { \
+		echo "rovercheck needs Python 3.11 or newer; '$(PYTHON)' $(if $(VERSION),is Python $(VERSION),does not run)."; \
+		echo "Install one, or name it: make PYTHON=python3.12 $(MAKECMDGOALS)"; exit 1; } >&2
+	@"$(PYTHON)" -c 'import venv, ensurepip' 2>/dev/null || { \
+		echo "This Python $(VERSION) has no module 'venv' (on Debian and Ubuntu: apt install python3-venv)."; \
+		exit 1; } >&2
+	@test -x "$(RUN)" -a -n "$(wildcard $(STAMP))" || { \
+		echo "Making a virtual environment in $(VENV) (Python $(VERSION)) ..."; \
+		"$(PYTHON)" -m venv --clear "$(VENV)" && echo '*' > "$(VENV)/.gitignore"; }
+	@echo "Installing the locked dependencies; the first time this takes about half a minute ..."
+	@$(RUN) -m pip install -qq --disable-pip-version-check --require-hashes -r requirements.lock
+	@$(RUN) -m pip install -qq --disable-pip-version-check --no-deps --no-build-isolation --editable .
+	@touch "$(STAMP)"
+
+# uv, in an environment of its own, resolves for every platform and every Python from 3.11 on at once.
+lock:
+	@"$(PYTHON)" -m venv "$(VENV)/lock"
+	@"$(VENV)/lock/bin/python" -m pip install -qq --disable-pip-version-check uv
+	@"$(VENV)/lock/bin/uv" pip compile pyproject.toml --group dev --universal --python-version 3.11 \
+		--fork-strategy fewest --generate-hashes --no-header --no-emit-index-url --upgrade --quiet \
+		--output-file requirements.lock
+
+clean:
+	rm -rf "$(VENV)" .pytest_cache .mypy_cache .ruff_cache .hypothesis build dist
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +

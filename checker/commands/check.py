@@ -1,0 +1,209 @@
+"""``rovercheck check``: verdicts against the baseline."""
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+
+from checker.commands.codes import Exit
+from checker.commands.output import err, out
+from checker.commands.progress import Watch
+from checker.decide import Result, Task, decide, tasks
+from checker.engine import Limits
+from checker.trace import Trace
+from checker.verdict import Exhausted, Proved, Unknown, Verdict, Violated
+from properties.catalogue import Expected, expected
+from properties.forms import Property
+from spec_model.lang.system import System
+
+SCHEMA = 1
+WORKERS = 2
+
+
+@dataclass(frozen=True)
+class Compared:
+    """A result beside the verdict on record."""
+
+    result: Result
+    expected: Expected
+
+    @property
+    def verdict(self) -> Verdict:
+        return self.result.verdict
+
+    @property
+    def as_expected(self) -> bool:
+        """Same verdict, and for a counterexample on record the same length."""
+        if self.verdict.word != self.expected.verdict:
+            return False
+        depth = self.expected.depth
+        return depth is None or not isinstance(self.verdict, Violated) or length(self.verdict) == depth
+
+    @property
+    def code(self) -> Exit:
+        if self.as_expected:
+            return Exit.AS_EXPECTED
+        return Exit.INCONCLUSIVE if isinstance(self.verdict, Unknown) else Exit.CHANGED
+
+
+def length(verdict: Verdict) -> int | None:
+    """The number of ticks of the trace a verdict rests on, if it rests on one."""
+    because = None if isinstance(verdict, Unknown) else verdict.because
+    return len(because) if isinstance(because, Trace) else None
+
+
+def results(
+    properties: Sequence[Property], systems: Mapping[str, System], engine: str, limits: Limits
+) -> Iterator[Result]:
+    """Decide the properties, two searches at a time; results come as they are found.
+
+    On Ctrl-C the searches under way are told to stop and ``KeyboardInterrupt`` is raised.
+    """
+    todo = sorted(tasks(properties, systems), key=lambda t: (t.system.name, t.title))
+    with Watch(err, len(todo)) as watch:
+        pool = ThreadPoolExecutor(WORKERS)
+        try:
+            running = [pool.submit(_one, task, systems, engine, limits, watch) for task in todo]
+            for done in as_completed(running):
+                yield from done.result()
+        finally:
+            pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _one(
+    task: Task, systems: Mapping[str, System], engine: str, limits: Limits, watch: Watch
+) -> list[Result]:
+    try:
+        return decide(task, systems, engine, limits, lambda line: watch.say(task.title, line))
+    finally:
+        watch.finished(task.title)
+
+
+def check(
+    properties: Sequence[Property],
+    systems: Mapping[str, System],
+    engine: str,
+    limits: Limits,
+    as_json: bool,
+) -> Exit:
+    """Print every verdict with its evidence and what the baseline says of it."""
+    if not properties:
+        err.print("Nothing to check: the selection holds no property.")
+        return Exit.NOTHING
+    found: list[Compared] = []
+    try:
+        for result in results(properties, systems, engine, limits):
+            found.append(Compared(result, expected(result.property.id)))
+            if not as_json:
+                out.print(line(found[-1]), markup=False)
+    except KeyboardInterrupt:
+        err.print(f"Interrupted: {len(found)} of {len(properties)} properties decided.")
+        if as_json:
+            print(json.dumps(document(found, complete=False), indent=2))
+        return Exit.INTERRUPTED
+    if as_json:
+        print(json.dumps(document(found, complete=True), indent=2))
+    else:
+        summary(found)
+    return worst(found)
+
+
+def worst(found: Sequence[Compared]) -> Exit:
+    """A change outweighs an inconclusive search."""
+    codes = {c.code for c in found}
+    for code in (Exit.CHANGED, Exit.INCONCLUSIVE):
+        if code in codes:
+            return code
+    return Exit.AS_EXPECTED
+
+
+def line(compared: Compared) -> str:
+    """One verdict in one line: mark, id, verdict, evidence."""
+    verdict = compared.verdict
+    mark = "=" if compared.as_expected else "!"
+    sign = {"proved": "✓", "violated": "✗", "unknown": "?"}[verdict.word]
+    text = f"{mark} {sign} {compared.result.property.id:<10} {verdict.word:<9} {evidence(compared.result)}"
+    if compared.as_expected:
+        return text + (" (as on record)" if verdict.word != "proved" else "")
+    return text + f"\n      CHANGED: on record is {recorded(compared.expected)}"
+
+
+def recorded(entry: Expected) -> str:
+    depth = f" after {entry.depth} ticks" if entry.depth is not None else ""
+    return f"{entry.verdict}{depth}"
+
+
+def evidence(result: Result) -> str:
+    """What the verdict rests on, in a few words."""
+    verdict = result.verdict
+    match verdict:
+        case Unknown(reason, depth, engine):
+            return f"{engine} on {result.system}, no counterexample within {depth} ticks: {reason}"
+        case Proved(Exhausted() as all_, engine):
+            return f"{engine}: all {all_.states:,} valuations of {result.system}, depth {all_.depth}"
+        case Violated(Exhausted() as all_, engine):
+            return f"{engine}: in none of all {all_.states:,} valuations of {result.system}"
+        case Proved(Trace() as trace, engine):
+            return f"{engine}: witness of {ticks(trace)} on {result.system}"
+        case Violated(Trace() as trace, engine):
+            return f"{engine}: counterexample of {ticks(trace)} on {result.system}"
+    raise AssertionError(verdict)
+
+
+def ticks(trace: Trace) -> str:
+    """``155 ticks = 3.1 s``."""
+    return f"{len(trace)} tick{'s' * (len(trace) != 1)} = {len(trace) * trace.tick_ms / 1000:g} s"
+
+
+def summary(found: Sequence[Compared]) -> None:
+    """Counts, and for each change what to do next."""
+    words = [c.verdict.word for c in found]
+    counts = ", ".join(f"{words.count(w)} {w}" for w in ("proved", "violated", "unknown") if w in words)
+    changed = [c for c in found if not c.as_expected]
+    out.print(f"\n{len(found)} properties: {counts}.", markup=False)
+    if not changed:
+        out.print("Every verdict is as on record in the baseline.")
+        return
+    for compared in changed:
+        _explain(compared)
+
+
+def _explain(compared: Compared) -> None:
+    prop, verdict = compared.result.property, compared.verdict
+    out.print(f"\n{prop.id} is {verdict.word}, on record is {recorded(compared.expected)}.", markup=False)
+    out.print(f"  {prop.text}", markup=False)
+    if isinstance(verdict, Violated) and isinstance(verdict.because, Trace):
+        fired = [a for t in verdict.because.ticks for a in t.arrows if a.order]
+        for arrow in fired[-3:]:
+            out.print(f"  fired: {arrow}", markup=False)
+        out.print(f"  See it whole: rovercheck trace {prop.id}", markup=False)
+
+
+def document(found: Sequence[Compared], complete: bool) -> dict[str, object]:
+    """The verdicts as JSON; ``complete`` is false after an interruption."""
+    return {
+        "schema": f"rovercheck/check/{SCHEMA}",
+        "complete": complete,
+        "exit": int(worst(found)) if complete else int(Exit.INTERRUPTED),
+        "results": [_row(c) for c in sorted(found, key=lambda c: c.result.property.id)],
+    }
+
+
+def _row(compared: Compared) -> dict[str, object]:
+    prop, verdict = compared.result.property, compared.verdict
+    return {
+        "id": prop.id,
+        "text": prop.text,
+        "requirements": list(prop.covers),
+        "system": compared.result.system,
+        "verdict": verdict.word,
+        "engine": verdict.engine,
+        "evidence": evidence(compared.result),
+        "ticks": length(verdict),
+        "expected": compared.expected.verdict,
+        "as_expected": compared.as_expected,
+        "because": compared.expected.because,
+    }
+
+
+__all__ = ["Compared", "check", "evidence", "length", "results", "ticks"]

@@ -1,0 +1,1 @@
+"""``rovercheck graph``: a chart as it is drawn, or a projected state graph."""

@@ -1,0 +1,86 @@
+"""``rovercheck list``: what there is."""
+
+from collections.abc import Callable, Iterable
+
+from rich.table import Table
+
+from checker.commands.codes import Exit
+from checker.commands.output import out
+from checker.decide import ALL, AUTO
+from checker.engine import engines
+from properties.catalogue import catalogue, expected
+from properties.requirements import requirements
+from spec_model.rover import charts, systems
+
+
+def _table(*columns: str) -> Table:
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    for column in columns:
+        table.add_column(column, no_wrap=column == columns[0], overflow="fold")
+    return table
+
+
+def _print(columns: Iterable[str], rows: Iterable[tuple[str, ...]]) -> None:
+    from rich.markup import escape
+
+    table = _table(*columns)
+    for row in rows:
+        table.add_row(*map(escape, row))
+    out.print(table, soft_wrap=False)
+
+
+def list_properties() -> None:
+    _print(
+        ("id", "system", "on record", "requires"),
+        ((p.id, p.on, expected(p.id).verdict, p.text) for p in catalogue().values()),
+    )
+
+
+def list_systems() -> None:
+    _print(
+        ("name", "charts", "what it is"),
+        (
+            (s.name, ", ".join(c.name for c in s.charts), " ".join((s.text, *s.notes)))
+            for s in systems().values()
+        ),
+    )
+
+
+def list_charts() -> None:
+    _print(
+        ("name", "states", "arrows", "what it is"),
+        ((c.name, str(len(c.states) - 1), str(len(c.arrows)), c.text) for c in charts().values()),
+    )
+
+
+def list_requirements() -> None:
+    covered: dict[str, list[str]] = {}
+    for prop in catalogue().values():
+        for id in prop.covers:
+            covered.setdefault(id, []).append(prop.id)
+    _print(
+        ("id", "source", "requirement", "properties"),
+        ((r.id, r.source, r.text, ", ".join(covered.get(r.id, ["-"]))) for r in requirements().values()),
+    )
+
+
+def list_engines() -> None:
+    rows = [(e.NAME, e.SUMMARY) for e in engines().values()]
+    rows.append((AUTO, "Explicit search first, then bounded model checking of what it leaves open."))
+    rows.append((ALL, "Every engine; answers that cannot both be true are an error (exit code 3)."))
+    _print(("name", "what it does"), rows)
+
+
+LISTS: dict[str, Callable[[], None]] = {
+    "properties": list_properties,
+    "systems": list_systems,
+    "charts": list_charts,
+    "requirements": list_requirements,
+    "engines": list_engines,
+}
+
+
+def listing(what: str) -> Exit:
+    """Print one of the lists."""
+    LISTS[what]()
+    return Exit.AS_EXPECTED

@@ -1,0 +1,60 @@
+"""What a name on the command line means, with the nearest names when it means nothing."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from typing import TypeVar
+
+from checker.commands.codes import UsageError
+from checker.decide import ALL, AUTO
+from checker.engine import engines
+from properties.catalogue import catalogue
+from properties.forms import Property
+from spec_model.lang.chart import Chart
+from spec_model.lang.errors import did_you_mean
+from spec_model.lang.system import System
+from spec_model.rover import charts, systems
+
+Thing = TypeVar("Thing")
+
+
+def pick(kind: str, name: str, known: Mapping[str, Thing]) -> Thing:
+    """The thing of that name.  Raises ``UsageError`` offering near names."""
+    if name not in known:
+        raise UsageError(f"There is no {kind} {name!r}. {did_you_mean(name, known)}")
+    return known[name]
+
+
+def pick_engine(name: str) -> str:
+    """The name of an engine, ``auto`` or ``all``."""
+    if name not in (AUTO, ALL):
+        pick("engine", name, {**engines(), AUTO: None, ALL: None})
+    return name
+
+
+def pick_properties(ids: Sequence[str], system: str | None) -> list[Property]:
+    """Properties by id, or by the beginning of an id up to a letter (PB1-16 is PB1-16a, PB1-16b...).
+
+    All of them when no id is given; only those about ``system`` when one is.
+    """
+    known = catalogue()
+    chosen = _distinct(p for id in ids for p in _matching(id, known)) if ids else list(known.values())
+    if system is None:
+        return chosen
+    pick("system", system, systems())
+    return [p for p in chosen if p.on == system]
+
+
+def _matching(id: str, known: Mapping[str, Property]) -> list[Property]:
+    if id in known:
+        return [known[id]]
+    forms = [p for name, p in known.items() if name.startswith(id) and name[len(id) :].isalpha()]
+    return forms or [pick("property", id, known)]
+
+
+def _distinct(properties: Iterable[Property]) -> list[Property]:
+    return list({p.id: p for p in properties}.values())
+
+
+def pick_model(name: str) -> Chart | System:
+    """A chart or a system by name; a chart wins where both have the name and no projection is asked."""
+    known: dict[str, Chart | System] = {**systems(), **charts()}
+    return pick("chart or system", name, known)

@@ -1,0 +1,35 @@
+"""``rovercheck trace ID``: the counterexample (or witness) of one property, in one of several forms."""
+
+from pathlib import Path
+
+from checker.commands.check import evidence, results
+from checker.commands.codes import Exit
+from checker.commands.output import err, out, write
+from checker.commands.select import pick
+from checker.engine import Limits
+from checker.render import renderers
+from checker.trace import Trace
+from checker.verdict import Unknown
+from properties.catalogue import expected
+from properties.forms import Property
+from spec_model.rover import systems
+
+
+def trace(prop: Property, engine: str, limits: Limits, format: str, output: Path | None) -> Exit:
+    """Decide the property and show its trace; say so when its verdict rests on none."""
+    renderer = pick("trace format", format, renderers("trace"))
+    [result] = results([prop], systems(), engine, limits)
+    verdict = result.verdict
+    if isinstance(verdict, Unknown):
+        err.print(f"{prop.id} is unknown: {evidence(result)}", markup=False)
+        return Exit.INCONCLUSIVE
+    if not isinstance(verdict.because, Trace):
+        err.print(f"{prop.id} is {verdict.word} and has no trace: {evidence(result)}", markup=False)
+        return Exit.AS_EXPECTED
+    if output is None and format == "table":
+        reason = expected(prop.id).because
+        out.print(f"{prop.id} is {verdict.word}: {prop.text}", markup=False)
+        if reason:
+            out.print(f"Why: {reason}", markup=False)
+    write(renderer.render(verdict.because), output)
+    return Exit.AS_EXPECTED

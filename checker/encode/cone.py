@@ -1,0 +1,116 @@
+"""Cone of influence: the part of a transition that a set of goals depends on.
+
+Assumptions are kept whole unless they speak only of inputs outside the cone: such a group of
+conjuncts does not restrict the rest, provided it can be satisfied at all, which the engine checks.
+Variables that keep their initial value for ever are replaced by it first.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+
+from checker.encode.intervals import postorder
+from checker.encode.symbolic import Transition
+from checker.encode.terms import Terms
+from spec_model.lang.expr import Apply, Const, Expr, Var, variables
+
+
+@dataclass(frozen=True)
+class Slice:
+    """What is left of a transition.
+
+    ``variables``, ``inputs`` and ``frozen`` are those in the cone; ``next`` and ``assume`` speak of
+    these only.  ``loose`` are the conjuncts on other inputs that were left out.
+    """
+
+    variables: tuple[Var, ...]
+    inputs: tuple[Var, ...]
+    frozen: tuple[Var, ...]
+    next: Mapping[str, Expr]
+    assume: tuple[Expr, ...]
+    loose: tuple[Expr, ...]
+
+
+def cone(transition: Transition, goals: Iterable[str]) -> Slice:
+    """The cone of influence of some variables."""
+    system = transition.system
+    fixed = constants(transition)
+    folded = _Folder(transition.terms, fixed)
+    following = {n: folded(e) for n, e in transition.next.items()}
+    assume = [folded(e) for e in transition.assume]
+    tight, loose = _split(assume, goals, following, {v.name for v in system.inputs})
+    names = _closure([*goals, *_names(tight)], following)
+    return Slice(
+        tuple(v for v in system.variables if v.name in names),
+        tuple(v for v in system.inputs if v.name in names),
+        tuple(v for v in system.frozen if v.name in names),
+        {n: e for n, e in following.items() if n in names},
+        tuple(tight),
+        tuple(loose),
+    )
+
+
+def constants(transition: Transition) -> dict[str, int]:
+    """Variables that keep their initial value in every run: the greatest set that justifies itself."""
+    fixed = transition.system.init
+    while True:
+        folded = _Folder(transition.terms, fixed)
+        kept = {n: v for n, v in fixed.items() if _is(folded(transition.next[n]), v)}
+        if len(kept) == len(fixed):
+            return kept
+        fixed = kept
+
+
+def _is(expr: Expr, value: int) -> bool:
+    return isinstance(expr, Const) and expr.value == value
+
+
+class _Folder:
+    """Replaces variables by constants in formulas of a table."""
+
+    def __init__(self, terms: Terms, fixed: Mapping[str, int]) -> None:
+        self._terms, self._fixed = terms, fixed
+        self._done: dict[int, Expr] = {}
+
+    def __call__(self, expr: Expr) -> Expr:
+        for node in postorder(expr):
+            if id(node) not in self._done:
+                self._done[id(node)] = self._node(node)
+        return self._done[id(expr)]
+
+    def _node(self, node: Expr) -> Expr:
+        if isinstance(node, Var) and node.name in self._fixed:
+            return self._terms.const(self._fixed[node.name], node.sort)
+        if isinstance(node, Apply):
+            return self._terms.apply(node.op, [self._done[id(a)] for a in node.args], node.sort)
+        return node
+
+
+def _names(exprs: Sequence[Expr]) -> list[str]:
+    return list(variables(*exprs))
+
+
+def _closure(roots: Iterable[str], following: Mapping[str, Expr]) -> set[str]:
+    names: set[str] = set()
+    todo = list(roots)
+    while todo:
+        name = todo.pop()
+        if name not in names:
+            names.add(name)
+            todo.extend(_names([following[name]]) if name in following else ())
+    return names
+
+
+def _split(
+    assume: Sequence[Expr], goals: Iterable[str], following: Mapping[str, Expr], inputs: set[str]
+) -> tuple[list[Expr], list[Expr]]:
+    """The conjuncts that bear on the cone and those on inputs outside it."""
+    tight = [e for e in assume if not set(_names([e])) <= inputs]
+    loose = [e for e in assume if set(_names([e])) <= inputs]
+    names: set[str] = set()
+    while True:
+        names = _closure([*goals, *_names(tight), *names], following)
+        moved = [e for e in loose if names & set(_names([e]))]
+        if not moved:
+            return tight, loose
+        tight += moved
+        loose = [e for e in loose if all(e is not m for m in moved)]

@@ -1,0 +1,259 @@
+"""Exact cells of inputs: values of an input that no expression can tell apart are tried once.
+
+Two values share a cell when every maximal sub-expression about that input alone has the same value
+at both: an input only compared with 100 and 300 has three cells.  An input that is copied or mixed
+with other variables keeps a cell for each of its values.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from checker.encode.intervals import intervals
+from spec_model.lang.action import Assign, If
+from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var, plain
+from spec_model.lang.system import Program, TransitionSystem
+
+Array = NDArray[np.generic]
+
+
+@dataclass(frozen=True)
+class Cell:
+    """Values that behave alike: one of them, the lowest, and how many there are."""
+
+    value: int
+    size: int
+
+
+@dataclass(frozen=True)
+class Partition:
+    """The cells of one variable, ascending by representative; ``number[i]`` is the cell of the i-th
+    admissible value ``values[i]``.  A value outside every cell is never admissible."""
+
+    var: Var
+    cells: tuple[Cell, ...]
+    values: tuple[int, ...]
+    numbers: tuple[int, ...]
+
+    @cached_property
+    def cell_of(self) -> Mapping[int, int]:
+        """The number of the cell of each admissible value."""
+        return dict(zip(self.values, self.numbers, strict=True))
+
+    def members(self, number: int) -> Iterator[int]:
+        """The values of a cell, ascending."""
+        return (v for v, n in zip(self.values, self.numbers, strict=True) if n == number)
+
+
+def partitions(system: TransitionSystem) -> dict[str, Partition]:
+    """The cells of each input of the system, by name.
+
+    Values that break a conjunct of the assumption about that input alone belong to no cell.
+    """
+    roots = [*expressions(system.step), system.assume]
+    scope = {v.name: v for v in system.inputs}
+    alone = _alone(roots, scope)
+    required = _required(system.assume, scope)
+    return {n: _split(v, alone.get(n, ()), required.get(n, ())) for n, v in scope.items()}
+
+
+def partition(var: Var, roots: Sequence[Expr], scope: Mapping[str, Var]) -> Partition:
+    """The cells of one variable of the scope with respect to the expressions."""
+    return _split(var, _alone(roots, scope).get(var.name, ()), ())
+
+
+def expressions(program: Program) -> Iterator[Expr]:
+    """Every condition and every assigned value of a program."""
+    for statement in program:
+        if isinstance(statement, Assign):
+            yield statement.value
+        else:
+            yield statement.condition
+            for branch in (statement.then, statement.otherwise):
+                yield from expressions(tuple(s for s in branch if isinstance(s, Assign | If)))
+
+
+# --- finding the sub-expressions about one variable ----------------------------------------------
+
+
+def _alone(roots: Iterable[Expr], scope: Mapping[str, Var]) -> dict[str, list[Expr]]:
+    """The maximal sub-expressions about a single variable of the scope, by its name."""
+    found: dict[str, list[Expr]] = {}
+    owners: dict[int, str | None] = {}
+    seen: set[int] = set()
+    stack = list(roots)
+    while stack:
+        expr = stack.pop()
+        if id(expr) in seen:
+            continue
+        seen.add(id(expr))
+        name = _owner(expr, owners)
+        if name in scope:
+            found.setdefault(name, []).append(expr)
+        elif isinstance(expr, Named):
+            stack.append(expr.body)
+        elif isinstance(expr, Apply) and expr.op in (Op.AND, Op.OR):
+            _take_grouped(expr, scope, owners, found, stack)
+        elif isinstance(expr, Apply):
+            stack.extend(expr.args)
+    return found
+
+
+def _take_grouped(
+    expr: Apply,
+    scope: Mapping[str, Var],
+    owners: dict[int, str | None],
+    found: dict[str, list[Expr]],
+    rest: list[Expr],
+) -> None:
+    """Arguments of one conjunction or disjunction about the same variable count as one formula."""
+    grouped: dict[str, list[Expr]] = {}
+    for arg in expr.args:
+        name = _owner(arg, owners)
+        if name in scope:
+            grouped.setdefault(name, []).append(arg)
+        else:
+            rest.append(arg)
+    for name, args in grouped.items():
+        found.setdefault(name, []).append(Apply(expr.op, tuple(args), expr.sort))
+
+
+CONSTANT, MIXED = "", None
+
+
+def _owner(expr: Expr, known: dict[int, str | None]) -> str | None:
+    """The name of the only variable that occurs; CONSTANT for none, MIXED for several."""
+    if id(expr) not in known:
+        match expr:
+            case Var(name):
+                known[id(expr)] = name
+            case Named(_, body):
+                known[id(expr)] = _owner(body, known)
+            case Apply(_, args, _):
+                owners = {_owner(a, known) for a in args} - {CONSTANT}
+                known[id(expr)] = CONSTANT if not owners else owners.pop() if len(owners) == 1 else MIXED
+            case _:
+                known[id(expr)] = CONSTANT
+    return known[id(expr)]
+
+
+def _required(assume: Expr, scope: Mapping[str, Var]) -> dict[str, list[Expr]]:
+    """The conjuncts of the assumption about one input alone, by its name."""
+    found: dict[str, list[Expr]] = {}
+    body = plain(assume)
+    parts = body.args if isinstance(body, Apply) and body.op is Op.AND else (assume,)
+    for part in parts:
+        name = _owner(part, {})
+        if name in scope:
+            found.setdefault(name, []).append(part)
+    return found
+
+
+# --- splitting -----------------------------------------------------------------------------------
+
+
+def _split(var: Var, alone: Sequence[Expr], required: Sequence[Expr]) -> Partition:
+    values = _column(var, var)
+    for condition in required:
+        values = values[_at(condition, var, values) != 0]
+    cell = np.zeros(len(values), dtype=np.int64)
+    for expr in alone:
+        _, codes = np.unique(_at(expr, var, values), return_inverse=True)
+        _, cell = np.unique(cell * (int(codes.max(initial=0)) + 1) + codes, return_inverse=True)
+    return _numbered(var, values, cell)
+
+
+def _numbered(var: Var, values: Array, cell: Array) -> Partition:
+    """Cells renumbered in the order of their lowest values."""
+    _, first, back, sizes = np.unique(cell, return_index=True, return_inverse=True, return_counts=True)
+    order = np.argsort(first)
+    rank = np.empty(len(order), dtype=np.int64)
+    rank[order] = np.arange(len(order))
+    cells = tuple(Cell(int(values[first[i]]), int(sizes[i])) for i in order)
+    return Partition(var, cells, tuple(map(int, values)), tuple(map(int, rank[back])))
+
+
+def _column(var: Var, *exprs: Expr) -> Array:
+    """The domain as an array; of Python integers where 64 bits could overflow."""
+    return np.array(var.domain.values, dtype=np.int64)
+
+
+def _at(expr: Expr, var: Var, values: Array) -> Array:
+    """The formula at every value of its only variable."""
+    wide = any(not -(1 << 62) < end < 1 << 62 for i in intervals(expr).values() for end in (i.low, i.high))
+    column = values.astype(object) if wide else values
+    result = _array(expr, column, {})
+    return np.broadcast_to(result, values.shape)
+
+
+def _array(expr: Expr, column: Array, known: dict[int, Array]) -> Array:
+    if id(expr) not in known:
+        match expr:
+            case Const(value, _):
+                known[id(expr)] = np.array(value, dtype=column.dtype)
+            case Var():
+                known[id(expr)] = column
+            case Named(_, body):
+                known[id(expr)] = _array(body, column, known)
+            case Apply(op, args, _):
+                known[id(expr)] = _operate(op, [_array(a, column, known) for a in args]).astype(column.dtype)
+            case _:
+                raise AssertionError(f"{expr} speaks of the past")
+    return known[id(expr)]
+
+
+def _operate(op: Op, v: list[Array]) -> Array:
+    """An operator on arrays of raw values, as ``spec_model.lang.evaluate.operate`` on one."""
+    match op:
+        case Op.NOT:
+            return np.asarray(1 - v[0])
+        case Op.AND | Op.OR:
+            fold = np.logical_and if op is Op.AND else np.logical_or
+            result = v[0] != 0
+            for other in v[1:]:
+                result = fold(result, other != 0)
+            return np.asarray(result)
+        case Op.ITE:
+            return np.where(v[0] != 0, v[1], v[2])
+        case Op.EQ:
+            return np.asarray(v[0] == v[1])
+        case Op.NE:
+            return np.asarray(v[0] != v[1])
+        case Op.LT:
+            return np.asarray(v[0] < v[1])
+        case Op.LE:
+            return np.asarray(v[0] <= v[1])
+        case Op.GT:
+            return np.asarray(v[0] > v[1])
+        case Op.GE:
+            return np.asarray(v[0] >= v[1])
+        case Op.NEG:
+            return np.asarray(-v[0])
+        case Op.ABS:
+            return np.asarray(abs(v[0]))
+        case _:
+            return _arithmetic(op, v[0], v[1])
+
+
+def _arithmetic(op: Op, a: Array, b: Array) -> Array:
+    match op:
+        case Op.ADD:
+            return np.asarray(a + b)
+        case Op.SUB:
+            return np.asarray(a - b)
+        case Op.MUL | Op.SCALE:
+            return np.asarray(a * b)
+        case Op.DIV:
+            return np.asarray(a // b)
+        case Op.MOD:
+            return np.asarray(a % b)
+        case Op.MIN:
+            return np.minimum(a, b)
+        case Op.MAX:
+            return np.maximum(a, b)
+        case Op.BIT:
+            return np.asarray(a >> b & 1)
+    raise AssertionError(op)

@@ -1,0 +1,1 @@
+"""What the pictures share: measuring text, layered layout, routing; it knows no output format."""

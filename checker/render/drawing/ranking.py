@@ -1,0 +1,88 @@
+"""First steps of a layered layout: which arrows point back, the rank of each node, the items."""
+
+from collections.abc import Collection, Mapping, Sequence
+
+from checker.render.drawing.graph import Chain, Edge, Item, Node
+from checker.render.drawing.solve import Bound, least_stretch
+
+
+def backward(nodes: Sequence[str], arrows: Sequence[tuple[str, str, str]]) -> set[str]:
+    """Names of the arrows (name, source, target) to be drawn from right to left.
+
+    They are those that close a cycle when the arrows are followed depth first, in the order given.
+    """
+    leaving: dict[str, list[tuple[str, str]]] = {n: [] for n in nodes}
+    for name, source, target in arrows:
+        leaving[source].append((name, target))
+    done: set[str] = set()
+    found: set[str] = set()
+    for start in nodes:
+        _follow(start, leaving, done, found)
+    return found
+
+
+def _follow(start: str, leaving: Mapping[str, list[tuple[str, str]]], done: set[str], found: set[str]) -> None:
+    if start in done:
+        return
+    stack, open_ = [(start, iter(leaving[start]))], {start}
+    while stack:
+        node, rest = stack[-1]
+        for name, target in rest:
+            if target in open_:
+                found.add(name)
+            elif target not in done:
+                open_.add(target)
+                stack.append((target, iter(leaving[target])))
+                break
+        else:
+            stack.pop()
+            open_.discard(node)
+            done.add(node)
+
+
+def ranks(nodes: Sequence[Node], edges: Sequence[Edge], first: Collection[str], last: Collection[str]) -> dict[str, int]:
+    """The rank of each node from 0; labels get a rank of their own between two nodes."""
+    number = {node.name: i for i, node in enumerate(nodes)}
+    start, end = len(nodes), len(nodes) + 1
+    bounds: list[Bound] = [(start, end, 0, 1)]
+    for edge in edges:
+        bounds.append((number[edge.tail], number[edge.head], 2 if any(edge.label) else 1, edge.weight))
+    for node in nodes:
+        u = number[node.name]
+        bounds.append((start, u, 0 if node.name in first else bool(first), 0))
+        bounds.append((u, end, 0 if node.name in last else bool(last), 0))
+        bounds += [(u, start, 0, 1)] if node.name in first else []
+        bounds += [(end, u, 0, 1)] if node.name in last else []
+    found = _packed(least_stretch(len(nodes) + 2, bounds)[: len(nodes)])
+    return {node.name: rank for node, rank in zip(nodes, found, strict=True)}
+
+
+def _packed(values: list[int]) -> list[int]:
+    low = min(values, default=0)
+    return [v - low for v in values]
+
+
+def chains(nodes: Sequence[Node], edges: Sequence[Edge], rank: Mapping[str, int]) -> tuple[list[list[Item]], dict[str, Chain]]:
+    """The items of each rank in a first order, and the chain of each edge by name."""
+    layers: list[list[Item]] = [[] for _ in range(max(rank.values(), default=-1) + 1)]
+    item = {n.name: Item(rank[n.name], n.width, 0, n.height, node=n) for n in nodes}
+    for node in nodes:
+        layers[rank[node.name]].append(item[node.name])
+    wide = [max((i.width for i in layer), default=0) for layer in layers]
+    made: dict[str, Chain] = {}
+    for edge in edges:
+        points = _points(edge, range(rank[edge.tail] + 1, rank[edge.head]), wide)
+        for point in points:
+            layers[point.rank].append(point)
+        made[edge.name] = [item[edge.tail], *points, item[edge.head]]
+    return layers, made
+
+
+def _points(edge: Edge, between: range, wide: Sequence[int]) -> list[Item]:
+    """One item per rank passed; the label sits where a column is wide enough already, or midway."""
+    points = [Item(r, 0, 0, 0, edge=edge) for r in between]
+    if any(edge.label):
+        middle = (between.start + between.stop - 1) / 2
+        seat = min(points, key=lambda p: (wide[p.rank] < edge.label[0], abs(p.rank - middle), p.rank))
+        seat.width, seat.above, seat.labelled = edge.label[0], edge.label[1], True
+    return points

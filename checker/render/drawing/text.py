@@ -1,0 +1,59 @@
+"""Measure and wrap text without asking the machine for a font.
+
+Widths are those of DejaVu Sans and Verdana, the widest of the usual sans-serif faces, so text set
+in any other face stays inside the space reserved for it.
+"""
+
+SIZE = 11
+"""Height of the letters of labels and actions, in pixels."""
+
+LINE = 14
+"""Distance between two lines of text, in pixels."""
+
+_NARROW = {c: 0.28 for c in "ijlI"} | {c: 0.32 for c in " .,:;'|/\\"} | {c: 0.40 for c in "()[]ftr-!\""}
+_WIDE = {c: 0.84 for c in "&#%<>=+*~≥≤≠∧∨¬→°"} | {c: 0.98 for c in "mMW@"} | {c: 0.82 for c in "wGOQ_"}
+_WIDTH = _NARROW | _WIDE | {"_": 0.5, "*": 0.5, "w": 0.82, "{": 0.64, "}": 0.64}
+
+
+def width(text: str, size: int = SIZE, bold: bool = False) -> int:
+    """The width of a line of text in pixels, rounded up."""
+    ems = sum(_WIDTH.get(c, 0.70 if c.isupper() else 0.62) for c in text)
+    return int(ems * size * (1.1 if bold else 1)) + 1
+
+
+def block(lines: tuple[str, ...], size: int = SIZE) -> tuple[int, int]:
+    """Width and height in pixels of lines set below each other; (0, 0) for no lines."""
+    return max((width(line, size) for line in lines), default=0), LINE * len(lines)
+
+
+def _pieces(text: str) -> list[str]:
+    """The text cut where a line may end: after a space, but never inside a short operator pair."""
+    words = text.split(" ")
+    pieces: list[str] = []
+    for word in words:
+        joined = pieces and (pieces[-1] in _LEADING or word in _TRAILING)
+        if joined:
+            pieces[-1] += " " + word
+        else:
+            pieces.append(word)
+    return pieces
+
+
+_LEADING = ("&&", "||", "else", "if")
+_TRAILING = (":=",)
+
+
+def wrap(text: str, limit: int, indent: str = "") -> tuple[str, ...]:
+    """The text in lines of at most ``limit`` characters where spaces allow it.
+
+    A line rather starts than ends with ``&&`` or ``||``; lines after the first start with ``indent``.
+    """
+    lines: list[str] = []
+    current = ""
+    for piece in _pieces(text):
+        if current and len(current) + 1 + len(piece) > limit:
+            lines.append(current)
+            current = indent + piece
+        else:
+            current = f"{current} {piece}" if current else piece
+    return (*lines, current) if current else tuple(lines)

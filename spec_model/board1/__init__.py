@@ -1,0 +1,41 @@
+"""The supervisor of Board 1: its charts and function blocks in execution order [seed §2.1, Fig 11].
+
+Fault detection, masks, classes of Board 2's faults, relay; then, if Board 1 actuates, safety state,
+limits and references.  A block sees in the same step what the blocks before it produced.
+"""
+
+from spec_model.board1.battery import monitor_battery
+from spec_model.board1.classify import process_b2_masks
+from spec_model.board1.heartbeat import monitor_heartbeat
+from spec_model.board1.limits import update_safety_limits
+from spec_model.board1.masks import fault_masks, own_causes
+from spec_model.board1.motion import motion_supervision
+from spec_model.board1.reception import monitor_reception
+from spec_model.board1.relay import relay
+from spec_model.board1.safety import safety_state
+from spec_model.board1.temperature import monitor_temperature
+from spec_model.board1.wheels import monitor_wheels
+from spec_model.lang.chart import Component, Enabled
+from spec_model.signals.board1 import give_b2_actuation
+
+MONITORS: tuple[Component, ...] = (
+    monitor_temperature,
+    monitor_battery,
+    *monitor_wheels,
+    monitor_heartbeat,
+    monitor_reception,
+)
+"""Fault detection: mutually independent [seed §2.4, Fig 15]."""
+
+REFERENCES = Enabled(~give_b2_actuation, safety_state, update_safety_limits, motion_supervision)
+"""Calculation of the references, executed only while Board 1 actuates [seed §2.1] (S48, S49)."""
+
+SUPERVISOR: tuple[Component, ...] = (
+    *MONITORS,
+    fault_masks,
+    own_causes,
+    process_b2_masks,
+    relay,
+    REFERENCES,
+)
+"""The whole supervisor of Board 1."""

@@ -1,0 +1,52 @@
+"""Battery monitor of Board 1: is there charge left, and is anybody still measuring [seed §2.4, Table 2].
+
+The document writes "temperature" in the critical row and "voltage" in Table 1; both mean the battery
+percentage (S15, S25).  Between 23 % and 25 % no row is true and the state is kept (S17).
+"""
+
+from fractions import Fraction
+
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Chart, Junction, State, to
+from spec_model.lang.expr import const, held, named
+from spec_model.lang.time import sec
+from spec_model.signals.board1 import batt_age, batt_status, battery_pct
+
+b = battery_pct
+
+critical_range = named("b in [0;15]", (b >= 0) & (b <= 15))  # S19, S20
+assumed_b = named("assumed_b", b - batt_age * const(Fraction("0.42") / 1000, "%/ms"))  # S24
+stale_below_15 = named("stale_below_15", (batt_age >= 500) & (assumed_b < 15))  # strict, as printed (S19)
+
+monitor_battery = Chart(
+    "Monitor_battery",
+    [
+        State(
+            "Batt_OK",
+            entry=[assign(batt_status, "BATT_HEALTH_OK")],
+            transitions=[to("decide")],
+        ),
+        State(
+            "Batt_DEG",
+            entry=[assign(batt_status, "BATT_HEALTH_DEGRADED")],
+            transitions=[to("decide")],
+        ),
+        State(
+            "Batt_CRIT",
+            entry=[assign(batt_status, "BATT_HEALTH_CRITICAL")],
+            transitions=[to("decide")],
+        ),
+    ],
+    default=[to("decide"), to("Batt_OK")],  # S65
+    junctions=[
+        Junction(
+            "decide",
+            [
+                to("Batt_CRIT", when=held(critical_range, for_=5 * sec) | stale_below_15),  # S16, S21
+                to("Batt_DEG", when=b < 23),  # also below 15 % for less than 5 s, without delay (S18, S22, S23)
+                to("Batt_OK", when=b > 25),
+            ],
+        )
+    ],
+    text="Battery status from the last valid percentage and its age.",
+)

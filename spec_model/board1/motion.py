@@ -1,0 +1,139 @@
+"""Motion supervision of Board 1: the references, from the command of Board 2, the user and the safety state.
+
+[seed §2.7, Fig 19; S57, S59-S64].  A running superstate with one state per manoeuvre, and the
+emergency stop procedure, which is left only after the rover has been at rest.
+
+Still to come: the 180° rotation (Retromarcia_180, and with it `invert_y` and `is_rotating180`, which
+are false outside it) and the toggle of backward mode; `backward_enabled` is an input here.  Systems
+assume that the user does not ask for the rotation: see `no_rotation_asked`.
+"""
+
+from spec_model.lang.action import assign, when
+from spec_model.lang.chart import Chart, State, to
+from spec_model.lang.expr import duration, maximum, minimum, named
+from spec_model.lang.time import sec
+from spec_model.signals.board1 import (
+    OMEGA_GO_LEFT,
+    OMEGA_GO_RIGHT,
+    OMEGA_MAX,
+    V_MAX,
+    V_MAX_MANEUVER,
+    actuate_emergency_stop,
+    backward_enabled,
+    cmd,
+    current_action,
+    estop_recover_enabled,
+    omega_ref,
+    omega_user,
+    rover_is_stopped,
+    rover_safety_state,
+    v_ref,
+    v_user,
+    wheels_below_2_5,
+    x_norm,
+    y_norm,
+)
+
+no_rotation_asked = named("no_rotation_asked", (y_norm >= -0.5) | backward_enabled)
+"""Normale_marcia leaves to Retromarcia_180 only with y_norm < -0.5 and backward mode off."""
+
+critical = rover_safety_state == "SAFETY_CRITICAL"
+back_to_normal = to("Normale_marcia", when=cmd == "CMD_NORMAL")
+
+update_user_command = [assign(v_user, y_norm * V_MAX), assign(omega_user, x_norm * OMEGA_MAX)]  # SCALE (S57)
+
+motion_supervision = Chart(
+    "Motion_Supervision",
+    [
+        State(
+            "Stato_marcia_rover",
+            entry=update_user_command,
+            during=update_user_command,
+            transitions=[
+                to(
+                    "In_frenata_di_emergenza",
+                    when=((cmd == "CMD_ESTOP") & (v_user > 0)) | critical,  # S61, S63
+                    do=[assign(estop_recover_enabled, False)],
+                ),
+            ],
+            default="Normale_marcia",
+            states=[
+                State(
+                    "Normale_marcia",
+                    entry=[assign(current_action, "CMD_NORMAL")],
+                    during=[
+                        when(backward_enabled | (y_norm > 0), [assign(v_ref, v_user)], [assign(v_ref, 0)]),  # S59
+                        assign(omega_ref, omega_user),
+                    ],
+                    transitions=[
+                        to("Schivata_a_sinistra", when=(v_user > 0) & (cmd == "CMD_GO_LEFT")),
+                        to("Evita_sinistra", when=(v_user > 0) & (cmd == "CMD_AVOID_LEFT")),
+                        to("Evita_destra", when=(v_user > 0) & (cmd == "CMD_AVOID_RIGHT")),
+                        to("Schivata_a_destra", when=(v_user > 0) & (cmd == "CMD_GO_RIGHT")),
+                    ],
+                ),
+                State(
+                    "Schivata_a_sinistra",
+                    entry=[assign(current_action, "CMD_GO_LEFT")],
+                    during=[
+                        assign(v_ref, minimum(v_user, V_MAX_MANEUVER)),  # S60
+                        assign(omega_ref, maximum(omega_user, OMEGA_GO_LEFT)),
+                    ],
+                    transitions=[back_to_normal],
+                ),
+                State(
+                    "Schivata_a_destra",
+                    entry=[assign(current_action, "CMD_GO_RIGHT")],
+                    during=[
+                        assign(v_ref, minimum(v_user, V_MAX_MANEUVER)),
+                        assign(omega_ref, minimum(omega_user, OMEGA_GO_RIGHT)),
+                    ],
+                    transitions=[back_to_normal],
+                ),
+                State(
+                    "Evita_sinistra",
+                    entry=[assign(current_action, "CMD_AVOID_LEFT")],
+                    during=[assign(v_ref, v_user), assign(omega_ref, minimum(omega_user, 0))],
+                    transitions=[back_to_normal],
+                ),
+                State(
+                    "Evita_destra",
+                    entry=[assign(current_action, "CMD_AVOID_RIGHT")],
+                    during=[assign(v_ref, v_user), assign(omega_ref, maximum(omega_user, 0))],
+                    transitions=[back_to_normal],
+                ),
+            ],
+        ),
+        State(
+            "Procedura_emergency_stop",
+            transitions=[
+                to(
+                    "Stato_marcia_rover",
+                    when=~critical & estop_recover_enabled,
+                    do=[assign(actuate_emergency_stop, False)],  # latched until at rest (S62)
+                ),
+            ],
+            states=[
+                State(
+                    "In_frenata_di_emergenza",
+                    entry=[
+                        assign(current_action, "CMD_ESTOP"),
+                        assign(v_ref, 0),
+                        assign(omega_ref, 0),
+                        assign(actuate_emergency_stop, True),
+                    ],
+                    during=[assign(rover_is_stopped, wheels_below_2_5)],
+                    transitions=[to("Motori_fermi", when=duration(rover_is_stopped) > 1 * sec)],
+                ),
+                State(
+                    "Motori_fermi",
+                    entry=[assign(current_action, "CMD_STOP"), assign(estop_recover_enabled, True)],
+                ),
+            ],
+        ),
+    ],
+    default="Stato_marcia_rover",
+    # UPD writes both before any later read, so their values outside the running state mean nothing.
+    local_to=[(v_user, ["Stato_marcia_rover"]), (omega_user, ["Stato_marcia_rover"])],
+    text="Linear and angular reference, emergency stop and current action of Board 1.",
+)

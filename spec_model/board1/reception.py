@@ -1,0 +1,29 @@
+"""Reception monitor of Board 1: do valid frames arrive from Board 2, and often enough [seed §2.4, Table 2]."""
+
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Chart, Junction, State, to
+from spec_model.lang.expr import named
+from spec_model.signals.board1 import rx_age, rx_slow, rx_status
+
+silent = named("age_R > 120 ms", rx_age > 120)
+
+monitor_reception = Chart(
+    "Monitor_reception",
+    [
+        State("Rx_OK", entry=[assign(rx_status, "RX_OK")], transitions=[to("decide")]),
+        State("Rx_DEG", entry=[assign(rx_status, "RX_DEGRADED")], transitions=[to("decide")]),
+        State("Rx_CRIT", entry=[assign(rx_status, "RX_CRITICAL")], transitions=[to("decide")]),
+    ],
+    default=[to("decide"), to("Rx_OK")],  # S65
+    junctions=[
+        Junction(
+            "decide",
+            [
+                to("Rx_CRIT", when=silent),  # strict (S37); wins over a slow mean (S39)
+                to("Rx_DEG", when=rx_slow),
+                to("Rx_OK"),  # released by the first fresh frame (S38)
+            ],
+        )
+    ],
+    text="Reception status from the age of the last valid frame and the mean of ten intervals.",
+)

@@ -1,0 +1,55 @@
+"""Temperature monitor of Board 1: how warm is the board, and is anybody still measuring [seed §2.4, Table 2].
+
+The ranges read the last valid temperature, also when it is old (S11, S12); absence of readings counts
+only through the assumed rise (S13).
+"""
+
+from fractions import Fraction
+
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Chart, Junction, State, to
+from spec_model.lang.expr import const, held, named
+from spec_model.lang.time import sec
+from spec_model.signals.board1 import temp_age, temp_status, temperature_degC
+
+T = temperature_degC
+
+ok_range = named("T in ]-5;55[", (T > -5) & (T < 55))
+degraded_range = named("T in ]-15;-5] or [55;60[", ((T > -15) & (T <= -5)) | ((T >= 55) & (T < 60)))
+critical_range = named("T in ]-inf;-15] or [60;+inf[", (T <= -15) | (T >= 60))  # one set (S03)
+
+assumed_T = named("assumed_T", T + temp_age * const(Fraction(1, 1000), "°C/ms"))  # 1 °C/s from the reading (S09)
+stale_above_65 = named("stale_above_65", (temp_age >= 500) & (assumed_T > 65))  # S06, S07, S08, S14
+
+monitor_temperature = Chart(
+    "Monitor_temperature",
+    [
+        State(
+            "Temp_OK",
+            entry=[assign(temp_status, "TEMP_HEALTH_OK")],
+            transitions=[to("decide")],
+        ),
+        State(
+            "Temp_DEG",
+            entry=[assign(temp_status, "TEMP_HEALTH_DEGRADED")],
+            transitions=[to("decide")],
+        ),
+        State(
+            "Temp_CRIT",
+            entry=[assign(temp_status, "TEMP_HEALTH_CRITICAL")],
+            transitions=[to("decide")],
+        ),
+    ],
+    default=[to("decide"), to("Temp_OK")],  # classified in the very first step (S65)
+    junctions=[
+        Junction(
+            "decide",
+            [
+                to("Temp_CRIT", when=held(critical_range, for_=4 * sec) | stale_above_65),  # S02, S04, S10
+                to("Temp_DEG", when=degraded_range | critical_range),  # degraded while pending (S01)
+                to("Temp_OK", when=ok_range),  # released at once (S05)
+            ],
+        )
+    ],
+    text="Temperature status from the last valid reading and its age.",
+)

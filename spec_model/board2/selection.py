@@ -1,0 +1,36 @@
+"""Which obstacle chart decides, and the decision as a command for Board 1 [seed Figs 12, 24, 28]."""
+
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Block, Chart, Component
+from spec_model.lang.expr import Expr, ite, member
+from spec_model.signals.board2 import B2Dec, B2DecDegraded, B2Decision, DEG_B1, command, prevDEG_B1
+from spec_model.signals.common import COMMAND
+
+MEANING = {1: "CMD_ESTOP", 2: "CMD_GO_LEFT", 4: "CMD_GO_RIGHT", 6: "CMD_ESTOP"}
+"""Decision -> command; every other decision is CMD_NORMAL, "move toward sonar 2" too (E04, E31)."""
+
+
+def selection(
+    normal: Chart, degraded: Chart, *, deg_mask_b1: Expr, crit_mask_b1: Expr, autorized: Expr
+) -> tuple[Component, ...]:
+    """Both charts, executed in every step (E32), between the blocks that select and translate.
+
+    ``deg_mask_b1`` and ``crit_mask_b1``: the mask last received from Board 1 is not zero;
+    ``autorized``: Board 2 was authorised to move the rover at the end of the step before (E09).
+    """
+    select = Block("SelectState", [
+        assign(prevDEG_B1, DEG_B1),
+        assign(DEG_B1, deg_mask_b1 | crit_mask_b1 | autorized),
+    ], text="Degraded as far as obstacles go: a fault on Board 1, or Board 2 drives")  # fmt: skip
+    translate = Block("TranslateDecision", [
+        assign(B2Dec, ite(DEG_B1, B2DecDegraded, B2Decision)),
+        assign(command, _command()),
+    ], text="Decision 0..6 to a command of Board 1 [seed Fig 12]")  # fmt: skip
+    return (select, normal, degraded, translate)
+
+
+def _command() -> Expr:
+    chosen: Expr = member(COMMAND, "CMD_NORMAL")
+    for number, name in MEANING.items():
+        chosen = ite(B2Dec == number, member(COMMAND, name), chosen)
+    return chosen

@@ -1,0 +1,104 @@
+"""The systems in which the obstacle charts of Board 2 are checked, from one chart alone to both selected."""
+
+from spec_model.board2.heading import headings, measured
+from spec_model.board2.obstacles import TIMED, WINDOWS, obstacles_n
+from spec_model.board2.obstacles_degraded import obstacles_degraded
+from spec_model.board2.selection import selection
+from spec_model.environment2 import scan_phase, sonar_scan
+from spec_model.lang.chart import Chart, Component
+from spec_model.lang.expr import flag
+from spec_model.lang.system import System, in_order
+
+deg_mask_b1 = flag("deg_mask_b1", "the degraded mask last received from Board 1 is not zero")
+crit_mask_b1 = flag("crit_mask_b1", "the critical mask last received from Board 1 is not zero")
+autorized_prev = flag("autorized_prev", "Board 2 was authorised to move the rover in the step before")
+
+ARBITRARY = "The three distances are arbitrary in every step, on both sides of 70, 100 and 300 cm."
+FREE_FLAG = "prevDEG_B1 is arbitrary in every step."
+FREE_MASKS = "Non-zero Board 1 masks and the authorisation of the step before are arbitrary in every step."
+FREE_HEADING = (
+    "The 45 degree test of the heading is a free input, false in the step of entry; for a chart that "
+    "meets an arbitrary yaw in every step this adds and loses no run."
+)
+
+
+def _any_stay(*timed: str) -> str:
+    free = ", ".join(name for name in TIMED if name not in timed)
+    return f"The stay in {free} may end in any step after the step of entry, which only adds runs."
+
+
+def _alone(name: str, text: str, *timed: str) -> System:
+    """The non-degraded chart alone, with counters for ``timed`` and free ends for the others."""
+    exact = set(timed) == set(TIMED)
+    notes = (ARBITRARY, FREE_FLAG, FREE_HEADING, *(() if exact else (_any_stay(*timed),)))
+    return in_order(name, obstacles_n(timed), text=text, notes=notes, over=not exact)
+
+
+def _selected(chart: Chart) -> tuple[Component, ...]:
+    return selection(
+        chart,
+        obstacles_degraded(),
+        deg_mask_b1=deg_mask_b1,
+        crit_mask_b1=crit_mask_b1,
+        autorized=autorized_prev,
+    )
+
+
+HEADING_GRID = 15
+
+SYSTEMS: tuple[System, ...] = (
+    _alone("obstacles_n", "The non-degraded obstacle chart alone, as drawn.", *TIMED),
+    _alone("obstacles_n_free", "The non-degraded obstacle chart alone; every timed stay ends at will."),
+    _alone(
+        "obstacles_n_straight",
+        "The non-degraded obstacle chart alone; only the 0.5 s of MoveToS2 are counted.",
+        "MoveToS2",
+    ),
+    *(
+        _alone(
+            f"obstacles_n_{name.removeprefix('timerSonar')}",
+            f"The non-degraded obstacle chart alone; only the 3 s of {name} are counted.",
+            name,
+        )
+        for name in WINDOWS
+    ),
+    in_order(
+        "obstacles_heading",
+        obstacles_n(TIMED, measured(*headings(HEADING_GRID))),
+        text="The non-degraded obstacle chart alone, with the heading it measures.",
+        notes=(ARBITRARY, FREE_FLAG, f"yaw is an arbitrary multiple of {HEADING_GRID} degrees in every step."),
+        under=True,
+    ),
+    in_order(
+        "obstacles_d",
+        obstacles_degraded(),
+        text="The degraded obstacle chart alone.",
+        notes=(ARBITRARY,),
+    ),
+    in_order(
+        "obstacles",
+        *_selected(obstacles_n()),
+        text="Both obstacle charts, the selection between them and the command for Board 1.",
+        notes=(ARBITRARY, FREE_MASKS, FREE_HEADING),
+    ),
+    in_order(
+        "obstacles_free",
+        *_selected(obstacles_n(())),
+        text="As obstacles; every timed stay of the non-degraded chart ends at will.",
+        notes=(ARBITRARY, FREE_MASKS, FREE_HEADING, _any_stay()),
+        over=True,
+    ),
+    in_order(
+        "obstacles_scan",
+        sonar_scan,
+        *_selected(obstacles_n()),
+        text="As obstacles, with sonar data that are replaced every 60 ms.",
+        frozen=(scan_phase,),
+        notes=(
+            "Distances are replaced every third step, in a phase that is constant and unknown (A01, A07).",
+            "One distance stands for each of the four sets that the limits 70, 100 and 300 cm divide.",
+            FREE_MASKS,
+            FREE_HEADING,
+        ),
+    ),
+)

@@ -1,0 +1,31 @@
+"""What surrounds Board 2 when it is checked: when the sonar data change, as an optional assumption.
+
+Without this block the three distances are arbitrary in every step, which covers every sonar.  With
+it they are replaced in the first step, then again after one to three steps (the phase of the sonar
+task is a constant nobody knows), and from then on in every third step: assumptions A01 and A07.  The
+scan time of up to 20 ms, by which one replacement may come a step later, is left out.
+"""
+
+from spec_model.lang.action import assign, when
+from spec_model.lang.chart import Block
+from spec_model.lang.domain import chosen, integer
+from spec_model.lang.expr import TRUE, flag, ite, var
+from spec_model.signals.board2 import SONARS
+
+# One distance for each set that no limit of the charts divides: ..70, 71..100, 101..300, 301..
+cell = chosen([70, 100, 300, 301], "cm")
+
+echo = tuple(var(f"echo{i}", cell, doc=f"distance sonar S{i} would measure in this step") for i in (1, 2, 3))
+scan_phase = var("scan_phase", integer(0, 2), doc="steps between the first step and the next scan, less one")
+until_scan = var("until_scan", integer(0, 2), doc="steps until the sonar data are replaced")
+scanned = flag("scanned", "the first scan has been read")
+
+sonar_scan = Block("SonarScan", [
+    when(until_scan == 0, [
+        *(assign(d, measured) for d, measured in zip(SONARS, echo, strict=True)),
+        assign(until_scan, ite(scanned, 2, scan_phase)),
+        assign(scanned, TRUE),
+    ], [
+        assign(until_scan, until_scan - 1),
+    ]),
+], text="Sonar data are replaced every 60 ms (A07), the first time in the first step (A01)")  # fmt: skip

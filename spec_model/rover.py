@@ -1,0 +1,34 @@
+"""The systems that are checked, by name: every chart with its environment, and each board as a whole."""
+
+from collections.abc import Iterable
+from importlib import import_module
+from importlib.util import find_spec
+
+from spec_model.lang.errors import ModelError
+from spec_model.lang.system import System
+
+BOARDS = ("spec_model.board1.systems", "spec_model.board2.systems")
+"""Modules with a tuple SYSTEMS, in the order in which the systems are listed."""
+
+
+def systems() -> dict[str, System]:
+    """Every system by name.  Raises ``ModelError`` for a name used twice."""
+    return merged(system for module in BOARDS for system in _systems_of(module))
+
+
+def _systems_of(module: str) -> tuple[System, ...]:
+    package = module.rpartition(".")[0]
+    if find_spec(package) is None or find_spec(module) is None:
+        return ()
+    found: tuple[System, ...] = import_module(module).SYSTEMS
+    return found
+
+
+def merged(found: Iterable[System]) -> dict[str, System]:
+    """The systems by name.  Raises ``ModelError`` for a name used twice."""
+    by_name: dict[str, System] = {}
+    for system in found:
+        if system.name in by_name:
+            raise ModelError(f"Two systems are named {system.name!r}; rename one of them.")
+        by_name[system.name] = system
+    return by_name

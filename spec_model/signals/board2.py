@@ -1,0 +1,45 @@
+"""Signals of the Board 2 obstacle logic: what the sonars measure, what the charts remember, what they decide."""
+
+from spec_model.lang.domain import chosen, integer
+from spec_model.lang.expr import Expr, Var, any_of, flag, named, var
+from spec_model.signals.common import COMMAND
+
+# Both sides of every limit the charts compare with: 70, 100 and 300 cm; 301 is "no echo" (E13).
+distance = chosen([0, 70, 71, 100, 101, 200, 299, 300, 301], "cm")
+
+d1 = var("d1", distance, doc="distance on the left sonar S1 [seed §1.3.1]")
+d2 = var("d2", distance, doc="distance on the centre sonar S2 [seed §1.3.1]")
+d3 = var("d3", distance, doc="distance on the right sonar S3 [seed §1.3.1]")
+SONARS = (d1, d2, d3)
+
+decision = integer(0, 6)
+"""0 execute the user command, 1 stop, 2 3 4 move toward sonar 1 2 3, 5 move degraded, 6 stop degraded."""
+
+# --- chart of the non-degraded state [seed §3.4.1, Figs 24-27] ------------------------------------
+
+B2Decision = var("B2Decision", decision, doc="output of the non-degraded chart, 0..4 [seed §3.4.1 (1)]")
+stop = flag("stop", "a sonar measured 70 cm or less [seed Fig 26]")
+isClose = tuple(flag(f"isClose{i}", f"S{i} measured 100..300 cm [seed Fig 27]") for i in (1, 2, 3))
+objDetected = tuple(flag(f"obj{i}Detected", f"S{i} holds a detection [seed §3.4.1 i]") for i in (1, 2, 3))
+obj1Detected, obj2Detected, obj3Detected = objDetected
+
+# --- chart of the degraded state [seed §3.4.2, Fig 28] --------------------------------------------
+
+B2DecDegraded = var("B2DecDegraded", decision, init=5, doc="output of the degraded chart, 5 or 6 [seed Fig 28]")
+
+# --- selection and translation [seed Figs 12, 24, 28] ---------------------------------------------
+
+DEG_B1 = flag("DEG_B1", "Board 1 is not healthy or Board 2 drives: the degraded chart decides (E09)")
+prevDEG_B1 = flag("prevDEG_B1", "DEG_B1 of the step before, read by the non-degraded chart [seed Fig 25]")
+B2Dec = var("B2Dec", decision, doc="decision of Board 2 about obstacles [seed Figs 24, 28]")
+command = var("command", COMMAND, doc="the decision as a command for Board 1 [seed Fig 12]")
+
+
+def within(limit: int) -> Expr:
+    """Some sonar measures an obstacle at ``limit`` cm or less."""
+    return named(f"nearest <= {limit}", any_of(*(d <= limit for d in SONARS)))
+
+
+def in_range(d: Var) -> Expr:
+    """The range in which a moving obstacle is looked for: above 100, up to 300 cm (E01, E03)."""
+    return named(f"closeRange({d.name})", (d > 100) & (d <= 300))
