@@ -53,7 +53,7 @@ format: $(STAMP)
 	@$(RUN) -m ruff format .
 
 reports: $(STAMP)
-	@$(RUN) -m checker report $(ARGS)
+	@$(RUN) -m checker reports $(ARGS)
 
 bench: $(STAMP)
 	@$(RUN) -m benchmarks $(ARGS)

@@ -9,7 +9,7 @@ scan time of up to 20 ms, by which one replacement may come a step later, is lef
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block
 from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import TRUE, flag, ite, var
+from spec_model.lang.expr import TRUE, flag, ite, maximum, var
 from spec_model.signals.board2 import SONARS
 
 # One distance for each set that no limit of the charts divides: ..70, 71..100, 101..300, 301..
@@ -26,6 +26,6 @@ sonar_scan = Block("SonarScan", [
         assign(until_scan, ite(scanned, 2, scan_phase)),
         assign(scanned, TRUE),
     ], [
-        assign(until_scan, until_scan - 1),
+        assign(until_scan, maximum(until_scan - 1, 0)),
     ]),
 ], text="Sonar data are replaced every 60 ms (A07), the first time in the first step (A01)")  # fmt: skip

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from importlib import import_module
 from importlib.util import find_spec
 
+from spec_model.lang.chart import Chart
 from spec_model.lang.errors import ModelError
 from spec_model.lang.system import System
 
@@ -32,3 +33,12 @@ def merged(found: Iterable[System]) -> dict[str, System]:
             raise ModelError(f"Two systems are named {system.name!r}; rename one of them.")
         by_name[system.name] = system
     return by_name
+
+
+def charts() -> dict[str, Chart]:
+    """Every chart by name, as drawn: of charts with one name in several systems, the first listed."""
+    found: dict[str, Chart] = {}
+    for system in systems().values():
+        for chart in system.charts:
+            found.setdefault(chart.name, chart)
+    return found

@@ -37,6 +37,7 @@ from spec_model.signals.board1 import (
 no_rotation_asked = named("no_rotation_asked", (y_norm >= -0.5) | backward_enabled)
 """Normale_marcia leaves to Retromarcia_180 only with y_norm < -0.5 and backward mode off."""
 
+may_move = backward_enabled | (y_norm > 0)
 critical = rover_safety_state == "SAFETY_CRITICAL"
 back_to_normal = to("Normale_marcia", when=cmd == "CMD_NORMAL")
 
@@ -62,7 +63,7 @@ motion_supervision = Chart(
                     "Normale_marcia",
                     entry=[assign(current_action, "CMD_NORMAL")],
                     during=[
-                        when(backward_enabled | (y_norm > 0), [assign(v_ref, v_user)], [assign(v_ref, 0)]),  # S59
+                        when(may_move, [assign(v_ref, v_user)], [assign(v_ref, 0)]),  # S59
                         assign(omega_ref, omega_user),
                     ],
                     transitions=[

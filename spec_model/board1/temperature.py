@@ -18,7 +18,7 @@ ok_range = named("T in ]-5;55[", (T > -5) & (T < 55))
 degraded_range = named("T in ]-15;-5] or [55;60[", ((T > -15) & (T <= -5)) | ((T >= 55) & (T < 60)))
 critical_range = named("T in ]-inf;-15] or [60;+inf[", (T <= -15) | (T >= 60))  # one set (S03)
 
-assumed_T = named("assumed_T", T + temp_age * const(Fraction(1, 1000), "°C/ms"))  # 1 °C/s from the reading (S09)
+assumed_T = named("assumed_T", T + temp_age * const(Fraction(1, 1000), "°C/ms"))  # 1 °C/s (S09)
 stale_above_65 = named("stale_above_65", (temp_age >= 500) & (assumed_T > 65))  # S06, S07, S08, S14
 
 monitor_temperature = Chart(

@@ -22,4 +22,5 @@ def obstacles_degraded(name: str = "ObstaclesDegraded", decision: Var = B2DecDeg
         State("check_sonars_for_moving_again", entry=[assign(decision, 6)], transitions=[
             to("check_sonars_for_stopping", when=~check300),
         ]),
-    ], default="check_sonars_for_stopping", text="Obstacles in the degraded state [seed §3.4.2, Fig 28]")  # fmt: skip
+    ], default="check_sonars_for_stopping",
+       text="Obstacles in the degraded state [seed §3.4.2, Fig 28]")  # fmt: skip

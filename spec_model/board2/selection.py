@@ -3,7 +3,7 @@
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block, Chart, Component
 from spec_model.lang.expr import Expr, ite, member
-from spec_model.signals.board2 import B2Dec, B2DecDegraded, B2Decision, DEG_B1, command, prevDEG_B1
+from spec_model.signals.board2 import DEG_B1, B2Dec, B2DecDegraded, B2Decision, command, prevDEG_B1
 from spec_model.signals.common import COMMAND
 
 MEANING = {1: "CMD_ESTOP", 2: "CMD_GO_LEFT", 4: "CMD_GO_RIGHT", 6: "CMD_ESTOP"}

@@ -66,7 +66,11 @@ SYSTEMS: tuple[System, ...] = (
         "obstacles_heading",
         obstacles_n(TIMED, measured(*headings(HEADING_GRID))),
         text="The non-degraded obstacle chart alone, with the heading it measures.",
-        notes=(ARBITRARY, FREE_FLAG, f"yaw is an arbitrary multiple of {HEADING_GRID} degrees in every step."),
+        notes=(
+            ARBITRARY,
+            FREE_FLAG,
+            f"yaw is an arbitrary multiple of {HEADING_GRID} degrees in every step.",
+        ),
         under=True,
     ),
     in_order(

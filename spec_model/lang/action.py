@@ -6,7 +6,18 @@ from typing import Union
 
 from spec_model.lang.domain import Bool, Num, show
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Expr, Operand, Temporal, Var, lift, nodes, rescale, variables
+from spec_model.lang.expr import (
+    Const,
+    Expr,
+    Operand,
+    Temporal,
+    Var,
+    is_multiple,
+    lift,
+    nodes,
+    rescale,
+    variables,
+)
 from spec_model.lang.label import text
 
 
@@ -65,7 +76,8 @@ def assign(var: Var, value: Operand | str) -> Assign:
 def _in_steps_of(var: Var, expr: Expr) -> Expr:
     if not (isinstance(expr.sort, Num) and isinstance(var.sort, Num)):
         return expr
-    if (expr.sort.resolution / var.sort.resolution).denominator != 1:
+    literal = isinstance(expr, Const) and is_multiple(expr, var.sort.resolution)
+    if not literal and (expr.sort.resolution / var.sort.resolution).denominator != 1:
         raise ModelError(
             f"{var.name} has steps of {show(var.sort.resolution)} and `{expr}` steps of "
             f"{show(expr.sort.resolution)}; give {var.name} a resolution that divides both."

@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
+from functools import reduce
 from typing import Union
 
 from spec_model.lang.domain import (
@@ -283,15 +284,22 @@ def _number(expr: Expr, where: str) -> Expr:
 
 
 def rescale(expr: Expr, sort: Num) -> Expr:
-    """The same number in a resolution that divides its own."""
+    """The same number in a resolution that divides its own (for a constant: its value)."""
     assert isinstance(expr.sort, Num)
     factor = expr.sort.resolution / sort.resolution
     if factor == 1:
         return expr
-    assert factor.denominator == 1
     if isinstance(expr, Const):
-        return Const(expr.value * int(factor), sort)
+        assert (expr.value * factor).denominator == 1
+        return Const(int(expr.value * factor), sort)
+    assert factor.denominator == 1
     return Apply(Op.SCALE, (expr, Const(int(factor), Num())), sort)
+
+
+def is_multiple(literal: Const, resolution: Fraction) -> bool:
+    """Whether the constant is a whole number of steps of the resolution."""
+    assert isinstance(literal.sort, Num)
+    return (literal.value * literal.sort.resolution / resolution).denominator == 1
 
 
 def _aligned(where: str, *exprs: Expr) -> tuple[tuple[Expr, ...], Num]:
@@ -301,9 +309,11 @@ def _aligned(where: str, *exprs: Expr) -> tuple[tuple[Expr, ...], Num]:
     if len({n.unit for n in nums}) > 1:
         shown = " and ".join(f"`{e}` in {n.unit or 'no unit'}" for e, n in zip(exprs, nums, strict=True))
         raise ModelError(f"`{where}` mixes {shown}; convert with a factor that has a unit.")
-    step = nums[0].resolution
-    for num in nums[1:]:
-        step = common_resolution(step, num.resolution)
+    steps = [n.resolution for e, n in zip(exprs, nums, strict=True) if not isinstance(e, Const)]
+    for e, num in zip(exprs, nums, strict=True):
+        if isinstance(e, Const) and not (steps and is_multiple(e, steps[0])):
+            steps.append(num.resolution)  # a constant needs no finer steps than its value does
+    step = reduce(common_resolution, steps)
     sort = Num(step, nums[0].unit)
     return tuple(rescale(e, sort) for e in exprs), sort
 

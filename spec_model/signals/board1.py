@@ -116,7 +116,8 @@ current_action = var("current_action", COMMAND, "CMD_NORMAL", "action in progres
 
 def sent(received: Var) -> Var:
     """The content of the frame that arrives with ``rx_update``, for a field of the payload."""
-    return Var(f"frame_{received.name}", received.domain, received.init, f"{received.name} in the arriving frame")
+    doc = f"{received.name} in the arriving frame"
+    return Var(f"frame_{received.name}", received.domain, received.init, doc)
 
 
 rx_mean_slow = flag("rx_mean_slow", "free: whether the mean exceeds 40 ms at this update")

@@ -1,4 +1,4 @@
-"""Signals of the Board 2 obstacle logic: what the sonars measure, what the charts remember, what they decide."""
+"""Signals of the obstacle logic of Board 2: what the sonars measure, what the charts keep and decide."""
 
 from spec_model.lang.domain import chosen, integer
 from spec_model.lang.expr import Expr, Var, any_of, flag, named, var
@@ -25,7 +25,7 @@ obj1Detected, obj2Detected, obj3Detected = objDetected
 
 # --- chart of the degraded state [seed §3.4.2, Fig 28] --------------------------------------------
 
-B2DecDegraded = var("B2DecDegraded", decision, init=5, doc="output of the degraded chart, 5 or 6 [seed Fig 28]")
+B2DecDegraded = var("B2DecDegraded", decision, doc="output of the degraded chart, 5 or 6 [seed Fig 28]")
 
 # --- selection and translation [seed Figs 12, 24, 28] ---------------------------------------------
 

@@ -12,7 +12,8 @@ class Node:
     """A box of a given size.
 
     ``ports`` are distances from its top at which named edges must meet it; other edges meet it
-    where it suits them.  Edges of a ``round`` node fan out from its centre.
+    where it suits them, below the first ``lead`` pixels.  Edges of a ``round`` node fan out from
+    its centre.
     """
 
     name: str
@@ -20,6 +21,7 @@ class Node:
     height: int
     ports: Mapping[str, int] = field(default_factory=dict)
     round: bool = False
+    lead: int = 0
 
 
 @dataclass(frozen=True)

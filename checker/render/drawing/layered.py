@@ -33,14 +33,12 @@ def layered(
 
 
 def _roomy(node: Node, edges: Sequence[Edge]) -> Node:
-    """The node, made high enough for the lines that meet it."""
-    ends = max(
-        sum(e.tail == node.name and e.name not in node.ports for e in edges),
-        sum(e.head == node.name and e.name not in node.ports for e in edges),
-    )
-    if node.ports or (node.round and ends < 2):
+    """The node, made high enough for the lines that meet it, so that they can stay straight."""
+    leaving = [e.label[1] for e in edges if e.tail == node.name and e.name not in node.ports]
+    coming = [e.label[1] for e in edges if e.head == node.name and e.name not in node.ports]
+    if node.ports or (node.round and max(len(leaving), len(coming)) < 2):
         return node
-    return replace(node, height=max(node.height, room(ends)))
+    return replace(node, height=max(node.height, node.lead + max(room(leaving), room(coming))))
 
 
 def _jogs(

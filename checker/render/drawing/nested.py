@@ -5,178 +5,190 @@ keeps a port on its left or right side for it.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from itertools import zip_longest
+from dataclasses import dataclass, replace
 
-from checker.render.drawing.graph import Edge, Node, Placed, Point
+from checker.render.drawing.cuts import DOT, Cut, Sides, cuts, edge, meetings, padded, reversed_in
+from checker.render.drawing.graph import Edge, Node, Placed
 from checker.render.drawing.layered import layered
-from checker.render.drawing.packing import rows
+from checker.render.drawing.packing import extent, packed
+from checker.render.drawing.picture import Box, Picture, Piece, Spot
 from checker.render.drawing.placing import EDGE, PITCH
 from checker.render.drawing.ranking import backward
-from checker.render.drawing.scheme import ChartArrow, action_lines, arrows, execution_order, label_parts
+from checker.render.drawing.scheme import ChartArrow, action_lines, arrows, execution_order
 from checker.render.drawing.text import LINE, block, width, wrap
 from spec_model.lang.chart import Chart, Path
+from spec_model.lang.errors import ModelError
 
 PAD = 16
 RADIUS = 7
-DOT = 5
-LABEL = 34
-"""Characters in a line of a label; in a line of actions there may be ``ACTION`` of them."""
-ACTION = 46
+SMALL = 5
+TITLE = 13
+HEAD = 22
+"""Height of a title line with its air, in pixels."""
+
+ACTION = 62
+"""Characters in a line of actions."""
 
 
 @dataclass(frozen=True)
-class Box:
-    """A state: its rectangle, its title and action lines; ``order`` numbers a parallel region."""
+class _Sheet:
+    """The chart and its arrows, which every level looks at."""
 
-    path: Path
-    x: int
-    y: int
-    width: int
-    height: int
-    lines: tuple[str, ...]
-    order: int
-    composite: bool
+    chart: Chart
+    arrows: tuple[ChartArrow, ...]
 
 
-@dataclass(frozen=True)
-class Spot:
-    """A junction (``path`` names it) or the dot at the start of a default transition."""
+def picture(chart: Chart) -> Picture:
+    """The chart with coordinates.
 
-    path: Path
-    x: int
-    y: int
-    radius: int
-    dot: bool
+    Raises ``ModelError`` for an arrow to an unknown name or between parallel regions.
+    """
+    return _level(_Sheet(chart, arrows(chart)), (), {}, 0)
 
 
-@dataclass(frozen=True)
-class Piece:
-    """A piece of an arrow between two borders; the label (top-left corner) is on the first piece."""
-
-    arrow: ChartArrow
-    points: tuple[Point, ...]
-    starts: bool
-    ends: bool
-    lines: tuple[str, ...] = ()
-    label: Point = (0, 0)
-
-
-@dataclass(frozen=True)
-class Drawing:
-    """Everything to be drawn, in pixels from the top left corner."""
-
-    width: int
-    height: int
-    boxes: tuple[Box, ...] = ()
-    spots: tuple[Spot, ...] = ()
-    pieces: tuple[Piece, ...] = ()
-    ports: Mapping[str, int] = field(default_factory=dict)
-
-    def moved(self, dx: int, dy: int) -> "Drawing":
-        """The same, shifted; ports are heights and shift too."""
-        return replace(
-            self,
-            boxes=tuple(replace(b, x=b.x + dx, y=b.y + dy) for b in self.boxes),
-            spots=tuple(replace(s, x=s.x + dx, y=s.y + dy) for s in self.spots),
-            pieces=tuple(_moved(p, dx, dy) for p in self.pieces),
-            ports={name: y + dy for name, y in self.ports.items()},
-        )
+def _level(sheet: _Sheet, level: Path, sides: Sides, least: int) -> Picture:
+    """What is inside a composite; arrows that cross its border end at the picture's left or right."""
+    found = list(cuts(sheet.arrows, level))
+    if sheet.chart.states[level].parallel:
+        return _regions(sheet, level, found, sides, least)
+    state = sheet.chart.states[level]
+    names = [DOT] * bool(state.default) + [m.name for m in (*state.states, *state.junctions)]
+    back = backward(names, [(c.name, c.source, c.target) for c in found if not c.crosses and not c.loop])
+    inner = {s.name: _child(sheet, (*level, s.name), found, back) for s in state.states}
+    nodes = [_node(name, found, inner) for name in names]
+    lines = [c for c in found if not c.loop]
+    edges = {c.name: edge(c, back, sides) for c in lines}
+    ports = [c for c in lines if c.crosses]
+    nodes += [Node(c.port, 0, 0, {c.name: 0}) for c in ports]
+    left = [c.port for c in ports if edges[c.name].tail == c.port]
+    right = [c.port for c in ports if edges[c.name].head == c.port]
+    placed = layered(nodes, list(edges.values()), left, right)
+    return _assembled(level, found, inner, edges, placed)
 
 
-def _moved(piece: Piece, dx: int, dy: int) -> Piece:
-    points = tuple((x + dx, y + dy) for x, y in piece.points)
-    return replace(piece, points=points, label=(piece.label[0] + dx, piece.label[1] + dy))
+def _node(name: str, found: Sequence[Cut], inner: Mapping[str, Picture]) -> Node:
+    if name == DOT:
+        return Node(name, 2 * SMALL, 2 * SMALL, round=True)
+    if name not in inner:
+        ends = [sum(c.source == name for c in found), sum(c.target == name for c in found)]
+        high = 2 * RADIUS + PITCH * max(0, *(n - 1 for n in ends))
+        return Node(name, 2 * RADIUS, high, round=True)
+    child = inner[name]
+    lead = child.boxes[0].y
+    return Node(name, child.width, child.height, child.ports, lead=lead)
 
 
-def drawing(chart: Chart) -> Drawing:
-    """The chart with coordinates.  Raises ``ModelError`` for an arrow to an unknown name."""
-    return _level(chart, arrows(chart), (), {})
+def _assembled(
+    level: Path, found: Sequence[Cut], inner: Mapping[str, Picture], edges: Mapping[str, Edge], placed: Placed
+) -> Picture:
+    boxes: list[Box] = []
+    spots: list[Spot] = []
+    pieces: list[Piece] = []
+    for name, (x, y) in placed.nodes.items():
+        if name in inner:
+            child = _higher(inner[name], placed.heights[name]).moved(x, y)
+            boxes += child.boxes
+            spots += child.spots
+            pieces += child.pieces
+        elif not name.startswith("|"):
+            radius = SMALL if name == DOT else RADIUS
+            middle = y + placed.heights[name] // 2
+            spots.append(Spot((*level, name), x + radius, middle, radius, name == DOT))
+    for cut in found:
+        if not cut.loop:
+            pieces.append(_piece(cut, edges[cut.name], placed))
+    ports = {c.name: placed.nodes[c.port][1] for c in found if c.crosses}
+    return Picture(placed.width, placed.height, tuple(boxes), tuple(spots), tuple(pieces), ports)
 
 
-Sides = Mapping[str, bool]
-"""For arrows that cross the border of a composite: whether they do so on its right side."""
+def _higher(child: Picture, height: int) -> Picture:
+    """The child with its frame made higher, as the layout wanted it."""
+    frame = child.boxes[0]
+    frame = replace(frame, height=height - frame.y)
+    return replace(child, height=height, boxes=(frame, *child.boxes[1:]))
 
 
-def _level(chart: Chart, all_arrows: Sequence[ChartArrow], level: Path, sides: Sides) -> Drawing:
-    """What is inside a composite, from its top left content corner; ports at its left and right end."""
-    if chart.states[level].parallel:
-        return _regions(chart, all_arrows, level, sides)
-    cuts = [c for c in (_cut(a, level) for a in all_arrows) if c is not None]
-    names = _members(chart, level)
-    back = backward(names, [(c.arrow.name, c.source, c.target) for c in cuts if c.source and c.target])
-    children = {
-        path: _box(chart, all_arrows, path, _child_sides(cuts, path, back))
-        for path in (s for s in chart.states if s and s[:-1] == level)
-    }
-    nodes = _nodes(chart, level, children, cuts, sides)
-    edges = [_edge(cut, cut.arrow.name in back, sides) for cut in cuts if cut.source != cut.target]
-    first = [_port(c.arrow) for c in cuts if _outside(c) and not sides.get(c.arrow.name, False)]
-    last = [_port(c.arrow) for c in cuts if _outside(c) and sides.get(c.arrow.name, False)]
-    placed = layered(nodes, edges, first, last)
-    return _assembled(chart, level, placed, children, cuts, back, sides)
+def _piece(cut: Cut, drawn: Edge, placed: Placed) -> Piece:
+    points = placed.routes[cut.name]
+    if reversed_in(cut, drawn):
+        points = points[::-1]
+    x, y = placed.labels.get(cut.name, (0, 0))
+    return Piece(cut.arrow, points, cut.starts, cut.ends, cut.lines, (x + 5, y))
 
 
-@dataclass(frozen=True)
-class _Cut:
-    """The piece of an arrow that belongs to a level; an empty end lies on the border of the level."""
-
-    arrow: ChartArrow
-    source: str
-    target: str
-
-
-def _cut(arrow: ChartArrow, level: Path) -> _Cut | None:
-    depth = len(level)
-    start, end = (*arrow.source, "*") if arrow.default else arrow.source, arrow.target
-    inside = start[:depth] == level, end[:depth] == level
-    if not any(inside) or (start == level and end == level):
-        return None
-    source = start[depth] if inside[0] and len(start) > depth else ""
-    target = end[depth] if inside[1] and len(end) > depth else ""
-    whole = len(start) == len(end) == depth + 1
-    if (source == target and not whole) or not (source or target):
-        return None
-    return _Cut(arrow, source, target)
+def _child(sheet: _Sheet, path: Path, found: Sequence[Cut], back: set[str]) -> Picture:
+    """A state's box with everything in it and its self loops above it."""
+    sides = meetings(found, path[-1], back)
+    loops = [c for c in found if c.loop and c.source == path[-1]]
+    least = max((padded(c.lines)[0] + 50 for c in loops), default=0)
+    box = _box(sheet, path, sides, least)
+    return _looped(box, loops) if loops else box
 
 
-def _outside(cut: _Cut) -> bool:
-    return not (cut.source and cut.target)
+def _box(sheet: _Sheet, path: Path, sides: Sides, least: int = 0) -> Picture:
+    """A state's box, its frame first, with ports for the arrows that go on inside."""
+    state = sheet.chart.states[path]
+    lines = tuple(x for line in action_lines(state) for x in wrap(line, ACTION, "    "))
+    wide = max(width(path[-1], TITLE, bold=True) + 30, block(lines)[0], 60 - 2 * PAD, least - 2 * PAD)
+    head = HEAD + LINE * len(lines) + (4 if lines else 0)
+    if not state.states:
+        high = max(head + 6, 36)
+        frame = Box(path, 0, 0, wide + 2 * PAD, high, lines, execution_order(sheet.chart, path), False)
+        return Picture(frame.width, high, (frame,))
+    content = _level(sheet, path, sides, wide)
+    free = [side for name, side in sides.items() if name not in content.ports]
+    head = max(head + 8, EDGE + PITCH * max(free.count(True), free.count(False)))
+    full = max(wide, content.width) + 2 * PAD
+    content = content.moved(PAD, head).bordered((PAD, PAD + content.width), (0, full))
+    high = head + content.height + PAD
+    frame = Box(path, 0, 0, full, high, lines, execution_order(sheet.chart, path), True)
+    return replace(content, width=full, height=high, boxes=(frame, *content.boxes))
 
 
-def _port(arrow: ChartArrow) -> str:
-    return f"|{arrow.name}"
+def _looped(box: Picture, loops: Sequence[Cut]) -> Picture:
+    """The box with arrows from it to itself over its top."""
+    pieces: list[Piece] = []
+    height = 0
+    for inset, cut in enumerate(loops):
+        wide, high = padded(cut.lines)
+        height += high + 14
+        left, right = 16 + 9 * inset, max(box.width - 16 - 9 * inset, 40)
+        points = ((right, 0), (right, -height + high), (left, -height + high), (left, 0))
+        pieces.append(Piece(cut.arrow, points, lines=cut.lines, label=(right - wide - 6, -height)))
+    whole = replace(box, pieces=(*box.pieces, *pieces), height=box.height + height)
+    return whole.moved(0, height)
 
 
-def _members(chart: Chart, level: Path) -> list[str]:
-    state = chart.states[level]
-    dot = ["*"] if state.default else []
-    return [*dot, *(s.name for s in state.states), *(j.name for j in state.junctions)]
+def _regions(sheet: _Sheet, level: Path, found: Sequence[Cut], sides: Sides, least: int) -> Picture:
+    """Parallel regions in rows; in one column where an arrow crosses their borders."""
+    for cut in found:
+        if not cut.crosses:
+            raise ModelError(
+                f"{sheet.chart.name}: an arrow from {'.'.join(cut.arrow.source)} to {'.'.join(cut.arrow.target)} "
+                "joins two parallel regions; send a local event instead."
+            )
+    crossing = {c.name: sides.get(c.name, bool(c.source)) for c in found}
+    regions = []
+    for state in sheet.chart.states[level].states:
+        own = {c.name: crossing[c.name] for c in found if state.name in (c.source, c.target)}
+        regions.append(_box(sheet, (*level, state.name), own))
+    cells = packed([(r.width, r.height) for r in regions], PAD, least, one_column=bool(found))
+    grown = [
+        _sized(region, size).moved(*corner) for region, (corner, size) in zip(regions, cells, strict=True)
+    ]
+    wide, high = extent(cells)
+    ports = {name: y for r in grown for name, y in r.ports.items()}
+    return Picture(
+        wide,
+        high,
+        tuple(b for r in grown for b in r.boxes),
+        tuple(s for r in grown for s in r.spots),
+        tuple(p for r in grown for p in r.pieces),
+        ports,
+    )
 
 
-def _child_sides(cuts: Sequence[_Cut], path: Path, back: set[str]) -> dict[str, bool]:
-    """On which side of a child each arrow at this level meets it."""
-    sides: dict[str, bool] = {}
-    for cut in cuts:
-        leaves, enters = cut.source == path[-1], cut.target == path[-1]
-        if leaves or enters:
-            sides[cut.arrow.name] = leaves != (cut.arrow.name in back)
-    return sides
-
-
-def _edge(cut: _Cut, back: bool, sides: Sides) -> Edge:
-    name, port = cut.arrow.name, _port(cut.arrow)
-    source, target = cut.source or port, cut.target or port
-    if _outside(cut):
-        back = sides.get(name, False) != (target == port)
-    tail, head = (target, source) if back else (source, target)
-    return Edge(name, tail, head, block(_label(cut)), 4 if cut.arrow.default else 1)
-
-
-def _label(cut: _Cut) -> tuple[str, ...]:
-    """The lines of the label on this piece: it is written where the arrow starts."""
-    starts_here = bool(cut.source) and (cut.arrow.default or cut.source == cut.arrow.source[-1])
-    inner = not cut.source and cut.target and not cut.arrow.default
-    if not starts_here and not inner:
-        return ()
-    return tuple(line for part in label_parts(cut.arrow.transition) for line in wrap(part, LABEL, "  "))
+def _sized(region: Picture, size: tuple[int, int]) -> Picture:
+    wider = region.bordered((0, region.width), (0, size[0]))
+    frame = replace(region.boxes[0], width=size[0], height=size[1])
+    return replace(wider, width=size[0], height=size[1], boxes=(frame, *region.boxes[1:]))

@@ -20,9 +20,9 @@ Place = tuple[int, int]
 """An unknown and a distance to be added to it."""
 
 
-def room(ends: int) -> int:
-    """The height a node needs so that ``ends`` lines can meet one side of it, in pixels."""
-    return (ends - 1) * PITCH + 2 * EDGE if ends else 0
+def room(labels: Sequence[int]) -> int:
+    """The height a node needs for lines with labels of these heights on one side, in pixels."""
+    return sum(max(PITCH, label + 10) for label in labels[1:]) + 2 * EDGE if labels else 0
 
 
 class _Places:
@@ -95,7 +95,7 @@ def _side(places: _Places, item: Item, node: Node, side: int, names: Sequence[st
     for name in free:
         port = places.new()
         places.ports[item, name, side] = (port, 0)
-        places.bounds.append((top, port, EDGE, 0) if before is None else (before, port, PITCH, 0))
+        places.bounds.append((top, port, node.lead + EDGE, 0) if before is None else (before, port, PITCH, 0))
         before = port
     if before is not None:
         places.bounds.append((before, top, PITCH - limit, 0))

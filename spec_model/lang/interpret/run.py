@@ -38,7 +38,8 @@ class ChartRun:
         self._entries = 0
         self._owners = [(data, {chart.path(o) for o in owners}) for data, owners in chart.local_to]
         self._labels: dict[tuple[int, ...], str] = {}
-        for place in chart.locations:
+        self._places = {p: chart.location(p) for p, s in chart.states.items() if s.states and not s.parallel}
+        for place in self._places.values():
             at[place.name] = place.init
         at[chart.entered.name] = 0
 
@@ -202,8 +203,8 @@ class ChartRun:
         self._run(self.chart.states[path].entry, event)
 
     def _locate(self, composite: Path, child: str) -> None:
-        if not self.chart.states[composite].parallel:
-            place = self.chart.location(composite)
+        place = self._places.get(composite)
+        if place is not None:
             self._at[place.name] = place.domain.raw(child)
 
     # --- actions ---

@@ -121,5 +121,3 @@ def _words(chart: Chart, when: When) -> list[Temporal]:
 def _argument(word: Temporal, at: Mapping[str, int]) -> int:
     assert word.arg is not None
     return evaluate(word.arg, at)
-
-

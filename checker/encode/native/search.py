@@ -1,0 +1,251 @@
+"""The inner loop of the explicit search as LLVM code: expand valuations, store their successors."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from enum import IntEnum
+from typing import Any
+
+from llvmlite import ir
+
+from checker.encode.intervals import Interval
+from checker.encode.native.body import Body
+from checker.encode.native.expressions import BIT, INT, Slot
+from checker.encode.native.layout import Field, Layout
+from checker.encode.native.table import CONTEXT, NUMBER, NUMBERS, WORDS, Table, context, function
+from checker.encode.paths import PathProgram, assigned, saved
+from spec_model.lang.expr import Var
+from spec_model.lang.system import TransitionSystem
+
+BATCH = 2048
+"""Successors kept before they are stored together."""
+
+MOST_SUCCESSORS = 1 << 27
+
+
+class Status(IntEnum):
+    """Why ``search`` came back."""
+
+    PAUSED = 0
+    NO_ROOM = 1
+    OUTSIDE = 2
+    TOO_MANY = 3
+    DECIDED = 4
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is compiled: the sliced system, its packed valuation, its paths and the goals."""
+
+    system: TransitionSystem
+    layout: Layout
+    paths: PathProgram
+    goals: tuple[Var, ...]
+
+    @property
+    def live_at_end(self) -> frozenset[str]:
+        return frozenset(v.name for v in (*(f.var for f in self.layout.fields), *self.goals))
+
+
+def add_search(module: Any, task: Task, table: Table, store: Any) -> None:
+    """``search(context, words, parents, table, buffer, origins, hits)``: expand the valuations
+    next..last-1 until the budget of transitions is spent.  Returns a ``Status``."""
+    _Search(module, task, table, store).emit()
+
+
+class _Search:
+    def __init__(self, module: Any, task: Task, table: Table, store: Any) -> None:
+        self.task, self.table, self.store = task, table, store
+        arguments = {"context": WORDS, "words": WORDS, "parents": NUMBERS, "table": WORDS}
+        arguments |= {"buffer": WORDS, "origins": NUMBERS, "hits": WORDS}
+        self.made, self.a, self.build = function(module, "search", INT, arguments)
+        self.places = {name: context(self.build, self.a["context"], name) for name in CONTEXT}
+
+    def emit(self) -> None:
+        build = self.build
+        self.drain(0)
+        finished = build.append_basic_block("finished")
+        self.body = Body(build, saved(self.task.paths, self.task.live_at_end), finished)
+        self.parent, self.filled, self.tried, self.spent = (
+            self.body.local(INT, n) for n in ("parent", "filled", "tried", "spent")
+        )
+        build.store(self.get("next"), self.parent)
+        build.store(INT(0), self.filled)
+        build.store(INT(0), self.spent)
+        head, expand = build.append_basic_block("next"), build.append_basic_block("expand")
+        build.branch(head)
+        self._head(head, expand)
+        build.position_at_end(expand)
+        build.store(INT(0), self.tried)
+        words = self.table.load(build, self.a["words"], build.load(self.parent))
+        begin(self.body, self.task, words)
+        self.body.run(self.task.paths)
+        self._end_of_path(words)
+        self.body.go_back()
+        self._finished(finished, head)
+
+    def get(self, name: str) -> Any:
+        return self.build.load(self.places[name])
+
+    def put(self, name: str, value: Any) -> None:
+        self.build.store(value, self.places[name])
+
+    def leave(self, status: Status) -> None:
+        """Return to Python; the current valuation will be expanded again from its start."""
+        self.put("next", self.build.load(self.parent))
+        self.put("filled", self.build.load(self.filled))
+        self.build.ret(INT(int(status)))
+
+    def drain(self, resume: object) -> None:
+        """Store what is in the buffer; back to Python if there is no room for it."""
+        names = ("context", "words", "parents", "table", "buffer", "origins")
+        full = self.build.call(self.store, [self.a[n] for n in names])
+        with self.build.if_then(self.build.icmp_signed("!=", full, INT(0)), likely=False):
+            self.build.ret(INT(int(Status.NO_ROOM)))
+
+    def _head(self, head: Any, expand: Any) -> None:
+        build = self.build
+        build.position_at_end(head)
+        more = build.icmp_signed("<", build.load(self.parent), self.get("last"))
+        funded = build.icmp_signed("<", build.load(self.spent), self.get("budget"))
+        stop = build.append_basic_block("stop")
+        build.cbranch(build.and_(more, funded), expand, stop)
+        build.position_at_end(stop)
+        self.put("next", build.load(self.parent))
+        self.put("filled", build.load(self.filled))
+        self.drain(None)
+        build.ret(INT(int(Status.PAUSED)))
+
+    def _finished(self, finished: Any, head: Any) -> None:
+        build = self.build
+        build.position_at_end(finished)
+        tried = build.load(self.tried)
+        self.put("transitions", build.add(self.get("transitions"), tried))
+        build.store(build.add(build.load(self.spent), build.add(tried, INT(1))), self.spent)
+        build.store(build.add(build.load(self.parent), INT(1)), self.parent)
+        build.branch(head)
+
+    # --- the end of a path -----------------------------------------------------------------------
+
+    def _end_of_path(self, before: list[Any]) -> None:
+        build = self.build
+        build.store(build.add(build.load(self.tried), INT(1)), self.tried)
+        self._goals()
+        with build.if_then(outside(self.body, self.task.layout), likely=False):
+            self.leave(Status.OUTSIDE)
+        at = build.load(self.filled)
+        self.table.save(build, self.a["buffer"], at, packed(self.body, self.task, before))
+        build.store(build.trunc(build.load(self.parent), NUMBER), build.gep(self.a["origins"], [at]))
+        following = build.add(at, INT(1))
+        build.store(following, self.filled)
+        with build.if_then(build.icmp_signed(">=", following, INT(BATCH)), likely=False):
+            self._flush()
+
+    def _flush(self) -> None:
+        build = self.build
+        self.put("next", build.load(self.parent))
+        self.put("filled", INT(BATCH))
+        self.drain(None)
+        build.store(INT(0), self.filled)
+        with build.if_then(build.icmp_signed(">", build.load(self.tried), INT(MOST_SUCCESSORS)), likely=False):
+            self.leave(Status.TOO_MANY)
+
+    def _goals(self) -> None:
+        build = self.build
+        values = [build.load(self.body.slots[g.name].place) for g in self.task.goals]
+        anything = BIT(0)
+        for value in values:
+            anything = build.or_(anything, value)
+        with build.if_then(anything, likely=False):
+            for number, value in enumerate(values):
+                self._hit(number, value)
+            with build.if_then(build.icmp_signed("<=", self.get("pending"), INT(0)), likely=False):
+                self.leave(Status.DECIDED)
+
+    def _hit(self, number: int, value: Any) -> None:
+        """The first valuation from which a goal is reached: its number + 1."""
+        build = self.build
+        place = build.gep(self.a["hits"], [INT(number)])
+        first = build.and_(value, build.icmp_signed("==", build.load(place), INT(0)))
+        with build.if_then(first, likely=False):
+            build.store(build.add(build.load(self.parent), INT(1)), place)
+            self.put("pending", build.sub(self.get("pending"), INT(1)))
+
+
+# --- shared with the search for the inputs of a run ----------------------------------------------
+
+
+def begin(body: Body, task: Task, words: Sequence[Any]) -> None:
+    """Emit the start of a tick: the variables of the valuation unpacked, everything else reset."""
+    build = body.builder
+    fields = {f.var.name for f in task.layout.fields}
+    others = [v for v in _all_variables(task) if v.name not in fields]
+    body.declare([f.var for f in task.layout.fields])
+    body.declare(others)
+    for f in task.layout.fields:
+        bits = build.and_(build.lshr(words[f.word], INT(f.shift)), INT(f.mask))
+        body.slots[f.var.name] = Slot(body.slots[f.var.name].place, Interval(f.low, f.var.domain.high))
+        place = body.slots[f.var.name].place
+        if place.type.pointee == BIT:
+            build.store(build.trunc(build.add(bits, INT(f.low)), BIT), place)
+        else:
+            build.store(build.add(build.mul(bits, INT(f.stride)), INT(f.low)), place)
+    body.reset(others)
+
+
+def _all_variables(task: Task) -> list[Var]:
+    found = {name: var for name, (var, _) in assigned(task.paths).items()}
+    system = task.system
+    for var in (*system.inputs, *system.temps, *system.variables, *system.frozen, *task.goals):
+        found.setdefault(var.name, var)
+    return list(found.values())
+
+
+def packed(body: Body, task: Task, before: Sequence[Any]) -> list[Any]:
+    """The words of the valuation after the tick.
+
+    Fields written early in the tick are joined first: LLVM then moves that out of the inner choices.
+    """
+    build = body.builder
+    written = assigned(task.paths)
+    result = []
+    for number, word in enumerate(before):
+        own = [f for f in task.layout.fields if f.word == number]
+        constant = sum(f.mask << f.shift for f in own if f.var.name not in written)
+        joined = build.and_(word, INT(constant))
+        for f in sorted((f for f in own if f.var.name in written), key=lambda f: written[f.var.name][1]):
+            joined = build.or_(joined, build.shl(_code(body, f), INT(f.shift)))
+        result.append(joined)
+    return result
+
+
+def _code(body: Body, f: Field) -> Any:
+    build = body.builder
+    code = build.load(body.slots[f.var.name].place)
+    code = build.zext(code, INT) if code.type == BIT else code
+    offset = build.sub(code, INT(f.low))
+    return offset if f.stride == 1 else build.udiv(offset, INT(f.stride), flags=["exact"])
+
+
+def outside(body: Body, layout: Layout) -> Any:
+    """Whether some variable has left its domain; what intervals show to be inside is not tested."""
+    build, result = body.builder, BIT(0)
+    for f in layout.fields:
+        slot, domain = body.slots[f.var.name], f.var.domain
+        if domain.dense and slot.within.within(Interval(domain.low, domain.high)):
+            continue
+        code = build.load(slot.place)
+        code = build.zext(code, INT) if code.type == BIT else code
+        result = build.or_(result, build.not_(_inside(build, f, code)))
+    return result
+
+
+def _inside(build: Any, f: Field, code: Any) -> Any:
+    offset, high = build.sub(code, INT(f.low)), f.var.domain.high - f.low
+    if high // f.stride + 1 == len(f.var.domain):
+        inside = build.icmp_unsigned("<=", offset, INT(high))
+        even = build.icmp_unsigned("==", build.urem(offset, INT(f.stride)), INT(0))
+        return inside if f.stride == 1 else build.and_(inside, even)
+    result = BIT(0)
+    for value in f.var.domain.values:
+        result = build.or_(result, build.icmp_signed("==", code, INT(value)))
+    return result

@@ -1,0 +1,226 @@
+"""The set of stored valuations as LLVM code: open addressing, linear probing, prefetched batches.
+
+Valuations lie in arrival order in ``words`` with their parents in ``parents``.  With one word the
+table holds the word + 1 itself (0 marks an empty place).  With more it holds the number of the
+valuation + 1 and, above it, 32 bits of its hash, so that most others are told apart in place.
+"""
+
+from typing import Any
+
+from llvmlite import ir
+
+from checker.encode.native.expressions import BIT, INT
+
+NUMBER = ir.IntType(32)
+WORDS = INT.as_pointer()
+NUMBERS = NUMBER.as_pointer()
+
+CONTEXT = ("next", "last", "count", "room", "mask", "transitions", "budget", "pending", "filled", "drained")
+"""Numbers shared with Python, in this order, as signed 64-bit integers."""
+
+_AHEAD = 16
+_MULTIPLIER = 0xD6E8FEB86659FD93
+
+
+def context(builder: Any, pointer: Any, name: str) -> Any:
+    """The place of a number shared with Python."""
+    return builder.gep(pointer, [INT(CONTEXT.index(name))])
+
+
+class Loop:
+    """``for i in first..last-1``; use as a context manager around the body."""
+
+    def __init__(self, builder: Any, first: Any, last: Any) -> None:
+        self.builder, self.last = builder, last
+        self.place = _local(builder, INT)
+        builder.store(first, self.place)
+        self.head, self.body, self.after = (builder.append_basic_block(n) for n in ("head", "body", "after"))
+
+    def __enter__(self) -> Any:
+        build = self.builder
+        build.branch(self.head)
+        build.position_at_end(self.head)
+        index = build.load(self.place)
+        build.cbranch(build.icmp_signed("<", index, self.last), self.body, self.after)
+        build.position_at_end(self.body)
+        return index
+
+    def __exit__(self, *_: object) -> None:
+        build = self.builder
+        build.store(build.add(build.load(self.place), INT(1)), self.place)
+        build.branch(self.head)
+        build.position_at_end(self.after)
+
+
+def _local(builder: Any, type_: Any) -> Any:
+    with builder.goto_entry_block():
+        return builder.alloca(type_)
+
+
+def function(module: Any, name: str, result: Any, arguments: dict[str, Any]) -> tuple[Any, dict[str, Any], Any]:
+    """A function whose pointers do not overlap: itself, its arguments by name, a builder."""
+    made = ir.Function(module, ir.FunctionType(result, list(arguments.values())), name)
+    for argument, own in zip(made.args, arguments, strict=True):
+        argument.name = own
+        if argument.type != INT:
+            argument.add_attribute("noalias")
+    builder = ir.IRBuilder(made.append_basic_block("entry"))
+    start = made.append_basic_block("start")
+    builder.branch(start)
+    builder.position_at_end(start)
+    return made, dict(zip(arguments, made.args, strict=True)), builder
+
+
+class Table:
+    """Emits ``store`` (insert a batch of successors) and ``rehash`` (fill a larger table)."""
+
+    def __init__(self, module: Any, words: int) -> None:
+        self.module, self.words = module, words
+        pointer = ir.IntType(8).as_pointer()
+        self.prefetch = module.declare_intrinsic(
+            "llvm.prefetch", (pointer,), ir.FunctionType(ir.VoidType(), [pointer, NUMBER, NUMBER, NUMBER])
+        )
+
+    def store(self) -> Any:
+        """``store(context, words, parents, table, buffer, origins)``: insert the successors in the
+        buffer.  Returns 0, or 1 when there is no room for more; what is left stays in the buffer."""
+        made, a, build = function(self.module, "store", INT, {
+            "context": WORDS, "words": WORDS, "parents": NUMBERS, "table": WORDS,
+            "buffer": WORDS, "origins": NUMBERS,
+        })
+        made.attributes.add("noinline")
+        places = {name: context(build, a["context"], name) for name in CONTEXT}
+        mask, room = build.load(places["mask"]), build.load(places["room"])
+        filled, drained = build.load(places["filled"]), build.load(places["drained"])
+        count = _local(build, INT)
+        build.store(build.load(places["count"]), count)
+        with Loop(build, drained, filled) as i:
+            self._prefetch_later(build, a, mask, i, filled)
+            key = self.load(build, a["buffer"], i)
+            place, new = self._find(build, a, key, mask)
+            with build.if_then(new):
+                full = build.icmp_signed(">=", build.load(count), room)
+                with build.if_then(full, likely=False):
+                    build.store(i, places["drained"])
+                    build.store(build.load(count), places["count"])
+                    build.ret(INT(1))
+                self._append(build, a, key, place, count, build.load(build.gep(a["origins"], [i])))
+        for name, value in (("count", build.load(count)), ("filled", INT(0)), ("drained", INT(0))):
+            build.store(value, places[name])
+        build.ret(INT(0))
+        return made
+
+    def rehash(self) -> Any:
+        """``rehash(table, mask, words, count)``: enter the stored valuations into an empty table."""
+        made, a, build = function(self.module, "rehash", ir.VoidType(), {
+            "table": WORDS, "mask": INT, "words": WORDS, "count": INT,
+        })
+        with Loop(build, INT(0), a["count"]) as i:
+            self._prefetch_later(build, {**a, "buffer": a["words"]}, a["mask"], i, a["count"])
+            key = self.load(build, a["words"], i)
+            place, hashed = self._empty(build, a, key)
+            build.store(self._entry(build, key, hashed, i), place)
+        build.ret_void()
+        return made
+
+    # --- parts -----------------------------------------------------------------------------------
+
+    def load(self, build: Any, words: Any, index: Any) -> list[Any]:
+        """The words of the index-th valuation."""
+        first = build.mul(index, INT(self.words))
+        return [build.load(build.gep(words, [build.add(first, INT(w))])) for w in range(self.words)]
+
+    def save(self, build: Any, words: Any, index: Any, key: list[Any]) -> None:
+        """Write the words of the index-th valuation."""
+        first = build.mul(index, INT(self.words))
+        for w, word in enumerate(key):
+            build.store(word, build.gep(words, [build.add(first, INT(w))]))
+
+    def hash(self, build: Any, key: list[Any]) -> Any:
+        """Mix the words so that near valuations spread over the table."""
+        mixed = key[0]
+        for word in key[1:]:
+            mixed = build.xor(self._mix(build, mixed), word)
+        return self._mix(build, self._mix(build, mixed))
+
+    def _mix(self, build: Any, x: Any) -> Any:
+        return build.mul(build.xor(x, build.lshr(x, INT(32))), INT(_MULTIPLIER))
+
+    def _home(self, build: Any, hashed: Any, mask: Any) -> Any:
+        return build.and_(build.xor(hashed, build.lshr(hashed, INT(32))), mask)
+
+    def _prefetch_later(self, build: Any, a: dict[str, Any], mask: Any, i: Any, filled: Any) -> None:
+        later = build.add(i, INT(_AHEAD))
+        with build.if_then(build.icmp_signed("<", later, filled)):
+            home = self._home(build, self.hash(build, self.load(build, a["buffer"], later)), mask)
+            place = build.bitcast(build.gep(a["table"], [home]), ir.IntType(8).as_pointer())
+            build.call(self.prefetch, [place, NUMBER(1), NUMBER(3), NUMBER(1)])
+
+    def _entry(self, build: Any, key: list[Any], hashed: Any, index: Any) -> Any:
+        """What the table holds for a valuation."""
+        if self.words == 1:
+            return build.add(key[0], INT(1))
+        mark = build.and_(hashed, INT(-1 << 32))
+        return build.or_(mark, build.add(index, INT(1)))
+
+    def _find(self, build: Any, a: dict[str, Any], key: list[Any], mask: Any) -> tuple[Any, Any]:
+        """The place of a valuation in the table, and whether it is still empty."""
+        hashed = self.hash(build, key)
+        at = _local(build, INT)
+        build.store(self._home(build, hashed, mask), at)
+        probe, other, found = (build.append_basic_block(n) for n in ("probe", "other", "found"))
+        build.branch(probe)
+        build.position_at_end(probe)
+        place = build.gep(a["table"], [build.load(at)])
+        entry = build.load(place)
+        empty = build.icmp_unsigned("==", entry, INT(0))
+        with build.if_then(empty, likely=False):
+            build.branch(found)
+        same = self._same(build, a, entry, key, hashed)
+        build.cbranch(same, found, other)
+        build.position_at_end(other)
+        build.store(build.and_(build.add(build.load(at), INT(1)), mask), at)
+        build.branch(probe)
+        build.position_at_end(found)
+        build_place = build.gep(a["table"], [build.load(at)])
+        self.hashed = hashed
+        return build_place, build.icmp_unsigned("==", build.load(build_place), INT(0))
+
+    def _same(self, build: Any, a: dict[str, Any], entry: Any, key: list[Any], hashed: Any) -> Any:
+        if self.words == 1:
+            return build.icmp_unsigned("==", entry, build.add(key[0], INT(1)))
+        result = _local(build, BIT)
+        build.store(BIT(0), result)
+        high = INT(32)
+        alike = build.icmp_unsigned("==", build.lshr(entry, high), build.lshr(hashed, high))
+        with build.if_then(alike):
+            number = build.sub(build.and_(entry, INT((1 << 32) - 1)), INT(1))
+            stored = self.load(build, a["words"], number)
+            equal = BIT(1)
+            for one, two in zip(stored, key, strict=True):
+                equal = build.and_(equal, build.icmp_unsigned("==", one, two))
+            build.store(equal, result)
+        return build.load(result)
+
+    def _empty(self, build: Any, a: dict[str, Any], key: list[Any]) -> tuple[Any, Any]:
+        """The first empty place for a valuation known to be new."""
+        hashed = self.hash(build, key)
+        at = _local(build, INT)
+        build.store(self._home(build, hashed, a["mask"]), at)
+        probe, other, found = (build.append_basic_block(n) for n in ("probe", "other", "found"))
+        build.branch(probe)
+        build.position_at_end(probe)
+        place = build.gep(a["table"], [build.load(at)])
+        build.cbranch(build.icmp_unsigned("==", build.load(place), INT(0)), found, other)
+        build.position_at_end(other)
+        build.store(build.and_(build.add(build.load(at), INT(1)), a["mask"]), at)
+        build.branch(probe)
+        build.position_at_end(found)
+        return build.gep(a["table"], [build.load(at)]), hashed
+
+    def _append(self, build: Any, a: dict[str, Any], key: list[Any], place: Any, count: Any, parent: Any) -> None:
+        index = build.load(count)
+        build.store(self._entry(build, key, self.hashed, index), place)
+        self.save(build, a["words"], index, key)
+        build.store(parent, build.gep(a["parents"], [index]))
+        build.store(build.add(index, INT(1)), count)

@@ -1,0 +1,112 @@
+"""Cut arrows at the borders of composites: what of each arrow belongs to one level."""
+
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from checker.render.drawing.graph import Edge
+from checker.render.drawing.scheme import ChartArrow, label_parts
+from checker.render.drawing.text import block, wrap
+from spec_model.lang.chart import Path
+
+LABEL = 36
+"""Characters in a line of a label."""
+
+DOT = "*"
+"""The member of a level that stands for the dot of its default transition."""
+
+Sides = Mapping[str, bool]
+"""For arrows that cross the border of a composite: whether they do so on its right side."""
+
+
+@dataclass(frozen=True)
+class Cut:
+    """The part of an arrow between two members of a level; an empty end lies on the level's border."""
+
+    arrow: ChartArrow
+    source: str
+    target: str
+    starts: bool
+    ends: bool
+
+    @property
+    def name(self) -> str:
+        return self.arrow.name
+
+    @property
+    def crosses(self) -> bool:
+        """Whether it runs from or to the border."""
+        return not (self.source and self.target)
+
+    @property
+    def loop(self) -> bool:
+        return self.source == self.target
+
+    @property
+    def port(self) -> str:
+        """The node that stands for the point where it meets the border."""
+        return f"|{self.name}"
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """The lines of the label, which is written where the arrow starts."""
+        if not self.starts:
+            return ()
+        return tuple(line for part in label_parts(self.arrow.transition) for line in wrap(part, LABEL, "  "))
+
+
+def cuts(arrows: Sequence[ChartArrow], level: Path) -> Iterator[Cut]:
+    """The parts of the arrows that belong to a level, in order."""
+    for arrow in arrows:
+        start = (*arrow.source, DOT) if arrow.default else arrow.source
+        cut = _cut(arrow, start, arrow.target, level)
+        if cut is not None:
+            yield cut
+
+
+def _cut(arrow: ChartArrow, start: Path, end: Path, level: Path) -> Cut | None:
+    depth = len(level)
+    source, target = _member(start, level), _member(end, level)
+    if not (source or target):
+        return None
+    loop = start == end and len(end) == depth + 1
+    if source == target and not loop:
+        return None
+    starts = start[:-1] == level if source else start == level
+    ends = end[:-1] == level if target else end == level
+    return Cut(arrow, source, target, starts, ends)
+
+
+def _member(path: Path, level: Path) -> str:
+    depth = len(level)
+    return path[depth] if path[:depth] == level and len(path) > depth else ""
+
+
+def edge(cut: Cut, back: Collection[str], sides: Sides) -> Edge:
+    """The cut as an edge from left to right."""
+    source, target = cut.source or cut.port, cut.target or cut.port
+    reverse = cut.name in back
+    if cut.crosses:
+        on_right = sides.get(cut.name, bool(cut.source))
+        reverse = on_right != (target == cut.port)
+    tail, head = (target, source) if reverse else (source, target)
+    return Edge(cut.name, tail, head, padded(cut.lines), 4 if cut.arrow.default else 1)
+
+
+def padded(lines: tuple[str, ...]) -> tuple[int, int]:
+    """The room a label takes: its text, a little air at its ends and above the line it stands on."""
+    wide, high = block(lines)
+    return (wide + 10, high + 3) if lines else (0, 0)
+
+
+def reversed_in(cut: Cut, drawn: Edge) -> bool:
+    """Whether the edge runs against the arrow."""
+    return drawn.tail != (cut.source or cut.port)
+
+
+def meetings(found: Sequence[Cut], member: str, back: Collection[str]) -> dict[str, bool]:
+    """The arrows that meet a member from outside, and whether they meet it on its right side."""
+    return {
+        c.name: (c.source == member) != (c.name in back)
+        for c in found
+        if not c.loop and member in (c.source, c.target)
+    }

@@ -1,0 +1,61 @@
+"""Obstacles in the degraded state, the choice between the two charts, and the command for Board 1."""
+
+from properties.forms import always, holds_after
+from spec_model.lang.expr import any_of, implies
+from spec_model.lang.time import tick
+from spec_model.signals.board2 import DEG_B1, B2Dec, B2DecDegraded, command, within
+
+inside_3m = within(300)
+
+PB2_11b = always(
+    "PB2-11b", "The decision is 0 to 4 in the non-degraded state and 5 or 6 in the degraded state.",
+    that=any_of(*(B2Dec == n for n in range(5))) == ~DEG_B1,
+    covers=("B2-OBS-07", "B2-OBS-22"), on="obstacles_free", readings=("E04", "E09"),
+)  # fmt: skip
+
+PB2_11c = always(
+    "PB2-11c", "Decisions 1, 6 become CMD_ESTOP, 2 CMD_GO_LEFT, 4 CMD_GO_RIGHT, and 0, 3, 5 CMD_NORMAL.",
+    that=any_of(
+        (command == "CMD_ESTOP") & ((B2Dec == 1) | (B2Dec == 6)),
+        (command == "CMD_GO_LEFT") & (B2Dec == 2),
+        (command == "CMD_GO_RIGHT") & (B2Dec == 4),
+        (command == "CMD_NORMAL") & any_of(*(B2Dec == n for n in (0, 3, 5))),
+    ),
+    covers=("B1-IN-01", "B2-OBS-08"), on="obstacles_free", readings=("E04", "E31"),
+)  # fmt: skip
+
+PB2_12 = always(
+    "PB2-12", "In the degraded state an obstacle at 300 cm or less means stop in the same step.",
+    that=implies(DEG_B1 & inside_3m, B2Dec == 6),
+    covers=("B2-OBS-04", "B2-OBS-22"), on="obstacles_free", from_tick=2, readings=("E09", "E32"),
+)  # fmt: skip
+
+PB2_12_else = always(
+    "PB2-12-else", "In the degraded state without an obstacle at 300 cm or less the rover moves degraded.",
+    that=implies(DEG_B1 & ~inside_3m, B2Dec == 5),
+    covers=["B2-OBS-22"], on="obstacles_free", from_tick=2, readings=("E09", "E32"),
+)  # fmt: skip
+
+PB2_12_command = always(
+    "PB2-12-command", "In the degraded state an obstacle at 300 cm or less means CMD_ESTOP in the same step.",
+    that=implies(DEG_B1 & inside_3m, command == "CMD_ESTOP"),
+    covers=("B2-OBS-04", "B2-OBS-22"), on="obstacles_free", from_tick=2, readings=("E04", "E09", "E32"),
+)  # fmt: skip
+
+PB2_12_chart = always(
+    "PB2-12-chart", "From step 2 on the degraded chart stops exactly for obstacles at 300 cm or less.",
+    that=(B2DecDegraded == 6) == inside_3m,
+    covers=["B2-OBS-22"], on="obstacles_d", from_tick=2,
+)  # fmt: skip
+
+PB2_12_first = always(
+    "PB2-12-first", "In every step, also the first, an obstacle at 300 cm or less stops the degraded chart.",
+    that=implies(inside_3m, B2DecDegraded == 6),
+    covers=("B2-OBS-04", "B2-OBS-22"), on="obstacles_d",
+)  # fmt: skip
+
+PB2_12_next = holds_after(
+    "PB2-12-next", "An obstacle at 300 cm or less in two steps running stops the degraded chart.",
+    premise=inside_3m, for_=1 * tick, then=B2DecDegraded == 6,
+    covers=("B2-OBS-04", "B2-OBS-22"), on="obstacles_d",
+)  # fmt: skip

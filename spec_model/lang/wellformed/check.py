@@ -1,0 +1,68 @@
+"""The checks in order; all faults of a chart are reported together."""
+
+from collections.abc import Iterator
+
+from spec_model.lang.chart import Chart, parts
+from spec_model.lang.domain import Bool
+from spec_model.lang.errors import ModelError
+from spec_model.lang.expr import Expr
+from spec_model.lang.system import TICK_MS, System
+from spec_model.lang.wellformed.data import chart_data_faults, enables, system_data_faults
+from spec_model.lang.wellformed.paths import path_faults
+from spec_model.lang.wellformed.sends import send_faults
+from spec_model.lang.wellformed.tree import junction_cycle_faults, target_faults, tree_faults
+from spec_model.lang.wellformed.words import block_word_faults, no_words, word_faults
+
+
+def check_chart(chart: Chart, tick_ms: int = TICK_MS) -> None:
+    """Raises ``ModelError`` with one line for each fault of the chart."""
+    _raise(f"{chart.name}: {fault}" for fault in _chart_faults(chart, tick_ms))
+
+
+def check_system(system: System) -> None:
+    """Raises ``ModelError`` with one line for each fault of the system and of its charts."""
+    faults: list[str] = []
+    for chart in system.charts:
+        faults += [f"{chart.name}: {fault}" for fault in _chart_faults(chart, system.tick_ms)]
+    for block in system.blocks:
+        faults += [f"{block.name}: {fault}" for fault in block_word_faults(block)]
+    if not faults:
+        faults = [f"{system.name}: {fault}" for fault in _system_faults(system)]
+    _raise(iter(faults))
+
+
+def _chart_faults(chart: Chart, tick_ms: int) -> list[str]:
+    """Later checks rely on earlier ones, so they run only where those found nothing."""
+    found = list(tree_faults(chart)) or list(target_faults(chart)) or list(junction_cycle_faults(chart))
+    if found:
+        return found
+    checks = (path_faults(chart), send_faults(chart), word_faults(chart, tick_ms), chart_data_faults(chart))
+    return list(dict.fromkeys(fault for check in checks for fault in check))
+
+
+def _system_faults(system: System) -> Iterator[str]:
+    yield from _name_faults(system)
+    for by in enables(system.components):
+        yield from _condition_faults(f"the enable `{by}`", by)
+    yield from _condition_faults(f"the assumption `{system.assume}`", system.assume)
+    yield from system_data_faults(system)
+
+
+def _condition_faults(what: str, condition: Expr) -> Iterator[str]:
+    if not isinstance(condition.sort, Bool):
+        yield f"{what} is a {condition.sort}; write a condition, such as a comparison."
+    yield from no_words(what, condition)
+
+
+def _name_faults(system: System) -> Iterator[str]:
+    seen: set[str] = set()
+    for part in parts(system.components):
+        if part.name in seen:
+            yield f"two components are named {part.name!r}; give each its own name."
+        seen.add(part.name)
+
+
+def _raise(faults: Iterator[str]) -> None:
+    lines = list(faults)
+    if lines:
+        raise ModelError("\n".join(lines))

@@ -1,0 +1,114 @@
+"""Where something is written in a chart: the arrows with the states they leave, and the actions."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from spec_model.lang.action import Action, each_action
+from spec_model.lang.action import If as Conditional
+from spec_model.lang.chart import Chart, Path, Transition
+from spec_model.lang.expr import Expr
+
+
+def name_of(path: Path) -> str:
+    """A state as messages name it."""
+    return path[-1] if path else "the chart"
+
+
+def arrow_names(
+    arrows: Sequence[Transition], path: Path, default: bool = False
+) -> list[tuple[str, Transition]]:
+    """Each arrow with the words that point at it; ``path`` is its state, junction or composite."""
+    if default and len(arrows) == 1:
+        return [(f"the default transition of {name_of(path)}", arrows[0])]
+    of = f"the default transitions of {name_of(path)}" if default else name_of(path)
+    return [(f"arrow {number} of {of}", arrow) for number, arrow in enumerate(arrows, start=1)]
+
+
+@dataclass(frozen=True)
+class Leg:
+    """A segment on some path from a state, or on the default path of a composite.
+
+    ``end`` is the state or junction it goes to; a junction shared by several states yields a leg
+    for each of them.
+    """
+
+    source: Path
+    default: bool
+    where: str
+    segment: Transition
+    end: Path
+    complete: bool
+
+
+def legs(chart: Chart) -> Iterator[Leg]:
+    """Every segment with every state or composite from which a path reaches it."""
+    for path, state in chart.states.items():
+        yield from _legs(chart, path, True, path, arrow_names(state.default, path, default=True))
+        yield from _legs(chart, path, False, path[:-1], arrow_names(state.transitions, path))
+
+
+def _legs(
+    chart: Chart, source: Path, default: bool, level: Path, first: Sequence[tuple[str, Transition]]
+) -> Iterator[Leg]:
+    seen: set[Path] = set()
+    todo = [(level, name, segment) for name, segment in first]
+    while todo:
+        at, name, segment = todo.pop(0)
+        end = chart.resolve(at, segment.target)
+        assert end is not None, "targets were checked before"
+        junction = chart.junctions.get(end)
+        yield Leg(source, default, name, segment, end, junction is None)
+        if junction is not None and end not in seen:
+            seen.add(end)
+            todo += [(end[:-1], n, s) for n, s in arrow_names(junction.transitions, end)]
+
+
+class Kind(StrEnum):
+    """Where actions stand."""
+
+    ENTRY = "entry action"
+    DURING = "during action"
+    EXIT = "exit action"
+    CONDITION = "condition action"
+    TRANSITION = "transition action"
+
+
+@dataclass(frozen=True)
+class Place:
+    """Actions of a state, or of a segment of a path that leaves it."""
+
+    owner: Path
+    kind: Kind
+    where: str
+    actions: tuple[Action, ...]
+    default: bool = False
+
+
+def places(chart: Chart) -> Iterator[Place]:
+    """Every list of actions that is not empty, with the state that it belongs to."""
+    for path, state in chart.states.items():
+        of = name_of(path)
+        kinds = {Kind.ENTRY: state.entry, Kind.DURING: state.during, Kind.EXIT: state.exit}
+        for kind, actions in kinds.items():
+            if actions:
+                yield Place(path, kind, f"the {kind} of {of}", actions)
+    for leg in legs(chart):
+        for kind, actions in ((Kind.CONDITION, leg.segment.do), (Kind.TRANSITION, leg.segment.then)):
+            if actions:
+                yield Place(leg.source, kind, f"the {kind} of {leg.where}", actions, leg.default)
+
+
+def conditions(actions: Sequence[Action]) -> Iterator[Expr]:
+    """The conditions of the conditional actions, nested ones too."""
+    for action in each_action(actions):
+        if isinstance(action, Conditional):
+            yield action.condition
+
+
+def common_composite(source: Path, target: Path) -> Path:
+    """The innermost composite with both ends of an arrow properly inside it."""
+    depth = 0
+    while depth < min(len(source), len(target)) - 1 and source[depth] == target[depth]:
+        depth += 1
+    return source[:depth]
