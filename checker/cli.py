@@ -3,7 +3,7 @@
 import sys
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Optional
+from typing import Annotated
 
 import click
 import typer
@@ -38,9 +38,9 @@ class Lists(StrEnum):
 
 
 Engine = Annotated[str, typer.Option(help="explicit, bmc, auto or all.")]
-Depth = Annotated[Optional[int], typer.Option(min=1, help="Ticks to look ahead at most.")]
-Timeout = Annotated[Optional[float], typer.Option(min=0.001, help="Seconds per search.")]
-Output = Annotated[Optional[Path], typer.Option("--output", "-o", help="File to write.")]
+Depth = Annotated[int | None, typer.Option(min=1, help="Ticks to look ahead at most.")]
+Timeout = Annotated[float | None, typer.Option(min=0.001, help="Seconds per search.")]
+Output = Annotated[Path | None, typer.Option("--output", "-o", help="File to write.")]
 
 
 def limits(depth: int | None, timeout: float | None) -> Limits:
@@ -50,8 +50,8 @@ def limits(depth: int | None, timeout: float | None) -> Limits:
 
 @app.command()
 def check(
-    ids: Annotated[Optional[list[str]], typer.Argument(help="Property ids; all by default.")] = None,
-    system: Annotated[Optional[str], typer.Option(help="Only properties about this system.")] = None,
+    ids: Annotated[list[str] | None, typer.Argument(help="Property ids; all by default.")] = None,
+    system: Annotated[str | None, typer.Option(help="Only properties about this system.")] = None,
     engine: Engine = AUTO,
     depth: Depth = None,
     timeout: Timeout = None,
@@ -95,7 +95,7 @@ def trace(
 @app.command()
 def graph(
     name: Annotated[str, typer.Argument(help="A chart, or a system with --project.")],
-    project: Annotated[Optional[str], typer.Option(help="Variables of the state graph, VAR,VAR.")] = None,
+    project: Annotated[str | None, typer.Option(help="Variables of the state graph, VAR,VAR.")] = None,
     format: Annotated[str, typer.Option(help="svg, dot, mermaid, graphml or json.")] = "svg",
     output: Output = None,
 ) -> Exit:
@@ -124,8 +124,8 @@ def main() -> None:
 def run(arguments: list[str]) -> Exit:
     """The exit code of a command line; messages go to standard error."""
     try:
-        code = app(arguments, standalone_mode=False, prog_name="rovercheck")
-        return code if isinstance(code, Exit) else Exit(code or 0)
+        code: object = app(arguments, standalone_mode=False, prog_name="rovercheck")
+        return code if isinstance(code, Exit) else Exit.AS_EXPECTED
     except click.exceptions.NoArgsIsHelpError as error:
         err.print(error.format_message(), markup=False)
         return Exit.USAGE

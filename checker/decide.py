@@ -50,7 +50,8 @@ def tasks(properties: Sequence[Property], systems: Mapping[str, System]) -> Iter
     by_system: dict[str, list[Property]] = {}
     for prop in properties:
         if prop.on not in systems:
-            raise ModelError(f"{prop.id} is about {prop.on!r}, no known system. {did_you_mean(prop.on, systems)}")
+            near = did_you_mean(prop.on, systems)
+            raise ModelError(f"{prop.id} is about {prop.on!r}, no known system. {near}")
         by_system.setdefault(prop.on, []).append(prop)
     for name, group in by_system.items():
         question = reduce(lower(systems[name]), group)
@@ -118,7 +119,11 @@ def _better(first: tuple[Answer, str], second: tuple[Answer, str]) -> tuple[Answ
 
 
 def _compared(
-    system: TransitionSystem, goals: Sequence[Var], known: Mapping[str, Engine], limits: Limits, progress: Progress
+    system: TransitionSystem,
+    goals: Sequence[Var],
+    known: Mapping[str, Engine],
+    limits: Limits,
+    progress: Progress,
 ) -> Answers:
     each = [_ask(engine, system, goals, limits, progress) for engine in known.values()]
     merged = each[0]

@@ -59,5 +59,5 @@ def engines() -> dict[str, Engine]:
     for entry in sorted(pkgutil.iter_modules(folder.__path__), key=lambda e: e.name):
         module = importlib.import_module(f"{folder.__name__}.{entry.name}")
         if hasattr(module, "NAME"):
-            found[module.NAME] = module  # type: ignore[assignment]
+            found[module.NAME] = module
     return found

@@ -61,7 +61,7 @@ def _interpreted(
     for name, value in interpreter.valuation().items():
         if name in after and after[name] != value:
             raise ReplayError(
-                f"tick {number}: {name} is {value} in the interpreter and {after[name]} in the lowered system."
+                f"tick {number}: {name} is {value} in the interpreter and {after[name]} when lowered."
             )
     return fired
 

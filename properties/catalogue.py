@@ -53,9 +53,10 @@ def baseline() -> dict[str, Expected]:
     expected = {id: Expected(**row) for id, row in table.items()}
     for id, entry in expected.items():
         if id not in catalogue():
-            raise ModelError(f"baseline.toml lists {id!r}, which is no property. {did_you_mean(id, catalogue())}")
+            near = did_you_mean(id, catalogue())
+            raise ModelError(f"baseline.toml lists {id!r}, which is no property. {near}")
         if entry.verdict not in ("violated", "unknown") or not entry.because:
-            raise ModelError(f"baseline.toml: {id} needs verdict = \"violated\" or \"unknown\", and because = ...")
+            raise ModelError(f"baseline.toml: {id} needs because = and verdict = 'violated' or 'unknown'.")
     return expected
 
 

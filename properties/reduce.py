@@ -22,7 +22,7 @@ from properties.forms import (
 )
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import Domain, boolean, integer
-from spec_model.lang.errors import ModelError
+from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import (
     TRUE,
@@ -107,7 +107,8 @@ class _Monitors:
         self._owner, self._used = prop.id, set()
         armed = self._armed(prop.from_tick)
         bad, wanted = self._form(prop, armed)
-        var = self._variable(prop.id, boolean, 0, f"{prop.id} is reached" if wanted is None else f"{prop.id} is broken")
+        doc = f"{prop.id} is {'reached' if wanted is None else 'broken'}"
+        var = self._variable(prop.id, boolean, 0, doc)
         self.goals.append(Assign(var, bad))
         parts = [(p, self.formula(p)) for p in (_conjuncts(wanted) if wanted is not None else ())]
         return Goal(prop, var, wanted is None, tuple(parts), frozenset(self._used - {prop.id}))
@@ -164,8 +165,6 @@ class _Monitors:
                 return expr
 
     def _unknown(self, name: str) -> None:
-        from spec_model.lang.errors import did_you_mean
-
         raise ModelError(
             f"{self._owner} reads {name}, which system {self.system.name} does not have. "
             f"{did_you_mean(name, self.known)}"
@@ -227,12 +226,14 @@ class _Monitors:
         if ticks == 0:
             return trigger & ~response
         waiting = self._own("waiting", integer(0, ticks + 1), "ticks a trigger has waited, this one included")
-        later = ite(waiting > 0, minimum(waiting + 1, ticks + 1), ite(trigger, _one(waiting), _zero(waiting)))
+        first = ite(trigger, _one(waiting), _zero(waiting))
+        later = ite(waiting > 0, minimum(waiting + 1, ticks + 1), first)
         self.before.append(Assign(waiting, ite(response, _zero(waiting), later)))
         return waiting >= ticks + 1
 
     def _holds_for(self, start: Expr, armed: Expr, that: Expr, ticks: int) -> Expr:
-        left = self._own("left", integer(0, ticks + 1), "ticks for which it must still hold, this one included")
+        doc = "ticks for which it must still hold, this one included"
+        left = self._own("left", integer(0, ticks + 1), doc)
         begins = all_of(armed, start & ~self._previous(start, 0))
         self.before.append(Assign(left, ite(begins, Const(ticks + 1, left.sort), maximum(left - 1, 0))))
         return (left > 0) & ~that

@@ -123,7 +123,7 @@ def arrival_window(name: str, update: Var) -> Block:
     arrived = ite(update, const(1), const(0))
     return Block(
         f"{name}.arrivals",
-        [when(update, at_update), assign(window, modulo(window * 2, 2**20) + arrived)],
+        [when(update, at_update), assign(window, modulo(window * 2 + arrived, 2**20))],
         text="Fewer than eleven updates within 400 ms: the mean interval exceeds 40 ms [seed Table 2].",
     )
 

@@ -96,7 +96,8 @@ def _index(found: Sequence[Compared]) -> str:
     for compared in found:
         if compared.verdict.word == "violated":
             prop = compared.result.property
-            lines.append(f"- [{prop.id}]({_page(compared)}) {prop.text} {compared.expected.because}".rstrip())
+            said = f"{prop.text} {compared.expected.because}".rstrip()
+            lines.append(f"- [{prop.id}]({_page(compared)}) {said}")
     for area in dict.fromkeys(c.result.property.area for c in found):
         lines += ["", f"## {area.replace('_', ' ').capitalize()}", ""]
         lines += _table([c for c in found if c.result.property.area == area])
@@ -110,7 +111,8 @@ def _table(found: Sequence[Compared]) -> list[str]:
         word = compared.verdict.word
         shown = f"[{word}]({_page(compared)})" if word == "violated" else word
         covers = ", ".join(prop.covers)
-        rows.append(f"| {prop.id} | {shown} | {_cell(prop.text)} | {covers} | {_cell(evidence(compared.result))} |")
+        cells = (prop.id, shown, _cell(prop.text), covers, _cell(evidence(compared.result)))
+        rows.append(f"| {' | '.join(cells)} |")
     return rows
 
 

@@ -43,7 +43,7 @@ monitor_battery = Chart(
             "decide",
             [
                 to("Batt_CRIT", when=held(critical_range, for_=5 * sec) | stale_below_15),  # S16, S21
-                to("Batt_DEG", when=b < 23),  # without delay, also in [0;15] for less than 5 s (S18, S22, S23)
+                to("Batt_DEG", when=b < 23),  # at once, also in [0;15] for less than 5 s (S18, S22, S23)
                 to("Batt_OK", when=b > 25),
             ],
         )

@@ -1,11 +1,11 @@
 """Meaning of expressions and programs: the reference every encoder is compared with."""
 
-from collections.abc import Mapping, MutableMapping
+from collections.abc import Mapping, MutableMapping, Sequence
 
-from spec_model.lang.action import Assign
+from spec_model.lang.action import Action, Assign, If, Send
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Temporal, Var
-from spec_model.lang.system import Program, TransitionSystem
+from spec_model.lang.system import TransitionSystem
 
 
 def evaluate(expr: Expr, at: Mapping[str, int]) -> int:
@@ -81,13 +81,16 @@ def operate(op: Op, *v: int) -> int:
             return v[0] >> v[1] & 1
 
 
-def run(program: Program, at: MutableMapping[str, int]) -> None:
-    """Run the statements in place.  An assignment converts between resolutions exactly."""
+def run(program: Sequence[Action], at: MutableMapping[str, int]) -> None:
+    """Run the statements of a lowered program in place."""
     for statement in program:
-        if isinstance(statement, Assign):
-            at[statement.var.name] = evaluate(statement.value, at)
-        else:
-            run(statement.then if evaluate(statement.condition, at) else statement.otherwise, at)
+        match statement:
+            case Assign(var, value):
+                at[var.name] = evaluate(value, at)
+            case If(condition, then, otherwise):
+                run(then if evaluate(condition, at) else otherwise, at)
+            case Send():
+                raise ModelError(f"`{statement}` belongs to a chart; lower the chart first.")
 
 
 def step(system: TransitionSystem, before: Mapping[str, int], inputs: Mapping[str, int]) -> dict[str, int]:

@@ -31,7 +31,7 @@ class Span:
     def __str__(self) -> str:
         if self.unit == "ms" and self.amount % 1000 == 0:
             return f"{show(self.amount / 1000)} s"
-        return f"{show(self.amount)} {'tick' if (self.amount, self.unit) == (1, 'ticks') else self.unit}"
+        return f"{show(self.amount)} {'tick' if self == ticks else self.unit}"
 
 
 ms = Span(Fraction(1), "ms")

@@ -32,7 +32,7 @@ WRONG = [
 ]
 
 
-@pytest.mark.parametrize(("arguments", "code", "message"), WRONG, ids=lambda x: " ".join(x) if isinstance(x, list) else "")
+@pytest.mark.parametrize(("arguments", "code", "message"), WRONG, ids=[" ".join(a) for a, _, _ in WRONG])
 def test_a_slip_gets_one_message_and_its_code(
     arguments: list[str], code: Exit, message: str, capfd: pytest.CaptureFixture[str]
 ) -> None:

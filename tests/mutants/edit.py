@@ -98,12 +98,12 @@ def constant(old: Number, new: Number) -> Callable[[Expr], Expr]:
     """Every constant ``old`` becomes ``new``, where the resolution allows it."""
 
     def change(expr: Expr) -> Expr:
-        if isinstance(expr, Const) and isinstance(expr.sort, Num):
-            if expr.value * expr.sort.resolution == exact(old):
-                raw = exact(new) / expr.sort.resolution
-                assert raw.denominator == 1
-                return Const(int(raw), expr.sort)
-        return expr
+        is_number = isinstance(expr, Const) and isinstance(expr.sort, Num)
+        if not is_number or expr.value * expr.sort.resolution != exact(old):
+            return expr
+        raw = exact(new) / expr.sort.resolution
+        assert raw.denominator == 1
+        return Const(int(raw), expr.sort)
 
     return lambda expr: everywhere(expr, change)
 
@@ -142,7 +142,9 @@ def in_expressions(chart: Chart, change: Callable[[Expr], Expr]) -> Chart:
             exit=_acts(state.exit, change), states=tuple(walk(s) for s in state.states),
             transitions=tuple(_seg(t, change) for t in state.transitions),
             default=tuple(_seg(t, change) for t in state.default),
-            junctions=tuple(Junction(j.name, [_seg(t, change) for t in j.transitions]) for j in state.junctions),
+            junctions=tuple(
+                Junction(j.name, [_seg(t, change) for t in j.transitions]) for j in state.junctions
+            ),
         )  # fmt: skip
 
     return _rebuilt(chart, walk(chart.root))
@@ -159,7 +161,8 @@ def _acts(actions: tuple[Action, ...], change: Callable[[Expr], Expr]) -> tuple[
         if isinstance(action, Assign):
             out.append(Assign(action.var, change(action.value)))
         elif isinstance(action, If):
-            out.append(If(change(action.condition), _acts(action.then, change), _acts(action.otherwise, change)))
+            then, otherwise = _acts(action.then, change), _acts(action.otherwise, change)
+            out.append(If(change(action.condition), then, otherwise))
         else:
             out.append(action)
     return tuple(out)

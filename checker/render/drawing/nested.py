@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from checker.render.drawing.cuts import DOT, Cut, Sides, cuts, edge, meetings, padded, reversed_in
 from checker.render.drawing.graph import Edge, Node, Placed
 from checker.render.drawing.layered import layered
-from checker.render.drawing.packing import extent, packed
+from checker.render.drawing.packing import cost, extent, packed
 from checker.render.drawing.picture import Box, Picture, Piece, Spot
 from checker.render.drawing.placing import EDGE, PITCH
 from checker.render.drawing.ranking import backward
@@ -53,8 +53,20 @@ def _level(sheet: _Sheet, level: Path, sides: Sides, least: int) -> Picture:
         return _regions(sheet, level, found, sides, least)
     state = sheet.chart.states[level]
     names = [DOT] * bool(state.default) + [m.name for m in (*state.states, *state.junctions)]
-    back = backward(names, [(c.name, c.source, c.target) for c in found if not c.crosses and not c.loop])
-    inner = {s.name: _child(sheet, (*level, s.name), found, back) for s in state.states}
+    inside = [(c.name, c.source, c.target) for c in found if not c.crosses and not c.loop]
+    options = dict.fromkeys(backward(names, inside, breadth) for breadth in (False, True))
+    return min((_laid(sheet, level, names, found, sides, back) for back in options), key=_unpleasant)
+
+
+def _unpleasant(option: Picture) -> float:
+    return cost((option.width, option.height))
+
+
+def _laid(
+    sheet: _Sheet, level: Path, names: Sequence[str], found: Sequence[Cut], sides: Sides, back: frozenset[str]
+) -> Picture:
+    """A level of exclusive states with a choice of the arrows that run from right to left."""
+    inner = {s.name: _child(sheet, (*level, s.name), found, back) for s in sheet.chart.states[level].states}
     nodes = [_node(name, found, inner) for name in names]
     lines = [c for c in found if not c.loop]
     edges = {c.name: edge(c, back, sides) for c in lines}
@@ -116,7 +128,7 @@ def _piece(cut: Cut, drawn: Edge, placed: Placed) -> Piece:
     return Piece(cut.arrow, points, cut.starts, cut.ends, cut.lines, (x + 5, y))
 
 
-def _child(sheet: _Sheet, path: Path, found: Sequence[Cut], back: set[str]) -> Picture:
+def _child(sheet: _Sheet, path: Path, found: Sequence[Cut], back: frozenset[str]) -> Picture:
     """A state's box with everything in it and its self loops above it."""
     sides = meetings(found, path[-1], back)
     loops = [c for c in found if c.loop and c.source == path[-1]]

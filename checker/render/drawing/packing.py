@@ -22,7 +22,7 @@ def packed(sizes: Sequence[Size], gap: int, least: int = 0, one_column: bool = F
         return rows(sizes, [range(i, i + 1) for i in range(len(sizes))], gap, least)
     options = [rows(sizes, lines, gap, least) for lines in _divisions(len(sizes))]
     options += [_columns(sizes, lines, gap, least) for lines in _divisions(len(sizes))]
-    return min(options, key=_cost)
+    return min(options, key=lambda cells: cost(extent(cells)))
 
 
 def extent(cells: Cells) -> Size:
@@ -33,9 +33,10 @@ def extent(cells: Cells) -> Size:
     )
 
 
-def _cost(cells: Cells) -> float:
-    wide, high = extent(cells)
-    return max(wide / SHAPE, high) + (wide + high) / 1000
+def cost(size: Size) -> float:
+    """How unpleasant a rectangle is: large, or far from the shape aimed at."""
+    wide, high = size[0] / SHAPE, size[1]
+    return max(wide, high) + (wide + high) / 2
 
 
 def _divisions(count: int) -> Iterator[Lines]:

@@ -6,38 +6,46 @@ from checker.render.drawing.graph import Chain, Edge, Item, Node
 from checker.render.drawing.solve import Bound, least_stretch
 
 
-def backward(nodes: Sequence[str], arrows: Sequence[tuple[str, str, str]]) -> set[str]:
+def backward(nodes: Sequence[str], arrows: Sequence[tuple[str, str, str]], breadth: bool = False) -> frozenset[str]:
     """Names of the arrows (name, source, target) to be drawn from right to left.
 
-    They are those that close a cycle when the arrows are followed depth first, in the order given.
+    They are those that lead back when the arrows are followed from the first node on, depth first
+    (long chains run from left to right) or breadth first (near nodes stay near), in the order given.
     """
-    leaving: dict[str, list[tuple[str, str]]] = {n: [] for n in nodes}
-    for name, source, target in arrows:
-        leaving[source].append((name, target))
-    done: set[str] = set()
-    found: set[str] = set()
+    leaving: dict[str, list[str]] = {n: [] for n in nodes}
+    for _, source, target in arrows:
+        leaving[source].append(target)
+    place: dict[str, int] = {}
     for start in nodes:
-        _follow(start, leaving, done, found)
-    return found
+        _breadth(start, leaving, place) if breadth else _depth(start, leaving, place)
+    return frozenset(name for name, source, target in arrows if place[target] < place[source])
 
 
-def _follow(start: str, leaving: Mapping[str, list[tuple[str, str]]], done: set[str], found: set[str]) -> None:
-    if start in done:
+def _breadth(start: str, leaving: Mapping[str, list[str]], place: dict[str, int]) -> None:
+    """Number what is reached from ``start`` in the order in which it is met."""
+    queue = [] if start in place else [start]
+    place.setdefault(start, len(place))
+    for node in queue:
+        for target in leaving[node]:
+            if target not in place:
+                place[target] = len(place)
+                queue.append(target)
+
+
+def _depth(start: str, leaving: Mapping[str, list[str]], place: dict[str, int]) -> None:
+    """Number what is reached from ``start`` downwards, a node after all it leads to."""
+    if start in place:
         return
-    stack, open_ = [(start, iter(leaving[start]))], {start}
+    stack, met = [(start, iter(leaving[start]))], {start}
     while stack:
         node, rest = stack[-1]
-        for name, target in rest:
-            if target in open_:
-                found.add(name)
-            elif target not in done:
-                open_.add(target)
-                stack.append((target, iter(leaving[target])))
-                break
-        else:
+        following = next((t for t in rest if t not in met and t not in place), None)
+        if following is None:
             stack.pop()
-            open_.discard(node)
-            done.add(node)
+            place[node] = -len(place)
+        else:
+            met.add(following)
+            stack.append((following, iter(leaving[following])))
 
 
 def ranks(nodes: Sequence[Node], edges: Sequence[Edge], first: Collection[str], last: Collection[str]) -> dict[str, int]:

@@ -49,11 +49,12 @@ def wrap(text: str, limit: int, indent: str = "") -> tuple[str, ...]:
     A line rather starts than ends with ``&&`` or ``||``; lines after the first start with ``indent``.
     """
     lines: list[str] = []
-    current = ""
-    for piece in _pieces(text):
-        if current and len(current) + 1 + len(piece) > limit:
+    current = start = text[: len(text) - len(text.lstrip(" "))]
+    indent = start + indent
+    for piece in _pieces(text.lstrip(" ")):
+        if current.strip() and len(current) + 1 + len(piece) > limit:
             lines.append(current)
             current = indent + piece
         else:
-            current = f"{current} {piece}" if current else piece
+            current = f"{current} {piece}" if current.strip() else current + piece
     return (*lines, current) if current else tuple(lines)

@@ -1,6 +1,7 @@
 """Control flow of a chart as a structured program: rules G2 to G12, nested executions inlined."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 from spec_model.lang.action import Action, Assign, If, Send
 from spec_model.lang.chart import NOWHERE, Chart, Path, Transition
@@ -11,6 +12,21 @@ from spec_model.lang.lower.timers import Timers
 from spec_model.lang.system import Statement
 
 Statements = list[Statement]
+
+
+@dataclass(frozen=True)
+class Way:
+    """A path being followed: from a source state, or (default) into a composite.
+
+    ``then`` collects transition actions; ``done`` are the flags to raise on completion, one for each
+    enclosing point of backtracking.
+    """
+
+    source: Path | None = None
+    event: str | None = None
+    composite: Path = ()
+    then: tuple[Action, ...] = ()
+    done: tuple[Var, ...] = ()
 
 
 class Flow:
@@ -40,7 +56,7 @@ class Flow:
         if key not in self._executions:
             state = self.chart.states[path]
             body = self._body(path, event)
-            arrows = self.attempt(state.transitions, path[:-1], path, event, lambda: body)
+            arrows = self.attempt(state.transitions, path[:-1], Way(path, event), lambda: body)
             self._executions[key] = (*self.timers.on_execution(path), *arrows)
         return self._executions[key]
 
@@ -67,58 +83,36 @@ class Flow:
     # --- arrows (G5 to G8) ---
 
     def attempt(
-        self,
-        segments: Sequence[Transition],
-        level: Path,
-        source: Path | None,
-        event: str | None,
-        otherwise: Callable[[], Statements],
-        then: tuple[Action, ...] = (),
-        composite: Path | None = None,
-        done: tuple[Var, ...] = (),
+        self, segments: Sequence[Transition], level: Path, way: Way, otherwise: Callable[[], Statements]
     ) -> Statements:
-        """Test the segments in order; ``otherwise`` runs if none completes a path.
-
-        ``composite`` is set for default transitions, ``then`` collects transition actions, and
-        ``done`` are the flags to raise on completion, one per enclosing point of backtracking.
-        """
+        """Test segments drawn at ``level`` in order; ``otherwise`` runs if none completes a path."""
         if not segments:
             return otherwise()
         segment, rest = segments[0], segments[1:]
-        remaining = lambda: self.attempt(rest, level, source, event, otherwise, then, composite, done)  # noqa: E731
-        if segment.event is not None and segment.event != event:
-            return remaining()
-        follow = lambda flags: self._follow(segment, level, source, event, then, composite, flags)  # noqa: E731
-        guard = None if segment.guard is None else self.timers.plainly(segment.guard, source)
-        if self._always_completes(level, segment, event):
-            inside = follow(done)
-            return inside if guard is None else [If(guard, tuple(inside), tuple(remaining()))]
+        if segment.event is not None and segment.event != way.event:
+            return self.attempt(rest, level, way, otherwise)
+        guard = None if segment.guard is None else self.timers.plainly(segment.guard, way.source)
+        if self._always_completes(level, segment, way.event):
+            inside = self._follow(segment, level, way)
+            if guard is None:
+                return inside
+            return [If(guard, tuple(inside), tuple(self.attempt(rest, level, way, otherwise)))]
         flag = self._flag()
-        inside = follow((*done, flag))
+        inside = self._follow(segment, level, replace(way, done=(*way.done, flag)))
         tried: Statements = inside if guard is None else [If(guard, tuple(inside))]
-        return [Assign(flag, FALSE), *tried, If(flag, (), tuple(remaining()))]
+        remaining = self.attempt(rest, level, way, otherwise)
+        return [Assign(flag, FALSE), *tried, If(flag, (), tuple(remaining))]
 
-    def _follow(
-        self,
-        segment: Transition,
-        level: Path,
-        source: Path | None,
-        event: str | None,
-        then: tuple[Action, ...],
-        composite: Path | None,
-        done: tuple[Var, ...],
-    ) -> Statements:
+    def _follow(self, segment: Transition, level: Path, way: Way) -> Statements:
+        """What happens once a segment has been found valid."""
         target = self.chart.resolve(level, segment.target)
         assert target is not None
         acts = self.actions(segment.do)
-        collected = (*then, *segment.then)
+        onward = replace(way, then=(*way.then, *segment.then))
         if target in self.chart.junctions:
-            onward = self.chart.junctions[target].transitions
-            return acts + self.attempt(
-                onward, target[:-1], source, event, lambda: [], collected, composite, done
-            )
-        taken = self.take(source, target, collected, composite)
-        return acts + taken + [Assign(flag, TRUE) for flag in done]
+            segments = self.chart.junctions[target].transitions
+            return acts + self.attempt(segments, target[:-1], onward, lambda: [])
+        return acts + self.take(onward, target) + [Assign(flag, TRUE) for flag in way.done]
 
     def _always_completes(self, level: Path, segment: Transition, event: str | None) -> bool:
         """Whether a path is sure to be completed once the segment has been found valid."""
@@ -137,16 +131,13 @@ class Flow:
 
     # --- taking a path (G9) ---
 
-    def take(
-        self, source: Path | None, target: Path, then: Sequence[Action], composite: Path | None
-    ) -> Statements:
+    def take(self, way: Way, target: Path) -> Statements:
         """Exit, run transition actions, enter."""
-        if source is None:
-            assert composite is not None
-            return self.actions(then) + self.enter(composite, target)
-        scope = common_composite(source, target)
-        left = source[: len(scope) + 1]
-        return self.leave(left) + self.actions(then) + self.enter(scope, target)
+        if way.source is None:
+            return self.actions(way.then) + self.enter(way.composite, target)
+        scope = common_composite(way.source, target)
+        left = way.source[: len(scope) + 1]
+        return self.leave(left) + self.actions(way.then) + self.enter(scope, target)
 
     def leave(self, path: Path) -> Statements:
         """Exit the active state at ``path`` and everything active in it, innermost first."""
@@ -194,7 +185,7 @@ class Flow:
         if state.parallel:
             regions = [(*path, child.name) for child in state.states]
             return [s for r in regions for s in self._activate(r) + self.complete(r)]
-        return self.attempt(state.default, path, None, None, lambda: [], composite=path)
+        return self.attempt(state.default, path, Way(composite=path), lambda: [])
 
     def _activate(self, path: Path) -> Statements:
         parent = path[:-1]

@@ -93,7 +93,8 @@ def _raw(op: Op, left: Expr, right: Expr) -> Expr:
 
 def broken(var: Var) -> Var:
     """The check variable that is 1 after a tick in which ``var`` was to leave its domain."""
-    return Var(f"{var.name}.out_of_domain", boolean, 0, f"{var.name} was assigned a value outside {var.domain}")
+    doc = f"{var.name} was assigned a value outside {var.domain}"
+    return Var(f"{var.name}.out_of_domain", boolean, 0, doc)
 
 
 def guarded(statement: Assign) -> Statement:

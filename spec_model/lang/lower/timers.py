@@ -37,7 +37,8 @@ class Timers:
         self.risings: dict[tuple[object, ...], tuple[Expr, Var]] = {}
         self.helds: dict[tuple[object, ...], tuple[Temporal, Var]] = {}
         for path, state in chart.states.items():
-            self._of_state(path, [w for t in self._segments(path, state.transitions) for w in _words(t.guard)])
+            segments = self._segments(path, state.transitions)
+            self._of_state(path, [w for t in segments for w in _words(t.guard)])
         for word in (w for e in chart.expressions for w in _words(e)):
             self._of_chart(word)
 
@@ -57,7 +58,8 @@ class Timers:
         name = ".".join((self.chart.name, *path))
         longest = [self._ticks(w) for w in words if w.when is When.AFTER]
         if longest:
-            self.after[path] = Var(f"{name}.after", integer(0, max(longest)), 0, f"ticks since {name} was entered")
+            doc = f"ticks since {name} was entered"
+            self.after[path] = Var(f"{name}.after", integer(0, max(longest)), 0, doc)
         for word in words:
             if word.when is When.DURATION and structure(word) not in self.durations.setdefault(path, {}):
                 number = len(self.durations[path]) + 1
@@ -68,7 +70,8 @@ class Timers:
     def _of_chart(self, word: Temporal) -> None:
         if word.when is When.RISING and word.arg is not None and structure(word) not in self.risings:
             name = f"{self.chart.name}.rising{len(self.risings) + 1}"
-            self.risings[structure(word)] = (word.arg, Var(name, boolean, 1, f"{word.arg} in the step before"))
+            memory = Var(name, boolean, 1, f"{word.arg} in the step before")
+            self.risings[structure(word)] = (word.arg, memory)
         if word.when is When.HELD and structure(word) not in self.helds:
             name = f"{self.chart.name}.held{len(self.helds) + 1}"
             top = integer(0, self._ticks(word) + 1)

@@ -1,0 +1,108 @@
+"""What must be true of the reception and heartbeat statuses of Board 1 [seed Table 2].
+
+Bits 2 and 7 of the masks follow the two statuses by PB1-10.
+"""
+
+from properties.forms import always, holds_after, reachable
+from spec_model.board1.heartbeat import monitor_heartbeat
+from spec_model.board1.reception import monitor_reception
+from spec_model.lang.expr import Expr, all_of, implies, previous
+from spec_model.lang.time import ms, ticks
+from spec_model.signals.board1 import (
+    b2_sup_status,
+    heartbeat_age,
+    heartbeat_slow,
+    heartbeat_update,
+    rx_age,
+    rx_slow,
+    rx_status,
+    rx_update,
+)
+
+
+def _apart(update: Expr) -> Expr:
+    """No update within 60 ms after another."""
+    return implies(update, ~previous(update) & ~previous(previous(update)))
+
+
+PB1_07a = always(
+    "PB1-07a", "While no valid frame has arrived for more than 120 ms the reception is critical.",
+    that=implies(rx_age > 120, rx_status == "RX_CRITICAL"),
+    covers=["B1-RX-03"], on="reception", from_tick=2, readings=["S37", "S38", "S39"],
+)  # fmt: skip
+PB1_07b = always(
+    "PB1-07b", "While the heartbeat has not changed for more than 120 ms the supervisor is critical.",
+    that=implies(heartbeat_age > 120, b2_sup_status == "SUP_CRITICAL"),
+    covers=["B1-SUP-03"], on="heartbeat", from_tick=2, readings=["S37", "S38", "S39"],
+)  # fmt: skip
+PB1_08a = always(
+    "PB1-08a", "The reception is OK if and only if its age is at most 120 ms and its mean not above 40 ms.",
+    that=(rx_status == "RX_OK") == ((rx_age <= 120) & ~rx_slow),
+    covers=["B1-RX-02", "B1-RX-03", "B1-RX-04"], on="reception", from_tick=2, readings=["S34", "S38"],
+)  # fmt: skip
+PB1_08b = always(
+    "PB1-08b", "The supervisor is OK if and only if its heartbeat is at most 120 ms old and its mean not above 40 ms.",
+    that=(b2_sup_status == "SUP_OK") == ((heartbeat_age <= 120) & ~heartbeat_slow),
+    covers=["B1-SUP-02", "B1-SUP-03", "B1-SUP-04"], on="heartbeat", from_tick=2, readings=["S34", "S38"],
+)  # fmt: skip
+PB1_08c = holds_after(
+    "PB1-08c", "Frames at least 60 ms apart, never missing for more than 120 ms, make the reception degraded.",
+    premise=_apart(rx_update) & (rx_age <= 120), for_=77 * ticks, then=rx_status == "RX_DEGRADED",
+    covers=["B1-RX-02"], on="reception_exact", from_tick=2, readings=["S34", "S35"],
+)  # fmt: skip
+PB1_08d = holds_after(
+    "PB1-08d", "Frames at most 40 ms apart for the last 440 ms leave the reception OK.",
+    premise=rx_update | previous(rx_update), for_=440 * ms, then=rx_status == "RX_OK",
+    covers=["B1-RX-02", "B1-RX-04"], on="reception_exact", from_tick=2, readings=["S37"],
+)  # fmt: skip
+PB1_08e = holds_after(
+    "PB1-08e", "Heartbeats at least 60 ms apart, never missing for more than 120 ms, make the supervisor degraded.",
+    premise=_apart(heartbeat_update) & (heartbeat_age <= 120), for_=77 * ticks,
+    then=b2_sup_status == "SUP_DEGRADED",
+    covers=["B1-SUP-02"], on="heartbeat_exact", from_tick=2, readings=["S34", "S35", "S40"],
+)  # fmt: skip
+PB1_08f = holds_after(
+    "PB1-08f", "Heartbeats at most 40 ms apart for the last 440 ms leave the supervisor OK.",
+    premise=heartbeat_update | previous(heartbeat_update), for_=440 * ms, then=b2_sup_status == "SUP_OK",
+    covers=["B1-SUP-02", "B1-SUP-04"], on="heartbeat_exact", from_tick=2, readings=["S37"],
+)  # fmt: skip
+PB1_32a = always(
+    "PB1-32a", "The reception is critical exactly while its age exceeds 120 ms, degraded exactly for a slow mean then.",
+    that=all_of(
+        (rx_status == "RX_CRITICAL") == (rx_age > 120),
+        (rx_status == "RX_DEGRADED") == ((rx_age <= 120) & rx_slow),
+    ),
+    covers=["B1-RX-05"], on="reception", from_tick=2, readings=["S34", "S37", "S38", "S39"],
+)  # fmt: skip
+PB1_32b = always(
+    "PB1-32b", "The supervisor is critical exactly while its heartbeat is older than 120 ms, else degraded if slow.",
+    that=all_of(
+        (b2_sup_status == "SUP_CRITICAL") == (heartbeat_age > 120),
+        (b2_sup_status == "SUP_DEGRADED") == ((heartbeat_age <= 120) & heartbeat_slow),
+    ),
+    covers=["B1-RX-05"], on="heartbeat", from_tick=2, readings=["S34", "S37", "S38", "S39", "S41"],
+)  # fmt: skip
+
+REACH_RX_DEG = reachable(
+    "REACH-RX-DEG", "The reception can be degraded.",
+    that=monitor_reception.active("Rx_DEG"), covers=["B1-RX-02"], on="reception_exact",
+)  # fmt: skip
+REACH_RX_DEG_AFTER_CRIT = reachable(
+    "REACH-RX-DEG-AFTER-CRIT", "After a silence the first frame can lead from critical to degraded.",
+    that=monitor_reception.active("Rx_DEG") & previous(monitor_reception.active("Rx_CRIT")),
+    covers=["B1-RX-02", "B1-RX-03"], on="reception_exact", readings=["S38"],
+)  # fmt: skip
+REACH_RX_CRIT = reachable(
+    "REACH-RX-CRIT", "The reception can become critical after it was OK.",
+    that=monitor_reception.active("Rx_CRIT") & previous(monitor_reception.active("Rx_OK")),
+    covers=["B1-RX-03"], on="reception_exact",
+)  # fmt: skip
+REACH_SUP_DEG = reachable(
+    "REACH-SUP-DEG", "The supervisor of Board 2 can be degraded.",
+    that=monitor_heartbeat.active("Sup_DEG"), covers=["B1-SUP-02"], on="heartbeat_exact",
+)  # fmt: skip
+REACH_SUP_CRIT = reachable(
+    "REACH-SUP-CRIT", "The supervisor can become critical while frames still arrive.",
+    that=monitor_heartbeat.active("Sup_CRIT") & monitor_reception.active("Rx_OK"),
+    covers=["B1-SUP-03"], on="board1", readings=["S41"],
+)  # fmt: skip

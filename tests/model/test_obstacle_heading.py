@@ -1,0 +1,59 @@
+"""The free predicate turned_45 stands for the measured heading: every measured run is a run of it."""
+
+from random import Random
+
+import pytest
+
+from spec_model.board2.heading import angleCalculator, headings, measured
+from spec_model.board2.obstacles import TIMED, obstacles_n
+from spec_model.lang.evaluate import evaluate
+from spec_model.lang.interpret import Interpreter
+from spec_model.lang.system import in_order
+from spec_model.signals.board2 import B2Decision
+
+yaw, target = headings(15)
+heading = measured(yaw, target)
+exact = in_order("measured", obstacles_n(TIMED, heading))
+free = in_order("free", obstacles_n(TIMED))
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_a_measured_run_is_a_run_with_the_free_predicate(seed: int) -> None:
+    """turned_45 is given the value that the test has for the heading of the step and the stored target."""
+    random = Random(seed)
+    one, other = Interpreter(exact), Interpreter(free)
+    decisions = set()
+    distances = dict.fromkeys(("d1", "d2", "d3"), 301)
+    heading_now = 0
+    for _ in range(1500):
+        if random.random() < 0.5:
+            distances[random.choice(["d1", "d2", "d3"])] = random.choice(
+                [70, 100, 200, 200, 200, 301, 301, 301]
+            )
+        heading_now = random.choice([heading_now, random.choice(list(yaw.domain.values))])
+        prevDEG = int(random.random() < 0.01)
+        before = one.valuation()
+        turned = evaluate(heading.turned, {**before, "yaw": heading_now})
+        one.step({**distances, "prevDEG_B1": prevDEG, "yaw": heading_now})
+        other.step({**distances, "prevDEG_B1": prevDEG, "turned_45": turned})
+        assert one.valuation()["B2Decision"] == other.valuation()["B2Decision"]
+        decisions.add(one.valuation()["B2Decision"])
+    assert decisions == {0, 1, 2, 3, 4}
+
+
+@pytest.mark.parametrize("at", target.domain.values)
+@pytest.mark.parametrize("decision", [2, 4])
+def test_for_every_target_the_test_can_come_out_either_way(decision: int, at: int) -> None:
+    outcomes = {
+        evaluate(heading.turned, {"B2Decision": decision, "targetAngle": at, "yaw": now})
+        for now in yaw.domain.values
+    }
+    assert outcomes == {0, 1}
+
+
+@pytest.mark.parametrize("now", yaw.domain.values)
+@pytest.mark.parametrize("decision", [2, 4])
+def test_in_the_step_of_entry_the_test_is_false(decision: int, now: int) -> None:
+    at = {"B2Decision": decision, "yaw": now}
+    at["targetAngle"] = evaluate(angleCalculator(yaw, B2Decision), at)
+    assert evaluate(heading.turned, at) == 0
