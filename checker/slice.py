@@ -27,7 +27,7 @@ def sliced(system: TransitionSystem, goals: Sequence[Var]) -> TransitionSystem:
     by inputs which nothing else reads are left out.
     """
     wanted = frozenset(g.name for g in goals)
-    open_groups, kept = _groups(system), list[Expr]()
+    open_groups, kept = assumption_groups(system), list[Expr]()
     while True:
         live, step = _cyclic(system.step, wanted, names(kept), _written(system))
         read = live | names(kept) | _all_read(step)
@@ -125,7 +125,7 @@ def _all_read(program: Program) -> Names:
 # --- the assumption ------------------------------------------------------------------------------
 
 
-def _groups(system: TransitionSystem) -> list[list[Expr]]:
+def assumption_groups(system: TransitionSystem) -> list[list[Expr]]:
     """The conjuncts of the assumption, those that share inputs together."""
     inputs = {v.name for v in system.inputs}
     groups: list[tuple[Names, list[Expr]]] = []

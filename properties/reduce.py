@@ -185,7 +185,8 @@ class _Monitors:
     def _previous(self, arg: Expr, init: int) -> Expr:
         def make(name: str) -> Var:
             memory = self._variable(name, _domain_of(arg), init, f"{arg} at the end of the tick before")
-            self.after.append(Assign(memory, arg))
+            # In front: a memory of a memory reads the inner one before that is renewed.
+            self.after.insert(0, Assign(memory, arg))
             return memory
 
         return self._memory(("previous", structure(arg), init), f"previous({arg})", make)

@@ -109,12 +109,16 @@ class Wiring:
             depth -= 1
         return source[:depth]
 
+    def below(self, path: Path) -> list[Path]:
+        """The state and those inside it."""
+        return [p for p in self.nodes if p[: len(path)] == path]
+
     def legal(self, source: Path, target: Path) -> bool:
         return not self.nodes[self.scope(source, target)].parallel
 
     def written(self, level: Path, target: Path) -> str | None:
         """How an arrow drawn at ``level`` may name the target."""
-        for length in range(1 + self.source.below(2), len(target) + 1):
+        for length in (*range(1 + self.source.below(2), len(target) + 1), 1):
             text = ".".join(target[-length:])
             if self.bare.resolve(level, text) == target:
                 return text
@@ -162,7 +166,7 @@ class Wiring:
         if not node.children or node.parallel:
             return
         first = (*path, node.children[0].name)
-        inside = [p for p in self.nodes if p[: len(path)] == path and p != path]
+        inside = self.below(path)[1:]
         if self.source.chance(3):
             made = self.segment(path, self.source.pick(inside), words=False)
             node.default += [made] if made else []
@@ -188,7 +192,7 @@ class Wiring:
             made = self.segment(path[:-1], target)
             node.arrows += [made] if made else []
         for (level, name), ends in self.ends.items():
-            near = level == path[: len(level)] and self.bare_junction(path[:-1], level, name)
+            near = level == path[:-1][: len(level)] and self.bare_junction(path[:-1], level, name)
             if near and all(self.legal(path, e) for e in ends) and self.source.chance(2):
                 node.arrows.insert(self.source.below(len(node.arrows) + 1), self.label(name))
 
@@ -232,7 +236,7 @@ def charts(source: Source, name: str, data: Sequence[Var], local: Sequence[Var])
     for datum in local:
         _localise(draft, wiring, datum)
     if any(n.parallel for n in wiring.nodes.values()) or source.chance(5):
-        for number in range(source.below(4)):
+        for number in range(source.below(6)):
             draft.attempt(lambda n=number: _send(draft, wiring, f"e{n % 2 + 1}"))
     if source.chance(4):
         composites = [n for n in wiring.nodes.values() if n.default]
@@ -269,13 +273,11 @@ def _drop_default(node: Node) -> Callable[[], None]:
 def _send(draft: Draft, wiring: Wiring, event: str) -> Callable[[], None]:
     """A send from one place, and an arrow inside the receiver that waits for it."""
     source = draft.source
-    paths = [p for p in wiring.nodes if p]
-    sender, receiver = source.pick(paths), source.pick(paths)
-    reacting = [p for p in paths if p[: len(receiver)] == receiver and not wiring.nodes[p[:-1]].parallel]
-    node = wiring.nodes[sender]
-    if not reacting or sender[: len(receiver)] == receiver:
+    sender, receiver = _ends_of_send(source, wiring)
+    reacting = [p for p in wiring.below(receiver) if not wiring.nodes[p[:-1]].parallel]
+    if not reacting:
         return lambda: None
-    other = wiring.nodes[source.pick(reacting)]
+    node, other = wiring.nodes[sender], wiring.nodes[source.pick(reacting)]
     saved = [(n, n.entry, n.during, n.exit, n.arrows) for n in (node, other)]
     _put_send(source, node, send(event, ".".join(receiver)))
     if other.arrows:
@@ -289,6 +291,20 @@ def _send(draft: Draft, wiring: Wiring, event: str) -> Callable[[], None]:
             pass
 
     return undo
+
+
+def _ends_of_send(source: Source, wiring: Wiring) -> tuple[Path, Path]:
+    """A sender and a receiver, mostly in two regions of one parallel composite."""
+    parallel = [p for p, n in wiring.nodes.items() if n.parallel]
+    if not parallel or source.chance(6):
+        paths = [p for p in wiring.nodes if p]
+        return source.pick(paths), source.pick(paths)
+    composite = source.pick(parallel)
+    regions = [(*composite, c.name) for c in wiring.nodes[composite].children]
+    first = source.below(len(regions))
+    other = (first + 1 + source.below(len(regions) - 1)) % len(regions)
+    receiver = source.pick(wiring.below(regions[other])) if source.chance(3) else regions[other]
+    return source.pick(wiring.below(regions[first])), receiver
 
 
 def _put_send(source: Source, node: Node, action: Action) -> None:

@@ -149,19 +149,18 @@ class Source:
 
     # --- actions ---
 
-    def value(self, target: Var, scope: Sequence[Var]) -> Expr:
-        """Something that the variable can take."""
+    def value(self, target: Var, scope: Sequence[Var], words: bool = True) -> Expr:
+        """Something that the variable can take; ``words`` allows temporal ones."""
         domain = target.domain
         match target.sort:
             case Bool():
-                return self.steady_word() if self.steady and self.chance(8) else self.condition(scope, 1)
+                return self.steady_word() if words and self.chance(8) else self.condition(scope, 1)
             case Enum() as enum:
                 options = [Const(self.pick(domain.values), enum) for _ in range(2)]
                 return ite(self.condition(scope, 1), *options) if self.chance(3) else options[0]
             case Num(resolution, _) as num:
                 low, high = Const(domain.low, num), Const(domain.high, num)
-                fine = [v for v in scope if _fits(v, num)]
-                found = minimum(maximum(self.number(fine), low), high)
+                found = minimum(maximum(self.number([v for v in scope if _fits(v, num)]), low), high)
                 fits = isinstance(found.sort, Num) and (found.sort.resolution / resolution).denominator == 1
                 return found if fits else Const(self.pick(domain.values), num)
         raise AssertionError(target)
@@ -170,17 +169,20 @@ class Source:
         """A few assignments, conditional ones too."""
         made: list[Action] = []
         for _ in range(self.below(most + 1)):
-            done: list[Action] = [self.assignment(targets)]
+            done: list[Action] = [self.assignment(targets, words)]
             if self.chance(4):
-                word = words and self.steady and self.chance(4)
-                test = self.steady_word() if word else self.condition(self.scope, 1, places=True)
-                done = [when(test, done, [self.assignment(targets)] if self.chance(2) else [])]
+                test = self.condition(self.scope, 1, places=True)
+                if words and self.chance(4):
+                    test = self.steady_word()
+                otherwise = [self.assignment(targets, words)] if self.chance(2) else []
+                done = [when(test, done, otherwise)]
             made += done
         return made
 
-    def assignment(self, targets: Sequence[Var]) -> Action:
+    def assignment(self, targets: Sequence[Var], words: bool = True) -> Action:
         target = self.pick(targets)
-        return assign(target, self.value(target, self.scope))
+        return assign(target, self.value(target, self.scope, words))
+
 
 
 def _fits(v: Var, num: Num) -> bool:

@@ -47,7 +47,7 @@ def _datum(draw: DrawFn, name: str) -> Var:
 
 def _part(source: Source, number: int, data: list[Var]) -> Component:
     if number and source.chance(4):
-        return Block(f"Block{number}", [source.assignment(data), *source.actions(data, 3, words=False)])
+        return Block(f"Block{number}", [source.assignment(data, words=False), *source.actions(data, 3, words=False)])
     return charts(source, f"Chart{number}", data, [_datum(source.draw, f"local{number}")])
 
 

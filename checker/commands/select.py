@@ -31,7 +31,7 @@ def pick_engine(name: str) -> str:
 
 
 def pick_properties(ids: Sequence[str], system: str | None) -> list[Property]:
-    """Properties by id, or by the beginning of an id up to a letter (PB1-16 is PB1-16a, PB1-16b...).
+    """Properties by id, or by the beginning that its forms share (PB1-16 is PB1-16a, PB1-16b...).
 
     All of them when no id is given; only those about ``system`` when one is.
     """
@@ -46,7 +46,7 @@ def pick_properties(ids: Sequence[str], system: str | None) -> list[Property]:
 def _matching(id: str, known: Mapping[str, Property]) -> list[Property]:
     if id in known:
         return [known[id]]
-    forms = [p for name, p in known.items() if name.startswith(id) and name[len(id) :].isalpha()]
+    forms = [p for name, p in known.items() if name.startswith(id) and not name[len(id)].isdigit()]
     return forms or [pick("property", id, known)]
 
 

@@ -14,7 +14,7 @@ from checker.partition import Partition
 from checker.slice import conjuncts, names
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import Bool, Domain, Num
-from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, Op, Var, flag, plain
+from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, Op, Var, flag
 from spec_model.lang.system import TransitionSystem
 
 Names = frozenset[str]
@@ -47,6 +47,11 @@ class Branch:
 
 PathStatement = Union[Assign, Branch, Choose, Require]
 PathProgram = tuple[PathStatement, ...]
+
+
+def read_flag(var: Var) -> Var:
+    """The variable that is true once a path has chosen the input."""
+    return flag(f"?read {var.name}")
 
 
 def path_program(system: TransitionSystem, cells: Mapping[str, Partition]) -> PathProgram:
@@ -89,7 +94,7 @@ class _Made:
     cells: Mapping[str, Partition]
     choices: int = 0
     fresh: int = 0
-    read: dict[int, Names] = field(default_factory=dict)
+    read: dict[int, tuple[Expr, Names]] = field(default_factory=dict)
 
     def statements(self, program: Sequence[object], seen: _Seen, out: list[PathStatement]) -> _Seen:
         for statement in program:
@@ -131,14 +136,11 @@ class _Made:
     def ready(self, expr: Expr, seen: _Seen) -> bool:
         """Whether every input that the expression mentions has been chosen on every path to here."""
         if id(expr) not in self.read:
-            self.read[id(expr)] = names([expr]) & set(self.cells)
-            self.keep.append(expr)
-        return self.read[id(expr)] <= seen.always
-
-    keep: list[Expr] = field(default_factory=list)
+            self.read[id(expr)] = expr, names([expr]) & set(self.cells)  # held, so that ids stay unique
+        return self.read[id(expr)][1] <= seen.always
 
     def choose(self, var: Var, seen: _Seen, out: list[PathStatement]) -> _Seen:
-        known = flag(f"?read {var.name}")
+        known = read_flag(var)
         self.choices += 1
         made = Choose(self.choices - 1, var, tuple(c.value for c in self.cells[var.name].cells))
         steps: PathProgram = (made, Assign(known, TRUE))
@@ -242,6 +244,3 @@ def _positions(program: PathProgram, at: int, found: dict[str, tuple[Var, int]])
             case Require():
                 pass
     return at
-
-
-__all__ = ["Branch", "Choose", "PathProgram", "Require", "assigned", "path_program", "plain", "saved"]

@@ -76,9 +76,7 @@ def _foot(chart: Chart, room: int) -> list[str]:
 
 def _box(box: Box, shown: Emphasis) -> list[str]:
     kind = "region" if box.order else "composite" if box.composite else "state"
-    classes = f"{kind} active" if box.path in shown.states and not box.composite else kind
-    if box.path in shown.states and box.composite:
-        classes = f"{kind} active"
+    classes = f"{kind} active" if box.path in shown.states else kind
     radius = 10 if not box.order else 6
     parts = [svg.tag("rect", x=box.x, y=box.y, width=box.width, height=box.height, rx=radius, class_=classes)]
     parts.append(svg.text(box.x + 12, box.y + 17, box.path[-1], "title"))
@@ -103,12 +101,12 @@ def _piece(piece: Piece, shown: Emphasis) -> str:
 
 
 def _number(piece: Piece) -> str:
-    """The priority just above the start of the line."""
-    (x, y), (x1, _) = piece.points[0], piece.points[1]
-    if len(piece.points) > 2 and piece.points[0][1] != piece.points[1][1] and x != x1:
-        x, y = piece.points[1]
-    side = 3 if x1 >= x else -9
-    return svg.text(x + side, y - 3, piece.arrow.number, "number")
+    """The priority just above the start of the line; beyond the slanting start at a junction."""
+    (x, y), (x1, y1) = piece.points[0], piece.points[1]
+    right = x1 > x
+    if x1 != x and y1 != y:
+        x, y = x1, y1
+    return svg.text(x + (3 if right else -9), y - 3, piece.arrow.number, "number")
 
 
 def _spot(spot: Spot) -> str:

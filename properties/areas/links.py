@@ -41,12 +41,14 @@ PB1_08a = always(
     covers=["B1-RX-02", "B1-RX-03", "B1-RX-04"], on="reception", from_tick=2, readings=["S34", "S38"],
 )  # fmt: skip
 PB1_08b = always(
-    "PB1-08b", "The supervisor is OK if and only if its heartbeat is at most 120 ms old and its mean not above 40 ms.",
+    "PB1-08b",
+    "The supervisor is OK if and only if its heartbeat is at most 120 ms old and its mean not above 40 ms.",
     that=(b2_sup_status == "SUP_OK") == ((heartbeat_age <= 120) & ~heartbeat_slow),
     covers=["B1-SUP-02", "B1-SUP-03", "B1-SUP-04"], on="heartbeat", from_tick=2, readings=["S34", "S38"],
 )  # fmt: skip
 PB1_08c = holds_after(
-    "PB1-08c", "Frames at least 60 ms apart, never missing for more than 120 ms, make the reception degraded.",
+    "PB1-08c",
+    "Frames at least 60 ms apart, never missing for more than 120 ms, make the reception degraded.",
     premise=_apart(rx_update) & (rx_age <= 120), for_=77 * ticks, then=rx_status == "RX_DEGRADED",
     covers=["B1-RX-02"], on="reception_exact", from_tick=2, readings=["S34", "S35"],
 )  # fmt: skip
@@ -56,7 +58,8 @@ PB1_08d = holds_after(
     covers=["B1-RX-02", "B1-RX-04"], on="reception_exact", from_tick=2, readings=["S37"],
 )  # fmt: skip
 PB1_08e = holds_after(
-    "PB1-08e", "Heartbeats at least 60 ms apart, never missing for more than 120 ms, make the supervisor degraded.",
+    "PB1-08e",
+    "Heartbeats at least 60 ms apart, never missing for more than 120 ms, make the supervisor degraded.",
     premise=_apart(heartbeat_update) & (heartbeat_age <= 120), for_=77 * ticks,
     then=b2_sup_status == "SUP_DEGRADED",
     covers=["B1-SUP-02"], on="heartbeat_exact", from_tick=2, readings=["S34", "S35", "S40"],
@@ -67,7 +70,8 @@ PB1_08f = holds_after(
     covers=["B1-SUP-02", "B1-SUP-04"], on="heartbeat_exact", from_tick=2, readings=["S37"],
 )  # fmt: skip
 PB1_32a = always(
-    "PB1-32a", "The reception is critical exactly while its age exceeds 120 ms, degraded exactly for a slow mean then.",
+    "PB1-32a",
+    "The reception is critical exactly while its age exceeds 120 ms, degraded exactly for a slow mean then.",
     that=all_of(
         (rx_status == "RX_CRITICAL") == (rx_age > 120),
         (rx_status == "RX_DEGRADED") == ((rx_age <= 120) & rx_slow),
@@ -75,7 +79,8 @@ PB1_32a = always(
     covers=["B1-RX-05"], on="reception", from_tick=2, readings=["S34", "S37", "S38", "S39"],
 )  # fmt: skip
 PB1_32b = always(
-    "PB1-32b", "The supervisor is critical exactly while its heartbeat is older than 120 ms, else degraded if slow.",
+    "PB1-32b",
+    "The supervisor is critical exactly while its heartbeat is older than 120 ms, else degraded if slow.",
     that=all_of(
         (b2_sup_status == "SUP_CRITICAL") == (heartbeat_age > 120),
         (b2_sup_status == "SUP_DEGRADED") == ((heartbeat_age <= 120) & heartbeat_slow),

@@ -1,35 +1,38 @@
-"""What must be true of the safety state of the rover [seed §2.7, Fig 21]; Board 1 actuates in every step here."""
+"""What must be true of the safety state of the rover [seed §2.7, Fig 21]."""
 
 from properties.forms import always, holds_after, reachable, responds
 from spec_model.board1.safety import critical, degraded, safety_state
 from spec_model.lang.expr import implies, named
 from spec_model.lang.time import tick
-from spec_model.signals.board1 import rover_safety_state
+from spec_model.signals.board1 import give_b2_actuation, rover_safety_state
 
 ON = "safety"
 CRITICAL = rover_safety_state == "SAFETY_CRITICAL"
 NOT_OK = rover_safety_state != "SAFETY_OK"
-critical_cause = named("critical cause", critical)
-degraded_cause = named("degraded cause", degraded)
+drives = named("Board 1 actuates", ~give_b2_actuation)
+critical_cause = named("critical cause while Board 1 actuates", drives & critical)
+any_cause = named("cause while Board 1 actuates", drives & (critical | degraded))
 
 PB1_16a = always(
-    "PB1-16a", "A critical cause makes the safety state critical in the same step.",
+    "PB1-16a", "While Board 1 actuates, a critical cause makes the safety state critical in the same step.",
     that=implies(critical_cause, CRITICAL),
     covers=["B1-REF-03", "B1-REF-07"], on=ON, from_tick=2, readings=["S55", "S56"],
 )  # fmt: skip
 PB1_16b = always(
-    "PB1-16b", "With a critical or degraded cause the safety state is not OK in the same step.",
-    that=implies(critical_cause | degraded_cause, NOT_OK),
+    "PB1-16b",
+    "While Board 1 actuates, with a critical or degraded cause the safety state is not OK in the same step.",
+    that=implies(any_cause, NOT_OK),
     covers=["B1-REF-03", "B1-REF-07"], on=ON, from_tick=2, readings=["S55", "S56"],
 )  # fmt: skip
 PB1_16c = holds_after(
-    "PB1-16c", "A critical cause in two successive steps makes the safety state critical in the second.",
+    "PB1-16c",
+    "A critical cause in two successive steps of actuation makes the safety state critical in the second.",
     premise=critical_cause, for_=1 * tick, then=CRITICAL,
     covers=["B1-REF-03", "B1-REF-07"], on=ON, from_tick=2, readings=["S55", "S56"],
 )  # fmt: skip
 PB1_16d = holds_after(
-    "PB1-16d", "With a critical or degraded cause in two successive steps the safety state is not OK in the second.",
-    premise=critical_cause | degraded_cause, for_=1 * tick, then=NOT_OK,
+    "PB1-16d", "With a cause in two successive steps of actuation the safety state is not OK in the second.",
+    premise=any_cause, for_=1 * tick, then=NOT_OK,
     covers=["B1-REF-03", "B1-REF-07"], on=ON, from_tick=2, readings=["S55", "S56"],
 )  # fmt: skip
 PB1_16e = responds(
@@ -38,13 +41,14 @@ PB1_16e = responds(
     covers=["B1-REF-03", "B1-REF-07"], on=ON, from_tick=2, readings=["S55", "S56"],
 )  # fmt: skip
 PB1_16f = always(
-    "PB1-16f", "The safety state is critical only with a critical cause in the same step.",
-    that=implies(CRITICAL, critical_cause),
+    "PB1-16f",
+    "While Board 1 actuates, the safety state is critical only with a critical cause in the same step.",
+    that=implies(drives & CRITICAL, critical),
     covers=["B1-REF-07"], on=ON, from_tick=2, readings=["S55", "S56"],
 )  # fmt: skip
 PB1_16g = always(
-    "PB1-16g", "Without any cause the safety state is OK in the same step.",
-    that=implies(~critical_cause & ~degraded_cause, ~NOT_OK),
+    "PB1-16g", "While Board 1 actuates, without any cause the safety state is OK in the same step.",
+    that=implies(drives & ~critical & ~degraded, ~NOT_OK),
     covers=["B1-REF-07"], on=ON, from_tick=2, readings=["S55", "S56"],
 )  # fmt: skip
 

@@ -40,7 +40,8 @@ PB1_02b = until(
     covers=["B1-TEMP-03"], on=ON, from_tick=2, readings=["S02", "S03", "S05"],
 )  # fmt: skip
 PB1_03 = always(
-    "PB1-03", "The temperature is critical only after 4 s in the critical range or on a stale estimate above 65.",
+    "PB1-03",
+    "The temperature is critical only after 4 s in the critical range or on a stale estimate above 65.",
     that=implies(CRITICAL, held(critical_range, for_=4 * sec) | stale_above_65),
     covers=["B1-TEMP-03", "B1-TEMP-04", "B1-TEMP-05"], on=ON, from_tick=2, readings=["S01", "S06", "S09"],
 )  # fmt: skip
@@ -55,7 +56,8 @@ PB1_04b = always(
     covers=["B1-TEMP-04", "B1-TEMP-05"], on=ON, from_tick=2, readings=["S07", "S08", "S10", "S14"],
 )  # fmt: skip
 PB1_33a = always(
-    "PB1-33a", "A temperature out of ]-5;55[ is reported degraded or critical (so bit 0 of a mask is set: PB1-10).",
+    "PB1-33a",
+    "A temperature out of ]-5;55[ is reported degraded or critical (so bit 0 of a mask is set: PB1-10).",
     that=implies(~ok_range, ~OK),
     covers=["B1-TEMP-06"], on=ON, from_tick=2, readings=["S01"],
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""What must be true of the four wheel statuses of Board 1 [seed Table 2]; each sentence is for every wheel."""
+"""What must be true of the wheel statuses of Board 1 [seed Table 2]; each sentence is for every wheel."""
 
 from collections.abc import Callable
 
@@ -14,7 +14,8 @@ consistent = is_motion_consistent
 def _every_wheel(sentence: Callable[[Expr, Expr, Expr, Expr], Expr]) -> Expr:
     """The sentence for each wheel, of its lost feedback and of the three levels of its status."""
     levels = ("WHEEL_OK", "WHEEL_DEGRADED_ENCODER", "WHEEL_CRITICAL_MOTOR")
-    return all_of(*(sentence(has_no_feedback[w], *(wheel_status[w] == level for level in levels)) for w in WHEELS))
+    each = [sentence(has_no_feedback[w], *(wheel_status[w] == level for level in levels)) for w in WHEELS]
+    return all_of(*each)
 
 
 PB1_06a = always(

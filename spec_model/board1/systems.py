@@ -16,6 +16,7 @@ from spec_model.board1.relay import relay
 from spec_model.board1.safety import safety_state
 from spec_model.board1.temperature import monitor_temperature
 from spec_model.board1.wheels import monitor_wheels
+from spec_model.lang.chart import Enabled
 from spec_model.lang.expr import ite
 from spec_model.lang.system import System, in_order
 from spec_model.signals import board1 as b1
@@ -136,9 +137,9 @@ relay_links = in_order(
 safety = in_order(
     "safety",
     process_b2_masks,
-    safety_state,
-    text="The safety state for any masks of Board 2 and any causes in Board 1.",
-    notes=[FREE_STATUSES, "It is executed in every step here, as while Board 1 actuates."],
+    Enabled(~b1.give_b2_actuation, safety_state),
+    text="The safety state for any masks of Board 2, any causes in Board 1 and any relay decision.",
+    notes=[FREE_STATUSES],
     over=True,
     concrete="board1",
 )

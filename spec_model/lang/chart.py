@@ -161,6 +161,8 @@ class Chart:
         Raises ``ModelError`` for an unknown or ambiguous name.
         """
         wanted = tuple(name.split("."))
+        if wanted in self.states:
+            return wanted
         found = [p for p in self.states if p and p[-len(wanted) :] == wanted]
         if len(found) == 1:
             return found[0]

@@ -1,11 +1,9 @@
 """The inner loop of the explicit search as LLVM code: expand valuations, store their successors."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
 from typing import Any
-
-from llvmlite import ir
 
 from checker.encode.intervals import Interval
 from checker.encode.native.body import Body
@@ -62,7 +60,7 @@ class _Search:
 
     def emit(self) -> None:
         build = self.build
-        self.drain(0)
+        self.drain()
         finished = build.append_basic_block("finished")
         self.body = Body(build, saved(self.task.paths, self.task.live_at_end), finished)
         self.parent, self.filled, self.tried, self.spent = (
@@ -95,7 +93,7 @@ class _Search:
         self.put("filled", self.build.load(self.filled))
         self.build.ret(INT(int(status)))
 
-    def drain(self, resume: object) -> None:
+    def drain(self) -> None:
         """Store what is in the buffer; back to Python if there is no room for it."""
         names = ("context", "words", "parents", "table", "buffer", "origins")
         full = self.build.call(self.store, [self.a[n] for n in names])
@@ -112,7 +110,7 @@ class _Search:
         build.position_at_end(stop)
         self.put("next", build.load(self.parent))
         self.put("filled", build.load(self.filled))
-        self.drain(None)
+        self.drain()
         build.ret(INT(int(Status.PAUSED)))
 
     def _finished(self, finished: Any, head: Any) -> None:
@@ -144,7 +142,7 @@ class _Search:
         build = self.build
         self.put("next", build.load(self.parent))
         self.put("filled", INT(BATCH))
-        self.drain(None)
+        self.drain()
         build.store(INT(0), self.filled)
         with build.if_then(build.icmp_signed(">", build.load(self.tried), INT(MOST_SUCCESSORS)), likely=False):
             self.leave(Status.TOO_MANY)

@@ -1,6 +1,6 @@
 """Cut arrows at the borders of composites: what of each arrow belongs to one level."""
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from checker.render.drawing.graph import Edge
@@ -47,6 +47,11 @@ class Cut:
         return f"|{self.name}"
 
     @property
+    def turn(self) -> str:
+        """The node that stands for the bend of a folded arrow."""
+        return f"~{self.name}"
+
+    @property
     def lines(self) -> tuple[str, ...]:
         """The lines of the label, which is written where the arrow starts."""
         if not self.starts:
@@ -81,15 +86,27 @@ def _member(path: Path, level: Path) -> str:
     return path[depth] if path[:depth] == level and len(path) > depth else ""
 
 
-def edge(cut: Cut, back: Collection[str], sides: Sides) -> Edge:
-    """The cut as an edge from left to right."""
+@dataclass(frozen=True)
+class Way:
+    """How a level is drawn: arrows that run from right to left, and arrows that leave their source to
+    the right and bend back to the right side of their target (``folded``)."""
+
+    back: frozenset[str]
+    folded: frozenset[str] = frozenset()
+
+
+def edges(cut: Cut, way: Way, sides: Sides) -> list[Edge]:
+    """The cut as an edge from left to right; for a folded one also the edge that leads back."""
     source, target = cut.source or cut.port, cut.target or cut.port
-    reverse = cut.name in back
+    label, weight = padded(cut.lines), 4 if cut.arrow.default else 1
+    if cut.name in way.folded:
+        return [Edge(cut.name, source, cut.turn, label), Edge(cut.turn, target, cut.turn)]
+    reverse = cut.name in way.back
     if cut.crosses:
         on_right = sides.get(cut.name, bool(cut.source))
         reverse = on_right != (target == cut.port)
     tail, head = (target, source) if reverse else (source, target)
-    return Edge(cut.name, tail, head, padded(cut.lines), 4 if cut.arrow.default else 1)
+    return [Edge(cut.name, tail, head, label, weight)]
 
 
 def padded(lines: tuple[str, ...]) -> tuple[int, int]:
@@ -103,10 +120,10 @@ def reversed_in(cut: Cut, drawn: Edge) -> bool:
     return drawn.tail != (cut.source or cut.port)
 
 
-def meetings(found: Sequence[Cut], member: str, back: Collection[str]) -> dict[str, bool]:
+def meetings(found: Sequence[Cut], member: str, way: Way) -> dict[str, bool]:
     """The arrows that meet a member from outside, and whether they meet it on its right side."""
     return {
-        c.name: (c.source == member) != (c.name in back)
+        c.name: c.name in way.folded or (c.source == member) != (c.name in way.back)
         for c in found
         if not c.loop and member in (c.source, c.target)
     }

@@ -1,9 +1,9 @@
 """Which states and arrows of a chart to emphasise, named as traces and people name them."""
 
-from collections.abc import Collection, Iterable
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from checker.render.drawing.scheme import ChartArrow
+from checker.render.drawing.scheme import ChartArrow, label
 from checker.trace import Arrow
 from spec_model.lang.chart import Chart, Path
 
@@ -27,16 +27,36 @@ def emphasis(
     for name in active:
         path = chart.path(name)
         states.update(path[:depth] for depth in range(1, len(path) + 1))
-    names = {a.name for a in every for f in fired if f.chart == chart.name and _is(a, f)}
+    every = tuple(every)
+    names = {a.name for f in fired if f.chart == chart.name for a in _path(chart, every, f)}
     return Emphasis(frozenset(states), frozenset(names))
 
 
-def _is(arrow: ChartArrow, fired: Arrow) -> bool:
-    if arrow.default != (fired.order == 0):
-        return False
-    return _named(arrow.target, fired.target) and (
-        arrow.default or (arrow.order == fired.order and _named(arrow.source, fired.source))
-    )
+def _path(chart: Chart, every: Sequence[ChartArrow], fired: Arrow) -> tuple[ChartArrow, ...]:
+    """The segments of the drawn path that fired; none when no path has its ends and its label."""
+    leaving: dict[Path, list[ChartArrow]] = {}
+    for arrow in every:
+        if not arrow.default:
+            leaving.setdefault(arrow.source, []).append(arrow)
+    starts = [a for a in every if _starts(a, fired)]
+    paths: list[tuple[ChartArrow, ...]] = [(a,) for a in starts]
+    for path in paths:
+        end = path[-1].target
+        if end in chart.junctions:
+            paths += [(*path, a) for a in leaving.get(end, ()) if a not in path]
+        elif _named(end, fired.target) and _label(path) == fired.label:
+            return path
+    return ()
+
+
+def _label(path: Sequence[ChartArrow]) -> str:
+    return " → ".join(filter(None, (label(a.transition) for a in path)))
+
+
+def _starts(arrow: ChartArrow, fired: Arrow) -> bool:
+    if arrow.default or fired.order == 0:
+        return arrow.default and fired.order == 0
+    return arrow.order == fired.order and _named(arrow.source, fired.source)
 
 
 def _named(path: Path, name: str) -> bool:

@@ -4,10 +4,10 @@ An arrow that crosses the border of a composite is cut there into pieces; the co
 keeps a port on its left or right side for it.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from checker.render.drawing.cuts import DOT, Cut, Sides, cuts, edge, meetings, padded, reversed_in
+from checker.render.drawing.cuts import DOT, Cut, Sides, Way, cuts, edges, meetings, padded
 from checker.render.drawing.graph import Edge, Node, Placed
 from checker.render.drawing.layered import layered
 from checker.render.drawing.packing import cost, extent, packed
@@ -53,29 +53,39 @@ def _level(sheet: _Sheet, level: Path, sides: Sides, least: int) -> Picture:
         return _regions(sheet, level, found, sides, least)
     state = sheet.chart.states[level]
     names = [DOT] * bool(state.default) + [m.name for m in (*state.states, *state.junctions)]
-    inside = [(c.name, c.source, c.target) for c in found if not c.crosses and not c.loop]
-    options = dict.fromkeys(backward(names, inside, breadth) for breadth in (False, True))
-    return min((_laid(sheet, level, names, found, sides, back) for back in options), key=_unpleasant)
+    options = [_laid(sheet, level, names, found, sides, way) for way in _ways(sheet, level, names, found)]
+    return min(options, key=lambda option: cost((option.width, option.height)))
 
 
-def _unpleasant(option: Picture) -> float:
-    return cost((option.width, option.height))
+def _ways(sheet: _Sheet, level: Path, names: Sequence[str], found: Sequence[Cut]) -> Iterable[Way]:
+    """The ways of drawing a level that are worth trying."""
+    states = sheet.chart.states
+    inside = [c for c in found if not c.crosses and not c.loop]
+    big = {s.name for s in states[level].states if s.states}
+    between = frozenset(c.name for c in inside if {c.source, c.target} <= big)
+    ways: dict[Way, None] = {}
+    for folded in dict.fromkeys([frozenset[str](), between]):
+        straight = [(c.name, c.source, c.target) for c in inside if c.name not in folded]
+        for breadth in (False, True):
+            ways[Way(backward(names, straight, breadth), folded)] = None
+    return ways
 
 
 def _laid(
-    sheet: _Sheet, level: Path, names: Sequence[str], found: Sequence[Cut], sides: Sides, back: frozenset[str]
+    sheet: _Sheet, level: Path, names: Sequence[str], found: Sequence[Cut], sides: Sides, way: Way
 ) -> Picture:
-    """A level of exclusive states with a choice of the arrows that run from right to left."""
-    inner = {s.name: _child(sheet, (*level, s.name), found, back) for s in sheet.chart.states[level].states}
+    """A level of exclusive states, drawn in the way given."""
+    inner = {s.name: _child(sheet, (*level, s.name), found, way) for s in sheet.chart.states[level].states}
     nodes = [_node(name, found, inner) for name in names]
     lines = [c for c in found if not c.loop]
-    edges = {c.name: edge(c, back, sides) for c in lines}
+    drawn = {c.name: edges(c, way, sides) for c in lines}
     ports = [c for c in lines if c.crosses]
     nodes += [Node(c.port, 0, 0, {c.name: 0}) for c in ports]
-    left = [c.port for c in ports if edges[c.name].tail == c.port]
-    right = [c.port for c in ports if edges[c.name].head == c.port]
-    placed = layered(nodes, list(edges.values()), left, right)
-    return _assembled(level, found, inner, edges, placed)
+    nodes += [Node(c.turn, 0, PITCH) for c in lines if c.name in way.folded]
+    left = [c.port for c in ports if drawn[c.name][0].tail == c.port]
+    right = [c.port for c in ports if drawn[c.name][0].head == c.port]
+    placed = layered(nodes, [e for pair in drawn.values() for e in pair], left, right)
+    return _assembled(level, found, inner, drawn, placed)
 
 
 def _node(name: str, found: Sequence[Cut], inner: Mapping[str, Picture]) -> Node:
@@ -91,7 +101,7 @@ def _node(name: str, found: Sequence[Cut], inner: Mapping[str, Picture]) -> Node
 
 
 def _assembled(
-    level: Path, found: Sequence[Cut], inner: Mapping[str, Picture], edges: Mapping[str, Edge], placed: Placed
+    level: Path, found: Sequence[Cut], inner: Mapping[str, Picture], drawn: Mapping[str, Sequence[Edge]], placed: Placed
 ) -> Picture:
     boxes: list[Box] = []
     spots: list[Spot] = []
@@ -102,13 +112,13 @@ def _assembled(
             boxes += child.boxes
             spots += child.spots
             pieces += child.pieces
-        elif not name.startswith("|"):
+        elif not name.startswith(("|", "~")):
             radius = SMALL if name == DOT else RADIUS
             middle = y + placed.heights[name] // 2
             spots.append(Spot((*level, name), x + radius, middle, radius, name == DOT))
     for cut in found:
         if not cut.loop:
-            pieces.append(_piece(cut, edges[cut.name], placed))
+            pieces.append(_piece(cut, drawn[cut.name], placed))
     ports = {c.name: placed.nodes[c.port][1] for c in found if c.crosses}
     return Picture(placed.width, placed.height, tuple(boxes), tuple(spots), tuple(pieces), ports)
 
@@ -120,17 +130,19 @@ def _higher(child: Picture, height: int) -> Picture:
     return replace(child, height=height, boxes=(frame, *child.boxes[1:]))
 
 
-def _piece(cut: Cut, drawn: Edge, placed: Placed) -> Piece:
+def _piece(cut: Cut, drawn: Sequence[Edge], placed: Placed) -> Piece:
     points = placed.routes[cut.name]
-    if reversed_in(cut, drawn):
+    if len(drawn) > 1:
+        points = (*points, *placed.routes[cut.turn][::-1])
+    elif drawn[0].tail != (cut.source or cut.port):
         points = points[::-1]
     x, y = placed.labels.get(cut.name, (0, 0))
     return Piece(cut.arrow, points, cut.starts, cut.ends, cut.lines, (x + 5, y))
 
 
-def _child(sheet: _Sheet, path: Path, found: Sequence[Cut], back: frozenset[str]) -> Picture:
+def _child(sheet: _Sheet, path: Path, found: Sequence[Cut], way: Way) -> Picture:
     """A state's box with everything in it and its self loops above it."""
-    sides = meetings(found, path[-1], back)
+    sides = meetings(found, path[-1], way)
     loops = [c for c in found if c.loop and c.source == path[-1]]
     least = max((padded(c.lines)[0] + 50 for c in loops), default=0)
     box = _box(sheet, path, sides, least)

@@ -5,8 +5,8 @@ from itertools import combinations
 
 from checker.render.drawing.graph import Point
 
-SHAPE = 1.5
-"""The width to height ratio aimed at."""
+SHAPE = 0.9
+"""The width to height ratio aimed at: pages are scrolled downwards, and wide pictures shrunk to fit."""
 
 MANY = 8
 """Up to so many boxes every division into rows or columns is tried, beyond only even ones."""

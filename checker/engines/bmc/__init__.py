@@ -1,0 +1,64 @@
+"""Bounded model checking: is there a run of 1, 2, ... ticks that reaches a goal?  Finds, never proves.
+
+The step is unrolled over bit-vectors and Z3 searches; runs come shortest first.
+"""
+
+from collections.abc import Mapping, Sequence
+from contextlib import closing
+from dataclasses import replace
+
+from checker.engine import Limits, Progress
+from checker.engines.bmc.events import Bound, Event, Found, Undefined
+from checker.isolate import Send, Stopped, messages
+from checker.verdict import Answer, Open, Reached
+from spec_model.lang.expr import Var
+from spec_model.lang.system import TransitionSystem
+
+NAME = "bmc"
+SUMMARY = "shortest runs by unrolling the step over bit-vectors (Z3); a bounded search, never a proof"
+DEPTH = 300
+"""Ticks searched when the limits name no depth."""
+
+
+def check(
+    system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
+) -> Mapping[str, Answer]:
+    """Shortest runs to the goals; ``Open`` with the depth searched for those not reached."""
+    depth = DEPTH if limits.depth is None else limits.depth
+    names = tuple(g.name for g in goals)
+    found: dict[str, Answer] = {}
+    deep = dict.fromkeys(names, 0)
+    reason = f"no run of at most {depth} ticks reaches it"
+    job = (replace(system, source=None), names, depth)
+    try:
+        with closing(messages(_work, *job, seconds=limits.seconds, memory=limits.memory)) as events:
+            for event in events:
+                _note(event, found, deep)
+                progress(_line(deep, found))
+    except Stopped as stopped:
+        reason = str(stopped)
+    return {n: found.get(n, Open(reason, deep[n])) for n in names}
+
+
+def _note(event: Event | None, found: dict[str, Answer], deep: dict[str, int]) -> None:
+    match event:
+        case Found(goal, run):
+            found[goal] = Reached(run, shortest=True)
+        case Undefined(goals, variables, depth):
+            names = ", ".join(variables)
+            found |= dict.fromkeys(goals, Open(f"{names} may leave the domain in tick {depth + 1}", depth))
+        case Bound(goals, depth):
+            deep |= dict.fromkeys(goals, depth)
+
+
+def _line(deep: Mapping[str, int], found: Mapping[str, Answer]) -> str:
+    left = [d for n, d in deep.items() if n not in found]
+    return f"{NAME}: depth {min(left, default=0)}, {len(left)} goals open, {len(found)} decided"
+
+
+def _work(send: Send, system: TransitionSystem, goals: tuple[str, ...], depth: int) -> None:
+    """In the child: Z3 is loaded here only."""
+    from checker.engines.bmc.search import search
+
+    for event in search(system, goals, depth):
+        send(event)

@@ -1,0 +1,34 @@
+"""What the search reports while it goes deeper."""
+
+from dataclasses import dataclass
+from typing import Union
+
+from checker.verdict import Run
+
+
+@dataclass(frozen=True)
+class Found:
+    """A shortest run to a goal."""
+
+    goal: str
+    run: Run
+
+
+@dataclass(frozen=True)
+class Bound:
+    """The goals are not reached by any run of at most ``depth`` ticks."""
+
+    goals: tuple[str, ...]
+    depth: int
+
+
+@dataclass(frozen=True)
+class Undefined:
+    """Nothing more can be said of the goals beyond ``depth``: the variables may leave their domains."""
+
+    goals: tuple[str, ...]
+    variables: tuple[str, ...]
+    depth: int
+
+
+Event = Union[Found, Bound, Undefined]

@@ -1,0 +1,54 @@
+"""Explicit search: every reachable valuation is visited, breadth first, by compiled code.
+
+One search decides all goals; the first hit of a goal ends a shortest run.  It stops when every goal
+is reached or nothing new appears.
+"""
+
+from collections.abc import Mapping, Sequence
+
+from checker.encode.native import NativeSearch, Task, TooWide, layout
+from checker.encode.paths import path_program
+from checker.engine import Limits, Progress
+from checker.engines.explicit.runs import Runs
+from checker.engines.explicit.search import Found, search
+from checker.partition import partitions
+from checker.slice import sliced
+from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable
+from spec_model.lang.expr import Var
+from spec_model.lang.system import TransitionSystem
+
+NAME = "explicit"
+SUMMARY = "breadth-first search of all reachable valuations, compiled to native code"
+
+
+def check(
+    system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
+) -> Mapping[str, Answer]:
+    """An answer for each goal, by name.
+
+    Raises ``OutsideDomain`` when a tick gives a variable of the valuation a value outside its domain.
+    """
+    if not goals:
+        return {}
+    deadline = limits.deadline()
+    part = sliced(system, goals)
+    cells = partitions(part)
+    try:
+        packing = layout((*part.frozen, *part.variables))
+        task = Task(part, packing, path_program(part, cells), tuple(goals))
+        progress(f"explicit: compiling {len(packing.fields)} variables in {packing.bits} bits")
+        native = NativeSearch.compile(task)
+    except (TooWide, ValueError) as problem:
+        return {g.name: Open(str(problem), 0) for g in goals}
+    found = search(native, limits, deadline, progress)
+    runs = Runs(system, task, cells, found)
+    return {g.name: _answer(found, runs, number, g) for number, g in enumerate(goals)}
+
+
+def _answer(found: Found, runs: Runs, number: int, goal: Var) -> Answer:
+    if found.hits[number] is not None:
+        return Reached(runs.to_goal(number, goal))
+    if found.stopped:
+        return Open(found.stopped, found.depth)
+    counted = tuple(f.var.name for f in runs.task.layout.fields)
+    return Unreachable(Exhausted(found.states, found.transitions, found.depth, counted))

@@ -1,0 +1,97 @@
+"""Runs from a finished search: the chain of parents, then inputs for each tick of it.
+
+Inputs that a tick does not read keep their value where they may, so that traces are calm.
+"""
+
+from collections.abc import Mapping
+from functools import cached_property
+from itertools import product
+
+from checker.encode.native import REACH_TARGET, NativeRetrace, Task
+from checker.engines.explicit.search import Found
+from checker.partition import Partition, partition
+from checker.slice import assumption_groups
+from checker.verdict import Run
+from spec_model.lang.evaluate import evaluate, step
+from spec_model.lang.expr import Expr, Var, variables
+from spec_model.lang.system import TransitionSystem
+
+
+class Runs:
+    """Rebuilds runs of the whole system from what a search of its slice stored."""
+
+    def __init__(
+        self, system: TransitionSystem, task: Task, cells: Mapping[str, Partition], found: Found
+    ) -> None:
+        self.system, self.task, self.found = system, task, found
+        self.groups = assumption_groups(system)
+        everything = {v.name: v for v in (*system.inputs, *system.frozen, *system.variables)}
+        self.cells = {
+            v.name: cells.get(v.name) or partition(v, [system.assume], everything) for v in system.inputs
+        }
+
+    @cached_property
+    def native(self) -> NativeRetrace:
+        return NativeRetrace.compile(self.task)
+
+    def to_goal(self, number: int, goal: Var) -> Run:
+        """A shortest run to a goal that was hit.  Checked by running it on the whole system."""
+        last = self.found.hits[number]
+        assert last is not None
+        chosen = self._chosen(last, number)
+        at = {**self.system.init, **self._frozen(last)}
+        inputs: list[Mapping[str, int]] = []
+        for read in chosen:
+            inputs.append(self._completed(at, read, inputs[-1] if inputs else {}))
+            at = step(self.system, at, inputs[-1])
+        if not at[goal.name]:
+            raise AssertionError(f"the run of {len(inputs)} ticks does not reach {goal.name}")
+        return Run(self._frozen(last), tuple(inputs))
+
+    def chain(self, last: int) -> list[int]:
+        """The numbers of the stored valuations from an initial one to the last."""
+        numbers = [last]
+        while numbers[-1] >= self.found.initial:
+            numbers.append(int(self.found.parents[numbers[-1]]))
+        return numbers[::-1]
+
+    def _chosen(self, last: int, wanted: int) -> list[dict[str, int]]:
+        words, numbers = self.found.words, self.chain(last)
+        pairs = zip(numbers, numbers[1:], strict=False)
+        ticks = [self.native.inputs(words[a], words[b], REACH_TARGET) for a, b in pairs]
+        return [*ticks, self.native.inputs(words[last], words[last], wanted)]
+
+    def _frozen(self, last: int) -> dict[str, int]:
+        packed = self.task.layout.unpack(self.found.words[last].tolist())
+        return {v.name: packed.get(v.name, v.init) for v in self.system.frozen}
+
+    def _completed(
+        self, at: Mapping[str, int], read: Mapping[str, int], before: Mapping[str, int]
+    ) -> dict[str, int]:
+        """A value for every input: the cells that were read, the last values where they may stay."""
+        inputs = {n: self._calm(self.cells[n], read.get(n), before.get(n)) for n in self.cells}
+        for group in self.groups:
+            if not _holds(group, {**at, **inputs}):
+                inputs |= self._solved(group, at, inputs, read)
+        return inputs
+
+    def _calm(self, own: Partition, read: int | None, before: int | None) -> int:
+        if read is None:
+            return before if before in own.cell_of else own.values[0]
+        stays = before is not None and own.cell_of.get(before) == own.cell_of[read]
+        return before if stays and before is not None else read
+
+    def _solved(
+        self, group: list[Expr], at: Mapping[str, int], inputs: Mapping[str, int], read: Mapping[str, int]
+    ) -> dict[str, int]:
+        """Values that meet conjuncts about inputs that the slice left out."""
+        free = [n for n in variables(*group) if n in inputs and n not in read]
+        for values in product(*([c.value for c in self.cells[n].cells] for n in free)):
+            changed = dict(zip(free, values, strict=True))
+            if _holds(group, {**at, **inputs, **changed}):
+                return changed
+        raise AssertionError("no inputs meet the assumption that the slice left out")
+
+
+def _holds(group: list[Expr], at: Mapping[str, int]) -> bool:
+    return all(evaluate(c, at) for c in group)

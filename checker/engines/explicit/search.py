@@ -1,0 +1,159 @@
+"""Breadth-first search, level by level: native code expands, Python keeps limits and reports."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from itertools import product
+from time import monotonic
+
+import numpy as np
+from numpy.typing import NDArray
+
+from checker.encode.native import CONTEXT, NativeSearch, Status, Task
+from checker.engine import Limits, Progress
+from checker.engines.explicit.store import Store
+
+_PAUSE = 0.2
+_REPORT = 0.9
+_MOST_INITIAL = 1 << 22
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a search found: for each goal the valuation from which it is first reached (or None),
+    and why it stopped early (empty if it did not)."""
+
+    hits: tuple[int | None, ...]
+    words: NDArray[np.uint64]
+    parents: NDArray[np.uint32]
+    initial: int
+    states: int
+    transitions: int
+    depth: int
+    stopped: str
+    outside: int | None = None
+
+
+def search(native: NativeSearch, limits: Limits, deadline: float | None, progress: Progress) -> Found:
+    """Visit what is reachable until all goals are decided or a limit is met."""
+    return _Search(native, limits, deadline, progress).run()
+
+
+class _Search:
+    def __init__(
+        self, native: NativeSearch, limits: Limits, deadline: float | None, progress: Progress
+    ) -> None:
+        self.native, self.limits, self.deadline, self.progress = native, limits, deadline, progress
+        self.store = Store(native, limits.memory)
+        self.context: NDArray[np.int64] = np.zeros(len(CONTEXT), dtype=np.int64)
+        self.hits: NDArray[np.int64] = np.zeros(max(1, len(native.task.goals)), dtype=np.int64)
+        self["pending"] = len(native.task.goals)
+        self.budget = 1 << 14
+        self.depth = self.frontier = self.initial = 0
+        self.started = self.reported = monotonic()
+        self.stopped = ""
+        self.outside: int | None = None
+
+    def __getitem__(self, name: str) -> int:
+        return int(self.context[CONTEXT.index(name)])
+
+    def __setitem__(self, name: str, value: int) -> None:
+        self.context[CONTEXT.index(name)] = value
+
+    def run(self) -> Found:
+        self._start()
+        first = 0
+        while not self.stopped and self["pending"] and first < self["count"]:
+            if self.limits.depth is not None and self.depth >= self.limits.depth:
+                self.stopped = f"the depth limit of {self.limits.depth} ticks"
+                break
+            last = self["count"]
+            self.frontier = last - first
+            if self._expand(first, last) and last < self["count"]:
+                self.depth += 1
+            first = last
+        return self._found()
+
+    def _start(self) -> None:
+        """Store the initial valuations: one for each choice of the frozen variables."""
+        number = 1
+        for var in self.native.task.system.frozen:
+            number *= len(var.domain)
+        if number > _MOST_INITIAL:
+            self.stopped = f"{number} choices of the frozen variables"
+            return
+        layout = self.native.task.layout
+        batch = self.store.buffer
+        for valuation in initial_valuations(self.native.task):
+            batch[self["filled"]] = layout.pack(valuation)
+            self["filled"] += 1
+            if self["filled"] == len(batch):
+                self._call()
+        self._call()
+        self.initial = self["count"]
+
+    def _expand(self, first: int, last: int) -> bool:
+        """Expand a level; False when it was given up."""
+        self["next"], self["last"] = first, last
+        while self["next"] < last:
+            began = monotonic()
+            if not self._call() or not self["pending"]:
+                return False
+            now = monotonic()
+            if now - began < _PAUSE / 2:
+                self.budget = min(2 * self.budget, 1 << 40)
+            elif now - began > _PAUSE:
+                self.budget = max(self.budget // 2, 1 << 10)
+            self._report(now)
+            if self.deadline is not None and now > self.deadline:
+                self.stopped = f"the time limit of {self.limits.seconds:g} s"
+                return False
+        return True
+
+    def _call(self) -> bool:
+        """Run native code for a while; False when it cannot go on."""
+        store = self.store
+        while True:
+            self["room"], self["mask"], self["budget"] = store.room, len(store.table) - 1, self.budget
+            status = self.native.search(
+                self.context, store.words, store.parents, store.table, store.buffer, store.origins, self.hits
+            )
+            match status:
+                case Status.PAUSED | Status.DECIDED:
+                    return True
+                case Status.NO_ROOM:
+                    if not store.grow(self["count"]):
+                        self.stopped = f"the memory limit of {self.limits.memory / 2**20:.0f} MiB"
+                        return False
+                case Status.TOO_MANY:
+                    self.stopped = "too many inputs in one tick for an explicit search"
+                    return False
+                case Status.OUTSIDE:
+                    self.outside = self["next"]
+                    self.stopped = "a value outside its domain"
+                    return False
+
+    def _report(self, now: float) -> None:
+        if now - self.reported < _REPORT:
+            return
+        self.reported = now
+        states = self["count"]
+        rate = states / (now - self.started)
+        self.progress(
+            f"explicit: {states:,} states, {rate / 1e6:.2f} M/s, depth {self.depth + 1}, "
+            f"frontier {self.frontier:,}, {self.store.bytes / 2**20:.0f} MiB"
+        )
+
+    def _found(self) -> Found:
+        hits = tuple(int(h) - 1 if h else None for h in self.hits[: len(self.native.task.goals)])
+        store = self.store
+        return Found(
+            hits, store.words, store.parents, self.initial, self["count"], self["transitions"],
+            self.depth, self.stopped, self.outside,
+        )
+
+
+def initial_valuations(task: Task) -> Iterator[Mapping[str, int]]:
+    """The valuations before the first tick."""
+    frozen = task.system.frozen
+    for values in product(*(v.domain.values for v in frozen)):
+        yield {**task.system.init, **dict(zip((v.name for v in frozen), values, strict=True))}
