@@ -12,7 +12,7 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from queue import Empty, Queue
@@ -41,7 +41,7 @@ def messages(
     seconds: float | None = None,
     memory: int | None = None,
     beat: float = 0.9,
-) -> Iterator[Any]:
+) -> Generator[Any, None, None]:
     """Run ``work(send, *args)`` in a child; yield what it sends, and None after ``beat`` quiet seconds.
 
     Work and arguments must be picklable, messages never None.  Raises ``Stopped`` when the time or
@@ -49,7 +49,8 @@ def messages(
     Closing the generator kills the child.
     """
     end = None if seconds is None else monotonic() + seconds
-    with tempfile.TemporaryFile() as errors, _child(_pickled((memory, work, args)), errors) as (process, inbox):
+    job = _pickled((memory, work, args))
+    with tempfile.TemporaryFile() as errors, _child(job, errors) as (process, inbox):
         while True:
             left = beat if end is None else end - monotonic()
             if left <= 0:

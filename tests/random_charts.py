@@ -69,19 +69,19 @@ def skeleton(source: Source, name: str) -> Node:
     counter = iter(range(1, 100))
     repeated = source.chance(3)
 
-    def grow(depth: int, index: int) -> Node:
+    def grow(depth: int, index: int, region: bool) -> Node:
         node = Node("ABCDEFGH"[index] if repeated else f"S{next(counter)}")
-        if depth < 3 and source.below(3 + 2 * depth) == 1:
-            fill(node, depth)
+        if depth < 3 and (not source.chance(4) if region else source.chance(3 + 2 * depth)):
+            fill(node, depth, region)
         return node
 
-    def fill(node: Node, depth: int) -> None:
-        node.parallel = source.chance(3)
-        count = 2 if node.parallel else 1 + source.below(4 - depth)
-        node.children = [grow(depth + 1, i) for i in range(count)]
+    def fill(node: Node, depth: int, region: bool) -> None:
+        node.parallel = source.chance(6 if region else 3)
+        count = 2 + source.below(2) if node.parallel else 1 + source.below(4 - depth)
+        node.children = [grow(depth + 1, i, node.parallel) for i in range(count)]
 
     root = Node(name)
-    fill(root, 0)
+    fill(root, 0, False)
     return root
 
 
@@ -102,6 +102,7 @@ class Wiring:
         self.bare = draft.chart()
         self.ends: dict[tuple[Path, str], set[Path]] = {}
         self.plain: set[tuple[Path, str]] = set()
+        self.tame = self.source.chance(2)
 
     def scope(self, source: Path, target: Path) -> Path:
         depth = min(len(source), len(target)) - 1
@@ -114,7 +115,10 @@ class Wiring:
         return [p for p in self.nodes if p[: len(path)] == path]
 
     def legal(self, source: Path, target: Path) -> bool:
-        return not self.nodes[self.scope(source, target)].parallel
+        """Whether an arrow may be drawn; in a tame chart none leaves a region."""
+        scope = self.scope(source, target)
+        leaves_region = any(self.nodes[source[:d]].parallel for d in range(len(scope), len(source)))
+        return not self.nodes[scope].parallel and not (self.tame and leaves_region)
 
     def written(self, level: Path, target: Path) -> str | None:
         """How an arrow drawn at ``level`` may name the target."""

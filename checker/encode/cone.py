@@ -2,13 +2,12 @@
 
 Assumptions are kept whole unless they speak only of inputs outside the cone: such a group of
 conjuncts does not restrict the rest, provided it can be satisfied at all, which the engine checks.
-Variables that keep their initial value for ever are replaced by it first.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from checker.encode.intervals import postorder
+from checker.encode.intervals import Interval, postorder
 from checker.encode.symbolic import Transition
 from checker.encode.terms import Terms
 from spec_model.lang.expr import Apply, Const, Expr, Var, variables
@@ -32,12 +31,8 @@ class Slice:
 
 def cone(transition: Transition, goals: Iterable[str]) -> Slice:
     """The cone of influence of some variables."""
-    system = transition.system
-    fixed = constants(transition)
-    folded = _Folder(transition.terms, fixed)
-    following = {n: folded(e) for n, e in transition.next.items()}
-    assume = [folded(e) for e in transition.assume]
-    tight, loose = _split(assume, goals, following, {v.name for v in system.inputs})
+    system, following = transition.system, transition.next
+    tight, loose = _split(transition.assume, goals, following, {v.name for v in system.inputs})
     names = _closure([*goals, *_names(tight)], following)
     return Slice(
         tuple(v for v in system.variables if v.name in names),
@@ -47,6 +42,13 @@ def cone(transition: Transition, goals: Iterable[str]) -> Slice:
         tuple(tight),
         tuple(loose),
     )
+
+
+def folded(transition: Transition) -> Transition:
+    """The transition with variables that never change replaced by their values."""
+    fold = _Folder(transition.terms, constants(transition))
+    following = {n: fold(e) for n, e in transition.next.items()}
+    return replace(transition, next=following, assume=tuple(map(fold, transition.assume)))
 
 
 def constants(transition: Transition) -> dict[str, int]:
@@ -114,3 +116,15 @@ def _split(
             return tight, loose
         tight += moved
         loose = [e for e in loose if all(e is not m for m in moved)]
+
+
+def leaving(part: Slice, terms: Terms) -> dict[str, Expr]:
+    """For the variables that might leave the hull of their domain, the condition under which they do."""
+    found = {}
+    for var in part.variables:
+        value, low, high = part.next[var.name], var.domain.low, var.domain.high
+        if not terms.range(value).within(Interval(low, high)):
+            below = terms.at_most(value, terms.const(low - 1, var.sort))
+            above = terms.negation(terms.at_most(value, terms.const(high, var.sort)))
+            found[var.name] = terms.disjunction((below, above))
+    return {name: condition for name, condition in found.items() if condition is not terms.false}

@@ -9,6 +9,7 @@ Simplification relies on variables being within the hulls of their domains.
 from collections.abc import Sequence
 from typing import TypeGuard
 
+from checker.encode.facts import Facts
 from checker.encode.intervals import Interval, interval, transfer
 from spec_model.lang.domain import Bool, Sort
 from spec_model.lang.evaluate import operate
@@ -128,7 +129,14 @@ class Terms:
             return self.ite(self.disjunction((test, other.args[0])), then, other.args[2])
         if is_apply(then, Op.ITE) and then.args[2] is other:
             return self.ite(self.conjunction((test, then.args[0])), then.args[1], other)
-        return self._node(Op.ITE, (test, then, other), then.sort)
+        result = self._node(Op.ITE, (test, then, other), then.sort)
+        self._range[id(result)] = self._range_of_case(test, then, other)
+        return result
+
+    def _range_of_case(self, test: Expr, then: Expr, other: Expr) -> Interval:
+        """The hull of the branches, each under its condition: a guarded count stays in its domain."""
+        facts = Facts(self.range)
+        return facts.assuming(test, True).interval(then) | facts.assuming(test, False).interval(other)
 
     # --- comparisons -----------------------------------------------------------------------------
 

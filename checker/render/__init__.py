@@ -1,1 +1,37 @@
-"""From traces, charts and graphs to what people read: one file per exit."""
+"""From traces, charts and graphs to what people read: one file per exit, found by being here.
+
+An exit has a ``NAME`` (what users type), a ``KIND`` ("statechart", "graph" or "trace"), a file
+``SUFFIX``, a one-line ``SUMMARY`` and ``render(thing, **options)``, which returns text or bytes that
+are the same from run to run.  It raises ``ModelError`` for what its format cannot show.
+"""
+
+import importlib
+import pkgutil
+from typing import Any, Protocol
+
+
+class Renderer(Protocol):
+    """An exit: ``thing`` is a ``Chart``, a ``StateGraph`` or a ``Trace``, as ``KIND`` says."""
+
+    NAME: str
+    KIND: str
+    SUFFIX: str
+    SUMMARY: str
+
+    def render(self, thing: Any, /) -> str | bytes: ...
+
+
+KINDS = ("statechart", "graph", "trace")
+
+
+def renderers(kind: str) -> dict[str, Renderer]:
+    """The exits for one kind of thing, by name.  Raises ``ValueError`` for an unknown kind."""
+    if kind not in KINDS:
+        raise ValueError(f"{kind!r} is no kind of thing to render; write one of {', '.join(KINDS)}.")
+    found: dict[str, Renderer] = {}
+    for entry in sorted(pkgutil.iter_modules(__path__), key=lambda e: e.name):
+        if entry.name.startswith(f"{kind}_"):
+            module = importlib.import_module(f"{__name__}.{entry.name}")
+            if getattr(module, "KIND", None) == kind:
+                found[module.NAME] = module  # type: ignore[assignment]
+    return found

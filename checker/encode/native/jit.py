@@ -9,9 +9,14 @@ from llvmlite import binding, ir
 
 
 @cache
-def _machine() -> Any:
+def _initialised() -> None:
     binding.initialize_native_target()
     binding.initialize_native_asmprinter()
+
+
+def _machine() -> Any:
+    """A description of this processor; the engine that is made with it owns it."""
+    _initialised()
     features = binding.get_host_cpu_features().flatten()
     target = binding.Target.from_default_triple()
     return target.create_target_machine(cpu=binding.get_host_cpu_name(), features=features, opt=2)
@@ -36,6 +41,6 @@ class Library:
 
 
 def _optimise(parsed: Any, machine: Any) -> None:
-    options = binding.create_pipeline_tuning_options(speed_level=2, size_level=0)
+    options = binding.create_pipeline_tuning_options(speed_level=2)
     passes = binding.create_pass_builder(machine, options)
     passes.getModulePassManager().run(parsed, passes)

@@ -1,6 +1,8 @@
 """Which inputs lead from one stored valuation to the next: the same paths, run until one fits."""
 
 
+from typing import Any
+
 from checker.encode.native.body import Body
 from checker.encode.native.expressions import BIT, INT
 from checker.encode.native.search import Task, begin, outside, packed

@@ -28,7 +28,7 @@ def check(
     names = tuple(g.name for g in goals)
     found: dict[str, Answer] = {}
     deep = dict.fromkeys(names, 0)
-    reason = f"no run of at most {depth} ticks reaches it"
+    reason = ""
     job = (replace(system, source=None), names, depth)
     try:
         with closing(messages(_work, *job, seconds=limits.seconds, memory=limits.memory)) as events:
@@ -37,7 +37,12 @@ def check(
                 progress(_line(deep, found))
     except Stopped as stopped:
         reason = str(stopped)
-    return {n: found.get(n, Open(reason, deep[n])) for n in names}
+    return {n: found.get(n) or _open(deep[n], depth, reason) for n in names}
+
+
+def _open(deep: int, wanted: int, reason: str) -> Open:
+    """What remains to be said of a goal that no run was found to."""
+    return Open(f"no run of at most {wanted} ticks reaches it" if deep >= wanted else reason, deep)
 
 
 def _note(event: Event | None, found: dict[str, Answer], deep: dict[str, int]) -> None:
@@ -46,14 +51,15 @@ def _note(event: Event | None, found: dict[str, Answer], deep: dict[str, int]) -
             found[goal] = Reached(run, shortest=True)
         case Undefined(goals, variables, depth):
             names = ", ".join(variables)
-            found |= dict.fromkeys(goals, Open(f"{names} may leave the domain in tick {depth + 1}", depth))
+            found |= dict.fromkeys(goals, Open(f"{names} may leave its domain in tick {depth + 1}", depth))
         case Bound(goals, depth):
             deep |= dict.fromkeys(goals, depth)
 
 
 def _line(deep: Mapping[str, int], found: Mapping[str, Answer]) -> str:
-    left = [d for n, d in deep.items() if n not in found]
-    return f"{NAME}: depth {min(left, default=0)}, {len(left)} goals open, {len(found)} decided"
+    left = [depth for name, depth in deep.items() if name not in found]
+    text = f"{NAME}: depth {min(left or deep.values(), default=0)}, {len(left)} goal{'s' * (len(left) != 1)} open"
+    return text + (f", {len(found)} decided" if found else "")
 
 
 def _work(send: Send, system: TransitionSystem, goals: tuple[str, ...], depth: int) -> None:

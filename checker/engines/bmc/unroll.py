@@ -6,68 +6,71 @@ constant gets a symbol of its own and an equation; substituting formulas into fo
 functional unrolling) makes the solver a hundred times slower on counters.
 """
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Sequence
 
 import z3
 
 from checker.encode.bitvector import Encoder, Term, literal, member, symbol, value, width
 from checker.encode.cone import Slice
 from checker.verdict import Run
-from spec_model.lang.expr import Var
+from spec_model.lang.expr import Expr, Var
 
 
 class Unrolling:
-    """Ticks asserted in a solver one after the other.
+    """Ticks asserted in a solver one after the other."""
 
-    ``state`` holds the terms of the valuation after the last tick; ``values(name)`` those of a
-    variable after each tick so far, the first tick first.
-    """
-
-    def __init__(self, part: Slice, watched: Iterable[str]) -> None:
+    def __init__(self, part: Slice, events: Sequence[Expr] = ()) -> None:
+        """``events`` are conditions on the valuation before a tick and its inputs."""
         self._part = part
         self._before = _symbols(part.variables)
         self._inputs = _symbols(part.inputs)
         self._frozen = _symbols(part.frozen)
-        self._step = self._instance_of_step()
+        self._step = self._whole_step(events)
         self._ticks: list[dict[str, Term]] = []
-        self._watched = {name: list[Term]() for name in watched}
+        self._after: list[dict[str, Term]] = []
+        self._events: list[Sequence[Term]] = []
         self._state = [literal(v.init, v.sort, width(v.domain)) for v in part.variables]
-        # With a logic named, Z3 solves incrementally by its SAT solver (30 times faster on counters).
+        # With the logic named, Z3 solves by its incremental SAT solver: 30 times faster on counters.
         self.solver = z3.SolverFor("QF_BV")
         for var in part.frozen:
             self.solver.add(*member(self._frozen[var.name], var.domain))
 
     def __len__(self) -> int:
+        """The number of ticks so far."""
         return len(self._ticks)
 
-    def values(self, name: str) -> Sequence[Term]:
-        return self._watched[name]
+    def after(self, tick: int, name: str) -> Term:
+        """A variable after a tick; the first tick is 1."""
+        return self._after[tick - 1][name]
+
+    def events(self, tick: int) -> Sequence[Term]:
+        """The conditions given, in a tick."""
+        return self._events[tick - 1]
 
     def tick(self) -> None:
         """Assert one more tick."""
-        number = len(self._ticks) + 1
+        number = len(self) + 1
         inputs = {v.name: symbol(v, f"{v.name}@{number}") for v in self._part.inputs}
         pairs = [
             *zip(self._before.values(), self._state, strict=True),
             *zip(self._inputs.values(), inputs.values(), strict=True),
         ]
-        *after, assume = z3.simplify(z3.substitute(self._step, *pairs)).children()
+        assume, *rest = z3.simplify(z3.substitute(self._step, *pairs)).children()
         self.solver.add(assume)
-        self._state = [
-            self._name(v, term, number) for v, term in zip(self._part.variables, after, strict=True)
-        ]
+        count = len(self._part.variables)
+        named = zip(self._part.variables, rest[:count], strict=True)
+        self._state = [self._name(var, term, number) for var, term in named]
         self._ticks.append(inputs)
-        for var, term in zip(self._part.variables, self._state, strict=True):
-            if var.name in self._watched:
-                self._watched[var.name].append(term)
+        self._after.append({v.name: t for v, t in zip(self._part.variables, self._state, strict=True)})
+        self._events.append(rest[count:])
 
-    def run(self, model: z3.ModelRef, ticks: int, rest: Mapping[str, int]) -> Run:
-        """The run of the first ticks in a model; ``rest`` gives the inputs and frozen values left out."""
-        frozen = {n: value(model.eval(t, True)) for n, t in self._frozen.items()}
-        inputs = (
-            {n: value(model.eval(t, True)) for n, t in tick.items()} for tick in self._ticks[:ticks]
-        )
-        return Run(frozen, tuple(inputs))
+    def run(self, model: z3.ModelRef, ticks: int) -> Run:
+        """The first ticks of a model, as far as inputs and frozen variables are in the slice."""
+
+        def of(terms: dict[str, Term]) -> dict[str, int]:
+            return {name: value(model.eval(term, True)) for name, term in terms.items()}
+
+        return Run(of(self._frozen), tuple(of(tick) for tick in self._ticks[:ticks]))
 
     def _name(self, var: Var, term: Term, number: int) -> Term:
         if term.num_args() == 0:
@@ -76,15 +79,39 @@ class Unrolling:
         self.solver.add(name == term)
         return name
 
-    def _instance_of_step(self) -> Term:
-        """One application that holds the next value of every variable and the assumption."""
+    def _whole_step(self, events: Sequence[Expr]) -> Term:
+        """One application that holds the assumption, the next value of every variable and the events."""
         part = self._part
         encode = Encoder({**self._before, **self._inputs, **self._frozen})
         after = [encode.number(part.next[v.name], width(v.domain)) for v in part.variables]
         domains = [c for v in part.inputs for c in member(self._inputs[v.name], v.domain)]
         assume = z3.And([*domains, *(encode(e) for e in part.assume)])
-        tuple_of = z3.Function("step", *(t.sort() for t in (*after, assume)), z3.BoolSort())
-        return z3.simplify(tuple_of(*after, assume))
+        arguments = [assume, *after, *(encode(e) for e in events)]
+        together = z3.Function("step", *(a.sort() for a in arguments), z3.BoolSort())
+        return z3.simplify(together(*arguments))
+
+
+def model_of(conditions: Sequence[Expr], variables: Sequence[Var]) -> dict[str, int] | None:
+    """Values of the variables, within their domains, that satisfy the conditions; None if there are none.
+
+    Raises ``ArithmeticError`` when Z3 gives up.
+    """
+    symbols = _symbols(variables)
+    encode, solver = Encoder(symbols), z3.SolverFor("QF_BV")
+    solver.add(*map(encode, conditions))
+    solver.add(*(m for v in variables for m in member(symbols[v.name], v.domain)))
+    if not satisfiable(solver):
+        return None
+    model = solver.model()
+    return {name: value(model.eval(term, True)) for name, term in symbols.items()}
+
+
+def satisfiable(solver: z3.Solver, *assumptions: Term) -> bool:
+    """Whether there is a model.  Raises ``ArithmeticError`` when Z3 gives up."""
+    answer = solver.check(*assumptions)
+    if answer == z3.unknown:
+        raise ArithmeticError(f"Z3 gave up: {solver.reason_unknown()}")
+    return bool(answer == z3.sat)
 
 
 def _symbols(variables: Sequence[Var]) -> dict[str, Term]:

@@ -48,7 +48,7 @@ class Cut:
 
     @property
     def turn(self) -> str:
-        """The node that stands for the bend of a folded arrow."""
+        """The node in which a folded arrow bends, below its label."""
         return f"~{self.name}"
 
     @property
@@ -100,7 +100,7 @@ def edges(cut: Cut, way: Way, sides: Sides) -> list[Edge]:
     source, target = cut.source or cut.port, cut.target or cut.port
     label, weight = padded(cut.lines), 4 if cut.arrow.default else 1
     if cut.name in way.folded:
-        return [Edge(cut.name, source, cut.turn, label), Edge(cut.turn, target, cut.turn)]
+        return [Edge(cut.name, source, cut.turn), Edge(cut.turn, target, cut.turn)]
     reverse = cut.name in way.back
     if cut.crosses:
         on_right = sides.get(cut.name, bool(cut.source))

@@ -81,7 +81,7 @@ def _laid(
     drawn = {c.name: edges(c, way, sides) for c in lines}
     ports = [c for c in lines if c.crosses]
     nodes += [Node(c.port, 0, 0, {c.name: 0}) for c in ports]
-    nodes += [Node(c.turn, 0, PITCH) for c in lines if c.name in way.folded]
+    nodes += [_turn(c, names) for c in lines if c.name in way.folded]
     left = [c.port for c in ports if drawn[c.name][0].tail == c.port]
     right = [c.port for c in ports if drawn[c.name][0].head == c.port]
     placed = layered(nodes, [e for pair in drawn.values() for e in pair], left, right)
@@ -96,8 +96,17 @@ def _node(name: str, found: Sequence[Cut], inner: Mapping[str, Picture]) -> Node
         high = 2 * RADIUS + PITCH * max(0, *(n - 1 for n in ends))
         return Node(name, 2 * RADIUS, high, round=True)
     child = inner[name]
-    lead = child.boxes[0].y
-    return Node(name, child.width, child.height, child.ports, lead=lead)
+    turns = {c.turn: child.ports[c.name] for c in found if c.name in child.ports}
+    return Node(name, child.width, child.height, {**child.ports, **turns}, lead=child.boxes[0].y)
+
+
+def _turn(cut: Cut, names: Sequence[str]) -> Node:
+    """The bend of a folded arrow: its label, then two lines, the upper from or to the upper state."""
+    wide, high = padded(cut.lines)
+    first, second = high + 3, high + 3 + PITCH
+    if names.index(cut.source) > names.index(cut.target):
+        first, second = second, first
+    return Node(cut.turn, max(wide, 12), high + PITCH + 6, {cut.name: first, cut.turn: second})
 
 
 def _assembled(
@@ -131,12 +140,20 @@ def _higher(child: Picture, height: int) -> Picture:
 
 
 def _piece(cut: Cut, drawn: Sequence[Edge], placed: Placed) -> Piece:
-    points = placed.routes[cut.name]
     if len(drawn) > 1:
-        points = (*points, *placed.routes[cut.turn][::-1])
-    elif drawn[0].tail != (cut.source or cut.port):
+        return _bent(cut, placed)
+    points = placed.routes[cut.name]
+    if drawn[0].tail != (cut.source or cut.port):
         points = points[::-1]
     x, y = placed.labels.get(cut.name, (0, 0))
+    return Piece(cut.arrow, points, cut.starts, cut.ends, cut.lines, (x + 5, y))
+
+
+def _bent(cut: Cut, placed: Placed) -> Piece:
+    there, back = placed.routes[cut.name], placed.routes[cut.turn][::-1]
+    x, y = placed.nodes[cut.turn]
+    end = x + max(padded(cut.lines)[0], 12)
+    points = (*there, (end, there[-1][1]), (end, back[0][1]), *back)
     return Piece(cut.arrow, points, cut.starts, cut.ends, cut.lines, (x + 5, y))
 
 

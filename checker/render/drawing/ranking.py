@@ -54,7 +54,8 @@ def ranks(nodes: Sequence[Node], edges: Sequence[Edge], first: Collection[str], 
     start, end = len(nodes), len(nodes) + 1
     bounds: list[Bound] = [(start, end, 0, 1)]
     for edge in edges:
-        bounds.append((number[edge.tail], number[edge.head], 2 if any(edge.label) else 1, edge.weight))
+        span = 2 if any(edge.label) else 1
+        bounds.append((number[edge.tail], number[edge.head], span, edge.weight))
     for node in nodes:
         u = number[node.name]
         bounds.append((start, u, 0 if node.name in first else bool(first), 0))

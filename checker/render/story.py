@@ -1,0 +1,198 @@
+"""A trace as a story: the ticks in which something happened, and the quiet stretches between them.
+
+No event is: a timer that counts up; an arrow from a state to itself that fires as it did in the tick
+before; the location of a chart whose arrow is told anyway; the bookkeeping of the property.  A stretch
+of ticks without any event is one line, with the first and the last value of each timer.
+"""
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from checker.trace import Arrow, Tick, Trace
+from spec_model.lang.domain import Enum, Num
+from spec_model.lang.expr import Expr, Named, variables
+from spec_model.lang.label import text
+
+NAME = re.compile(r"(?!.*\.rising\d+$)[^\W\d][\w.]*")
+"""Names a reader knows; others belong to the property, or remember what ``rising`` compares."""
+
+TIMER = re.compile(r"\.(after|duration\d*|held\d*)$")
+"""Names of the counters behind ``after``, ``duration`` and ``held``."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """A value that differs from the tick before; ``old`` is empty for an input in the first tick."""
+
+    name: str
+    old: str
+    new: str
+    is_input: bool
+
+    def __str__(self) -> str:
+        return f"{self.name}: {self.old} → {self.new}" if self.old else f"{self.name} = {self.new}"
+
+
+@dataclass(frozen=True)
+class Event:
+    """A tick in which something happened; ``ms`` is the time at its end, counted from the start."""
+
+    number: int
+    ms: int
+    changes: tuple[Change, ...]
+    arrows: tuple[Arrow, ...]
+
+
+@dataclass(frozen=True)
+class Quiet:
+    """Ticks ``first`` to ``last``, in which nothing but ``counters`` changed, from old to new."""
+
+    first: int
+    last: int
+    tick_ms: int
+    counters: tuple[Change, ...]
+
+    @property
+    def count(self) -> int:
+        return self.last - self.first + 1
+
+    @property
+    def what(self) -> str:
+        """The stretch in one sentence."""
+        span = f"ticks {self.first}–{self.last}" if self.count > 1 else f"tick {self.first}"
+        ticks = f"{self.count} tick{'s' if self.count > 1 else ''} = {self.count * self.tick_ms} ms"
+        if not self.counters:
+            return f"{span}: nothing changes; {ticks}"
+        return f"{span}: nothing but timers ({'; '.join(map(str, self.counters))}); {ticks}"
+
+
+@dataclass(frozen=True)
+class FalsePart:
+    """A conjunct of the property that is false at the end: its name, what that stands for, values."""
+
+    name: str
+    formula: str
+    values: tuple[tuple[str, str], ...]
+
+
+Row = Event | Quiet
+
+
+def value(trace: Trace, name: str, raw: int) -> str:
+    """A value with its unit, as a person writes it."""
+    sort = trace.variables[name].sort
+    unit = str(sort.unit) if isinstance(sort, Num) else ""
+    return f"{trace.show(name, raw)} {unit}".rstrip()
+
+
+def rows(trace: Trace) -> Iterator[Row]:
+    """Events and quiet stretches in order; the last tick is always an event."""
+    at = [dict(trace.before), *({**t.after, **t.inputs} for t in trace.ticks)]
+    start: int | None = None
+    for i, tick in enumerate(trace.ticks):
+        last = i == len(trace.ticks) - 1
+        arrows = tuple(a for a in tick.arrows if not _repeats(a, trace.ticks[i - 1] if i else None))
+        told = {a.chart for a in arrows}
+        news = [n for n in _changed(at, i) if not _tells(trace, n, told)]
+        news = [n for n in news if last or not _counts(trace, at, n, i)]
+        if not news and not arrows and not last:
+            start = i if start is None else start
+            continue
+        if start is not None:
+            yield _quiet(trace, at, start, i)
+            start = None
+        yield _event(trace, at, i, arrows, news)
+
+
+def _changed(at: list[dict[str, int]], i: int) -> list[str]:
+    old, new = at[i], at[i + 1]
+    return [n for n, v in new.items() if old.get(n) != v and NAME.fullmatch(n)]
+
+
+def _repeats(arrow: Arrow, before: Tick | None) -> bool:
+    """Whether the arrow keeps its state, for the same reason as in the tick before."""
+    if before is None or arrow.source != arrow.target:
+        return False
+    return any((a.chart, a.target, a.label) == (arrow.chart, arrow.target, arrow.label) for a in before.arrows)
+
+
+def _tells(trace: Trace, name: str, told: set[str]) -> bool:
+    """Whether an arrow that is told implies this change of a location."""
+    sort = trace.variables[name].sort
+    if not isinstance(sort, Enum) or not sort.name.startswith("states of "):
+        return False
+    return any(name == chart or name.startswith(f"{chart}.") for chart in told)
+
+
+def _counts(trace: Trace, at: list[dict[str, int]], name: str, i: int) -> bool:
+    """Whether the change in the i-th tick is one step of a steady count."""
+    if not isinstance(trace.variables[name].sort, Num) or name not in at[i]:
+        return False
+    step = at[i + 1][name] - at[i][name]
+    if TIMER.search(name):
+        return step == 1
+    before = i > 0 and name in at[i - 1] and at[i][name] - at[i - 1][name] == step
+    behind = i + 2 < len(at) and at[i + 2][name] - at[i + 1][name] == step
+    return before or behind
+
+
+def _quiet(trace: Trace, at: list[dict[str, int]], start: int, end: int) -> Quiet:
+    old, new = at[start], at[end]
+    names = [n for n, v in new.items() if n in old and old[n] != v and NAME.fullmatch(n)]
+    counters = tuple(_change(trace, n, old, new) for n in names)
+    return Quiet(start + 1, end, trace.tick_ms, counters)
+
+
+def _event(
+    trace: Trace, at: list[dict[str, int]], i: int, arrows: tuple[Arrow, ...], names: list[str]
+) -> Event:
+    changes = [_change(trace, n, at[i], at[i + 1]) for n in names]
+    changes.sort(key=lambda change: not change.is_input)
+    number = trace.ticks[i].number
+    return Event(number, number * trace.tick_ms, tuple(changes), arrows)
+
+
+def _change(trace: Trace, name: str, old: Mapping[str, int], new: Mapping[str, int]) -> Change:
+    shown = value(trace, name, old[name]) if name in old else ""
+    return Change(name, shown, value(trace, name, new[name]), name in trace.inputs)
+
+
+def start_values(trace: Trace) -> tuple[tuple[str, str], ...]:
+    """The frozen choices of the run: values before the first tick that no tick holds as its own."""
+    frozen = [n for n in trace.before if not trace.ticks or n not in trace.ticks[0].after]
+    return tuple((n, value(trace, n, trace.before[n])) for n in frozen)
+
+
+def false_parts(trace: Trace) -> tuple[FalsePart, ...]:
+    """Which conjuncts of the property are false after the last tick, and why."""
+    at = {**trace.ticks[-1].after, **trace.ticks[-1].inputs} if trace.ticks else dict(trace.before)
+    return tuple(_false_part(trace, expr, at) for expr in trace.false_parts)
+
+
+def _false_part(trace: Trace, expr: Expr, at: Mapping[str, int]) -> FalsePart:
+    names = [n for n in variables(expr) if n in at and n in trace.variables]
+    values = tuple((n, value(trace, n, at[n])) for n in names)
+    shown = text(expr, unfold=True)
+    return FalsePart(expr.name if isinstance(expr, Named) else "", shown, values)
+
+
+UNTOLD = (
+    "Not told: steady counts, arrows that keep their state as in the tick before, "
+    "bookkeeping of the property."
+)
+
+
+def heading(trace: Trace) -> str:
+    """One line about the whole run."""
+    count = len(trace)
+    ticks = f"{count} tick{'s' if count != 1 else ''} of {trace.tick_ms} ms"
+    return f"{trace.system}: {ticks}, {count * trace.tick_ms} ms"
+
+
+def start_of(arrow: Arrow) -> str:
+    """Where an arrow starts and ends: ``A → B (arrow 2)``, or ``default → B``."""
+    start = arrow.source if arrow.order else "default"
+    number = f" (arrow {arrow.order})" if arrow.order else ""
+    event = f" on {arrow.event}" if arrow.event and arrow.event not in arrow.label else ""
+    return f"{start} → {arrow.target}{number}{event}"

@@ -1,0 +1,126 @@
+"""A trace as JSON for other programs: readable values beside raw ones, with a published schema.
+
+The shape follows Apalache's Informal Trace Format: names of variables, then one object per state.
+"""
+
+import json
+from collections.abc import Mapping
+from typing import Any
+
+from checker.render.story import false_parts
+from checker.trace import Arrow, Tick, Trace
+from spec_model.lang.domain import Bool, Enum
+from spec_model.lang.expr import Var
+
+NAME = "json"
+KIND = "trace"
+SUFFIX = ".json"
+SUMMARY = "all values of all ticks, readable and raw, with schema version"
+
+VERSION = 1
+
+
+def render(trace: Trace, indent: int = 1) -> str:
+    """The whole trace as JSON text; ``SCHEMA`` describes it."""
+    return json.dumps(document(trace), indent=indent, ensure_ascii=False) + "\n"
+
+
+def document(trace: Trace) -> dict[str, Any]:
+    """The trace as plain lists and dictionaries."""
+    return {
+        "#meta": {"format": "rovercheck-trace", "version": VERSION, "system": trace.system,
+                  "tick_ms": trace.tick_ms, "ticks": len(trace)},
+        "params": [n for n in trace.before if trace.ticks and n not in trace.ticks[0].after],
+        "vars": [_variable(n, v, n in trace.inputs) for n, v in trace.variables.items()],
+        "before": _values(trace, trace.before),
+        "states": [_state(trace, tick) for tick in trace.ticks],
+        "false": [
+            {"name": p.name, "formula": p.formula, "values": dict(p.values)} for p in false_parts(trace)
+        ],
+    }  # fmt: skip
+
+
+def _variable(name: str, variable: Var, is_input: bool) -> dict[str, Any]:
+    match variable.sort:
+        case Bool():
+            kind: dict[str, Any] = {"type": "boolean"}
+        case Enum(_, members):
+            kind = {"type": "enum", "members": dict(members)}
+        case number:
+            kind = {"type": "number", "resolution": str(number.resolution), "unit": str(number.unit)}
+    return {"name": name, "input": is_input, **kind, "doc": variable.doc}
+
+
+def _state(trace: Trace, tick: Tick) -> dict[str, Any]:
+    return {
+        "#meta": {"tick": tick.number, "ms": tick.number * trace.tick_ms},
+        "inputs": _values(trace, tick.inputs),
+        "after": _values(trace, tick.after),
+        "fired": [_arrow(arrow) for arrow in tick.arrows],
+    }
+
+
+def _values(trace: Trace, at: Mapping[str, int]) -> dict[str, dict[str, Any]]:
+    return {n: {"value": _value(trace, n, raw), "raw": raw} for n, raw in at.items() if n in trace.variables}
+
+
+def _value(trace: Trace, name: str, raw: int) -> bool | int | str:
+    """A truth value, a whole number, else text: a member's name or an exact decimal."""
+    shown = trace.show(name, raw)
+    if isinstance(trace.variables[name].sort, Bool):
+        return bool(raw)
+    return int(shown) if shown.lstrip("-").isdigit() else shown
+
+
+def _arrow(arrow: Arrow) -> dict[str, Any]:
+    return {
+        "chart": arrow.chart, "source": arrow.source, "target": arrow.target,
+        "label": arrow.label, "order": arrow.order, "event": arrow.event,
+    }  # fmt: skip
+
+
+_VALUE = {
+    "type": "object",
+    "required": ["value", "raw"],
+    "properties": {"value": {"type": ["boolean", "integer", "string"]}, "raw": {"type": "integer"}},
+    "additionalProperties": False,
+}
+_VALUES = {"type": "object", "additionalProperties": _VALUE}
+_TEXT = {"type": "string"}
+_FIRED = {
+    "type": "object",
+    "required": ["chart", "source", "target", "label", "order", "event"],
+    "properties": {
+        "chart": _TEXT, "source": _TEXT, "target": _TEXT, "label": _TEXT,
+        "order": {"type": "integer", "minimum": 0}, "event": {"type": ["string", "null"]},
+    },
+    "additionalProperties": False,
+}  # fmt: skip
+
+SCHEMA: dict[str, Any] = {
+    "$schema": "https://json-schema.org/draft/2020-12/schema",
+    "title": "rovercheck trace",
+    "type": "object",
+    "required": ["#meta", "params", "vars", "before", "states", "false"],
+    "properties": {
+        "#meta": {
+            "type": "object",
+            "required": ["format", "version", "system", "tick_ms", "ticks"],
+            "properties": {"format": {"const": "rovercheck-trace"}, "version": {"const": VERSION}},
+        },
+        "params": {"type": "array", "items": _TEXT},
+        "vars": {"type": "array", "items": {"type": "object", "required": ["name", "input", "type"]}},
+        "before": _VALUES,
+        "states": {
+            "type": "array",
+            "items": {
+                "type": "object",
+                "required": ["#meta", "inputs", "after", "fired"],
+                "properties": {"inputs": _VALUES, "after": _VALUES, "fired": {"type": "array", "items": _FIRED}},
+            },
+        },
+        "false": {"type": "array", "items": {"type": "object", "required": ["name", "formula", "values"]}},
+    },
+    "additionalProperties": False,
+}
+"""JSON Schema (2020-12) of the document."""

@@ -1,0 +1,53 @@
+"""A trace as a Markdown page for reports: the same story as the terminal table."""
+
+from xml.sax.saxutils import escape
+
+from checker.render.story import UNTOLD, Event, Quiet, false_parts, heading, rows, start_of, start_values
+from checker.trace import Trace
+
+NAME = "markdown"
+KIND = "trace"
+SUFFIX = ".md"
+SUMMARY = "Markdown table with the same rows as the terminal table"
+
+_SPECIAL = str.maketrans({c: f"\\{c}" for c in "\\`*_{}[]<>|#"})
+
+
+def render(trace: Trace) -> str:
+    """The page's part about one run, without a heading of its own."""
+    lines = [_plain(heading(trace)) + ".", ""]
+    if chosen := start_values(trace):
+        lines += ["Fixed for the whole run: " + ", ".join(_code(f"{n} = {v}") for n, v in chosen) + ".", ""]
+    lines += ["| Tick | ms | Inputs | Changes | Arrows that fired |", "|---:|---:|---|---|---|"]
+    for row in rows(trace):
+        lines.append(_quiet(row) if isinstance(row, Quiet) else _event(row))
+    lines += ["", UNTOLD]
+    for part in false_parts(trace):
+        lines += ["", f"**False after tick {len(trace)}:** {_code(part.name or part.formula)}"]
+        lines += ["", f"which stands for {_code(part.formula)}"] if part.name else []
+        lines += ["", "with " + ", ".join(_code(f"{n} = {v}") for n, v in part.values)] if part.values else []
+    return "\n".join([*lines, ""])
+
+
+def _event(event: Event) -> str:
+    inputs = [_code(str(c)) for c in event.changes if c.is_input]
+    others = [_code(str(c)) for c in event.changes if not c.is_input]
+    arrows = [
+        f"{_plain(a.chart)}: {_plain(start_of(a))}" + (f"<br>{_code(a.label)}" if a.label else "")
+        for a in event.arrows
+    ]
+    cells = [str(event.number), str(event.ms), *("<br>".join(c) for c in (inputs, others, arrows))]
+    return "| " + " | ".join(cells) + " |"
+
+
+def _quiet(stretch: Quiet) -> str:
+    return f"| … | | | *{_plain(stretch.what)}* | |"
+
+
+def _code(shown: str) -> str:
+    """Inline code in a table cell: a bar would end the cell even here, a backtick the code."""
+    return f"<code>{escape(shown).replace('|', '&#124;')}</code>"
+
+
+def _plain(shown: str) -> str:
+    return shown.translate(_SPECIAL)

@@ -1,0 +1,154 @@
+"""Bounded model checking finds what a naive search finds, in as few ticks, and never claims more."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import pytest
+from hypothesis import given, settings
+
+from checker.engine import Limits, engines, quiet
+from checker.engines import bmc
+from checker.engines.bmc.events import Bound, Found, Undefined
+from checker.engines.bmc.search import search
+from checker.isolate import Send
+from checker.verdict import Open, Reached, Run
+from spec_model.lang.action import Assign, If
+from spec_model.lang.domain import chosen, integer
+from spec_model.lang.expr import FALSE, TRUE, Var, flag, ite, minimum, var
+from spec_model.lang.system import TransitionSystem
+from tests.checker.naive import first_hits, last
+from tests.strategies_ts import goals, transition_systems
+
+
+def counter(most: int, *, saturate: bool = True) -> TransitionSystem:
+    """Counts held ticks; ``full`` is the goal, ``over`` is never true."""
+    hold, noise = flag("hold"), var("noise", chosen([3, 5, 40]))
+    count, full, over = var("count", integer(0, most)), flag("full"), flag("over")
+    raised = minimum(count + 1, most) if saturate else count + 1
+    step = (
+        Assign(count, ite(hold, raised, 0)),
+        Assign(full, count >= most),
+        Assign(over, count > most),
+    )
+    return TransitionSystem("counter", (hold, noise), (), (count, full, over), (), step, noise > 3)
+
+
+def searched(system: TransitionSystem, names: Sequence[str], most: int) -> tuple[dict[str, Run], dict[str, int]]:
+    found, deep = {}, dict.fromkeys(names, 0)
+    for event in search(system, names, most):
+        match event:
+            case Found(goal, run):
+                found[goal] = run
+            case Bound(open_, depth):
+                deep |= dict.fromkeys(open_, depth)
+            case Undefined():
+                raise AssertionError(event)
+    return found, deep
+
+
+@settings(max_examples=150)
+@given(transition_systems())
+def test_random_systems_against_a_naive_search(system: TransitionSystem) -> None:
+    names, most = [g.name for g in goals(system)], 20
+    found, deep = searched(system, names, most)
+    for name, depth in first_hits(system, names, most).items():
+        if depth is None:
+            assert name not in found and deep[name] == most
+        else:
+            assert len(found[name]) == depth
+            assert last(system, found[name])[name]
+
+
+@pytest.mark.parametrize("most", [1, 2, 15, 16, 17, 18, 30, 47, 100])
+def test_the_shortest_run_wherever_it_falls_in_a_block(most: int) -> None:
+    system = counter(most)
+    found, deep = searched(system, ["full", "over"], 2 * most)
+    assert len(found["full"]) == most and last(system, found["full"])["full"]
+    assert deep["over"] == 2 * most and "over" not in found
+
+
+def test_it_is_found_by_being_there() -> None:
+    assert engines()["bmc"].NAME == bmc.NAME
+
+
+def test_the_engine_answers_for_every_goal() -> None:
+    system, lines = counter(12), list[str]()
+    wanted = [v for v in system.variables if v.name != "count"]
+    answers = bmc.check(system, wanted, Limits(depth=40, seconds=60), lines.append)
+    reached = answers["full"]
+    assert isinstance(reached, Reached) and reached.shortest and len(reached.run) == 12
+    assert answers["over"] == Open("no run of at most 40 ticks reaches it", 40)
+    assert lines[-1] == "bmc: depth 40, 1 goal open, 1 decided"
+
+
+def test_a_run_shorter_than_the_limit_is_not_reported_beyond_it() -> None:
+    answers = bmc.check(counter(12), [flag("full")], Limits(depth=11), quiet)
+    assert answers["full"] == Open("no run of at most 11 ticks reaches it", 11)
+
+
+def test_no_goals() -> None:
+    assert bmc.check(counter(3), [], Limits(), quiet) == {}
+
+
+def test_an_assumption_that_no_input_meets_allows_no_run() -> None:
+    system = counter(3)
+    for assume in (FALSE, system.inputs[1] > 40):
+        answers = bmc.check(replace(system, assume=assume), [flag("full")], Limits(depth=7), quiet)
+        assert answers["full"] == Open("no run of at most 7 ticks reaches it", 7)
+
+
+def test_a_variable_that_leaves_its_domain_ends_the_search() -> None:
+    answers = bmc.check(counter(5, saturate=False), [flag("full"), flag("over")], Limits(depth=9), quiet)
+    assert isinstance(answers["full"], Reached)
+    assert answers["over"] == Open("count may leave its domain in tick 6", 5)
+
+
+def test_frozen_values_are_chosen_once() -> None:
+    mode, count, goal = var("mode", integer(0, 3), 1), var("count", integer(0, 9)), flag("goal")
+    step = (
+        If(mode == 3, (Assign(count, minimum(count + 1, 9)),)),
+        Assign(goal, (count == 4) & (mode == 3)),
+    )
+    system = TransitionSystem("frozen", (), (mode, flag("other")), (count, goal), (), step, TRUE)
+    answer = bmc.check(system, [goal], Limits(), quiet)["goal"]
+    assert isinstance(answer, Reached) and answer.run == Run({"mode": 3, "other": 0}, ({},) * 4)
+
+
+# --- a child that misbehaves: it has to be importable, so it is a function of this module ---------
+
+
+def _hang(send: Send, system: TransitionSystem, names: tuple[str, ...], depth: int) -> None:
+    import ctypes
+
+    send(Bound(names, 7))
+    ctypes.CDLL(None).sleep(60)  # deaf to Python, as a solver is
+
+
+def _die(send: Send, *_: object) -> None:
+    import os
+    import signal
+
+    os.kill(os.getpid(), signal.SIGSEGV)
+
+
+def test_a_hanging_solver_is_killed_when_the_time_is_over(monkeypatch: pytest.MonkeyPatch) -> None:
+    from time import monotonic
+
+    monkeypatch.setattr(bmc, "_work", _hang)
+    start, lines = monotonic(), list[str]()
+    answers = bmc.check(counter(3), [flag("full")], Limits(seconds=2.5), lines.append)
+    assert monotonic() - start < 3.5
+    assert answers["full"] == Open("the time limit of 2.5 s is reached", 7)
+    assert lines[-1] == "bmc: depth 7, 1 goal open" and len(lines) >= 2
+
+
+def test_a_dying_solver_leaves_the_goals_open(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(bmc, "_work", _die)
+    answers = bmc.check(counter(3), [flag("full")], Limits(), quiet)
+    assert answers["full"] == Open("the solver process was ended by SIGSEGV", 0)
+
+
+def test_too_little_memory_leaves_the_goals_open() -> None:
+    system = counter(3000)
+    answer = bmc.check(system, [Var("full", system.var("full").domain)], Limits(memory=200 << 20), quiet)["full"]
+    assert isinstance(answer, Open)

@@ -1,0 +1,233 @@
+"""The explicit engine against a naive search with the reference semantics."""
+
+import pytest
+from hypothesis import given
+
+from checker.encode.native import OutsideDomain
+from checker.engine import Limits, quiet
+from checker.engines import explicit
+from checker.slice import sliced
+from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable
+from spec_model.lang.action import Assign, If
+from spec_model.lang.domain import chosen, integer
+from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Op, Var, all_of, const, flag, ite, minimum, var
+from spec_model.lang.system import TransitionSystem
+from tests.naive import Searched, projected, replay, search
+from tests.strategies_ts import goals, transition_systems
+
+UNLIMITED = Limits()
+
+
+def check(system: TransitionSystem, *wanted: Var, limits: Limits = UNLIMITED) -> list[Answer]:
+    answers = explicit.check(system, wanted, limits, quiet)
+    return [answers[g.name] for g in wanted]
+
+
+def agrees(system: TransitionSystem, wanted: tuple[Var, ...], naive: Searched) -> None:
+    """Verdicts, lengths of runs, the runs themselves, and the number of valuations."""
+    for goal, answer in zip(wanted, check(system, *wanted), strict=True):
+        match answer:
+            case Reached(run, True):
+                after = replay(system, run)
+                assert after[-1][goal.name] == 1
+                assert len(run) == naive.reached[goal.name]
+            case Unreachable(Exhausted() as because):
+                assert goal.name not in naive.reached
+                assert because.states == len(projected(naive.states, because.variables))
+            case _:
+                raise AssertionError(answer)
+
+
+@given(transition_systems())
+def test_random_systems(system: TransitionSystem) -> None:
+    agrees(system, goals(system), search(system, goals(system)))
+
+
+@given(transition_systems())
+def test_random_systems_goal_by_goal(system: TransitionSystem) -> None:
+    naive = search(system, goals(system))
+    for goal in goals(system):
+        agrees(system, (goal,), naive)
+
+
+@given(transition_systems())
+def test_a_depth_limit_never_proves_more_than_was_seen(system: TransitionSystem) -> None:
+    naive = search(system, goals(system))
+    for depth in range(3):
+        for goal, answer in zip(goals(system), check(system, *goals(system), limits=Limits(depth)), strict=True):
+            first = naive.reached.get(goal.name)
+            assert isinstance(answer, Reached) == (first is not None and first <= depth)
+            assert not isinstance(answer, Open) or answer.depth == depth
+            assert not isinstance(answer, Unreachable) or first is None
+
+
+# --- limits ------------------------------------------------------------------------------------------
+
+
+def counters(*sizes: int) -> tuple[TransitionSystem, Var]:
+    """Counters that an input each lets go on, and a goal: all of them at their ends."""
+    steps, own, inputs = [], [], []
+    for i, size in enumerate(sizes):
+        go, count = flag(f"go{i}"), var(f"count{i}", integer(0, size))
+        steps.append(If(go, (Assign(count, ite(count == size, count, count + 1)),)))
+        own.append(count)
+        inputs.append(go)
+    end = flag("end")
+    steps.append(If(all_of(*(c == n for c, n in zip(own, sizes, strict=True))), (Assign(end, TRUE),)))
+    return TransitionSystem("counters", tuple(inputs), (), (*own, end), (), tuple(steps)), end
+
+
+def test_a_depth_limit_leaves_the_goal_open() -> None:
+    system, end = counters(9)
+    assert isinstance(check(system, end, limits=Limits(depth=9))[0], Reached)
+    answer = check(system, end, limits=Limits(depth=8))[0]
+    assert answer == Open("the depth limit of 8 ticks", 8)
+
+
+def test_a_memory_limit_leaves_the_goal_open() -> None:
+    system, end = counters(400, 400, 400)
+    answer = check(system, end, limits=Limits(memory=3 << 20))[0]
+    assert isinstance(answer, Open) and "memory" in answer.reason
+    assert 5 < answer.depth < 400
+
+
+def test_a_time_limit_leaves_the_goal_open() -> None:
+    system, end = counters(2000, 2000, 2000)
+    answer = check(system, end, limits=Limits(seconds=0.3))[0]
+    assert isinstance(answer, Open) and "time" in answer.reason
+    assert answer.depth > 5
+
+
+def test_the_store_grows_and_forgets_nothing() -> None:
+    system, end = counters(60, 60, 60)
+    never = flag("never")
+    whole = TransitionSystem(
+        "", system.inputs, (), (*system.variables, never), (), (*system.step, Assign(never, end & ~end))
+    )
+    (answer,) = check(whole, never)
+    assert isinstance(answer, Unreachable)
+    assert answer.because == Exhausted(61**3, answer.because.transitions, 60, answer.because.variables)
+
+
+def test_progress_is_reported() -> None:
+    lines: list[str] = []
+    system, end = counters(150, 150, 150)
+    explicit.check(system, [end], UNLIMITED, lines.append)
+    assert lines and all(line.startswith("explicit: ") for line in lines)
+
+
+# --- packing -----------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("parts", [1, 2, 3])
+def test_valuations_of_several_words(parts: int) -> None:
+    """Each part needs 60 bits; the words move one to the next, so none may be lost."""
+    wide = [var(f"wide{i}", chosen([0, 5, (1 << 60) - 1])) for i in range(parts)]
+    source, end = var("source", wide[0].domain), flag("end")
+    moves = [Assign(b, a) for a, b in zip([source, *wide], wide, strict=False)][::-1]
+    last = all_of(*(w == 5 if i % 2 else w == (1 << 60) - 1 for i, w in enumerate(wide)))
+    system = TransitionSystem("wide", (source,), (), (*wide, end), (), (*moves, Assign(end, last)))
+    (answer,) = check(system, end)
+    assert isinstance(answer, Reached) and len(answer.run) == parts
+    assert replay(system, answer.run)[-1]["end"]
+    never, odd = flag("never"), all_of(*(~(w == 0) & ~(w == 5) & (w < 7) for w in wide))
+    (answer,) = check(TransitionSystem("wide", (source,), (), (*wide, never), (), (*moves, Assign(never, odd))), never)
+    assert isinstance(answer, Unreachable) and answer.because.states == 3**parts
+
+
+def test_many_bits_in_many_variables() -> None:
+    system, end = counters(*[3] * 3, *[0] * 0)
+    flags = [flag(f"was{i}") for i in range(140)]
+    shift = [Assign(b, a) for a, b in zip(flags, flags[1:], strict=False)][::-1]
+    feed = Assign(flags[0], system.inputs[0])
+    far = flag("far")
+    whole = TransitionSystem(
+        "", system.inputs[:1], (), (*flags, far), (), (*shift, feed, Assign(far, flags[-1]))
+    )
+    answer = check(whole, far, limits=Limits(depth=12))[0]
+    assert isinstance(answer, Open) and answer.depth == 12
+    assert isinstance(end, Var)
+
+
+def test_a_value_outside_its_domain_is_an_error_that_names_the_variable() -> None:
+    count, over = var("count", integer(0, 5)), flag("over")
+    system = TransitionSystem(
+        "", (), (), (count, over), (), (Assign(over, (count == 5) & (count == 4)), Assign(count, count + 1))
+    )
+    with pytest.raises(OutsideDomain, match="count becomes 6"):
+        check(system, over)
+
+
+def test_a_hole_of_a_sparse_domain_is_outside() -> None:
+    level, over = var("level", chosen([0, 20, 30])), flag("over")
+    system = TransitionSystem(
+        "", (), (), (level, over), (), (Assign(over, level == 99), Assign(level, minimum(level + 10, 30)))
+    )
+    with pytest.raises(OutsideDomain, match="level becomes 10"):
+        check(system, over)
+
+
+# --- inputs ------------------------------------------------------------------------------------------
+
+
+def with_goal(inputs: tuple[Var, ...], condition: Expr, assume: Expr = TRUE) -> tuple[TransitionSystem, Var]:
+    goal, seen = flag("goal"), var("seen", integer(0, 2))
+    program = (Assign(goal, condition & (seen == 2)), Assign(seen, minimum(seen + 1, 2)))
+    return TransitionSystem("", inputs, (), (seen, goal), (), program, assume), goal
+
+
+def test_inputs_that_are_not_read_cost_nothing() -> None:
+    many = tuple(var(f"i{k}", integer(0, 99)) for k in range(12))
+    system, goal = with_goal(many, all_of(*(v > 99 for v in many)))
+    (answer,) = check(system, goal)
+    assert isinstance(answer, Unreachable) and answer.because.transitions < 1000
+
+
+def test_traces_are_calm() -> None:
+    """An input keeps its value while that is in the cell that the run needs."""
+    level, other = var("level", integer(0, 1000)), var("other", integer(3, 9))
+    system, goal = with_goal((level, other), (level > 500) & (other < 20))
+    (answer,) = check(system, goal)
+    assert isinstance(answer, Reached)
+    assert [dict(i) for i in answer.run.inputs] == [
+        {"level": 0, "other": 3}, {"level": 0, "other": 3}, {"level": 501, "other": 3},
+    ]
+
+
+def test_inputs_of_a_conjunct_that_was_left_out_still_meet_it() -> None:
+    a, b, c = (var(n, integer(0, 9)) for n in "abc")
+    system, goal = with_goal((a, b, c), a == 3, all_of(b > c, c > 1, a < 8))
+    assert [v.name for v in sliced(system, [goal]).inputs] == ["a"]
+    (answer,) = check(system, goal)
+    assert isinstance(answer, Reached)
+    replay(system, answer.run)
+
+
+def test_an_assumption_that_nothing_meets_blocks_every_tick() -> None:
+    a = var("a", integer(0, 9))
+    for assume in (a > 9, FALSE, (a > 3) & (a < 2)):
+        system, goal = with_goal((a,), TRUE, assume)
+        (answer,) = check(system, goal)
+        assert isinstance(answer, Unreachable) and answer.because.states == 1
+
+
+def test_frozen_variables_are_part_of_the_valuation() -> None:
+    limit, count, reached = var("limit", integer(3, 6)), var("count", integer(0, 9)), flag("reached")
+    program = (Assign(count, ite(count < limit, count + 1, count)), Assign(reached, count == 5))
+    system = TransitionSystem("", (), (limit,), (count, reached), (), program)
+    (answer,) = check(system, reached)
+    assert isinstance(answer, Reached) and answer.run.frozen["limit"] >= 5 and len(answer.run) == 5
+    never = flag("never")
+    program = (*program, Assign(never, (count > limit)))
+    (answer,) = check(TransitionSystem("", (), (limit,), (count, reached, never), (), program), never)
+    assert isinstance(answer, Unreachable) and answer.because.states == 4 + 5 + 6 + 7
+
+
+def test_more_goals_than_bits_in_a_word() -> None:
+    count = var("count", integer(0, 99))
+    wanted = tuple(flag(f"at{i}") for i in range(120))
+    program = (Assign(count, Apply(Op.MOD, (count + 1, const(100)), count.sort)),
+               *(Assign(g, count == i) for i, g in enumerate(wanted)))
+    answers = check(TransitionSystem("", (), (), (count, *wanted), (), program), *wanted)
+    lengths = [len(a.run) if isinstance(a, Reached) else None for a in answers]
+    assert lengths == [100, *range(1, 100), *[None] * 20]

@@ -1,0 +1,36 @@
+"""The catalogue is well formed: known systems, known requirements, one sentence each."""
+
+import pytest
+
+from properties.catalogue import baseline, catalogue
+from properties.forms import Property
+from properties.reduce import reduce
+from spec_model.lang.lower import lower
+from spec_model.rover import charts, systems
+
+ALL = list(catalogue().values())
+
+
+@pytest.mark.parametrize("prop", ALL, ids=lambda p: p.id)
+def test_a_property_is_one_sentence_about_a_known_system(prop: Property) -> None:
+    assert prop.text.endswith(".") and prop.text[0].isupper()
+    assert prop.on in systems()
+    assert reduce(lower(systems()[prop.on]), [prop]).goals[0].property is prop
+
+
+def test_every_chart_is_spoken_of() -> None:
+    spoken = {chart.name for prop in ALL for chart in systems()[prop.on].charts}
+    assert spoken >= set(charts())
+
+
+def test_the_three_demands_of_the_document_are_stated_in_several_forms() -> None:
+    def covering(*ids: str) -> int:
+        return sum(bool({*ids} & {*p.covers}) for p in ALL)
+
+    assert covering("B2-OBS-01", "B2-OBS-11") >= 4, "an obstacle at 70 cm or less"
+    assert covering("B1-REF-06") >= 4, "zero references when critical"
+    assert covering("B1-REL-02") >= 3 and covering("B1-REL-04") >= 3, "relay given, relay returned"
+
+
+def test_the_baseline_gives_a_reason_for_every_finding() -> None:
+    assert all(entry.because.endswith(".") for entry in baseline().values())

@@ -1,0 +1,21 @@
+"""The evidence under ``reports/`` is what the charts and properties of today give, verdict by verdict."""
+
+from pathlib import Path
+
+from checker.commands.check import Compared, line, results
+from checker.commands.reporting import differences, pages
+from checker.decide import AUTO
+from checker.engine import Limits
+from properties.catalogue import catalogue, expected
+from spec_model.rover import systems
+
+REPORTS = Path(__file__).parent.parent / "reports"
+
+
+def test_verdicts_are_as_on_record_and_the_committed_reports_show_them() -> None:
+    # One test, so that the properties are decided once however many processes run the suite.
+    found = results(list(catalogue().values()), systems(), AUTO, Limits())
+    verdicts = [Compared(r, expected(r.property.id)) for r in found]
+    assert len(verdicts) == len(catalogue())
+    assert [line(c) for c in verdicts if not c.as_expected] == []
+    assert list(differences(REPORTS, pages(verdicts))) == [], "run `make reports` and commit"
