@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from checker.calm import calmed
 from checker.engine import Engine, Limits, Progress, engines
 from checker.replay import replay
 from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Verdict, Violated
@@ -170,7 +171,7 @@ def _check_domains(system: TransitionSystem, found: Answers) -> None:
 def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Verdict:
     match answer:
         case Reached(run):
-            trace = replay(system, goal, run)
+            trace = replay(system, goal, calmed(system, goal.var, run))
             return Proved(trace, by) if goal.reach else Violated(trace, by)
         case Unreachable(because):
             return Violated(because, by) if goal.reach else Proved(because, by)

@@ -31,7 +31,7 @@ def renderers(kind: str) -> dict[str, Renderer]:
     found: dict[str, Renderer] = {}
     for entry in sorted(pkgutil.iter_modules(__path__), key=lambda e: e.name):
         if entry.name.startswith(f"{kind}_"):
-            module = importlib.import_module(f"{__name__}.{entry.name}")
+            module: Any = importlib.import_module(f"{__name__}.{entry.name}")
             if getattr(module, "KIND", None) == kind:
-                found[module.NAME] = module  # type: ignore[assignment]
+                found[module.NAME] = module
     return found

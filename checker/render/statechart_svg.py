@@ -4,7 +4,7 @@ from collections.abc import Collection
 
 from checker.render.drawing import svg
 from checker.render.drawing.highlight import Emphasis, emphasis
-from checker.render.drawing.nested import TITLE, picture
+from checker.render.drawing.nested import picture
 from checker.render.drawing.picture import Box, Piece, Spot
 from checker.render.drawing.scheme import arrows, explained
 from checker.render.drawing.text import LINE, width, wrap

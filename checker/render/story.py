@@ -114,7 +114,9 @@ def _repeats(arrow: Arrow, before: Tick | None) -> bool:
     """Whether the arrow keeps its state, for the same reason as in the tick before."""
     if before is None or arrow.source != arrow.target:
         return False
-    return any((a.chart, a.target, a.label) == (arrow.chart, arrow.target, arrow.label) for a in before.arrows)
+    return any(
+        (a.chart, a.target, a.label) == (arrow.chart, arrow.target, arrow.label) for a in before.arrows
+    )
 
 
 def _tells(trace: Trace, name: str, told: set[str]) -> bool:

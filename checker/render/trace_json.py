@@ -116,7 +116,11 @@ SCHEMA: dict[str, Any] = {
             "items": {
                 "type": "object",
                 "required": ["#meta", "inputs", "after", "fired"],
-                "properties": {"inputs": _VALUES, "after": _VALUES, "fired": {"type": "array", "items": _FIRED}},
+                "properties": {
+                    "inputs": _VALUES,
+                    "after": _VALUES,
+                    "fired": {"type": "array", "items": _FIRED},
+                },
             },
         },
         "false": {"type": "array", "items": {"type": "object", "required": ["name", "formula", "values"]}},

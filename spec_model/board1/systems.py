@@ -146,14 +146,13 @@ safety = in_order(
 
 references = in_order(
     "references",
-    relay,
     REFERENCES,
-    text="Relay, safety state, limits and references, for any faults, commands and wheel speeds.",
+    text="Safety state, limits and references, for any relay decision, faults, commands and wheel speeds.",
     assume=no_rotation_asked,
     notes=[
         FREE_STATUSES,
-        "The causes b1_critical, b1_degraded, b2_critical, b2_degraded are free instead of following from "
-        "the masks, and wheels_below_2_5 instead of following from four wheel speeds.",
+        "The relay decision is free, the causes b1_critical, b1_degraded, b2_critical and b2_degraded do not "
+        "follow from masks, nor wheels_below_2_5 from four wheel speeds.",
         NO_ROTATION,
     ],
     over=True,

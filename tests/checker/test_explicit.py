@@ -126,27 +126,30 @@ def test_valuations_of_several_words(parts: int) -> None:
     source, end = var("source", wide[0].domain), flag("end")
     moves = [Assign(b, a) for a, b in zip([source, *wide], wide, strict=False)][::-1]
     last = all_of(*(w == 5 if i % 2 else w == (1 << 60) - 1 for i, w in enumerate(wide)))
-    system = TransitionSystem("wide", (source,), (), (*wide, end), (), (*moves, Assign(end, last)))
+    system = TransitionSystem("wide", (source,), (), (*wide, end), (), (Assign(end, last), *moves))
     (answer,) = check(system, end)
-    assert isinstance(answer, Reached) and len(answer.run) == parts
+    assert isinstance(answer, Reached) and len(answer.run) == parts + 1
     assert replay(system, answer.run)[-1]["end"]
     never, odd = flag("never"), all_of(*(~(w == 0) & ~(w == 5) & (w < 7) for w in wide))
-    (answer,) = check(TransitionSystem("wide", (source,), (), (*wide, never), (), (*moves, Assign(never, odd))), never)
+    system = TransitionSystem("wide", (source,), (), (*wide, never), (), (Assign(never, odd), *moves))
+    (answer,) = check(system, never)
     assert isinstance(answer, Unreachable) and answer.because.states == 3**parts
 
 
 def test_many_bits_in_many_variables() -> None:
-    system, end = counters(*[3] * 3, *[0] * 0)
+    fed = flag("fed")
     flags = [flag(f"was{i}") for i in range(140)]
     shift = [Assign(b, a) for a, b in zip(flags, flags[1:], strict=False)][::-1]
-    feed = Assign(flags[0], system.inputs[0])
-    far = flag("far")
-    whole = TransitionSystem(
-        "", system.inputs[:1], (), (*flags, far), (), (*shift, feed, Assign(far, flags[-1]))
-    )
-    answer = check(whole, far, limits=Limits(depth=12))[0]
+    far, never = flag("far"), flag("never")
+    program = (*shift, Assign(flags[0], fed), Assign(far, flags[-1]), Assign(never, flags[0] & ~flags[0]))
+    system = TransitionSystem("", (fed,), (), (*flags, far, never), (), program)
+    answer = check(system, far, limits=Limits(depth=12))[0]
     assert isinstance(answer, Open) and answer.depth == 12
-    assert isinstance(end, Var)
+    once = TransitionSystem(
+        "", (), (), (*flags, far, never), (), (*shift, Assign(flags[0], TRUE), *program[-2:])
+    )
+    answer = check(once, far)[0]
+    assert isinstance(answer, Reached) and len(answer.run) == 140
 
 
 def test_a_value_outside_its_domain_is_an_error_that_names_the_variable() -> None:

@@ -42,6 +42,8 @@ def check(
         return {g.name: Open(str(problem), 0) for g in goals}
     found = search(native, limits, deadline, progress)
     runs = Runs(system, task, cells, found)
+    if found.outside is not None:
+        raise runs.left_domain(found.outside)
     return {g.name: _answer(found, runs, number, g) for number, g in enumerate(goals)}
 
 

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from functools import cached_property
 from itertools import product
 
-from checker.encode.native import REACH_TARGET, NativeRetrace, Task
+from checker.encode.native import LEAVE_DOMAIN, REACH_TARGET, NativeRetrace, OutsideDomain, Task
 from checker.engines.explicit.search import Found
 from checker.partition import Partition, partition
 from checker.slice import assumption_groups
@@ -47,6 +47,16 @@ class Runs:
         if not at[goal.name]:
             raise AssertionError(f"the run of {len(inputs)} ticks does not reach {goal.name}")
         return Run(self._frozen(last), tuple(inputs))
+
+    def left_domain(self, last: int) -> OutsideDomain:
+        """The error to raise when a tick from the last valuation breaks the model."""
+        words = self.found.words[last]
+        before = self.task.layout.unpack(words.tolist())
+        default = {v.name: v.domain.low for v in self.task.system.inputs}
+        inputs = default | self.native.inputs(words, words, LEAVE_DOMAIN)
+        after = step(self.task.system, before, inputs)
+        broken = next(v for v in self.task.system.variables if after[v.name] not in v.domain)
+        return OutsideDomain(broken, after[broken.name])
 
     def chain(self, last: int) -> list[int]:
         """The numbers of the stored valuations from an initial one to the last."""

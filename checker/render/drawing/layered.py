@@ -4,6 +4,7 @@ The steps of Sugiyama, Tagawa and Toda (1981): ranks, order in the ranks, coordi
 Labels take part as items of their own, so that nothing is ever drawn over them.
 """
 
+import itertools
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
@@ -42,12 +43,15 @@ def _roomy(node: Node, edges: Sequence[Edge]) -> Node:
 
 
 def _jogs(
-    layers: Sequence[Sequence[Item]], links: Mapping[str, Chain], y: Mapping[Item, int], met: Mapping[Port, int]
+    layers: Sequence[Sequence[Item]],
+    links: Mapping[str, Chain],
+    y: Mapping[Item, int],
+    met: Mapping[Port, int],
 ) -> list[list[Jog]]:
     """The lines in the channel after each rank."""
     found: list[list[Jog]] = [[] for _ in layers]
     for name, chain in links.items():
-        for a, b in zip(chain, chain[1:], strict=False):
+        for a, b in itertools.pairwise(chain):
             start = met[a, name, RIGHT] if a.node else y[a]
             end = met[b, name, LEFT] if b.node else y[b]
             found[a.rank].append(Jog(name, start, end))
@@ -104,7 +108,7 @@ def _route(
     start, end = met[tail, name, RIGHT], met[head, name, LEFT]
     points = _stub(tail, y[tail], start, _left(tail, columns) + tail.width, 1)
     level = start
-    for a, b in zip(chain, chain[1:], strict=False):
+    for a, b in itertools.pairwise(chain):
         goal = end if b is head else y[b]
         if goal != level:
             x, wide = columns[a.rank]

@@ -52,7 +52,7 @@ def _level(sheet: _Sheet, level: Path, sides: Sides, least: int) -> Picture:
     if sheet.chart.states[level].parallel:
         return _regions(sheet, level, found, sides, least)
     state = sheet.chart.states[level]
-    names = [DOT] * bool(state.default) + [m.name for m in (*state.states, *state.junctions)]
+    names = [DOT] * bool(state.default) + [s.name for s in state.states] + [j.name for j in state.junctions]
     options = [_laid(sheet, level, names, found, sides, way) for way in _ways(sheet, level, names, found)]
     return min(options, key=lambda option: cost((option.width, option.height)))
 
@@ -110,7 +110,11 @@ def _turn(cut: Cut, names: Sequence[str]) -> Node:
 
 
 def _assembled(
-    level: Path, found: Sequence[Cut], inner: Mapping[str, Picture], drawn: Mapping[str, Sequence[Edge]], placed: Placed
+    level: Path,
+    found: Sequence[Cut],
+    inner: Mapping[str, Picture],
+    drawn: Mapping[str, Sequence[Edge]],
+    placed: Placed,
 ) -> Picture:
     boxes: list[Box] = []
     spots: list[Spot] = []
@@ -205,8 +209,8 @@ def _regions(sheet: _Sheet, level: Path, found: Sequence[Cut], sides: Sides, lea
     for cut in found:
         if not cut.crosses:
             raise ModelError(
-                f"{sheet.chart.name}: an arrow from {'.'.join(cut.arrow.source)} to {'.'.join(cut.arrow.target)} "
-                "joins two parallel regions; send a local event instead."
+                f"{sheet.chart.name}: an arrow from {'.'.join(cut.arrow.source)} to "
+                f"{'.'.join(cut.arrow.target)} joins two parallel regions; send a local event instead."
             )
     crossing = {c.name: sides.get(c.name, bool(c.source)) for c in found}
     regions = []

@@ -1,5 +1,6 @@
 """Second step of a layered layout: the order inside each rank, with few crossings."""
 
+import itertools
 from bisect import bisect_right, insort
 from collections.abc import Mapping, Sequence
 
@@ -16,6 +17,7 @@ def untangled(layers: Layers, chains: Mapping[str, Chain]) -> Layers:
     """The layers in the best order found: barycentre sweeps in both directions, then exchanges."""
     right, left = links(chains)
     best, fewest = [list(layer) for layer in layers], crossings(layers, right)
+    current = best
     for sweep in range(SWEEPS):
         if fewest == 0:
             break
@@ -33,7 +35,7 @@ def links(chains: Mapping[str, Chain]) -> tuple[Links, Links]:
     right: Links = {}
     left: Links = {}
     for name, chain in chains.items():
-        for a, b in zip(chain, chain[1:], strict=False):
+        for a, b in itertools.pairwise(chain):
             pa, pb = _meets(a, name), _meets(b, name)
             right.setdefault(a, []).append((b, pa, pb))
             left.setdefault(b, []).append((a, pb, pa))
@@ -53,11 +55,9 @@ def _index(layer: Sequence[Item]) -> dict[Item, int]:
 def crossings(layers: Layers, right: Links) -> int:
     """The number of pairs of lines that cross between neighbouring ranks."""
     total = 0
-    for layer, following in zip(layers, layers[1:], strict=False):
+    for layer, following in itertools.pairwise(layers):
         place = _index(following)
-        lines = sorted(
-            (i + pa, place[b] + pb) for i, a in enumerate(layer) for b, pa, pb in right.get(a, ())
-        )
+        lines = sorted((i + pa, place[b] + pb) for i, a in enumerate(layer) for b, pa, pb in right.get(a, ()))
         seen: list[float] = []
         for _, end in lines:
             total += len(seen) - bisect_right(seen, end)

@@ -1,5 +1,6 @@
 """Third step of a layered layout: how high everything lies, so that lines are short and straight."""
 
+import itertools
 from collections.abc import Mapping, Sequence
 
 from checker.render.drawing.graph import Chain, Item, Node
@@ -45,12 +46,12 @@ def heights(
     """The top of each node, the line of each other item, and where each edge meets its nodes."""
     places = _Places(layers)
     for layer in layers:
-        for upper, lower in zip(layer, layer[1:], strict=False):
+        for upper, lower in itertools.pairwise(layer):
             gap = upper.below + _gap(upper, lower) + lower.above
             places.bounds.append((places.of[upper], places.of[lower], gap, 0))
     _ports(places, layers, chains)
     for name, chain in chains.items():
-        for a, b in zip(chain, chain[1:], strict=False):
+        for a, b in itertools.pairwise(chain):
             _straighten(places, a, b, name)
     values = least_stretch(places.count, places.bounds)
     met = {port: values[u] + offset for port, (u, offset) in places.ports.items()}

@@ -6,7 +6,9 @@ from checker.render.drawing.graph import Chain, Edge, Item, Node
 from checker.render.drawing.solve import Bound, least_stretch
 
 
-def backward(nodes: Sequence[str], arrows: Sequence[tuple[str, str, str]], breadth: bool = False) -> frozenset[str]:
+def backward(
+    nodes: Sequence[str], arrows: Sequence[tuple[str, str, str]], breadth: bool = False
+) -> frozenset[str]:
     """Names of the arrows (name, source, target) to be drawn from right to left.
 
     They are those that lead back when the arrows are followed from the first node on, depth first
@@ -48,7 +50,9 @@ def _depth(start: str, leaving: Mapping[str, list[str]], place: dict[str, int]) 
             stack.append((following, iter(leaving[following])))
 
 
-def ranks(nodes: Sequence[Node], edges: Sequence[Edge], first: Collection[str], last: Collection[str]) -> dict[str, int]:
+def ranks(
+    nodes: Sequence[Node], edges: Sequence[Edge], first: Collection[str], last: Collection[str]
+) -> dict[str, int]:
     """The rank of each node from 0; labels get a rank of their own between two nodes."""
     number = {node.name: i for i, node in enumerate(nodes)}
     start, end = len(nodes), len(nodes) + 1
@@ -71,7 +75,9 @@ def _packed(values: list[int]) -> list[int]:
     return [v - low for v in values]
 
 
-def chains(nodes: Sequence[Node], edges: Sequence[Edge], rank: Mapping[str, int]) -> tuple[list[list[Item]], dict[str, Chain]]:
+def chains(
+    nodes: Sequence[Node], edges: Sequence[Edge], rank: Mapping[str, int]
+) -> tuple[list[list[Item]], dict[str, Chain]]:
     """The items of each rank in a first order, and the chain of each edge by name."""
     layers: list[list[Item]] = [[] for _ in range(max(rank.values(), default=-1) + 1)]
     item = {n.name: Item(rank[n.name], n.width, 0, n.height, node=n) for n in nodes}

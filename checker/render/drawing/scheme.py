@@ -53,7 +53,9 @@ def _from(
         target = chart.resolve(level, transition.target)
         if target is None:
             start = ".".join(source) or chart.name
-            raise ModelError(f"{chart.name}: arrow {order} of {start} goes to {transition.target!r}, which is unknown.")
+            raise ModelError(
+                f"{chart.name}: arrow {order} of {start} goes to {transition.target!r}, which is unknown."
+            )
         name = f"{'.'.join(source)}{'*' if default else ''}#{order}"
         yield ChartArrow(name, source, target, order, len(transitions), default, transition)
 
@@ -103,6 +105,11 @@ def explained(chart: Chart) -> dict[str, str]:
         if isinstance(expr, Named) and text(expr) != text(expr, unfold=True):
             found.setdefault(expr.name, text(expr, unfold=True))
     return dict(sorted(found.items()))
+
+
+def identifiers(chart: Chart) -> dict[Path, str]:
+    """A short name of letters and digits for the chart, each state and each junction."""
+    return {path: f"n{number}" for number, path in enumerate((*chart.states, *chart.junctions))}
 
 
 def execution_order(chart: Chart, path: Path) -> int:

@@ -10,7 +10,7 @@ SIZE = 11
 LINE = 14
 """Distance between two lines of text, in pixels."""
 
-_NARROW = {c: 0.28 for c in "ijlI"} | {c: 0.32 for c in " .,:;'|/\\"} | {c: 0.40 for c in "()[]ftr-!\""}
+_NARROW = {c: 0.28 for c in "ijlI"} | {c: 0.32 for c in " .,:;'|/\\"} | {c: 0.40 for c in '()[]ftr-!"'}
 _WIDE = {c: 0.84 for c in "&#%<>=+*~≥≤≠∧∨¬→°"} | {c: 0.98 for c in "mMW@"} | {c: 0.82 for c in "wGOQ_"}
 _WIDTH = _NARROW | _WIDE | {"_": 0.5, "*": 0.5, "w": 0.82, "{": 0.64, "}": 0.64}
 

@@ -1,0 +1,137 @@
+"""Every reachable valuation with every tick that leaves it, by plain breadth-first search.
+
+For graphs of small systems only: the step is interpreted, not compiled.  An input is chosen at the
+moment the step reads it, one value per cell (see ``checker.partition``), so inputs that a tick does
+not look at cost nothing.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
+
+from checker.engine import Progress, quiet
+from checker.graph import StateGraph, Step, Values, project
+from checker.partition import partitions
+from checker.slice import sliced
+from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.lang.evaluate import evaluate, run
+from spec_model.lang.expr import Var
+from spec_model.lang.system import TransitionSystem
+
+MOST_VALUATIONS = 20_000
+MOST_STEPS = 2_000_000
+_REPORT = 1000
+
+
+def state_graph(
+    system: TransitionSystem,
+    onto: Sequence[str],
+    most: int = MOST_VALUATIONS,
+    steps: int = MOST_STEPS,
+    progress: Progress = quiet,
+) -> StateGraph:
+    """The reachable graph of the system projected on the variables named ``onto``.
+
+    Only the part of the system they depend on is explored.  Raises ``ModelError`` for an unknown
+    variable, and when more than ``most`` valuations or ``steps`` ticks would have to be tried: the
+    graph is whole or there is none.
+    """
+    known = {v.name: v for v in (*system.variables, *system.frozen)}
+    for name in onto:
+        if name not in known:
+            raise ModelError(f"There is no variable {name!r} to project on. {did_you_mean(name, known)}")
+    part = sliced(system, [known[name] for name in onto])
+    kept = {v.name for v in part.variables} | {v.name for v in part.frozen} | set(onto)
+    variables = [v for v in (*system.frozen, *system.variables) if v.name in kept]
+    search = _Search(part, variables, most, steps, progress)
+    return project(f"{system.name} on {', '.join(onto)}", variables, onto, search.initial(), search)
+
+
+class _Search:
+    """Yields each reachable valuation once, with its ticks, in breadth-first order."""
+
+    def __init__(
+        self, system: TransitionSystem, variables: Sequence[Var], most: int, steps: int, progress: Progress
+    ) -> None:
+        self.system, self.variables, self.most, self.steps, self.progress = (
+            system, variables, most, steps, progress,
+        )  # fmt: skip
+        self.names = tuple(v.name for v in variables)
+        self.cells = {n: [c.value for c in p.cells] for n, p in partitions(system).items()}
+        self.shows = {v.name: v.domain.show for v in system.inputs}
+
+    def initial(self) -> Iterator[Values]:
+        """One valuation before the first tick for each choice of the frozen variables."""
+        frozen = {v.name for v in self.system.frozen}
+        domains = [v.domain.values if v.name in frozen else (v.init,) for v in self.variables]
+        return product(*domains)
+
+    def __iter__(self) -> Iterator[tuple[Values, Sequence[Step]]]:
+        queue = list(self.initial())
+        seen = set(queue)
+        tried = 0
+        for number, valuation in enumerate(queue):
+            leaving = list(self._ticks(valuation))
+            tried += len(leaving)
+            for after, _ in leaving:
+                if after not in seen:
+                    seen.add(after)
+                    queue.append(after)
+            self._within(len(queue), tried)
+            if number % _REPORT == _REPORT - 1:
+                self.progress(f"graph: {number + 1} of {len(queue)} valuations, {tried} ticks tried")
+            yield valuation, leaving
+
+    def _within(self, valuations: int, tried: int) -> None:
+        if valuations <= self.most and tried <= self.steps:
+            return
+        widest = sorted(self.variables, key=lambda v: (-len(v.domain), v.name))[:3]
+        advice = ", ".join(f"{v.name} ({len(v.domain)} values)" for v in widest)
+        raise ModelError(
+            f"{self.system.name}: more than {self.most if valuations > self.most else self.steps} "
+            f"{'valuations' if valuations > self.most else 'ticks'} stand behind this graph. "
+            f"Its largest variables are {advice}. Project on variables that do not depend on them, "
+            "take a smaller system, or raise the limit."
+        )
+
+    def _ticks(self, valuation: Values) -> Iterator[Step]:
+        """Every tick from a valuation: one for each way in which the step can read its inputs."""
+        before = dict(zip(self.names, valuation, strict=True))
+        script: list[int] = []
+        while True:
+            at = _Drawn(before, self.cells, script)
+            if evaluate(self.system.assume, at):
+                run(self.system.step, at)
+                after = tuple(at[name] for name in self.names)
+                yield after, self._shown(at.drawn)
+            script = at.following()
+            if not script:
+                return
+
+    def _shown(self, drawn: Mapping[str, int]) -> str:
+        return ", ".join(f"{name} = {self.shows[name](raw)}" for name, raw in drawn.items())
+
+
+class _Drawn(dict[str, int]):
+    """A valuation whose inputs are drawn when read: the i-th one read takes its ``script[i]``-th cell."""
+
+    def __init__(
+        self, before: Mapping[str, int], cells: Mapping[str, Sequence[int]], script: Sequence[int]
+    ) -> None:
+        super().__init__(before)
+        self.cells, self.script = cells, script
+        self.drawn: dict[str, int] = {}
+
+    def __missing__(self, name: str) -> int:
+        place = len(self.drawn)
+        choice = self.script[place] if place < len(self.script) else 0
+        value = self.cells[name][choice]
+        self.drawn[name] = self[name] = value
+        return value
+
+    def following(self) -> list[int]:
+        """The next script: the last choice that can be raised is, those after it start anew."""
+        script = [self.cells[name].index(value) for name, value in self.drawn.items()]
+        for i, name in reversed(list(enumerate(self.drawn))):
+            if script[i] + 1 < len(self.cells[name]):
+                return [*script[:i], script[i] + 1]
+        return []

@@ -1,0 +1,38 @@
+"""A projected state graph in Graphviz DOT."""
+
+from checker.graph import GraphEdge, GraphNode, StateGraph
+from checker.render.statechart_dot import quoted
+
+NAME = "dot"
+KIND = "graph"
+SUFFIX = ".dot"
+SUMMARY = "Graphviz source with counts and example inputs"
+
+
+def render(graph: StateGraph) -> str:
+    """The DOT source."""
+    lines = [f"digraph {quoted(graph.title)} {{", "  rankdir=LR; fontname=Helvetica; labelloc=t;"]
+    lines += [f"  label={quoted(chr(10).join([graph.title, graph.summary, *graph.notes]))};"]
+    lines += ["  node [shape=box, style=rounded, fontname=Helvetica, fontsize=10];"]
+    lines += ["  edge [fontname=Helvetica, fontsize=8];"]
+    lines += [f"  {_node(graph, node)}" for node in graph.nodes]
+    lines += [f"  {_edge(graph, edge)}" for edge in graph.edges]
+    return "\n".join([*lines, "}", ""])
+
+
+def _node(graph: StateGraph, node: GraphNode) -> str:
+    values = [f"{n} = {v}" for n, v in zip(graph.variables, node.shown, strict=True)]
+    attributes = [f"label={quoted(chr(10).join([*values, f'×{node.valuations}']))}"]
+    attributes += ["penwidth=2"] if node.initial else []
+    if node.number in graph.bad:
+        attributes += ['color="#c3241c"', 'style="rounded,filled"', 'fillcolor="#ffd9d4"']
+    elif node.number in graph.path:
+        attributes.append('color="#b86a00"')
+    return f"s{node.number} [{', '.join(attributes)}];"
+
+
+def _edge(graph: StateGraph, edge: GraphEdge) -> str:
+    attributes = [f"label={quoted(chr(10).join([*edge.example.split(', '), f'×{edge.steps}']))}"]
+    if (edge.source, edge.target) in zip(graph.path, graph.path[1:], strict=False):
+        attributes += ['color="#c3241c"', "penwidth=2"]
+    return f"s{edge.source} -> s{edge.target} [{', '.join(attributes)}];"

@@ -1,0 +1,28 @@
+"""A projected state graph as GraphML for graph tools; of any size."""
+
+import networkx as nx
+
+from checker.graph import StateGraph
+from checker.render.statechart_graphml import graphml
+
+NAME = "graphml"
+KIND = "graph"
+SUFFIX = ".graphml"
+SUMMARY = "GraphML with values, counts and components as attributes"
+
+
+def render(graph: StateGraph) -> str:
+    """The GraphML document."""
+    found: nx.MultiDiGraph[str] = nx.MultiDiGraph(
+        title=graph.title, exact=graph.exact, valuations=graph.valuations, summary=graph.summary
+    )
+    for node in graph.nodes:
+        values = {f"value {n}": v for n, v in zip(graph.variables, node.shown, strict=True)}
+        found.add_node(
+            f"s{node.number}", initial=node.initial, valuations=node.valuations, component=node.component,
+            dead_end=node.number in graph.dead_ends, absorbing=node.number in graph.absorbing,
+            on_path=node.number in graph.path, bad=node.number in graph.bad, **values,
+        )  # fmt: skip
+    for edge in graph.edges:
+        found.add_edge(f"s{edge.source}", f"s{edge.target}", steps=edge.steps, example=edge.example)
+    return graphml(found)
