@@ -14,7 +14,7 @@ from spec_model.lang.evaluate import run as execute
 from spec_model.lang.expr import Var, variables
 from spec_model.lang.system import TransitionSystem
 
-BUDGET = 60_000
+BUDGET = 40_000
 """Ticks that may be re-run for one trace."""
 
 Column = list[int]

@@ -8,10 +8,8 @@ from checker.decide import ALL, AUTO
 from checker.engine import engines
 from properties.catalogue import catalogue
 from properties.forms import Property
-from spec_model.lang.chart import Chart
 from spec_model.lang.errors import did_you_mean
-from spec_model.lang.system import System
-from spec_model.rover import charts, systems
+from spec_model.rover import systems
 
 Thing = TypeVar("Thing")
 
@@ -54,7 +52,3 @@ def _distinct(properties: Iterable[Property]) -> list[Property]:
     return list({p.id: p for p in properties}.values())
 
 
-def pick_model(name: str) -> Chart | System:
-    """A chart or a system by name; a chart wins where both have the name and no projection is asked."""
-    known: dict[str, Chart | System] = {**systems(), **charts()}
-    return pick("chart or system", name, known)
