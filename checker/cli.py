@@ -78,6 +78,7 @@ def list_(what: Lists) -> Exit:
 def trace(
     id: Annotated[str, typer.Argument(help="A property id.")],
     format: Annotated[str, typer.Option(help="table, markdown, json or vcd.")] = "table",
+    everything: Annotated[bool, typer.Option("--all", help="Also what the property ignores.")] = False,
     engine: Engine = AUTO,
     depth: Depth = None,
     timeout: Timeout = None,
@@ -89,7 +90,7 @@ def trace(
     from properties.catalogue import catalogue
 
     prop = pick("property", id, catalogue())
-    return run(prop, pick_engine(engine), limits(depth, timeout), format, output)
+    return run(prop, pick_engine(engine), limits(depth, timeout), format, everything, output)
 
 
 @app.command()

@@ -18,7 +18,7 @@ from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 
 MOST_VALUATIONS = 20_000
-MOST_STEPS = 2_000_000
+MOST_STEPS = 500_000
 _REPORT = 1000
 
 
@@ -37,13 +37,16 @@ def state_graph(
     """
     known = {v.name: v for v in (*system.variables, *system.frozen)}
     for name in onto:
+        if name in {v.name for v in system.inputs}:
+            raise ModelError(f"{name} is an input of {system.name}; project on what the system remembers.")
         if name not in known:
             raise ModelError(f"There is no variable {name!r} to project on. {did_you_mean(name, known)}")
     part = sliced(system, [known[name] for name in onto])
     kept = {v.name for v in part.variables} | {v.name for v in part.frozen} | set(onto)
     variables = [v for v in (*system.frozen, *system.variables) if v.name in kept]
     search = _Search(part, variables, most, steps, progress)
-    return project(f"{system.name} on {', '.join(onto)}", variables, onto, search.initial(), search)
+    inputs = {v.name: v for v in part.inputs}
+    return project(f"{system.name} on {', '.join(onto)}", variables, onto, search.initial(), search, inputs)
 
 
 class _Search:
@@ -57,7 +60,6 @@ class _Search:
         )  # fmt: skip
         self.names = tuple(v.name for v in variables)
         self.cells = {n: [c.value for c in p.cells] for n, p in partitions(system).items()}
-        self.shows = {v.name: v.domain.show for v in system.inputs}
 
     def initial(self) -> Iterator[Values]:
         """One valuation before the first tick for each choice of the frozen variables."""
@@ -102,13 +104,10 @@ class _Search:
             if evaluate(self.system.assume, at):
                 run(self.system.step, at)
                 after = tuple(at[name] for name in self.names)
-                yield after, self._shown(at.drawn)
+                yield after, at.drawn
             script = at.following()
             if not script:
                 return
-
-    def _shown(self, drawn: Mapping[str, int]) -> str:
-        return ", ".join(f"{name} = {self.shows[name](raw)}" for name, raw in drawn.items())
 
 
 class _Drawn(dict[str, int]):

@@ -17,8 +17,8 @@ from spec_model.lang.expr import Var
 Values = tuple[int, ...]
 """Raw values of variables, in a fixed order."""
 
-Step = tuple[Values, str]
-"""The valuation after a tick, and the inputs that lead there as text."""
+Step = tuple[Values, Mapping[str, int]]
+"""The valuation after a tick, and the inputs it looked at in the order in which it did, raw."""
 
 
 @dataclass(frozen=True)
@@ -93,16 +93,18 @@ def project(
     onto: Sequence[str],
     initial: Iterable[Values],
     steps: Iterable[tuple[Values, Sequence[Step]]],
+    inputs: Mapping[str, Var],
 ) -> StateGraph:
     """The graph on the variables named ``onto``.
 
-    ``steps`` gives each reachable valuation of ``variables`` once, with every tick that leaves it.
-    Raises ``ModelError`` for an unknown name.
+    ``steps`` gives each reachable valuation of ``variables`` once, with every tick that leaves it;
+    ``inputs`` are the variables in which the inputs of ticks are shown.  Raises ``ModelError`` for an
+    unknown name.
     """
     place = _places(variables, onto)
     numbers: dict[Values, int] = {}
     behind: dict[int, int] = {}
-    edges: dict[tuple[int, int], tuple[int, str]] = {}
+    edges: dict[tuple[int, int], tuple[int, Mapping[str, int]]] = {}
     outcomes: dict[int, frozenset[int]] = {}
     dead: set[int] = set()
     exact, total = True, 0
@@ -111,7 +113,7 @@ def project(
         total += 1
         source = _number(numbers, place, valuation)
         behind[source] = behind.get(source, 0) + 1
-        targets = {after: example for after, example in reversed(leaving)}
+        targets = dict(reversed(leaving))
         for after in dict.fromkeys(after for after, _ in leaving):
             key = source, _number(numbers, place, after)
             count, example = edges.get(key, (0, targets[after]))
@@ -121,8 +123,18 @@ def project(
         dead |= set() if leaving else {source}
     chosen = [variables[i] for i in place]
     nodes = _nodes(chosen, numbers, behind, starts, edges)
-    found = tuple(GraphEdge(a, b, n, example) for (a, b), (n, example) in sorted(edges.items()))
+    found = tuple(
+        GraphEdge(*key, n, _shown(inputs, drawn)) for key, (n, drawn) in sorted(edges.items(), key=_key)
+    )
     return StateGraph(title, tuple(onto), nodes, found, total, exact, frozenset(dead))
+
+
+def _key(item: tuple[tuple[int, int], object]) -> tuple[int, int]:
+    return item[0]
+
+
+def _shown(inputs: Mapping[str, Var], drawn: Mapping[str, int]) -> str:
+    return ", ".join(f"{name} = {inputs[name].domain.show(raw)}" for name, raw in drawn.items())
 
 
 def _places(variables: Sequence[Var], onto: Sequence[str]) -> list[int]:

@@ -6,12 +6,14 @@ trace that both produce is evidence about the charts.
 
 from collections.abc import Mapping
 
+from checker.slice import sliced
 from checker.trace import Arrow, Tick, Trace
 from checker.verdict import Run
 from properties.reduce import Goal
-from spec_model.lang.chart import Path
+from spec_model.lang.chart import Chart, Path
 from spec_model.lang.errors import ModelError
 from spec_model.lang.evaluate import admissible, evaluate, step
+from spec_model.lang.expr import variables
 from spec_model.lang.interpret import Fired, Interpreter
 from spec_model.lang.system import TransitionSystem
 
@@ -43,7 +45,22 @@ def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
     false = tuple(shown for shown, formula in goal.parts if not evaluate(formula, last))
     table = {v.name: v for v in (*system.variables, *system.inputs, *system.frozen)}
     names = tuple(v.name for v in system.inputs)
-    return Trace(system.name, system.tick_ms, table, names, before, tuple(ticks), false)
+    relevant = _relevant(system, goal)
+    charts = frozenset(c.name for c in system.source.charts if _of(c) & relevant) if system.source else None
+    return Trace(
+        system.name, system.tick_ms, table, names, before, tuple(ticks), false, relevant, charts or frozenset()
+    )  # fmt: skip
+
+
+def _relevant(system: TransitionSystem, goal: Goal) -> frozenset[str]:
+    """The variables that the goal, or a part of the property, depends on."""
+    part = sliced(system, [goal.var])
+    inside = {v.name for v in (*part.inputs, *part.frozen, *part.variables, *part.temps)}
+    return frozenset(inside | set(variables(*(formula for _, formula in goal.parts))))
+
+
+def _of(chart: Chart) -> frozenset[str]:
+    return frozenset([*chart.written, *(v.name for v in chart.locations)])
 
 
 def _visible(system: TransitionSystem, after: Mapping[str, int]) -> dict[str, int]:

@@ -1,7 +1,7 @@
 """A trace: the replayed run, tick by tick, with what fired and what the property says."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from spec_model.lang.expr import Expr, Var
 
@@ -43,6 +43,7 @@ class Trace:
 
     ``before`` is the valuation before the first tick (frozen variables included); ``false_parts``
     are the conjuncts of the property that are false after the last tick (for a witness, empty).
+    ``relevant`` and ``charts`` name the variables and the charts the property depends on.
     """
 
     system: str
@@ -52,9 +53,30 @@ class Trace:
     before: Mapping[str, int]
     ticks: tuple[Tick, ...]
     false_parts: tuple[Expr, ...] = ()
+    relevant: frozenset[str] = frozenset()
+    charts: frozenset[str] = frozenset()
 
     def __len__(self) -> int:
         return len(self.ticks)
+
+    def focused(self) -> "Trace":
+        """The same run with only what the property depends on, bookkeeping left out."""
+        shown = {n for n in self.relevant if n in self.variables and not self.variables[n].hidden}
+        ticks = (
+            Tick(
+                t.number,
+                {n: v for n, v in t.inputs.items() if n in shown},
+                {n: v for n, v in t.after.items() if n in shown},
+                tuple(a for a in t.arrows if a.chart in self.charts),
+            )
+            for t in self.ticks
+        )
+        return replace(
+            self,
+            inputs=tuple(n for n in self.inputs if n in shown),
+            before={n: v for n, v in self.before.items() if n in shown},
+            ticks=tuple(ticks),
+        )
 
     def show(self, name: str, raw: int) -> str:
         """A value as a person writes it."""

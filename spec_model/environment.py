@@ -116,7 +116,7 @@ def arrival_window(name: str, update: Var) -> Block:
     So the mean exceeds 40 ms iff fewer than ten earlier updates lie within the last 400 ms.
     """
     slow = flag(f"{name}_slow")
-    window = var(f"{name}_arrivals", integer(0, 2**20 - 1), doc="bit i: an update i+1 ticks ago")
+    window = Var(f"{name}_arrivals", integer(0, 2**20 - 1), 0, "bit i: an update i+1 ticks ago", hidden=True)
     updates, one_more = _count_updates(name)
     recent = _count([bit(window, i) for i in range(20)])
     at_update = [one_more, assign(slow, (updates == INTERVALS + 1) & (recent < INTERVALS))]

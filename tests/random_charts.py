@@ -128,7 +128,9 @@ class Wiring:
                 return text
         return None
 
-    def segment(self, level: Path, target: Path, *, words: bool = True, sure: bool = False) -> Transition | None:
+    def segment(
+        self, level: Path, target: Path, *, words: bool = True, sure: bool = False
+    ) -> Transition | None:
         """An arrow to a state, with any label; ``sure`` leaves the guard out."""
         text = self.written(level, target)
         return None if text is None else self.label(text, words=words, sure=sure)
@@ -256,7 +258,7 @@ def _localise(draft: Draft, wiring: Wiring, datum: Var) -> None:
         return
     owners = {source.pick(names) for _ in range(1 + source.below(2))}
     draft.local_to.append((datum, [".".join(p) for p in sorted(owners)]))
-    reading = Source(source.draw, [datum, *draft.data], source.steady, [])
+    reading = Source(source.choices, [datum, *draft.data], source.steady)
     for path in sorted(owners):
         node = wiring.nodes[path]
         node.entry = [assign(datum, source.value(datum, source.scope)), *node.entry]
@@ -322,5 +324,9 @@ def _put_send(source: Source, node: Node, action: Action) -> None:
     else:
         number = source.below(len(node.arrows))
         arrow = node.arrows[number]
-        changed = replace(arrow, then=(*arrow.then, action)) if kind == 4 else replace(arrow, do=(*arrow.do, action))
+        changed = (
+            replace(arrow, then=(*arrow.then, action))
+            if kind == 4
+            else replace(arrow, do=(*arrow.do, action))
+        )
         node.arrows = [*node.arrows[:number], changed, *node.arrows[number + 1 :]]

@@ -1,11 +1,10 @@
 """Random conditions, numbers and actions over given variables, values kept inside their domains."""
 
-from collections.abc import Sequence
-from functools import cache
+from collections.abc import Iterator, Sequence
 from typing import TypeVar
 
 from hypothesis import strategies as st
-from hypothesis.strategies import DrawFn, SearchStrategy
+from hypothesis.strategies import DrawFn
 
 from spec_model.lang.action import Action, assign, when
 from spec_model.lang.domain import Bool, Domain, Enum, Num, boolean, enumeration, fixed, integer
@@ -35,31 +34,44 @@ MODE = enumeration("Mode", {"idle": 1, "busy": 2, "lost": 5})
 DOMAINS: tuple[Domain, ...] = (boolean, MODE, integer(0, 6), integer(-3, 3), fixed(-1, 1, 0.25))
 
 
-@cache
-def below(n: int) -> SearchStrategy[int]:
-    return st.integers(0, n - 1)
+BLOCK = st.binary(min_size=64, max_size=64)
+
+
+class Choices:
+    """Small numbers, drawn 64 at a time because Hypothesis is slow with many small draws."""
+
+    def __init__(self, draw: DrawFn) -> None:
+        self._draw = draw
+        self._bytes: Iterator[int] = iter(())
+
+    def below(self, n: int) -> int:
+        byte = next(self._bytes, None)
+        if byte is None:
+            self._bytes = iter(self._draw(BLOCK))
+            byte = next(self._bytes)
+        return byte % n
+
+    def chance(self, one_in: int) -> bool:
+        return self.below(one_in) == 1 % one_in
+
+    def pick(self, options: Sequence[T]) -> T:
+        return options[self.below(len(options))]
 
 
 class Source:
-    """What formulas may read, and the draws they are made from.
+    """What formulas may read, and the choices they are made by.
 
     ``steady`` are the variables that do not change while a chart is executed.
     """
 
-    def __init__(self, draw: DrawFn, scope: Sequence[Var], steady: Sequence[Var], places: Sequence[Expr]) -> None:
-        self.draw = draw
+    def __init__(
+        self, choices: Choices, scope: Sequence[Var], steady: Sequence[Var], places: Sequence[Expr] = ()
+    ) -> None:
+        self.choices = choices
+        self.below, self.chance, self.pick = choices.below, choices.chance, choices.pick
         self.scope = list(scope)
         self.steady = list(steady)
         self.places = list(places)
-
-    def below(self, n: int) -> int:
-        return self.draw(below(n))
-
-    def chance(self, one_in: int) -> bool:
-        return self.draw(below(one_in)) == 1 % one_in
-
-    def pick(self, options: Sequence[T]) -> T:
-        return options[self.draw(below(len(options)))]
 
     # --- formulas ---
 
@@ -182,7 +194,6 @@ class Source:
     def assignment(self, targets: Sequence[Var], words: bool = True) -> Action:
         target = self.pick(targets)
         return assign(target, self.value(target, self.scope, words))
-
 
 
 def _fits(v: Var, num: Num) -> bool:

@@ -13,7 +13,7 @@ from spec_model.lang.domain import boolean, fixed, integer
 from spec_model.lang.expr import Expr, Var, flag, var
 from spec_model.lang.system import System, in_order
 from tests.random_charts import charts
-from tests.random_formulas import DOMAINS, MODE, Source
+from tests.random_formulas import DOMAINS, MODE, Choices, Source
 
 INPUTS = (
     flag("in_flag"), flag("in_button"), var("in_mode", MODE), var("in_count", integer(-2, 4)),
@@ -25,39 +25,42 @@ FROZEN = (var("reading", integer(0, 2)), Var("choice", boolean, 1))
 @st.composite
 def systems(draw: DrawFn) -> System:
     """A random system that passes ``check_system``."""
-    count = 1 + draw(st.integers(0, 2))
-    data = [[_datum(draw, f"d{c}{i}") for i in range(1 + draw(st.integers(0, 2)))] for c in range(count)]
+    choices = Choices(draw)
+    count = 1 + choices.below(3)
+    data = [[_datum(choices, f"d{c}{i}") for i in range(1 + choices.below(3))] for c in range(count)]
     places: list[Expr] = []
     made: list[Component] = []
     for number in range(count):
         others = [v for other, owned in enumerate(data) if other != number for v in owned]
         steady = [*INPUTS, *others, *FROZEN]
-        source = Source(draw, [*data[number], *data[number], *steady], steady, places)
+        source = Source(choices, [*data[number], *data[number], *steady], steady, places)
         part = _part(source, number, data[number])
         if isinstance(part, Chart):
             places += [part.active_path(p) for p in part.states if p]
         made.append(part)
-    return in_order("Random", *_some_enabled(draw, made, data), frozen=FROZEN)
+    return in_order("Random", *_some_enabled(choices, made, data), frozen=FROZEN)
 
 
-def _datum(draw: DrawFn, name: str) -> Var:
-    domain = DOMAINS[draw(st.integers(0, len(DOMAINS) - 1))]
-    return Var(name, domain, domain.values[draw(st.integers(0, len(domain) - 1))])
+def _datum(choices: Choices, name: str) -> Var:
+    domain = choices.pick(DOMAINS)
+    return Var(name, domain, choices.pick(domain.values))
 
 
 def _part(source: Source, number: int, data: list[Var]) -> Component:
     if number and source.chance(4):
-        return Block(f"Block{number}", [source.assignment(data, words=False), *source.actions(data, 3, words=False)])
-    return charts(source, f"Chart{number}", data, [_datum(source.draw, f"local{number}")])
+        return Block(
+            f"Block{number}", [source.assignment(data, words=False), *source.actions(data, 3, words=False)]
+        )
+    return charts(source, f"Chart{number}", data, [_datum(source.choices, f"local{number}")])
 
 
-def _some_enabled(draw: DrawFn, made: list[Component], data: list[list[Var]]) -> list[Component]:
+def _some_enabled(choices: Choices, made: list[Component], data: list[list[Var]]) -> list[Component]:
     """The last components, perhaps, inside an enabled subsystem, or in two nested ones."""
-    first = draw(st.integers(0, len(made) + 1))
+    first = choices.below(len(made) + 2)
     if first >= len(made):
         return made
     scope = [*INPUTS, *(v for owned in data for v in owned)]
-    source = Source(draw, scope, scope, [])
+    source = Source(choices, scope, scope)
     inner: list[Component] = made[first:]
     if len(inner) > 1 and source.chance(3):
         inner = [inner[0], Enabled(source.condition(scope, 0), *inner[1:])]
@@ -67,22 +70,17 @@ def _some_enabled(draw: DrawFn, made: list[Component], data: list[list[Var]]) ->
 @st.composite
 def input_blocks(draw: DrawFn, system: System, least: int = 30, most: int = 60) -> list[dict[str, int]]:
     """The inputs of each tick: values that stay for 1 to 8 ticks, some changing alone."""
-    length = draw(st.integers(least, most))
-    names = list(system.inputs)
+    choices = Choices(draw)
+    length = least + choices.below(most - least + 1)
+    now = {n: choices.pick(v.domain.values) for n, v in system.inputs.items()}
     ticks: list[dict[str, int]] = []
-    now = {n: draw(_raw(v)) for n, v in system.inputs.items()}
     while len(ticks) < length:
-        ticks += [dict(now)] * draw(st.integers(1, 8))
-        for name in names:
-            if draw(st.booleans()):
-                now[name] = draw(_raw(system.inputs[name]))
+        ticks += [dict(now)] * (1 + choices.below(8))
+        changed = [v for v in system.inputs.values() if choices.chance(2)]
+        now |= {v.name: choices.pick(v.domain.values) for v in changed}
     return ticks[:length]
-
-
-def _raw(v: Var) -> st.SearchStrategy[int]:
-    return st.sampled_from(v.domain.values)
 
 
 def frozen_values(system: System) -> st.SearchStrategy[dict[str, int]]:
     """A value for each frozen variable."""
-    return st.fixed_dictionaries({v.name: _raw(v) for v in system.frozen})
+    return st.fixed_dictionaries({v.name: st.sampled_from(v.domain.values) for v in system.frozen})

@@ -91,7 +91,8 @@ def _index(found: Sequence[Compared]) -> str:
     words = [c.verdict.word for c in found]
     counts = ", ".join(f"{words.count(w)} {w}" for w in ("proved", "violated", "unknown"))
     lines = ["# Verdicts", "", f"{len(found)} properties: {counts}.", ""]
-    lines += ["- [Charts](charts/README.md)", "- [Requirements](requirements.md)", "- [Systems](systems.md)", ""]
+    lines += ["- [Charts](charts/README.md)", "- [Requirements](requirements.md)"]
+    lines += ["- [Systems](systems.md)", ""]
     lines += ["## Findings", "", "Properties that fail on the charts as specified.", ""]
     for compared in found:
         if compared.verdict.word == "violated":
@@ -131,7 +132,7 @@ def _finding(compared: Compared) -> str:
     lines += [f"- {evidence(compared.result)}", "", "## Why", "", compared.expected.because, ""]
     if isinstance(verdict.because, Trace):
         lines += ["## Shortest counterexample", ""]
-        lines.append(_text(renderers("trace")["markdown"].render(verdict.because)))
+        lines.append(_text(renderers("trace")["markdown"].render(verdict.because.focused())))
         names = dict.fromkeys(a.chart for t in verdict.because.ticks for a in t.arrows)
         lines += ["", "## Charts", "", *(f"- [{n}](../charts/{n}.svg)" for n in names)]
     return HEADER + "\n".join(lines).rstrip() + "\n"

@@ -14,9 +14,16 @@ from properties.catalogue import expected
 from properties.forms import Property
 from spec_model.rover import systems
 
+FOR_READERS = ("table", "markdown")
 
-def trace(prop: Property, engine: str, limits: Limits, format: str, output: Path | None) -> Exit:
-    """Decide the property and show its trace; say so when its verdict rests on none."""
+
+def trace(
+    prop: Property, engine: str, limits: Limits, format: str, everything: bool, output: Path | None
+) -> Exit:
+    """Decide the property and show its trace; say so when its verdict rests on none.
+
+    What people read shows only what the property depends on, unless ``everything`` is wanted.
+    """
     renderer = pick("trace format", format, renderers("trace"))
     [result] = results([prop], systems(), engine, limits)
     verdict = result.verdict
@@ -31,5 +38,6 @@ def trace(prop: Property, engine: str, limits: Limits, format: str, output: Path
         out.print(f"{prop.id} is {verdict.word}: {prop.text}", markup=False)
         if reason:
             out.print(f"Why: {reason}", markup=False)
-    write(renderer.render(verdict.because), output)
+    shown = verdict.because if everything or format not in FOR_READERS else verdict.because.focused()
+    write(renderer.render(shown), output)
     return Exit.AS_EXPECTED

@@ -6,7 +6,8 @@ assumption fails.  Inputs that a path never reads are never chosen, so they cost
 expressions of the result are free of choices.
 """
 
-from collections.abc import Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Union
 
@@ -54,16 +55,37 @@ def read_flag(var: Var) -> Var:
     return flag(f"?read {var.name}")
 
 
-def path_program(system: TransitionSystem, cells: Mapping[str, Partition]) -> PathProgram:
-    """The assumption and the step of a system; inputs are chosen cell by cell, when first read."""
-    made = _Made(cells)
-    out: list[PathStatement] = []
-    seen = _Seen()
-    for condition in _assumed(system, cells):
-        value, seen = made.pure(condition, seen, out)
-        out.append(Require(value))
-    seen = made.statements(system.step, seen, out)
-    return tuple(out)
+MOST_CHOICES = 32
+"""Places in a program where inputs are chosen; more make the code large and slow to compile."""
+
+
+def path_program(
+    system: TransitionSystem, cells: Mapping[str, Partition], most: int = MOST_CHOICES
+) -> PathProgram:
+    """The assumption and the step of a system; inputs are chosen cell by cell, when first read.
+
+    Where that takes more than ``most`` places, the inputs read in most places are chosen a little
+    too early: before the first of several statements of one block that may read them.
+    """
+    early: Names = frozenset()
+    while True:
+        made = _Made(cells, early)
+        program = made.whole(system)
+        places = Counter(c.var.name for c in choices(program))
+        late = [name for name, _ in places.most_common() if name not in early]
+        if sum(places.values()) <= most or not late:
+            return program
+        early |= set(late[:1])
+
+
+def choices(program: PathProgram) -> Iterator[Choose]:
+    """Every choice in a program."""
+    for statement in program:
+        if isinstance(statement, Choose):
+            yield statement
+        elif isinstance(statement, Branch):
+            yield from choices(statement.then)
+            yield from choices(statement.otherwise)
 
 
 def _assumed(system: TransitionSystem, cells: Mapping[str, Partition]) -> list[Expr]:
@@ -92,12 +114,24 @@ class _Made:
     """Fresh names and numbers while a path program is made."""
 
     cells: Mapping[str, Partition]
+    early: Names
     choices: int = 0
     fresh: int = 0
-    read: dict[int, tuple[Expr, Names]] = field(default_factory=dict)
+    read: dict[int, tuple[object, Names]] = field(default_factory=dict)
+
+    def whole(self, system: TransitionSystem) -> PathProgram:
+        out: list[PathStatement] = []
+        seen = _Seen()
+        for condition in _assumed(system, self.cells):
+            value, seen = self.pure(condition, seen, out)
+            out.append(Require(value))
+        self.statements(system.step, seen, out)
+        return tuple(out)
 
     def statements(self, program: Sequence[object], seen: _Seen, out: list[PathStatement]) -> _Seen:
+        again = self.repeated(program)
         for statement in program:
+            seen = self.hurry(again & self.reads(statement), seen, out)
             if isinstance(statement, Assign):
                 value, seen = self.pure(statement.value, seen, out)
                 out.append(Assign(statement.var, value))
@@ -123,10 +157,13 @@ class _Made:
             case Apply(Op.AND | Op.OR as op, args, _):
                 return self.junction(op, list(args), seen, out)
             case Apply(Op.ITE, (condition, then, otherwise), _):
+                again = self.repeated([condition, then]) | self.repeated([condition, otherwise])
+                seen = self.hurry(again, seen, out)
                 test, seen = self.pure(condition, seen, out)
                 return self.selection(expr, test, then, otherwise, seen, out)
             case Apply(op, args, sort):
                 values = []
+                seen = self.hurry(self.repeated(args), seen, out)
                 for arg in args:
                     value, seen = self.pure(arg, seen, out)
                     values.append(value)
@@ -135,9 +172,34 @@ class _Made:
 
     def ready(self, expr: Expr, seen: _Seen) -> bool:
         """Whether every input that the expression mentions has been chosen on every path to here."""
-        if id(expr) not in self.read:
-            self.read[id(expr)] = expr, names([expr]) & set(self.cells)  # held, so that ids stay unique
-        return self.read[id(expr)][1] <= seen.always
+        return self.reads(expr) <= seen.always
+
+    def reads(self, part: object) -> Names:
+        """The inputs that an expression or a statement mentions."""
+        if id(part) not in self.read:
+            match part:
+                case Assign(_, value):
+                    found = self.reads(value)
+                case If(condition, then, otherwise):
+                    found = self.reads(condition).union(*map(self.reads, (*then, *otherwise)))
+                case _:
+                    assert isinstance(part, Expr)
+                    found = names([part]) & self.cells.keys()
+            self.read[id(part)] = part, found  # held, so that ids stay unique
+        return self.read[id(part)][1]
+
+    def repeated(self, parts: Sequence[object]) -> Names:
+        """The early inputs that several of the parts mention."""
+        if not self.early:
+            return self.early
+        count = Counter(name for part in parts for name in self.reads(part))
+        return frozenset(n for n in self.early if count[n] > 1)
+
+    def hurry(self, wanted: Names, seen: _Seen, out: list[PathStatement]) -> _Seen:
+        """Choose inputs now that are not chosen yet."""
+        for name in sorted(wanted - seen.always):
+            seen = self.choose(self.cells[name].var, seen, out)
+        return seen
 
     def choose(self, var: Var, seen: _Seen, out: list[PathStatement]) -> _Seen:
         known = read_flag(var)
@@ -153,6 +215,7 @@ class _Made:
         self, op: Op, args: list[Expr], seen: _Seen, out: list[PathStatement]
     ) -> tuple[Expr, _Seen]:
         """Operands that need no choice first; the others only if these leave the result open."""
+        seen = self.hurry(self.repeated(args), seen, out)
         known = [a for a in args if self.ready(a, seen)]
         rest = [a for a in args if not self.ready(a, seen)]
         if not rest:

@@ -75,7 +75,10 @@ SCHEMA: dict[str, Any] = {
         edges={
             "type": "array",
             "items": _object(
-                source={"type": "integer"}, target={"type": "integer"}, steps={"type": "integer"}, example=_TEXT
+                source={"type": "integer"},
+                target={"type": "integer"},
+                steps={"type": "integer"},
+                example=_TEXT,
             ),
         },
         dead_ends=_NUMBERS, absorbing=_NUMBERS, path=_NUMBERS, bad=_NUMBERS,

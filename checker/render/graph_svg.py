@@ -7,6 +7,7 @@ from checker.render.drawing.graph import Edge, Node, Placed, Point
 from checker.render.drawing.layered import layered
 from checker.render.drawing.ranking import backward
 from checker.render.drawing.text import LINE, block, wrap
+from spec_model.lang.chart import NOWHERE
 
 NAME = "svg"
 KIND = "graph"
@@ -36,7 +37,7 @@ STYLE = """
 LEGEND = (
     "thick border: initial; green: in a cycle of several nodes; grey: never left; orange: on the run shown; "
     "red: violates; ×n: valuations behind a node, or steps behind an edge; labels: one example of inputs; "
-    "↻: stays for some inputs"
+    "↻: stays for some inputs; charts without an active state are left out"
 )
 
 
@@ -85,16 +86,17 @@ def _edge(edge: GraphEdge, label: tuple[str, ...], back: bool) -> Edge:
 
 
 def _label(edge: GraphEdge) -> tuple[str, ...]:
-    """At most three lines of example inputs, and the number of steps."""
+    """At most three lines of example inputs, the last ones read as they decide, and the number of steps."""
     lines = [line for part in edge.example.split(", ") for line in wrap(part, 34)]
-    shown = lines if len(lines) <= 3 else [*lines[:2], f"… {len(lines) - 2} more"]
-    return (*shown, f"×{edge.steps}") if edge.steps > 1 else tuple(shown)
+    shown = lines if len(lines) <= 3 else [f"{len(lines) - 2} more …", *lines[-2:]]
+    count = [f"×{edge.steps}"] * (edge.steps > 1)
+    return (*shown[:-1], " ".join([*shown[-1:], *count])) if shown or count else ()
 
 
 def _lines(graph: StateGraph, node: GraphNode) -> tuple[str, ...]:
     stays = any(e.source == e.target == node.number for e in graph.edges)
-    values = [f"{n} = {v}" for n, v in zip(graph.variables, node.shown, strict=True)]
-    return (*values, f"×{node.valuations}{' ↻' if stays else ''}")
+    values = [f"{n} = {v}" for n, v in zip(graph.variables, node.shown, strict=True) if v != NOWHERE]
+    return (*(values or [NOWHERE]), f"×{node.valuations}{' ↻' if stays else ''}")
 
 
 def _size(graph: StateGraph, node: GraphNode) -> tuple[int, int]:

@@ -92,7 +92,7 @@ REACH_BATT_DEG = reachable(
 )  # fmt: skip
 REACH_BATT_CRIT_RANGE = reachable(
     "REACH-BATT-CRIT-RANGE", "The battery can become critical by its range, with fresh readings.",
-    that=monitor_battery.active("Batt_CRIT") & fresh, covers=["B1-BATT-03"], on=ON,
+    that=monitor_battery.active("Batt_CRIT") & fresh & critical_range, covers=["B1-BATT-03"], on=ON,
 )  # fmt: skip
 REACH_BATT_CRIT_STALE = reachable(
     "REACH-BATT-CRIT-STALE", "A last reading of 80 % can become critical by its age alone.",

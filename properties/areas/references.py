@@ -97,9 +97,8 @@ PB1_20e = holds_after(
 
 
 def _limits(v: float, omega: float, maneuver: float, left: float) -> Expr:
-    return all_of(
-        V_MAX == v, OMEGA_MAX == omega, V_MAX_MANEUVER == maneuver, OMEGA_GO_LEFT == left, OMEGA_GO_RIGHT == -left
-    )
+    turns = (OMEGA_GO_LEFT == left) & (OMEGA_GO_RIGHT == -left)
+    return all_of(V_MAX == v, OMEGA_MAX == omega, V_MAX_MANEUVER == maneuver, turns)
 
 
 PB1_20f = always(

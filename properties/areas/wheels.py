@@ -1,55 +1,74 @@
-"""What must be true of the wheel statuses of Board 1 [seed Table 2]; each sentence is for every wheel."""
+"""What must be true of the wheel statuses of Board 1 [seed Table 2]; a sentence is one property per wheel."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 
-from properties.forms import always, reachable
+from properties.forms import Property, always, reachable
 from spec_model.board1.wheels import monitor_wheels
-from spec_model.lang.expr import Expr, all_of, implies
+from spec_model.lang.expr import Expr, implies
 from spec_model.signals.board1 import WHEELS, has_no_feedback, is_motion_consistent, wheel_status
 
-ON = "wheels"
 consistent = is_motion_consistent
 
 
-def _every_wheel(sentence: Callable[[Expr, Expr, Expr, Expr], Expr]) -> Expr:
-    """The sentence for each wheel, of its lost feedback and of the three levels of its status."""
-    levels = ("WHEEL_OK", "WHEEL_DEGRADED_ENCODER", "WHEEL_CRITICAL_MOTOR")
-    each = [sentence(has_no_feedback[w], *(wheel_status[w] == level for level in levels)) for w in WHEELS]
-    return all_of(*each)
+def _ok(wheel: str) -> Expr:
+    return wheel_status[wheel] == "WHEEL_OK"
 
 
-PB1_06a = always(
-    "PB1-06a", "A wheel is critical if and only if its feedback is lost and the motion is inconsistent.",
-    that=_every_wheel(lambda lost, ok, deg, crit: crit == (lost & ~consistent)),
-    covers=["B1-WHL-03"], on=ON, from_tick=2, readings=["S28", "S29", "S30", "S31"],
+def _degraded(wheel: str) -> Expr:
+    return wheel_status[wheel] == "WHEEL_DEGRADED_ENCODER"
+
+
+def _critical(wheel: str) -> Expr:
+    return wheel_status[wheel] == "WHEEL_CRITICAL_MOTOR"
+
+
+def _each(
+    id: str, text: str, that: Callable[[str, Expr], Expr], covers: str, readings: list[str]
+) -> Iterator[Property]:
+    """The sentence for FL, FR, RL and RR, of a wheel and its lost feedback."""
+    for wheel in WHEELS:
+        yield always(
+            f"{id}-{wheel}", f"Wheel {wheel} {text}", that=that(wheel, has_no_feedback[wheel]),
+            covers=[covers], on=f"wheel_{wheel}", from_tick=2, readings=readings,
+        )  # fmt: skip
+
+
+PB1_06a_FL, PB1_06a_FR, PB1_06a_RL, PB1_06a_RR = _each(
+    "PB1-06a", "is critical if and only if its feedback is lost and the motion is inconsistent.",
+    lambda wheel, lost: _critical(wheel) == (lost & ~consistent),
+    "B1-WHL-03", ["S28", "S29", "S30", "S31"],
 )  # fmt: skip
-PB1_06b = always(
-    "PB1-06b", "A wheel with feedback and consistent motion is OK in the same step.",
-    that=_every_wheel(lambda lost, ok, deg, crit: implies(~lost & consistent, ok)),
-    covers=["B1-WHL-04"], on=ON, from_tick=2, readings=["S27", "S29"],
+PB1_06b_FL, PB1_06b_FR, PB1_06b_RL, PB1_06b_RR = _each(
+    "PB1-06b", "with feedback and consistent motion is OK in the same step.",
+    lambda wheel, lost: implies(~lost & consistent, _ok(wheel)),
+    "B1-WHL-04", ["S27", "S29"],
 )  # fmt: skip
-PB1_30a = always(
-    "PB1-30a", "A wheel with lost feedback and consistent motion has a degraded encoder in the same step.",
-    that=_every_wheel(lambda lost, ok, deg, crit: implies(lost & consistent, deg)),
-    covers=["B1-WHL-01"], on=ON, from_tick=2, readings=["S29", "S30", "S32"],
+PB1_30a_FL, PB1_30a_FR, PB1_30a_RL, PB1_30a_RR = _each(
+    "PB1-30a", "with lost feedback and consistent motion has a degraded encoder in the same step.",
+    lambda wheel, lost: implies(lost & consistent, _degraded(wheel)),
+    "B1-WHL-01", ["S29", "S30", "S32"],
 )  # fmt: skip
-PB1_30b = always(
-    "PB1-30b", "A wheel with lost feedback is never OK.",
-    that=_every_wheel(lambda lost, ok, deg, crit: implies(lost, ~ok)),
-    covers=["B1-WHL-01"], on=ON, from_tick=2, readings=["S28", "S30"],
+PB1_30b_FL, PB1_30b_FR, PB1_30b_RL, PB1_30b_RR = _each(
+    "PB1-30b", "with lost feedback is not OK.",
+    lambda wheel, lost: implies(lost, ~_ok(wheel)),
+    "B1-WHL-01", ["S28", "S30"],
 )  # fmt: skip
-PB1_30c = always(
-    "PB1-30c", "A wheel has a degraded encoder only if its feedback is lost.",
-    that=_every_wheel(lambda lost, ok, deg, crit: implies(deg, lost)),
-    covers=["B1-WHL-01"], on=ON, from_tick=2, readings=["S27"],
+PB1_30c_FL, PB1_30c_FR, PB1_30c_RL, PB1_30c_RR = _each(
+    "PB1-30c", "has a degraded encoder only if its feedback is lost.",
+    lambda wheel, lost: implies(_degraded(wheel), lost),
+    "B1-WHL-01", ["S27"],
 )  # fmt: skip
 
-REACH_WHEELS_CRIT = reachable(
-    "REACH-WHEELS-CRIT", "All four wheels can be critical at once.",
-    that=all_of(*(monitor.active("Wheel_CRIT") for monitor in monitor_wheels)), covers=["B1-WHL-03"], on=ON,
+REACH_WHEEL_DEG = reachable(
+    "REACH-WHEEL-DEG", "A wheel can have a degraded encoder.",
+    that=monitor_wheels[0].active("Wheel_DEG"), covers=["B1-WHL-01"], on="wheel_FL",
 )  # fmt: skip
-REACH_WHEELS_ONE = reachable(
-    "REACH-WHEELS-ONE", "Wheel FL can be degraded while the other three are OK.",
-    that=monitor_wheels[0].active("Wheel_DEG") & all_of(*(m.active("Wheel_OK") for m in monitor_wheels[1:])),
-    covers=["B1-WHL-01"], on=ON, readings=["S33"],
+REACH_WHEEL_CRIT = reachable(
+    "REACH-WHEEL-CRIT", "A wheel can be critical.",
+    that=monitor_wheels[0].active("Wheel_CRIT"), covers=["B1-WHL-03"], on="wheel_FL",
+)  # fmt: skip
+REACH_WHEELS_DIFFER = reachable(
+    "REACH-WHEELS-DIFFER", "One wheel can be critical while another is not.",
+    that=monitor_wheels[0].active("Wheel_CRIT") & ~monitor_wheels[1].active("Wheel_CRIT"),
+    covers=["B1-WHL-03"], on="board1", readings=["S33"],
 )  # fmt: skip

@@ -55,10 +55,13 @@ battery = in_order(
     notes=[GRID, FEW_VALUES],
 )
 
-wheels = in_order(
-    "wheels",
-    *monitor_wheels,
-    text="The four wheel monitors; encoder flags and motion coherence are free.",
+wheels = tuple(
+    in_order(
+        f"wheel_{wheel}",
+        monitor,
+        text=f"The monitor of wheel {wheel}; its encoder flag and the motion coherence are free.",
+    )
+    for wheel, monitor in zip(b1.WHEELS, monitor_wheels, strict=True)
 )
 
 reception = in_order(
@@ -181,7 +184,7 @@ board1 = in_order(
 SYSTEMS: tuple[System, ...] = (
     temperature,
     battery,
-    wheels,
+    *wheels,
     reception,
     reception_exact,
     heartbeat,

@@ -13,6 +13,8 @@ deg_mask_b1 = flag("deg_mask_b1", "the degraded mask last received from Board 1 
 crit_mask_b1 = flag("crit_mask_b1", "the critical mask last received from Board 1 is not zero")
 autorized_prev = flag("autorized_prev", "Board 2 was authorised to move the rover in the step before")
 
+AS_DRAWN = "obstacles_n"
+
 ARBITRARY = "The three distances are arbitrary in every step, on both sides of 70, 100 and 300 cm."
 FREE_FLAG = "prevDEG_B1 is arbitrary in every step."
 FREE_MASKS = "Non-zero Board 1 masks and the authorisation of the step before are arbitrary in every step."
@@ -31,7 +33,9 @@ def _alone(name: str, text: str, *timed: str) -> System:
     """The non-degraded chart alone, with counters for ``timed`` and free ends for the others."""
     exact = set(timed) == set(TIMED)
     notes = (ARBITRARY, FREE_FLAG, FREE_HEADING, *(() if exact else (_any_stay(*timed),)))
-    return in_order(name, obstacles_n(timed), text=text, notes=notes, over=not exact)
+    return in_order(
+        name, obstacles_n(timed), text=text, notes=notes, over=not exact, concrete="" if exact else AS_DRAWN
+    )
 
 
 def _selected(chart: Chart) -> tuple[Component, ...]:
@@ -47,7 +51,7 @@ def _selected(chart: Chart) -> tuple[Component, ...]:
 HEADING_GRID = 15
 
 SYSTEMS: tuple[System, ...] = (
-    _alone("obstacles_n", "The non-degraded obstacle chart alone, as drawn.", *TIMED),
+    _alone(AS_DRAWN, "The non-degraded obstacle chart alone, as drawn.", *TIMED),
     _alone("obstacles_n_free", "The non-degraded obstacle chart alone; every timed stay ends at will."),
     _alone(
         "obstacles_n_straight",
@@ -91,6 +95,7 @@ SYSTEMS: tuple[System, ...] = (
         text="As obstacles; every timed stay of the non-degraded chart ends at will.",
         notes=(ARBITRARY, FREE_MASKS, FREE_HEADING, _any_stay()),
         over=True,
+        concrete="obstacles",
     ),
     in_order(
         "obstacles_scan",

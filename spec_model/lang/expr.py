@@ -156,12 +156,16 @@ class Const(Expr):
 
 @dataclass(frozen=True, eq=False, slots=True, repr=False)
 class Var(Expr):
-    """A variable, known by its name.  ``init`` is the raw value before the first tick."""
+    """A variable, known by its name.  ``init`` is the raw value before the first tick.
+
+    ``hidden`` marks bookkeeping that a reader of a trace does not want to see.
+    """
 
     name: str
     domain: Domain
     init: int = 0
     doc: str = ""
+    hidden: bool = False
 
     def __post_init__(self) -> None:
         if self.init not in self.domain:

@@ -8,9 +8,9 @@ from hypothesis import given, settings
 
 from checker.encode.bitvector import OPERATORS, Encoder, literal, member, symbol, value, width
 from checker.encode.intervals import Interval, intervals
-from spec_model.lang.domain import Bool, Domain, Num, boolean, chosen, enumeration, integer
+from spec_model.lang.domain import Bool, Domain, Num, Sort, boolean, chosen, enumeration, integer
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Apply, Const, Expr, Op, Sort, Var, ite
+from spec_model.lang.expr import Apply, Const, Expr, Op, Var, ite, variables
 from spec_model.lang.system import TransitionSystem
 from tests.strategies_ts import transition_systems
 
@@ -50,13 +50,13 @@ def sort_of(op: Op, args: tuple[Expr, ...]) -> Sort:
     return Bool() if op in TRUTH_VALUED else args[-1].sort
 
 
-def at_every_value(expr: Expr, variables: tuple[Var, ...]) -> None:
+def at_every_value(expr: Expr, over: tuple[Var, ...]) -> None:
     """Compare the simplified term with the evaluator, everywhere."""
-    symbols = {v.name: symbol(v, v.name) for v in variables}
+    symbols = {v.name: symbol(v, v.name) for v in over}
     term = Encoder(symbols)(expr)
-    for values in product(*(v.domain.values for v in variables)):
-        at = {v.name: x for v, x in zip(variables, values, strict=True)}
-        pairs = [(symbols[v.name], literal(at[v.name], v.sort, width(v.domain))) for v in variables]
+    for values in product(*(v.domain.values for v in over)):
+        at = {v.name: x for v, x in zip(over, values, strict=True)}
+        pairs = [(symbols[v.name], literal(at[v.name], v.sort, width(v.domain))) for v in over]
         assert value(z3.simplify(z3.substitute(term, *pairs))) == evaluate(expr, at), (expr, at)
 
 
@@ -64,8 +64,7 @@ def at_every_value(expr: Expr, variables: tuple[Var, ...]) -> None:
 def test_every_operator(op: Op) -> None:
     assert op in OPERATORS and op in CASES, "a new operator needs a translation and cases here"
     for args in CASES[op]:
-        variables = tuple(a for a in args if isinstance(a, Var))
-        at_every_value(Apply(op, args, sort_of(op, args)), variables)
+        at_every_value(Apply(op, args, sort_of(op, args)), tuple(a for a in args if isinstance(a, Var)))
 
 
 def test_results_are_as_narrow_as_their_interval() -> None:
@@ -105,11 +104,4 @@ def test_width(low: int, high: int, bits: int) -> None:
 @settings(max_examples=60)
 @given(transition_systems(most=2))
 def test_the_formulas_of_random_systems(system: TransitionSystem) -> None:
-    at_every_value(system.assume, tuple({**{v.name: v for v in (*system.variables, *system.inputs, *system.frozen)}}
-                                        [n] for n in _names(system.assume)))
-
-
-def _names(expr: Expr) -> list[str]:
-    from spec_model.lang.expr import variables
-
-    return list(variables(expr))
+    at_every_value(system.assume, tuple(variables(system.assume).values()))

@@ -3,6 +3,8 @@
 Every choice is a loop whose body is the rest of the tick.  Where the enclosing choice is known while
 the code is made, the loop nest is a plain one, and LLVM moves what an inner loop does not change
 out of it; where it depends on the path, a switch on the innermost open choice goes back.
+There what a choice must remember lies in memory: as registers of LLVM, joined at the switch, the
+copies of many choices would take most of the time to compile.
 """
 
 from collections.abc import Callable, Iterable, Mapping
@@ -25,6 +27,7 @@ class Body:
     """Emits a path program into a function.
 
     ``finished`` is the block to go to when every path of the current valuation has been run.
+    Call ``close`` at the end.
     """
 
     def __init__(self, builder: Any, saved: Mapping[int, tuple[Var, ...]], finished: Any) -> None:
@@ -35,6 +38,10 @@ class Body:
         self.top = self.local(_NUMBER, "top")
         self.tops: frozenset[int] = frozenset({_BOTTOM})
         self.back: dict[int, Any] = {_BOTTOM: finished}
+        self.dispatch: Any = None
+        self.dynamic: set[int] = set()
+        self.memory = _scratch(builder.module, sum(len(v) + 2 for v in saved.values()))
+        self.used = 0
 
     def local(self, type_: Any, name: str) -> Any:
         """A local variable of the function."""
@@ -75,7 +82,16 @@ class Body:
 
     def go_back(self) -> None:
         """End the path: go on with the next value of the innermost open choice."""
-        self._resume(self.tops, lambda: self.builder.load(self.top))
+        self._resume(self.tops)
+
+    def close(self) -> None:
+        """Emit the switch that goes back where the open choice depends on the path."""
+        if self.dispatch is None:
+            return
+        self.builder.position_at_end(self.dispatch)
+        switch = self.builder.switch(self.builder.load(self.top), self.back[_BOTTOM])
+        for number in sorted(self.dynamic - {_BOTTOM}):
+            switch.add_case(_NUMBER(number), self.back[number])
 
     # --- statements ------------------------------------------------------------------------------
 
@@ -114,7 +130,7 @@ class Body:
             return
         build = self.builder
         self.slots[choose.var.name] = Slot(self.slots[choose.var.name].place, within)
-        position = self.local(_NUMBER, f"position.{choose.number}")
+        position = self._copy(_NUMBER, len(self.tops) == 1)
         resume = build.append_basic_block(f"choice.{choose.number}")
         leave = self._enter(choose, position)
         build.branch(resume)
@@ -125,23 +141,31 @@ class Body:
     def _enter(self, choose: Choose, position: Any) -> Callable[[], None]:
         """Open a choice; the result closes it and goes back to the one around it."""
         build, outer = self.builder, self.tops
-        self.kept = [(self.slots[v.name].place, self.local(kind(v), f"{v.name}.{choose.number}"))
-                     for v in self.saved[choose.number]]
+        fixed = len(outer) == 1
+        self.kept = [
+            (self.slots[v.name].place, self._copy(kind(v), fixed)) for v in self.saved[choose.number]
+        ]
         for place, copy in self.kept:
             build.store(build.load(place), copy)
-        around = self.local(_NUMBER, f"around.{choose.number}") if len(outer) > 1 else None
-        if around is not None:
+        around = self._copy(_NUMBER, fixed)
+        if not fixed:
             build.store(build.load(self.top), around)
         build.store(_NUMBER(choose.number), self.top)
         build.store(_NUMBER(0), position)
         self.tops = frozenset({choose.number})
 
         def leave() -> None:
-            known = _NUMBER(min(outer)) if around is None else build.load(around)
-            build.store(known, self.top)
-            self._resume(outer, lambda: known)
+            build.store(_NUMBER(min(outer)) if fixed else build.load(around), self.top)
+            self._resume(outer)
 
         return leave
+
+    def _copy(self, type_: Any, fixed: bool) -> Any:
+        """A place for a copy that outlives the path."""
+        if fixed:
+            return self.local(type_, "copy")
+        self.used += 1
+        return self.memory.gep([INT(0), INT(self.used - 1)]).bitcast(type_.as_pointer())
 
     def _advance(
         self, choose: Choose, count: int, position: Any, resume: Any, leave: Callable[[], None]
@@ -161,15 +185,15 @@ class Body:
         leave()
         self.back[choose.number] = back
 
-    def _resume(self, tops: frozenset[int], top: Callable[[], Any]) -> None:
+    def _resume(self, tops: frozenset[int]) -> None:
         build = self.builder
-        numbers = sorted(tops)
-        if len(numbers) == 1:
-            build.branch(self.back[numbers[0]])
+        if len(tops) == 1:
+            build.branch(self.back[min(tops)])
             return
-        switch = build.switch(top(), self.back[numbers[0]])
-        for number in numbers[1:]:
-            switch.add_case(_NUMBER(number), self.back[number])
+        if self.dispatch is None:
+            self.dispatch = build.append_basic_block("dispatch")
+        self.dynamic |= tops
+        build.branch(self.dispatch)
 
     def _nth(self, var: Var, values: tuple[int, ...], position: Any) -> Any:
         build, type_ = self.builder, kind(var)
@@ -181,9 +205,16 @@ class Body:
         return build.load(build.gep(self._table(var, values), [INT(0), index]))
 
     def _table(self, var: Var, values: tuple[int, ...]) -> Any:
-        module = build_module = self.builder.module
-        type_ = ir.ArrayType(INT, len(values))
-        table = ir.GlobalVariable(build_module, type_, module.get_unique_name(f"cells.{var.name}"))
+        module, type_ = self.builder.module, ir.ArrayType(INT, len(values))
+        table = ir.GlobalVariable(module, type_, module.get_unique_name(f"cells.{var.name}"))
         table.linkage, table.global_constant = "internal", True
         table.initializer = ir.Constant(type_, list(values))
         return table
+
+
+def _scratch(module: Any, words: int) -> Any:
+    """Memory of the module for copies; not thread-safe."""
+    type_ = ir.ArrayType(INT, max(1, words))
+    scratch = ir.GlobalVariable(module, type_, module.get_unique_name("scratch"))
+    scratch.initializer = ir.Constant(type_, None)
+    return scratch

@@ -8,7 +8,7 @@ from contextlib import closing
 from dataclasses import replace
 
 from checker.engine import Limits, Progress
-from checker.engines.bmc.events import Bound, Event, Found, Undefined
+from checker.engines.bmc.events import Bound, Event, Found, Inductive, Undefined
 from checker.isolate import Send, Stopped, messages
 from checker.verdict import Answer, Open, Reached
 from spec_model.lang.expr import Var
@@ -33,7 +33,7 @@ def check(
     try:
         with closing(messages(_work, *job, seconds=limits.seconds, memory=limits.memory)) as events:
             for event in events:
-                _note(event, found, deep)
+                _note(event, found, deep, depth)
                 progress(_line(deep, found))
     except Stopped as stopped:
         reason = str(stopped)
@@ -45,10 +45,14 @@ def _open(deep: int, wanted: int, reason: str) -> Open:
     return Open(f"no run of at most {wanted} ticks reaches it" if deep >= wanted else reason, deep)
 
 
-def _note(event: Event | None, found: dict[str, Answer], deep: dict[str, int]) -> None:
+def _note(event: Event | None, found: dict[str, Answer], deep: dict[str, int], wanted: int) -> None:
+    """Take down what an event says; None only shows that time has passed."""
     match event:
         case Found(goal, run):
             found[goal] = Reached(run, shortest=True)
+        case Inductive(goal, ticks):
+            text = f"no run of any length reaches it by {ticks}-induction, which this engine does not certify"
+            found[goal] = Open(text, wanted)
         case Undefined(goals, variables, depth):
             names = ", ".join(variables)
             found |= dict.fromkeys(goals, Open(f"{names} may leave its domain in tick {depth + 1}", depth))
@@ -58,7 +62,8 @@ def _note(event: Event | None, found: dict[str, Answer], deep: dict[str, int]) -
 
 def _line(deep: Mapping[str, int], found: Mapping[str, Answer]) -> str:
     left = [depth for name, depth in deep.items() if name not in found]
-    text = f"{NAME}: depth {min(left or deep.values(), default=0)}, {len(left)} goal{'s' * (len(left) != 1)} open"
+    depth = min(left or deep.values(), default=0)
+    text = f"{NAME}: depth {depth}, {len(left)} goal{'s' * (len(left) != 1)} open"
     return text + (f", {len(found)} decided" if found else "")
 
 

@@ -1,7 +1,8 @@
 """Deepening: goals with the same cone of influence are searched together, block after block of ticks.
 
 A block of ticks is searched in one query, and a run found is shortened until no shorter one exists
-in its block.  Groups take turns: the one that has used the least time goes on.
+in its block.  Goals that k-induction shows to be out of reach need no unrolling.  Groups take turns:
+the one that has used the least time goes on.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,7 +14,7 @@ import z3
 from checker.encode.bitvector import Term
 from checker.encode.cone import Slice, cone, folded, leaving
 from checker.encode.symbolic import Transition, transition
-from checker.engines.bmc.events import Bound, Event, Found, Undefined
+from checker.engines.bmc.events import Bound, Event, Found, Inductive, Undefined
 from checker.engines.bmc.unroll import Unrolling, model_of, satisfiable
 from checker.verdict import Run
 from spec_model.lang.expr import Expr
@@ -22,6 +23,9 @@ from spec_model.lang.system import TransitionSystem
 ALONE = 16
 """Ticks that are searched one by one: short runs are found before blocks are worth while."""
 BLOCK = 32
+WINDOW = 6
+"""Ticks of the longest induction that is tried; half of the goals that are never reached need three."""
+_PATIENCE_MS = 2000
 
 
 def search(system: TransitionSystem, goals: Sequence[str], most: int) -> Iterator[Event]:
@@ -52,7 +56,7 @@ class _Group:
         self.open = list(goals)
         self.depth = 0
         self.spent = 0.0
-        part = cone(whole, goals)
+        part = self._part = cone(whole, goals)
         self._rest = _Rest(whole.system, part)
         self._leaving = _feasible(part, leaving(part, whole.terms))
         self._unrolling = Unrolling(part, tuple(self._leaving.values()))
@@ -63,6 +67,8 @@ class _Group:
         start = monotonic()
         if self._rest.possible:
             yield from self._block(self.depth + 1, min(most, self.depth + self._block_length()))
+            if self.depth == WINDOW and not self._leaving:
+                yield from self._inductions()
         else:  # there is no run at all
             self.depth = most
             yield Bound(tuple(self.open), most)
@@ -86,6 +92,14 @@ class _Group:
         self.depth = last
         if self.open:
             yield Bound(tuple(self.open), last)
+
+    def _inductions(self) -> Iterator[Event]:
+        """Close the goals that no run reaches, the first ticks being searched already."""
+        for goal in list(self.open):
+            ticks = inductive(self._part, goal)
+            if ticks is not None:
+                self.open.remove(goal)
+                yield Inductive(goal, ticks)
 
     def _shortest(self, first: int, last: int) -> Found:
         """The goal that the model reaches first, by a shortest run; closes the goal."""
@@ -121,6 +135,21 @@ class _Group:
         model, conditions = self._unrolling.solver.model(), self._unrolling.events(tick)
         named = zip(self._leaving, conditions, strict=True)
         return tuple(name for name, term in named if z3.is_true(model.eval(term, True)))
+
+
+def inductive(part: Slice, goal: str) -> int | None:
+    """The least k up to ``WINDOW`` such that the goal, false after k - 1 ticks from any valuation, is
+    false after the next one too; None when there is none or Z3 takes too long to tell."""
+    unrolling = Unrolling(part, anywhere=True)
+    unrolling.solver.set("timeout", _PATIENCE_MS)
+    for ticks in range(1, WINDOW + 1):
+        unrolling.tick()
+        hit = unrolling.after(ticks, goal)
+        answer = unrolling.solver.check(hit)
+        if answer != z3.sat:
+            return ticks if answer == z3.unsat else None
+        unrolling.solver.add(z3.Not(hit))
+    return None
 
 
 class _Rest:

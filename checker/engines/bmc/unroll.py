@@ -17,10 +17,13 @@ from spec_model.lang.expr import Expr, Var
 
 
 class Unrolling:
-    """Ticks asserted in a solver one after the other."""
+    """Ticks asserted in a solver one after the other.
 
-    def __init__(self, part: Slice, events: Sequence[Expr] = ()) -> None:
-        """``events`` are conditions on the valuation before a tick and its inputs."""
+    ``events`` are conditions on the valuation before a tick and its inputs.  ``anywhere`` starts not
+    from the initial valuation but from any within the domains.
+    """
+
+    def __init__(self, part: Slice, events: Sequence[Expr] = (), *, anywhere: bool = False) -> None:
         self._part = part
         self._before = _symbols(part.variables)
         self._inputs = _symbols(part.inputs)
@@ -29,11 +32,11 @@ class Unrolling:
         self._ticks: list[dict[str, Term]] = []
         self._after: list[dict[str, Term]] = []
         self._events: list[Sequence[Term]] = []
-        self._state = [literal(v.init, v.sort, width(v.domain)) for v in part.variables]
         # With the logic named, Z3 solves by its incremental SAT solver: 30 times faster on counters.
         self.solver = z3.SolverFor("QF_BV")
         for var in part.frozen:
             self.solver.add(*member(self._frozen[var.name], var.domain))
+        self._state = [self._start(var, anywhere) for var in part.variables]
 
     def __len__(self) -> int:
         """The number of ticks so far."""
@@ -71,6 +74,13 @@ class Unrolling:
             return {name: value(model.eval(term, True)) for name, term in terms.items()}
 
         return Run(of(self._frozen), tuple(of(tick) for tick in self._ticks[:ticks]))
+
+    def _start(self, var: Var, anywhere: bool) -> Term:
+        if not anywhere:
+            return literal(var.init, var.sort, width(var.domain))
+        term = symbol(var, f"{var.name}@0")
+        self.solver.add(*member(term, var.domain))
+        return term
 
     def _name(self, var: Var, term: Term, number: int) -> Term:
         if term.num_args() == 0:

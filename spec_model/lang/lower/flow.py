@@ -36,7 +36,9 @@ class Flow:
         self.chart = chart
         self.timers = Timers(chart, tick_ms)
         self.flags: list[Var] = []
-        self._executions: dict[tuple[Path, str | None], tuple[Statement, ...]] = {}
+        self._executions: dict[object, tuple[Statement, ...]] = {}
+        self._absent: frozenset[Path] = frozenset()
+        self._left: dict[Path, Var] = {}
 
     def step(self) -> Statements:
         """One executed step of the chart (rules G1, G2)."""
@@ -52,7 +54,7 @@ class Flow:
 
     def execute(self, path: Path, event: str | None) -> tuple[Statement, ...]:
         """Execute the active state at ``path``; ``event`` is the local event being processed."""
-        key = (path, event)
+        key = (path, event, self._absent)
         if key not in self._executions:
             state = self.chart.states[path]
             body = self._body(path, event)
@@ -66,9 +68,22 @@ class Flow:
         if not state.states:
             return during
         if state.parallel:
-            regions = [s for child in state.states for s in self.execute((*path, child.name), event)]
-            return during + regions
+            return during + self._regions(path, event)
         return during + self._active_child(path, lambda child: list(self.execute(child, event)))
+
+    def _regions(self, path: Path, event: str | None) -> Statements:
+        """The regions in order (G3); those after one whose arrow leaves the composite are not executed."""
+        regions = [list(self.execute(region, event)) for region in self._children(path)]
+        if path not in self._left:
+            return [s for region in regions for s in region]
+        left = self._left[path]
+        out = regions[-1]
+        for region in reversed(regions[:-1]):
+            out = [*region, If(left, (), tuple(out))]
+        return [Assign(left, FALSE), *out]
+
+    def _children(self, path: Path) -> list[Path]:
+        return [(*path, child.name) for child in self.chart.states[path].states]
 
     def _active_child(self, path: Path, act: Callable[[Path], Statements]) -> Statements:
         """Do something to the active child of an exclusive composite."""
@@ -137,33 +152,54 @@ class Flow:
             return self.actions(way.then) + self.enter(way.composite, target)
         scope = common_composite(way.source, target)
         left = way.source[: len(scope) + 1]
-        return self.leave(left) + self.actions(way.then) + self.enter(scope, target)
+        gone: Statements = [Assign(flag, TRUE) for flag in self._composites_left(way.source, scope)]
+        return self.leave(left) + self.actions(way.then) + self.enter(scope, target) + gone
+
+    def _composites_left(self, source: Path, scope: Path) -> list[Var]:
+        """A flag for each parallel composite that an arrow from inside one of its regions leaves."""
+        found = [source[:depth] for depth in range(len(scope) + 1, len(source))]
+        return [self._left_flag(path) for path in found if self.chart.states[path].parallel]
+
+    def _left_flag(self, path: Path) -> Var:
+        if path not in self._left:
+            self._left[path] = self._flag()
+        return self._left[path]
 
     def leave(self, path: Path) -> Statements:
         """Exit the active state at ``path`` and everything active in it, innermost first."""
-        state = self.chart.states[path]
+        state, before = self.chart.states[path], self._absent
         inside: Statements = []
         if state.parallel:
-            for child in reversed(state.states):
-                inside += self.leave((*path, child.name))
+            for region in reversed(self._children(path)):
+                inside += self.leave(region)
+                self._absent |= {region}
         elif state.states:
             inside = self._active_child(path, self.leave)
         parent = path[:-1]
         out = inside + self.actions(state.exit) + self.timers.on_exit(path)
         if not self.chart.states[parent].parallel:
             out.append(self._locate(parent, NOWHERE))
-        return out + self._forget(path)
+        out += self._forget(path)
+        self._absent = before
+        return out
 
     def _forget(self, path: Path) -> Statements:
         """Data local to the state that was left return to their initial values."""
         out: Statements = []
+        exclusive = not self.chart.states[path[:-1]].parallel
         for data, owners in self.chart.local_to:
             paths = [self.chart.path(o) for o in owners]
             if path in paths:
                 reset = Assign(data, Const(data.init, data.sort))
-                others = [self.chart.active_path(p) for p in paths if p[:-1] != path[:-1]]
-                out.append(If(any_of(*others), (), (reset,)) if others else reset)
+                siblings = [p for p in paths if exclusive and p[:-1] == path[:-1]]
+                others = [p for p in paths if p != path and p not in siblings and not self._is_absent(p)]
+                still = any_of(*(self.chart.active_path(p) for p in others))
+                out.append(If(still, (), (reset,)) if others else reset)
         return out
+
+    def _is_absent(self, path: Path) -> bool:
+        """Whether a region that the state is in, or is, has not been entered yet or has been left already."""
+        return any(path[: len(region)] == region for region in self._absent)
 
     def enter(self, scope: Path, target: Path) -> Statements:
         """Enter the states below ``scope`` down to ``target``, then complete the target."""
@@ -172,25 +208,34 @@ class Flow:
         below = target[: len(scope) + 1]
         if not self.chart.states[scope].parallel:
             return self._activate(below) + self.enter(below, target)
+        return self._in_turn(
+            scope, lambda region: self.enter(region, target) if region == below else self.complete(region)
+        )
+
+    def _in_turn(self, path: Path, onward: Callable[[Path], Statements]) -> Statements:
+        """Enter the regions of a parallel composite; those not entered yet receive no event."""
+        regions, before = self._children(path), self._absent
         out: Statements = []
-        for child in self.chart.states[scope].states:
-            region = (*scope, child.name)
-            onward = self.enter(region, target) if region == below else self.complete(region)
-            out += self._activate(region) + onward
+        for number, region in enumerate(regions, start=1):
+            self._absent = before | {*regions[number:]}
+            out += self._activate(region) + onward(region)
+        self._absent = before
         return out
 
     def complete(self, path: Path) -> Statements:
         """Enter the default child of an exclusive composite, or all regions of a parallel one."""
         state = self.chart.states[path]
         if state.parallel:
-            regions = [(*path, child.name) for child in state.states]
-            return [s for r in regions for s in self._activate(r) + self.complete(r)]
+            return self._in_turn(path, self.complete)
         return self.attempt(state.default, path, Way(composite=path), lambda: [])
 
     def _activate(self, path: Path) -> Statements:
-        parent = path[:-1]
+        parent, state, before = path[:-1], self.chart.states[path], self._absent
         place: Statements = [] if self.chart.states[parent].parallel else [self._locate(parent, path[-1])]
-        return place + self.actions(self.chart.states[path].entry)
+        self._absent = before | {*(self._children(path) if state.parallel else [])}
+        entry = self.actions(state.entry)
+        self._absent = before
+        return place + entry
 
     def _locate(self, composite: Path, child: str) -> Assign:
         place = self.chart.location(composite)
@@ -210,7 +255,8 @@ class Flow:
                     out.append(If(test, tuple(self.actions(then)), tuple(self.actions(otherwise))))
                 case Send(event, receiver):
                     path = self.chart.path(receiver)
-                    out.append(If(self.chart.active_path(path), self.execute(path, event)))
+                    if not self._is_absent(path):
+                        out.append(If(self.chart.active_path(path), self.execute(path, event)))
         return out
 
 

@@ -1,0 +1,62 @@
+"""What every renderer promises; the test of a renderer inherits the suite of its kind."""
+
+from typing import Any, ClassVar
+
+import pytest
+
+from checker.render import Renderer, renderers
+from spec_model.lang.errors import ModelError
+
+
+class Suite:
+    """Renders the whole zoo of a kind, twice; ``parse`` reads a document back or fails."""
+
+    KIND: ClassVar[str]
+    NAME: ClassVar[str]
+    ZOO: ClassVar[dict[str, Any]]
+    REFUSED: ClassVar[frozenset[str]] = frozenset()
+
+    @property
+    def renderer(self) -> Renderer:
+        return renderers(self.KIND)[self.NAME]
+
+    def shown(self, name: str) -> str:
+        found = self.renderer.render(self.ZOO[name])
+        return found if isinstance(found, str) else found.decode()
+
+    def parse(self, document: str) -> Any:
+        raise NotImplementedError
+
+    def test_describes_itself(self) -> None:
+        assert self.renderer.KIND == self.KIND
+        assert self.renderer.SUFFIX.startswith(".")
+        assert self.renderer.SUMMARY and "\n" not in self.renderer.SUMMARY
+
+    def test_reads_back(self, name: str) -> None:
+        self.parse(self.shown(name))
+
+    def test_is_the_same_every_time(self, name: str) -> None:
+        assert self.shown(name) == self.shown(name)
+
+    def test_ends_with_a_line_end(self, name: str) -> None:
+        assert self.shown(name).endswith("\n")
+
+    def test_refusals_say_what_to_do(self) -> None:
+        for name in self.REFUSED:
+            with pytest.raises(ModelError, match=r"[Uu]se|[Pp]roject"):
+                self.renderer.render(self.ZOO[name])
+
+    def __init_subclass__(cls) -> None:
+        if hasattr(cls, "ZOO"):
+            names = pytest.mark.parametrize("name", [n for n in cls.ZOO if n not in cls.REFUSED])
+            for test in ("test_reads_back", "test_is_the_same_every_time", "test_ends_with_a_line_end"):
+                setattr(cls, test, names(_copied(getattr(Suite, test))))
+
+
+def _copied(function: Any) -> Any:
+    """A function of its own for each suite, as marks are kept on functions."""
+
+    def test(self: Any, name: str) -> None:
+        function(self, name)
+
+    return test

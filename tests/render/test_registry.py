@@ -1,0 +1,16 @@
+"""Renderers are found by being in the folder."""
+
+import pytest
+
+from checker.render import KINDS, renderers
+
+
+def test_every_promised_exit_is_there() -> None:
+    assert list(renderers("statechart")) == ["dot", "graphml", "mermaid", "svg"]
+    assert list(renderers("graph")) == ["dot", "graphml", "json", "mermaid", "svg"]
+    assert list(renderers("trace")) == ["json", "markdown", "table", "vcd"]
+
+
+def test_an_unknown_kind_names_the_known_ones() -> None:
+    with pytest.raises(ValueError, match=", ".join(KINDS)):
+        renderers("picture")
