@@ -28,14 +28,21 @@ def calmed(system: TransitionSystem, goal: Var, run: Run) -> Run:
     changes none of which can be left out alone.
     """
     work = _Rerun(system, goal, run)
-    for variable in system.inputs:
-        column = work.columns[variable.name]
-        for value in dict.fromkeys((variable.init, column[0], column[-1])):
-            if value in variable.domain and work.accepts(variable.name, [value] * len(column)):
-                break
-    for variable in system.inputs:
-        _fewer_changes(work, variable.name)
+    before = None
+    while before != work.columns:  # an input may be calmed only after another it depends on
+        before = dict(work.columns)
+        for variable in system.inputs:
+            _constant(work, variable)
+        for variable in system.inputs:
+            _fewer_changes(work, variable.name)
     return work.run
+
+
+def _constant(work: "_Rerun", variable: Var) -> None:
+    column = work.columns[variable.name]
+    for value in dict.fromkeys((variable.init, column[0], column[-1])):
+        if value in variable.domain and work.accepts(variable.name, [value] * len(column)):
+            return
 
 
 def _fewer_changes(work: "_Rerun", name: str) -> None:

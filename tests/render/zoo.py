@@ -116,7 +116,10 @@ combo = Chart(
         State(
             "Toggle",
             states=[
-                State("Step2", transitions=[to("Step3", when=rising(level)), to("late", when=after(1 * sec))]),
+                State("Step2", transitions=[
+                    to("Step3", when=rising(level)),
+                    to("late", when=after(1 * sec)),
+                ]),
                 State("Step3", transitions=[
                     to("Start", when=rising(level), do=[assign(alarm, ~alarm)]),
                     to("late", when=after(1 * sec)),
