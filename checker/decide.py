@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from math import prod
 
 from checker.calm import calmed
 from checker.engine import Engine, Limits, Progress, engines
@@ -13,6 +14,9 @@ from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.expr import Var
 from spec_model.lang.lower import lower
 from spec_model.lang.system import System, TransitionSystem
+
+FEW = 64
+"""Monitors with at most this many combinations of values share a search: compiling costs more."""
 
 AUTO = "auto"
 ALL = "all"
@@ -44,7 +48,7 @@ class Task:
 
 
 def tasks(properties: Sequence[Property], systems: Mapping[str, System]) -> Iterator[Task]:
-    """Properties grouped by system, and within a system by the monitor variables they need.
+    """Properties grouped by system, and within a system by the size of the monitors they need.
 
     Raises ``ModelError`` for a property about an unknown system, or an ill-formed one.
     """
@@ -55,12 +59,23 @@ def tasks(properties: Sequence[Property], systems: Mapping[str, System]) -> Iter
             raise ModelError(f"{prop.id} is about {prop.on!r}, no known system. {near}")
         by_system.setdefault(prop.on, []).append(prop)
     for name, group in by_system.items():
-        question = reduce(lower(systems[name]), group)
-        by_memory: dict[frozenset[str], list[Property]] = {}
-        for goal in question.goals:
-            by_memory.setdefault(goal.memory, []).append(goal.property)
-        for together in by_memory.values():
+        for together in _together(reduce(lower(systems[name]), group)):
             yield Task(systems[name], tuple(together))
+
+
+def _together(question: Question) -> list[list[Property]]:
+    """Properties to search together: those whose monitors have few values between them."""
+    values = {v.name: len(v.domain) for v in question.system.variables}
+    bins: list[tuple[set[str], list[Property]]] = []
+    for goal in sorted(question.goals, key=lambda g: prod(values[n] for n in g.memory)):
+        for memory, members in bins:
+            if goal.memory <= memory or prod(values[n] for n in memory | goal.memory) <= FEW:
+                memory |= goal.memory
+                members.append(goal.property)
+                break
+        else:
+            bins.append((set(goal.memory), [goal.property]))
+    return [members for _, members in bins]
 
 
 def decide(

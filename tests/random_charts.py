@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 
 from spec_model.lang.action import Action, assign, send
 from spec_model.lang.chart import Chart, Junction, Path, State, Transition, to
@@ -212,7 +213,7 @@ class Wiring:
         for path, node in self.nodes.items():
             for name in reversed(list(node.junctions)):
                 used = {t.target for n in self.nodes.values() for t in (*n.arrows, *n.default)}
-                used |= {t.target for t in sum(node.junctions.values(), [])}
+                used |= {t.target for ts in node.junctions.values() for t in ts}
                 if name not in used or not self._leads(path, name):
                     del node.junctions[name]
 
@@ -243,7 +244,7 @@ def charts(source: Source, name: str, data: Sequence[Var], local: Sequence[Var])
         _localise(draft, wiring, datum)
     if any(n.parallel for n in wiring.nodes.values()) or source.chance(5):
         for number in range(source.below(6)):
-            draft.attempt(lambda n=number: _send(draft, wiring, f"e{n % 2 + 1}"))
+            draft.attempt(partial(_send, draft, wiring, f"e{number % 2 + 1}"))
     if source.chance(4):
         composites = [n for n in wiring.nodes.values() if n.default]
         draft.attempt(lambda: _drop_default(source.pick(composites)) if composites else lambda: None)
@@ -284,7 +285,7 @@ def _send(draft: Draft, wiring: Wiring, event: str) -> Callable[[], None]:
     if not reacting:
         return lambda: None
     node, other = wiring.nodes[sender], wiring.nodes[source.pick(reacting)]
-    saved = [(n, n.entry, n.during, n.exit, n.arrows) for n in (node, other)]
+    saved = [(changed, replace(changed)) for changed in (node, other)]
     _put_send(source, node, send(event, ".".join(receiver)))
     if other.arrows:
         number = source.below(len(other.arrows))
@@ -293,8 +294,9 @@ def _send(draft: Draft, wiring: Wiring, event: str) -> Callable[[], None]:
         other.arrows = [*other.arrows[:number], waiting, *extra, *other.arrows[number + 1 :]]
 
     def undo() -> None:
-        for n, n.entry, n.during, n.exit, n.arrows in saved:  # noqa: B007
-            pass
+        for changed, kept in saved:
+            changed.entry, changed.during = kept.entry, kept.during
+            changed.exit, changed.arrows = kept.exit, kept.arrows
 
     return undo
 

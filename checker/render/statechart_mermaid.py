@@ -1,7 +1,8 @@
 """A small chart as a Mermaid state diagram, which GitHub shows in Markdown.
 
-Mermaid cannot draw composites inside parallel regions (it crashes) nor arrows between states of
-different composites.  Such a chart is refused rather than drawn without them.
+Mermaid cannot draw composites inside parallel regions (it crashes), actions of a composite, nor arrows
+that cross the border of a composite inside another one (it draws the state elsewhere).  Such a chart
+is refused rather than drawn wrong.  Names of regions are not shown.
 """
 
 from collections.abc import Iterator
@@ -23,19 +24,11 @@ def render(chart: Chart) -> str:
     every = arrows(chart)
     _refuse(chart, every)
     ids = identifiers(chart)
-    lines = ["stateDiagram-v2", "  direction LR"]
-    lines += [f"  state {_quoted(p[-1])} as {ids[p]}" for p in chart.states if p]
-    lines += [f"  state {ids[p]} <<choice>>" for p in chart.junctions]
     body = list(_inside(chart, (), ids, every))
     if chart.root.parallel:
-        body = [
-            f"state {_quoted(chart.name)} as {ids[()]}",
-            f"state {ids[()]} {{",
-            *(f"  {x}" for x in body),
-            "}",
-        ]
-    lines += [f"  {line}" for line in body]
-    return "\n".join([*lines, ""])
+        name = f"state {_quoted(chart.name)} as {ids[()]}"
+        body = [name, f"state {ids[()]} {{", *(f"  {line}" for line in body), "}"]
+    return "\n".join(["stateDiagram-v2", "  direction LR", *(f"  {line}" for line in body), ""])
 
 
 def _refuse(chart: Chart, every: tuple[ChartArrow, ...]) -> None:
@@ -46,43 +39,56 @@ def _refuse(chart: Chart, every: tuple[ChartArrow, ...]) -> None:
                 f"{chart.name}: {'.'.join(path)} is a composite inside a parallel region, "
                 f"at which Mermaid crashes (mermaid-js/mermaid#4052). {_OTHERS}"
             )
-    for arrow in every:
-        start, end = arrow.source if arrow.default else arrow.source[:-1], arrow.target[:-1]
-        if start[: len(end)] != end and end[: len(start)] != start:
+        if state.states and action_lines(state):
             raise ModelError(
-                f"{chart.name}: the arrow from {'.'.join(arrow.source)} to {'.'.join(arrow.target)} joins "
-                f"states of different composites, which Mermaid cannot draw. {_OTHERS}"
+                f"{chart.name}: {'.'.join(path)} is a composite with actions, "
+                f"for which Mermaid has no place. {_OTHERS}"
+            )
+    for arrow in every:
+        start, end = _levels(arrow)
+        if start != end and _common(arrow):
+            raise ModelError(
+                f"{chart.name}: the arrow from {'.'.join(arrow.source)} to {'.'.join(arrow.target)} crosses "
+                f"the border of a composite inside {'.'.join(_common(arrow))}, which Mermaid draws wrong. "
+                f"{_OTHERS}"
             )
 
 
 def _inside(chart: Chart, level: Path, ids: dict[Path, str], every: tuple[ChartArrow, ...]) -> Iterator[str]:
+    """The lines of one level: its states, each where it belongs, then its arrows."""
     state = chart.states[level]
     for number, child in enumerate(state.states):
         path = (*level, child.name)
         if state.parallel:
             yield from ["--"] if number else []
-            yield from _inside(chart, path, ids, every) if child.states else [ids[path]]
-        elif child.states:
+            yield from _inside(chart, path, ids, every) if child.states else [_named(path, ids)]
+            continue
+        yield _named(path, ids)
+        yield from (f"{ids[path]} : {escaped(line)}" for line in action_lines(child))
+        if child.states:
             yield f"state {ids[path]} {{"
             yield from (f"  {line}" for line in _inside(chart, path, ids, every))
             yield "}"
-        yield from (f"{ids[path]} : {escaped(line)}" for line in _described(chart, path))
-    for arrow in every:
-        if _common(arrow) == level:
-            yield _arrow(arrow, ids)
+    yield from (f"state {ids[(*level, j.name)]} <<choice>>" for j in state.junctions)
+    yield from (_arrow(arrow, ids) for arrow in every if _common(arrow) == level)
 
 
-def _described(chart: Chart, path: Path) -> tuple[str, ...]:
-    state = chart.states[path]
-    if state.states or not (lines := action_lines(state)):
-        return ()
-    return (path[-1], *lines)
+def _named(path: Path, ids: dict[Path, str]) -> str:
+    return f"state {_quoted(path[-1])} as {ids[path]}"
+
+
+def _levels(arrow: ChartArrow) -> tuple[Path, Path]:
+    """The levels in which the ends of an arrow lie."""
+    return arrow.source if arrow.default else arrow.source[:-1], arrow.target[:-1]
 
 
 def _common(arrow: ChartArrow) -> Path:
     """The innermost level around both ends."""
-    start, end = arrow.source if arrow.default else arrow.source[:-1], arrow.target[:-1]
-    return start if len(start) < len(end) else end
+    start, end = _levels(arrow)
+    depth = 0
+    while depth < min(len(start), len(end)) and start[depth] == end[depth]:
+        depth += 1
+    return start[:depth]
 
 
 def _arrow(arrow: ChartArrow, ids: dict[Path, str]) -> str:

@@ -33,6 +33,7 @@ STYLE = """
 .number{font-size:9.5px;fill:#35507a}
 .note{fill:#6a7080}
 .active{fill:#ffeeb8;stroke:#b86a00;stroke-width:2.2}
+.composite.active,.region.active{fill:#fffaf0}
 .fired .line{stroke:#c3241c;stroke-width:2.4}
 .fired .head,.fired .dot{fill:#c3241c}
 .fired .label,.fired .number{fill:#a81b14}

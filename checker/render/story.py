@@ -94,7 +94,7 @@ def rows(trace: Trace) -> Iterator[Row]:
         last = i == len(trace.ticks) - 1
         arrows = tuple(a for a in tick.arrows if not _repeats(a, trace.ticks[i - 1] if i else None))
         told = {a.chart for a in arrows}
-        news = [n for n in _changed(at, i) if not _tells(trace, n, told)]
+        news = [n for n in _changed(trace, at[i], at[i + 1]) if not _tells(trace, n, told)]
         news = [n for n in news if last or not _counts(trace, at, n, i)]
         if not news and not arrows and not last:
             start = i if start is None else start
@@ -105,9 +105,11 @@ def rows(trace: Trace) -> Iterator[Row]:
         yield _event(trace, at, i, arrows, news)
 
 
-def _changed(at: list[dict[str, int]], i: int) -> list[str]:
-    old, new = at[i], at[i + 1]
-    return [n for n, v in new.items() if old.get(n) != v and NAME.fullmatch(n)]
+def _changed(trace: Trace, old: Mapping[str, int], new: Mapping[str, int]) -> list[str]:
+    """Variables a reader knows whose value differs, those without an old value included."""
+    return [
+        n for n, v in new.items() if old.get(n) != v and NAME.fullmatch(n) and not trace.variables[n].hidden
+    ]
 
 
 def _repeats(arrow: Arrow, before: Tick | None) -> bool:
@@ -141,7 +143,7 @@ def _counts(trace: Trace, at: list[dict[str, int]], name: str, i: int) -> bool:
 
 def _quiet(trace: Trace, at: list[dict[str, int]], start: int, end: int) -> Quiet:
     old, new = at[start], at[end]
-    names = [n for n, v in new.items() if n in old and old[n] != v and NAME.fullmatch(n)]
+    names = [n for n in _changed(trace, old, new) if n in old]
     counters = tuple(_change(trace, n, old, new) for n in names)
     return Quiet(start + 1, end, trace.tick_ms, counters)
 

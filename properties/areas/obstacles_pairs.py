@@ -77,23 +77,28 @@ def recently(event: Expr) -> Expr:
 
 WINDOW = ("B2-OBS-16", "B2-OBS-17", "B2-OBS-18", "B2-OBS-19", "B2-OBS-20")
 
-PB2_05_12 = enters_only_if(
-    "PB2-05-12", "The rover turns to sonar 1 only if S1 lost an object in the last 3 s and S2 sees one now.",
-    entering=B2Decision == 2, only_if=recently(lost[0]) & obj2Detected,
-    covers=WINDOW, on="obstacles_n_12", readings=("E14", "E15", "E16"),
-)  # fmt: skip
 
-PB2_05_32 = enters_only_if(
-    "PB2-05-32", "The rover turns to sonar 3 only if S3 lost an object in the last 3 s and S2 sees one now.",
-    entering=B2Decision == 4, only_if=recently(lost[2]) & obj2Detected,
-    covers=WINDOW, on="obstacles_n_32", readings=("E14", "E15", "E16"),
-)  # fmt: skip
+def within_the_window(id: str, pair: Pair) -> Property:
+    """The decision of a pair needs its window, opened in [k-149, k], and its second sonar.
 
-PB2_05_2x = enters_only_if(
-    "PB2-05-2x", "The rover goes straight on only if S2 lost an object in the last 3 s and S1 or S3 has one.",
-    entering=B2Decision == 3, only_if=recently(lost[1]) & (obj1Detected | obj3Detected),
-    covers=(*WINDOW, "B2-OBS-21"), on="obstacles_n", readings=("E05", "E14", "E15", "E16"),
-)  # fmt: skip
+    For decision 3, which has two pairs, this is said of the steps in which the other pair cannot
+    be the cause.
+    """
+    others = [p for p in PAIRS if p is not pair and p.decision == pair.decision]
+    another = any_of(*(p.was_open & p.confirming for p in others))
+    return enters_only_if(
+        id, f"The signal of pair {pair.name} is sent only if sonar {pair.name[0]} lost an object in the "
+            f"last 3 s and sonar {pair.name[1]} has one.",
+        entering=B2Decision == pair.decision,
+        only_if=(recently(pair.opens) & pair.confirming) | another,
+        covers=WINDOW, on=pair.on, readings=("E05", "E14", "E15", "E16"),
+    )  # fmt: skip
+
+
+PB2_05_12 = within_the_window("PB2-05-12", PAIR_12)
+PB2_05_21 = within_the_window("PB2-05-21", PAIR_21)
+PB2_05_23 = within_the_window("PB2-05-23", PAIR_23)
+PB2_05_32 = within_the_window("PB2-05-32", PAIR_32)
 
 
 def from_an_open_window(id: str, *pairs: Pair) -> Property:
@@ -102,7 +107,7 @@ def from_an_open_window(id: str, *pairs: Pair) -> Property:
     return enters_only_if(
         id, f"Decision {decision} is taken only from a window of 3 s that is open in that step.",
         entering=B2Decision == decision, only_if=any_of(*(p.was_open & p.confirming for p in pairs)),
-        covers=("B2-OBS-18", "B2-OBS-20", "B2-OBS-21"), on="obstacles_n_free", from_tick=2,
+        covers=("B2-OBS-18", "B2-OBS-20", "B2-OBS-21"), on="obstacles_n_free",
         readings=("E15", "E16"),
     )  # fmt: skip
 

@@ -12,7 +12,7 @@ from checker.render.drawing.scheme import arrows
 from checker.trace import Arrow
 from spec_model.lang.errors import ModelError
 from tests.render.conformance import Suite
-from tests.render.zoo import CHARTS, monitor, nested, parallel, relay
+from tests.render.zoo import CHARTS, crossing, monitor, nested, parallel, relay
 
 SVG = "{http://www.w3.org/2000/svg}"
 
@@ -95,12 +95,16 @@ class TestDot(ChartSuite):
 class TestMermaid(ChartSuite):
     NAME = "mermaid"
     ZOO = CHARTS
-    REFUSED = frozenset({"Parallel"})
+    REFUSED = frozenset({"Parallel", "Nested", "Crossing"})
 
     def parse(self, document: str) -> None:
         assert document.startswith("stateDiagram-v2\n")
         assert document.count("{\n") == document.count("}\n")
 
     def test_says_which_construct_does_not_fit(self) -> None:
+        with pytest.raises(ModelError, match=r"Run is a composite with actions.*Use svg"):
+            self.renderer.render(nested)
+        with pytest.raises(ModelError, match=r"from A\.X to A\.B\.Y crosses the border"):
+            self.renderer.render(crossing)
         with pytest.raises(ModelError, match=r"Parts\.R0 is a composite inside a parallel region.*Use svg"):
             self.renderer.render(parallel)

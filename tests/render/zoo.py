@@ -133,7 +133,16 @@ combo = Chart(
     text="Arrows into and out of a composite, through a junction inside it.",
 )  # fmt: skip
 
-CHARTS = {c.name: c for c in (relay, monitor, nested, parallel, wide, flat_parallel, single, combo)}
+crossing = Chart("Crossing", [
+    State("A", default="X", states=[
+        State("X", transitions=[to("Y", when=alarm), to("C.Z", when=high), to("A", when=level == 5)]),
+        State("B", states=[State("Y", transitions=[to("B", when=level == 1)])]),
+    ], transitions=[to("B.Y", when=level == 2)]),
+    State("C", states=[State("Z", transitions=[to("X", when=alarm)])]),
+], default="A")  # fmt: skip
+"""Arrows across several borders, from a state to what is around it, and from a composite to what is in it."""
+
+CHARTS = {c.name: c for c in (relay, monitor, nested, parallel, wide, flat_parallel, single, combo, crossing)}
 
 ticks_left = var("Relay.Theirs.duration1", integer(0, 151))
 relay_place = relay.location()

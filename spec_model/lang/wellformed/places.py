@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import lru_cache
 
 from spec_model.lang.action import Action, each_action
 from spec_model.lang.action import If as Conditional
@@ -41,11 +42,14 @@ class Leg:
     complete: bool
 
 
-def legs(chart: Chart) -> Iterator[Leg]:
+@lru_cache(maxsize=8)
+def legs(chart: Chart) -> tuple[Leg, ...]:
     """Every segment with every state or composite from which a path reaches it."""
+    found: list[Leg] = []
     for path, state in chart.states.items():
-        yield from _legs(chart, path, True, path, arrow_names(state.default, path, default=True))
-        yield from _legs(chart, path, False, path[:-1], arrow_names(state.transitions, path))
+        found += _legs(chart, path, True, path, arrow_names(state.default, path, default=True))
+        found += _legs(chart, path, False, path[:-1], arrow_names(state.transitions, path))
+    return tuple(found)
 
 
 def _legs(
@@ -85,8 +89,13 @@ class Place:
     default: bool = False
 
 
-def places(chart: Chart) -> Iterator[Place]:
+@lru_cache(maxsize=8)
+def places(chart: Chart) -> tuple[Place, ...]:
     """Every list of actions that is not empty, with the state that it belongs to."""
+    return tuple(_places(chart))
+
+
+def _places(chart: Chart) -> Iterator[Place]:
     for path, state in chart.states.items():
         of = name_of(path)
         kinds = {Kind.ENTRY: state.entry, Kind.DURING: state.during, Kind.EXIT: state.exit}
