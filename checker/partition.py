@@ -17,7 +17,7 @@ from spec_model.lang.action import Assign, If
 from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var, plain
 from spec_model.lang.system import Program, TransitionSystem
 
-Array = NDArray[np.generic]
+Array = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ def _alone(roots: Iterable[Expr], scope: Mapping[str, Var]) -> dict[str, list[Ex
             continue
         seen.add(id(expr))
         name = _owner(expr, owners)
-        if name in scope:
+        if name is not None and name in scope:
             found.setdefault(name, []).append(expr)
         elif isinstance(expr, Named):
             stack.append(expr.body)
@@ -113,7 +113,7 @@ def _take_grouped(
     grouped: dict[str, list[Expr]] = {}
     for arg in expr.args:
         name = _owner(arg, owners)
-        if name in scope:
+        if name is not None and name in scope:
             grouped.setdefault(name, []).append(arg)
         else:
             rest.append(arg)
@@ -147,7 +147,7 @@ def _required(assume: Expr, scope: Mapping[str, Var]) -> dict[str, list[Expr]]:
     parts = body.args if isinstance(body, Apply) and body.op is Op.AND else (assume,)
     for part in parts:
         name = _owner(part, {})
-        if name in scope:
+        if name is not None and name in scope:
             found.setdefault(name, []).append(part)
     return found
 

@@ -5,9 +5,8 @@ more, so that what is proved on them holds for the chart; ``obstacles_n`` is the
 """
 
 from properties.forms import always, enters_only_if, holds_after, leaves_only_if, never, responds
-from spec_model.board2.heading import headings
 from spec_model.board2.obstacles import obstacles_n
-from spec_model.board2.systems import HEADING_GRID
+from spec_model.board2.systems import targetAngle, yaw
 from spec_model.lang.expr import all_of, any_of, held, implies, named, previous, wrap
 from spec_model.lang.time import sec, tick, ticks
 from spec_model.signals.board2 import (
@@ -125,7 +124,6 @@ PB2_04b = always(
 
 # --- the end of a deviation [seed §3.4.1 (1), Fig 25] ----------------------------------------------
 
-yaw, targetAngle = headings(HEADING_GRID)
 turned = named("turn since entry", wrap(yaw - previous(targetAngle) - 45))
 turned_right = named("turn since entry", wrap(yaw - previous(targetAngle) + 45))
 
@@ -144,19 +142,43 @@ PB2_08_right = leaves_only_if(
 PB2_08_135 = leaves_only_if(
     "PB2-08-135", "Moving toward sonar 1 ends only after 45 degrees to the left or over 135 to the right.",
     leaving=chart.active("MoveToS1"), only_if=(turned <= -45) | (turned > 135) | cut_short,
-    covers=["B2-OBS-09"], on="obstacles_heading", readings=("E06", "E07"),
+    covers=["B2-OBS-09"], on="obstacles_heading_free", readings=("E06", "E07"),
 )  # fmt: skip
 
 PB2_08_target = enters_only_if(
     "PB2-08-target", "The target stored on entry of MoveToS1 is 45 degrees to the left of the heading.",
     entering=chart.active("MoveToS1"), only_if=wrap(yaw - targetAngle) == 45,
-    covers=["B2-OBS-09"], on="obstacles_heading", readings=["E07"],
+    covers=["B2-OBS-09"], on="obstacles_heading_free", readings=["E07"],
+)  # fmt: skip
+
+PB2_08_left_told = leaves_only_if(
+    "PB2-08-left-told", "A rover that turns as told has turned 45 degrees when moving toward sonar 1 ends.",
+    leaving=chart.active("MoveToS1"), only_if=(turned <= -45) | cut_short,
+    covers=["B2-OBS-09"], on="obstacles_turning_free", readings=("E06", "E07"),
+)  # fmt: skip
+
+PB2_08_right_told = leaves_only_if(
+    "PB2-08-right-told", "A rover that turns as told has turned 45 degrees when moving toward sonar 3 ends.",
+    leaving=chart.active("MoveToS3"), only_if=(turned_right >= 45) | cut_short,
+    covers=["B2-OBS-09"], on="obstacles_turning_free", readings=("E06", "E07"),
+)  # fmt: skip
+
+PB2_09c_left = responds(
+    "PB2-09c-left", "If the rover turns as told, 15 degrees a step or more, decision 2 ends within 3 steps.",
+    trigger=B2Decision == 2, response=B2Decision != 2, within=3 * ticks,
+    covers=["B2-OBS-09"], on="obstacles_turning_free", readings=("E06", "E08"),
+)  # fmt: skip
+
+PB2_09c_right = responds(
+    "PB2-09c-right", "If the rover turns as told, 15 degrees a step or more, decision 4 ends within 3 steps.",
+    trigger=B2Decision == 4, response=B2Decision != 4, within=3 * ticks,
+    covers=["B2-OBS-09"], on="obstacles_turning_free", readings=("E06", "E08"),
 )  # fmt: skip
 
 PB2_09b = responds(
     "PB2-09b", "Moving toward sonar 1 ends within 10 s.",
     trigger=B2Decision == 2, response=B2Decision != 2, within=10 * sec,
-    covers=["B2-OBS-09"], on="obstacles_n", readings=["E08"],
+    covers=["B2-OBS-09"], on="obstacles_n_free", readings=["E08"],
 )  # fmt: skip
 
 PB2_09b_straight = responds(

@@ -5,9 +5,11 @@ from spec_model.board2.obstacles import TIMED, WINDOWS, obstacles_n
 from spec_model.board2.obstacles_degraded import obstacles_degraded
 from spec_model.board2.selection import selection
 from spec_model.environment2 import scan_phase, sonar_scan
-from spec_model.lang.chart import Chart, Component
-from spec_model.lang.expr import flag
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Block, Chart, Component
+from spec_model.lang.expr import all_of, flag, implies, ite, var, wrap
 from spec_model.lang.system import System, in_order
+from spec_model.signals.board2 import B2Decision
 
 deg_mask_b1 = flag("deg_mask_b1", "the degraded mask last received from Board 1 is not zero")
 crit_mask_b1 = flag("crit_mask_b1", "the critical mask last received from Board 1 is not zero")
@@ -49,6 +51,21 @@ def _selected(chart: Chart) -> tuple[Component, ...]:
 
 
 HEADING_GRID = 15
+yaw, targetAngle = headings(HEADING_GRID)
+last_yaw = var("last_yaw", yaw.domain, doc="yaw in the step before, while the rover deviates")
+remember_yaw = Block("RememberYaw", [
+    assign(last_yaw, ite((B2Decision == 2) | (B2Decision == 4), yaw, 0)),
+], text="What the assumption about turning compares with (A06)")  # fmt: skip
+turn = wrap(yaw - last_yaw)
+turning = all_of(
+    implies(B2Decision == 2, (turn <= -HEADING_GRID) & (turn >= -90)),
+    implies(B2Decision == 4, (turn >= HEADING_GRID) & (turn <= 90)),
+)
+AS_TOLD = (
+    f"During a deviation yaw moves {HEADING_GRID} to 90 degrees a step in the direction of the deviation "
+    f"(A06); otherwise it is a multiple of {HEADING_GRID} degrees, arbitrary in every step."
+)
+ON_GRID = f"yaw is a multiple of {HEADING_GRID} degrees, arbitrary in every step."
 
 SYSTEMS: tuple[System, ...] = (
     _alone(AS_DRAWN, "The non-degraded obstacle chart alone, as drawn.", *TIMED),
@@ -68,14 +85,39 @@ SYSTEMS: tuple[System, ...] = (
     ),
     in_order(
         "obstacles_heading",
-        obstacles_n(TIMED, measured(*headings(HEADING_GRID))),
+        obstacles_n(TIMED, measured(yaw, targetAngle)),
         text="The non-degraded obstacle chart alone, with the heading it measures.",
-        notes=(
-            ARBITRARY,
-            FREE_FLAG,
-            f"yaw is an arbitrary multiple of {HEADING_GRID} degrees in every step.",
-        ),
+        notes=(ARBITRARY, FREE_FLAG, ON_GRID),
         under=True,
+    ),
+    in_order(
+        "obstacles_heading_free",
+        obstacles_n((), measured(yaw, targetAngle)),
+        text="As obstacles_heading; every timed stay ends at will.",
+        notes=(ARBITRARY, FREE_FLAG, ON_GRID, _any_stay()),
+        over=True,
+        under=True,
+        concrete="obstacles_heading",
+    ),
+    in_order(
+        "obstacles_turning",
+        obstacles_n(TIMED, measured(yaw, targetAngle)),
+        remember_yaw,
+        text="As obstacles_heading, for a rover that turns as it is told.",
+        assume=turning,
+        notes=(ARBITRARY, FREE_FLAG, AS_TOLD),
+        under=True,
+    ),
+    in_order(
+        "obstacles_turning_free",
+        obstacles_n((), measured(yaw, targetAngle)),
+        remember_yaw,
+        text="As obstacles_turning; every timed stay ends at will.",
+        assume=turning,
+        notes=(ARBITRARY, FREE_FLAG, AS_TOLD, _any_stay()),
+        over=True,
+        under=True,
+        concrete="obstacles_turning",
     ),
     in_order(
         "obstacles_d",

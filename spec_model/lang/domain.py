@@ -45,6 +45,10 @@ class Unit:
             powers[symbol] = powers.get(symbol, 0) + power
         return Unit._made(powers)
 
+    def __bool__(self) -> bool:
+        """Whether this is a unit at all, not that of a plain number."""
+        return bool(self.powers)
+
     def __str__(self) -> str:
         up = "·".join(s for s, p in self.powers for _ in range(p))
         down = "".join("/" + s for s, p in self.powers for _ in range(-p))
@@ -113,10 +117,14 @@ def show(value: Fraction) -> str:
 
 def common_resolution(a: Fraction, b: Fraction) -> Fraction:
     """The coarsest resolution in which both are exact: the greatest common divisor."""
-    return Fraction(
-        gcd(a.numerator * b.denominator, b.numerator * a.denominator),
-        a.denominator * b.denominator,
-    ) if a != b else a
+    return (
+        Fraction(
+            gcd(a.numerator * b.denominator, b.numerator * a.denominator),
+            a.denominator * b.denominator,
+        )
+        if a != b
+        else a
+    )
 
 
 @dataclass(frozen=True)

@@ -266,5 +266,3 @@ def common_composite(source: Path, target: Path) -> Path:
     while depth < min(len(source), len(target)) - 1 and source[depth] == target[depth]:
         depth += 1
     return source[:depth]
-
-

@@ -168,5 +168,3 @@ def _zero(counter: Var) -> Const:
 def _count(counter: Var, condition: Expr | None) -> Assign:
     assert condition is not None
     return Assign(counter, ite(condition, minimum(counter + 1, counter.domain.high), _zero(counter)))
-
-

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from spec_model.lang.chart import Chart, Path, Transition
-from spec_model.lang.wellformed.places import Leg, common_composite, legs, name_of
+from spec_model.lang.wellformed.places import Leg, common_composite, legs, name_of, parallel_name
 
 
 def path_faults(chart: Chart) -> Iterator[str]:
@@ -33,8 +33,8 @@ def _crossing_faults(chart: Chart, leg: Leg) -> Iterator[str]:
     scope = common_composite(leg.source, leg.end)
     if chart.states[scope].parallel:
         yield (
-            f"{leg.where} goes from {name_of(leg.source)} to {name_of(leg.end)} across the regions of the "
-            f"parallel {name_of(scope)}; regions are active together, send an event instead."
+            f"{leg.where} goes from {name_of(leg.source)} to {name_of(leg.end)} across the regions of "
+            f"{parallel_name(scope)}; regions are active together, send an event instead."
         )
 
 
@@ -100,8 +100,10 @@ def _always(chart: Chart, level: Path, arrow: Transition) -> bool:
 
 
 def _unreachable_faults(chart: Chart, entered: set[Path], all_legs: list[Leg]) -> Iterator[str]:
-    for path in chart.states:
-        if path and path not in entered and (not path[:-1] or path[:-1] in entered):
+    for path in filter(None, chart.states):
+        parent = chart.states[path[:-1]]
+        known = not path[:-1] or path[:-1] in entered
+        if path not in entered and known and (parent.parallel or parent.default):
             yield f"no arrow and no default transition leads to {name_of(path)}; draw one or remove it."
     reached = {leg.end for leg in all_legs}
     for path in chart.junctions:

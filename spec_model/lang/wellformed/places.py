@@ -16,6 +16,11 @@ def name_of(path: Path) -> str:
     return path[-1] if path else "the chart"
 
 
+def parallel_name(path: Path) -> str:
+    """A parallel composite as messages name it."""
+    return f"the parallel {path[-1] if path else 'chart'}"
+
+
 def arrow_names(
     arrows: Sequence[Transition], path: Path, default: bool = False
 ) -> list[tuple[str, Transition]]:

@@ -63,11 +63,12 @@ def _nesting_faults(chart: Chart, sites: list[_Site], all_legs: list[Leg]) -> It
     onward = {id(s): [o for o in sites if o.place.owner in touched[s.receiver]] for s in sites}
     for site in sites:
         nested = _closure(site, onward)
-        if any(s is site for s in nested):
+        to_itself = _within(site.place.owner, site.receiver)
+        leaving = [f for s in (site, *nested) for f in _departure_faults(site, s.receiver, all_legs)]
+        if leaving and not to_itself:
+            yield from leaving
+        elif to_itself or any(s is site for s in nested):
             yield f"{site} can lead to the same send again, for ever; break the cycle of sends."
-            continue
-        for executed in (site, *nested):
-            yield from _departure_faults(site, executed.receiver, all_legs)
 
 
 def _departure_faults(site: _Site, executed: Path, all_legs: list[Leg]) -> Iterator[str]:

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 
 from spec_model.lang.chart import NOWHERE, Chart, Path, State, Transition
 from spec_model.lang.errors import did_you_mean
-from spec_model.lang.wellformed.places import arrow_names, name_of
+from spec_model.lang.wellformed.places import arrow_names, name_of, parallel_name
 
 
 def tree_faults(chart: Chart) -> Iterator[str]:
@@ -46,7 +46,7 @@ def _region_faults(path: Path, state: State) -> Iterator[str]:
     for region in state.states:
         if region.transitions:
             yield (
-                f"{region.name} is a region of the parallel {name_of(path)} and has arrows; "
+                f"{region.name} is a region of {parallel_name(path)} and has arrows; "
                 "a region is left only with all its siblings: draw the arrow from the composite."
             )
 
