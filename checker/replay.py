@@ -46,9 +46,10 @@ def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
     table = {v.name: v for v in (*system.variables, *system.inputs, *system.frozen)}
     names = tuple(v.name for v in system.inputs)
     relevant = _relevant(system, goal)
-    charts = frozenset(c.name for c in system.source.charts if _of(c) & relevant) if system.source else None
+    drawn = system.source.charts if system.source else ()
+    charts = frozenset(c.name for c in drawn if _of(c) & relevant)
     return Trace(
-        system.name, system.tick_ms, table, names, before, tuple(ticks), false, relevant, charts or frozenset()
+        system.name, system.tick_ms, table, names, before, tuple(ticks), false, relevant, charts
     )  # fmt: skip
 
 

@@ -1,13 +1,12 @@
 """Paths: the step as a program that chooses an input only where some path first needs it.
 
-``Choose`` tries every cell of an input from that point on; ``Require`` gives the path up when the
-assumption fails.  Inputs that a path never reads are never chosen, so they cost nothing.  What
-``&``, ``|`` and ``ite`` may leave unread is turned into branches for the same reason; all
-expressions of the result are free of choices.
+``Choose`` takes one cell of an input; every cell is taken in turn by running the program again from
+the last ``Fork`` before it.  ``Require`` gives a path up when the assumption fails.  Inputs that a
+path never reads are never chosen, so they cost nothing.  What ``&``, ``|`` and ``ite`` may leave
+unread is turned into branches for the same reason; all expressions of the result are free of choices.
 """
 
-from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Union
 
@@ -23,11 +22,17 @@ Names = frozenset[str]
 
 @dataclass(frozen=True, eq=False)
 class Choose:
-    """Go on once with each of the values; ``number`` tells choices apart."""
+    """Take one of the values; the next one when the program is run again."""
 
-    number: int
     var: Var
     values: tuple[int, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Fork:
+    """From here the program is run again for other choices; ``number`` tells forks apart."""
+
+    number: int
 
 
 @dataclass(frozen=True, eq=False)
@@ -46,7 +51,7 @@ class Branch:
     otherwise: "PathProgram"
 
 
-PathStatement = Union[Assign, Branch, Choose, Require]
+PathStatement = Union[Assign, Branch, Choose, Fork, Require]
 PathProgram = tuple[PathStatement, ...]
 
 
@@ -55,37 +60,9 @@ def read_flag(var: Var) -> Var:
     return flag(f"?read {var.name}")
 
 
-MOST_CHOICES = 32
-"""Places in a program where inputs are chosen; more make the code large and slow to compile."""
-
-
-def path_program(
-    system: TransitionSystem, cells: Mapping[str, Partition], most: int = MOST_CHOICES
-) -> PathProgram:
-    """The assumption and the step of a system; inputs are chosen cell by cell, when first read.
-
-    Where that takes more than ``most`` places, the inputs read in most places are chosen a little
-    too early: before the first of several statements of one block that may read them.
-    """
-    early: Names = frozenset()
-    while True:
-        made = _Made(cells, early)
-        program = made.whole(system)
-        places = Counter(c.var.name for c in choices(program))
-        late = [name for name, _ in places.most_common() if name not in early]
-        if sum(places.values()) <= most or not late:
-            return program
-        early |= set(late[:1])
-
-
-def choices(program: PathProgram) -> Iterator[Choose]:
-    """Every choice in a program."""
-    for statement in program:
-        if isinstance(statement, Choose):
-            yield statement
-        elif isinstance(statement, Branch):
-            yield from choices(statement.then)
-            yield from choices(statement.otherwise)
+def path_program(system: TransitionSystem, cells: Mapping[str, Partition]) -> PathProgram:
+    """The assumption and the step of a system; inputs are chosen cell by cell, when first read."""
+    return forked(_Made(cells).whole(system))
 
 
 def _assumed(system: TransitionSystem, cells: Mapping[str, Partition]) -> list[Expr]:
@@ -114,10 +91,8 @@ class _Made:
     """Fresh names and numbers while a path program is made."""
 
     cells: Mapping[str, Partition]
-    early: Names
-    choices: int = 0
     fresh: int = 0
-    read: dict[int, tuple[object, Names]] = field(default_factory=dict)
+    read: dict[int, tuple[Expr, Names]] = field(default_factory=dict)
 
     def whole(self, system: TransitionSystem) -> PathProgram:
         out: list[PathStatement] = []
@@ -129,9 +104,7 @@ class _Made:
         return tuple(out)
 
     def statements(self, program: Sequence[object], seen: _Seen, out: list[PathStatement]) -> _Seen:
-        again = self.repeated(program)
         for statement in program:
-            seen = self.hurry(again & self.reads(statement), seen, out)
             if isinstance(statement, Assign):
                 value, seen = self.pure(statement.value, seen, out)
                 out.append(Assign(statement.var, value))
@@ -157,13 +130,10 @@ class _Made:
             case Apply(Op.AND | Op.OR as op, args, _):
                 return self.junction(op, list(args), seen, out)
             case Apply(Op.ITE, (condition, then, otherwise), _):
-                again = self.repeated([condition, then]) | self.repeated([condition, otherwise])
-                seen = self.hurry(again, seen, out)
                 test, seen = self.pure(condition, seen, out)
                 return self.selection(expr, test, then, otherwise, seen, out)
             case Apply(op, args, sort):
                 values = []
-                seen = self.hurry(self.repeated(args), seen, out)
                 for arg in args:
                     value, seen = self.pure(arg, seen, out)
                     values.append(value)
@@ -172,39 +142,13 @@ class _Made:
 
     def ready(self, expr: Expr, seen: _Seen) -> bool:
         """Whether every input that the expression mentions has been chosen on every path to here."""
-        return self.reads(expr) <= seen.always
-
-    def reads(self, part: object) -> Names:
-        """The inputs that an expression or a statement mentions."""
-        if id(part) not in self.read:
-            match part:
-                case Assign(_, value):
-                    found = self.reads(value)
-                case If(condition, then, otherwise):
-                    found = self.reads(condition).union(*map(self.reads, (*then, *otherwise)))
-                case _:
-                    assert isinstance(part, Expr)
-                    found = names([part]) & self.cells.keys()
-            self.read[id(part)] = part, found  # held, so that ids stay unique
-        return self.read[id(part)][1]
-
-    def repeated(self, parts: Sequence[object]) -> Names:
-        """The early inputs that several of the parts mention."""
-        if not self.early:
-            return self.early
-        count = Counter(name for part in parts for name in self.reads(part))
-        return frozenset(n for n in self.early if count[n] > 1)
-
-    def hurry(self, wanted: Names, seen: _Seen, out: list[PathStatement]) -> _Seen:
-        """Choose inputs now that are not chosen yet."""
-        for name in sorted(wanted - seen.always):
-            seen = self.choose(self.cells[name].var, seen, out)
-        return seen
+        if id(expr) not in self.read:
+            self.read[id(expr)] = expr, names([expr]) & self.cells.keys()  # held: ids stay unique
+        return self.read[id(expr)][1] <= seen.always
 
     def choose(self, var: Var, seen: _Seen, out: list[PathStatement]) -> _Seen:
         known = read_flag(var)
-        self.choices += 1
-        made = Choose(self.choices - 1, var, tuple(c.value for c in self.cells[var.name].cells))
+        made = Choose(var, tuple(c.value for c in self.cells[var.name].cells))
         steps: PathProgram = (made, Assign(known, TRUE))
         if var.name in seen.sometimes:
             steps = (Branch(known, (), steps),)
@@ -215,7 +159,6 @@ class _Made:
         self, op: Op, args: list[Expr], seen: _Seen, out: list[PathStatement]
     ) -> tuple[Expr, _Seen]:
         """Operands that need no choice first; the others only if these leave the result open."""
-        seen = self.hurry(self.repeated(args), seen, out)
         known = [a for a in args if self.ready(a, seen)]
         rest = [a for a in args if not self.ready(a, seen)]
         if not rest:
@@ -256,12 +199,69 @@ class _Made:
         return Var(name, Domain(Num(), range(-(1 << 62), 1 << 62)))
 
 
-# --- what a choice must remember -----------------------------------------------------------------
+# --- forks ---------------------------------------------------------------------------------------
+
+_FORKS = 10
+"""Forks on a path, about: more save running statements again, but cost copies and compile time."""
+
+
+def forked(program: PathProgram) -> PathProgram:
+    """The program with a fork at its start, and before choices that much is run before."""
+    if not _chooses(program):
+        return program
+    apart = max(2, _weight(program) // _FORKS)
+    while True:
+        forks = _Forks(apart)
+        made = (forks.made(), *forks.placed(program, 0)[0])
+        if forks.count <= 2 * _FORKS:
+            return made
+        apart *= 2
+
+
+@dataclass
+class _Forks:
+    apart: int
+    count: int = 0
+
+    def made(self) -> Fork:
+        self.count += 1
+        return Fork(self.count - 1)
+
+    def placed(self, program: PathProgram, weight: int) -> tuple[PathProgram, int]:
+        """``weight`` statements have been run since the last fork; the same after the program."""
+        out: list[PathStatement] = []
+        for statement in program:
+            if weight >= self.apart and _chooses((statement,)):
+                out.append(self.made())
+                weight = 0
+            if isinstance(statement, Branch) and _chooses((statement,)):
+                then, after_then = self.placed(statement.then, weight + 1)
+                otherwise, after_else = self.placed(statement.otherwise, weight + 1)
+                out.append(Branch(statement.condition, then, otherwise))
+                weight = max(after_then, after_else)
+            else:
+                out.append(statement)
+                weight += _weight((statement,))
+        return tuple(out), weight
+
+
+def _weight(program: PathProgram) -> int:
+    """Statements on the longest path."""
+    return sum(
+        1 + max(_weight(s.then), _weight(s.otherwise)) if isinstance(s, Branch) else 1 for s in program
+    )
+
+
+def _chooses(program: PathProgram) -> bool:
+    return any(
+        isinstance(s, Choose) or (isinstance(s, Branch) and (_chooses(s.then) or _chooses(s.otherwise)))
+        for s in program
+    )
 
 
 def saved(program: PathProgram, live_at_end: Names) -> dict[int, tuple[Var, ...]]:
-    """For each choice, by number, the variables to restore before its next value: those that what
-    follows may both read and overwrite."""
+    """For each fork, by number, the variables to restore before the program is run again from there:
+    those that what follows may both read and overwrite."""
     found: dict[int, tuple[Var, ...]] = {}
     _backward(program, live_at_end, {}, found)
     return found
@@ -275,12 +275,13 @@ def _backward(
             case Assign(var, value):
                 live = (live - {var.name}) | names([value])
                 writes = {**writes, var.name: var}
+            case Choose(var, _):
+                live -= {var.name}
+                writes = {**writes, var.name: var}
             case Require(condition):
                 live |= names([condition])
-            case Choose(number, var, _):
-                live -= {var.name}
+            case Fork(number):
                 found[number] = tuple(v for n, v in writes.items() if n in live)
-                writes = {**writes, var.name: var}
             case Branch(condition, then, otherwise):
                 then_live, then_writes = _backward(then, live, writes, found)
                 else_live, else_writes = _backward(otherwise, live, writes, found)
@@ -300,10 +301,10 @@ def _positions(program: PathProgram, at: int, found: dict[str, tuple[Var, int]])
     for statement in program:
         at += 1
         match statement:
-            case Assign(var, _) | Choose(_, var, _):
+            case Assign(var, _) | Choose(var, _):
                 found[var.name] = (var, at)
             case Branch(_, then, otherwise):
                 at = _positions(otherwise, _positions(then, at, found), found)
-            case Require():
+            case Require() | Fork():
                 pass
     return at

@@ -4,7 +4,7 @@ from properties.forms import always, enters_only_if, holds_after, holds_for, lea
 from spec_model.board1.relay import relay
 from spec_model.lang.expr import held, implies, named, previous
 from spec_model.lang.time import ticks
-from spec_model.signals.board1 import b2_sup_status, give_b2_actuation, rx_status
+from spec_model.signals.board1 import b2_sup_status, give_b2_actuation, heartbeat_age, rx_age, rx_status
 
 ON = "relay"
 critical = named("a link is critical", (rx_status == "RX_CRITICAL") | (b2_sup_status == "SUP_CRITICAL"))
@@ -13,6 +13,12 @@ PB1_11 = always(
     "PB1-11", "Board 2 is given the actuation in every step with a critical reception or supervisor.",
     that=implies(critical, give_b2_actuation),
     covers=["B1-REL-02", "B1-OUT-02"], on=ON, from_tick=2, readings=["S43"],
+)  # fmt: skip
+PB1_11b = always(
+    "PB1-11b", "Board 2 has the actuation in every step with no valid frame or no new heartbeat for 120 ms.",
+    that=implies((rx_age > 120) | (heartbeat_age > 120), give_b2_actuation),
+    covers=["B1-RX-03", "B1-SUP-03", "B1-REL-02"], on="relay_links", from_tick=2,
+    readings=["S37", "S41", "S43"],
 )  # fmt: skip
 PB1_12 = enters_only_if(
     "PB1-12", "Board 2 is given the actuation only in a step with a critical reception or supervisor.",
@@ -28,6 +34,11 @@ PB1_13b = holds_for(
     "PB1-13b", "Once given, the actuation stays with Board 2 for at least 3.02 s.",
     start=give_b2_actuation, that=give_b2_actuation, for_=151 * ticks,
     covers=["B1-REL-04"], on=ON, from_tick=2, readings=["S45", "S46"],
+)  # fmt: skip
+PB1_13c = leaves_only_if(
+    "PB1-13c", "The actuation returns only if for 3.02 s no frame or heartbeat was missing for 120 ms.",
+    leaving=give_b2_actuation, only_if=held((rx_age <= 120) & (heartbeat_age <= 120), for_=151 * ticks),
+    covers=["B1-REL-04"], on="relay_links", from_tick=2, readings=["S37", "S45"],
 )  # fmt: skip
 PB1_14 = holds_after(
     "PB1-14", "When neither has been critical for 3.02 s, Board 1 has the actuation.",

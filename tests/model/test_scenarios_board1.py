@@ -148,8 +148,8 @@ SCENARIOS: dict[str, tuple[list[Block], list[Expected]]] = {
     "S28 both causes in one step": (
         [(20, {"frame_isMotionConsistent": False, "hasNoFeedback_FL": True})], [(0, FL, W_CRIT)]),
     "S29 S30 critical, degraded, OK": (
-        [(20, {"frame_isMotionConsistent": False, "hasNoFeedback_FL": True}), (20, {"hasNoFeedback_FL": True}),
-         (20, {})],
+        [(20, {"frame_isMotionConsistent": False, "hasNoFeedback_FL": True}),
+         (20, {"hasNoFeedback_FL": True}), (20, {})],
         [(0, FL, W_CRIT), (20, FL, W_DEG), (40, FL, W_OK)]),
     "S31 the last received coherence counts on a dead link": (
         [(20, {"frame_isMotionConsistent": False}), (200, NO_LINK),

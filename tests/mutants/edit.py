@@ -98,8 +98,9 @@ def constant(old: Number, new: Number) -> Callable[[Expr], Expr]:
     """Every constant ``old`` becomes ``new``, where the resolution allows it."""
 
     def change(expr: Expr) -> Expr:
-        is_number = isinstance(expr, Const) and isinstance(expr.sort, Num)
-        if not is_number or expr.value * expr.sort.resolution != exact(old):
+        if not (isinstance(expr, Const) and isinstance(expr.sort, Num)):
+            return expr
+        if expr.value * expr.sort.resolution != exact(old):
             return expr
         raw = exact(new) / expr.sort.resolution
         assert raw.denominator == 1

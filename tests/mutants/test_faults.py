@@ -56,8 +56,9 @@ def _forget_sonar(expr: Expr) -> Expr:
     """``a | b | c`` becomes ``a | b``."""
 
     def change(node: Expr) -> Expr:
-        is_three = isinstance(node, Apply) and node.op is Op.OR and len(node.args) == 3
-        return Apply(Op.OR, node.args[:2], node.sort) if is_three else node
+        if isinstance(node, Apply) and node.op is Op.OR and len(node.args) == 3:
+            return Apply(Op.OR, node.args[:2], node.sort)
+        return node
 
     return everywhere(expr, change)
 

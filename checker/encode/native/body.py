@@ -1,20 +1,20 @@
-"""The paths of a tick as LLVM control flow: a depth-first walk of the choices, with backtracking.
+"""The paths of a tick as LLVM control flow: a depth-first walk of the choices.
 
-Every choice is a loop whose body is the rest of the tick.  Where the enclosing choice is known while
-the code is made, the loop nest is a plain one, and LLVM moves what an inner loop does not change
-out of it; where it depends on the path, a switch on the innermost open choice goes back.
-There what a choice must remember lies in memory: as registers of LLVM, joined at the switch, the
-copies of many choices would take most of the time to compile.
+The choices of the path that is run lie on a stack.  At its end the last choice that has values left
+takes its next one, and the path is run again from the innermost fork before that choice.  Every fork
+is a loop around the rest of the tick.  Where the fork around it is known while the code is made, this
+is a plain loop nest, and LLVM moves what an inner loop does not change out of it; where it depends on
+the path, a switch on the innermost open fork goes back, and what that fork restores lies in memory.
 """
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from llvmlite import ir
 
 from checker.encode.intervals import Interval
 from checker.encode.native.expressions import INT, Expressions, Slot, kind
-from checker.encode.paths import Branch, Choose, PathProgram, Require
+from checker.encode.paths import Branch, Choose, Fork, PathProgram, Require
 from spec_model.lang.action import Assign
 from spec_model.lang.expr import Var
 
@@ -27,15 +27,19 @@ class Body:
     """Emits a path program into a function.
 
     ``finished`` is the block to go to when every path of the current valuation has been run.
-    Call ``close`` at the end.
+    ``most`` is the number of inputs.  Call ``close`` at the end.
     """
 
-    def __init__(self, builder: Any, saved: Mapping[int, tuple[Var, ...]], finished: Any) -> None:
+    def __init__(
+        self, builder: Any, saved: Mapping[int, tuple[Var, ...]], finished: Any, most: int
+    ) -> None:
         self.builder = builder
         self.saved = saved
         self.slots: dict[str, Slot] = {}
         self.emit = Expressions(builder, self.slots)
         self.top = self.local(_NUMBER, "top")
+        self.depth, self.next = self.local(_NUMBER, "depth"), self.local(_NUMBER, "next")
+        self.position, self.count = (self.local(ir.ArrayType(_NUMBER, most), n) for n in ("at", "of"))
         self.tops: frozenset[int] = frozenset({_BOTTOM})
         self.back: dict[int, Any] = {_BOTTOM: finished}
         self.dispatch: Any = None
@@ -65,6 +69,12 @@ class Body:
         for var in variables:
             self.put(var, kind(var)(var.init), Interval(var.init, var.init))
 
+    def start(self) -> None:
+        """Begin with the first path."""
+        for place in (self.depth, self.next):
+            self.builder.store(_NUMBER(0), place)
+        self.builder.store(_NUMBER(_BOTTOM), self.top)
+
     def run(self, program: PathProgram) -> None:
         """Emit the statements, from the start of a tick."""
         for statement in program:
@@ -77,8 +87,10 @@ class Body:
                     self._branch(self.emit.condition(condition), then, otherwise)
                 case Require(condition):
                     self._require(self.emit.condition(condition))
-                case Choose():
-                    self._choose(statement)
+                case Choose(var, values):
+                    self._choose(var, values or (var.init,))
+                case Fork(number):
+                    self._fork(number)
 
     def go_back(self) -> None:
         """End the path: go on with the next value of the innermost open choice."""
@@ -122,43 +134,68 @@ class Body:
         self.go_back()
         build.position_at_end(holds)
 
-    def _choose(self, choose: Choose) -> None:
-        values = choose.values or (choose.var.init,)
+    def _choose(self, var: Var, values: tuple[int, ...]) -> None:
         within = Interval(min(values), max(values))
         if len(values) == 1:
-            self.put(choose.var, kind(choose.var)(values[0]), within)
+            self.put(var, kind(var)(values[0]), within)
             return
         build = self.builder
-        self.slots[choose.var.name] = Slot(self.slots[choose.var.name].place, within)
-        position = self._copy(_NUMBER, len(self.tops) == 1)
-        resume = build.append_basic_block(f"choice.{choose.number}")
-        leave = self._enter(choose, position)
-        build.branch(resume)
-        self._advance(choose, len(values), position, resume, leave)
-        build.position_at_end(resume)
-        build.store(self._nth(choose.var, values, build.load(position)), self.slots[choose.var.name].place)
+        index = build.load(self.next)
+        position, following = self._at(self.position, index), build.add(index, _NUMBER(1))
+        with build.if_then(build.icmp_signed(">=", index, build.load(self.depth))):
+            build.store(_NUMBER(0), position)
+            build.store(_NUMBER(len(values)), self._at(self.count, index))
+            build.store(following, self.depth)
+        build.store(following, self.next)
+        self.put(var, self._nth(var, values, build.load(position)), within)
 
-    def _enter(self, choose: Choose, position: Any) -> Callable[[], None]:
-        """Open a choice; the result closes it and goes back to the one around it."""
+    def _at(self, array: Any, index: Any) -> Any:
+        return self.builder.gep(array, [_NUMBER(0), index])
+
+    def _fork(self, number: int) -> None:
         build, outer = self.builder, self.tops
         fixed = len(outer) == 1
-        self.kept = [
-            (self.slots[v.name].place, self._copy(kind(v), fixed)) for v in self.saved[choose.number]
-        ]
-        for place, copy in self.kept:
-            build.store(build.load(place), copy)
+        kept = [(self.slots[v.name].place, self._copy(kind(v), fixed)) for v in self.saved[number]]
+        kept.append((self.next, self._copy(_NUMBER, fixed)))
         around = self._copy(_NUMBER, fixed)
-        if not fixed:
-            build.store(build.load(self.top), around)
-        build.store(_NUMBER(choose.number), self.top)
-        build.store(_NUMBER(0), position)
-        self.tops = frozenset({choose.number})
+        for place, copy in [*kept, (self.top, around)]:
+            build.store(build.load(place), copy)
+        build.store(_NUMBER(number), self.top)
+        self.tops = frozenset({number})
+        resume, back = (build.append_basic_block(f"{n}.{number}") for n in ("fork", "back"))
+        build.branch(resume)
+        build.position_at_end(back)
+        self.back[number] = back
+        self._advance(back, kept, resume)
+        build.store(_NUMBER(min(outer)) if fixed else build.load(around), self.top)
+        self._resume(outer)
+        build.position_at_end(resume)
 
-        def leave() -> None:
-            build.store(_NUMBER(min(outer)) if fixed else build.load(around), self.top)
-            self._resume(outer)
+    def _advance(self, back: Any, kept: list[tuple[Any, Any]], resume: Any) -> None:
+        """Going back to a fork: the next value of the last choice after it that has one left.
 
-        return leave
+        The builder is left where there is none.
+        """
+        build = self.builder
+        own, more, drop, over = (build.append_basic_block(n) for n in ("own", "more", "drop", "over"))
+        depth = build.load(self.depth)
+        first = build.load(kept[-1][1])
+        build.cbranch(build.icmp_signed(">", depth, first), own, over)
+        build.position_at_end(own)
+        last = build.sub(depth, _NUMBER(1))
+        position = self._at(self.position, last)
+        following = build.add(build.load(position), _NUMBER(1))
+        left = build.icmp_signed("<", following, build.load(self._at(self.count, last)))
+        build.cbranch(left, more, drop)
+        build.position_at_end(drop)
+        build.store(last, self.depth)
+        build.branch(back)
+        build.position_at_end(more)
+        build.store(following, position)
+        for place, copy in kept:
+            build.store(build.load(copy), place)
+        build.branch(resume)
+        build.position_at_end(over)
 
     def _copy(self, type_: Any, fixed: bool) -> Any:
         """A place for a copy that outlives the path."""
@@ -166,24 +203,6 @@ class Body:
             return self.local(type_, "copy")
         self.used += 1
         return self.memory.gep([INT(0), INT(self.used - 1)]).bitcast(type_.as_pointer())
-
-    def _advance(
-        self, choose: Choose, count: int, position: Any, resume: Any, leave: Callable[[], None]
-    ) -> None:
-        """What going back to a choice does: restore, take its next value, or close it."""
-        build = self.builder
-        back, more, over = (build.append_basic_block(f"{n}.{choose.number}") for n in ("back", "more", "over"))
-        build.position_at_end(back)
-        following = build.add(build.load(position), _NUMBER(1))
-        build.cbranch(build.icmp_unsigned("<", following, _NUMBER(count)), more, over)
-        build.position_at_end(more)
-        build.store(following, position)
-        for place, copy in self.kept:
-            build.store(build.load(copy), place)
-        build.branch(resume)
-        build.position_at_end(over)
-        leave()
-        self.back[choose.number] = back
 
     def _resume(self, tops: frozenset[int]) -> None:
         build = self.builder

@@ -25,7 +25,7 @@ def add_retrace(module: Any, task: Task) -> None:
     flags = [read_flag(v) for v in inputs]
     live = task.live_at_end | {v.name for v in (*inputs, *flags)}
     finished = build.append_basic_block("finished")
-    body = Body(build, saved(task.paths, live), finished)
+    body = Body(build, saved(task.paths, live), finished, max(1, len(inputs)))
     table = Table(module, task.layout.words)
     words = table.load(build, a["before"], INT(0))
     body.declare(flags)

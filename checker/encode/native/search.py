@@ -62,7 +62,7 @@ class _Search:
         build = self.build
         self.drain()
         finished = build.append_basic_block("finished")
-        self.body = Body(build, saved(self.task.paths, self.task.live_at_end), finished)
+        self.body = Body(build, saved(self.task.paths, self.task.live_at_end), finished, most)
         self.parent, self.filled, self.tried, self.spent = (
             self.body.local(INT, n) for n in ("parent", "filled", "tried", "spent")
         )
@@ -189,6 +189,7 @@ def begin(body: Body, task: Task, words: Sequence[Any]) -> None:
         else:
             build.store(build.add(build.mul(bits, INT(f.stride)), INT(f.low)), place)
     body.reset(others)
+    body.start()
 
 
 def _all_variables(task: Task) -> list[Var]:

@@ -1,0 +1,46 @@
+"""Ages of Board 1: where they stop growing no comparison of the charts can change any more."""
+
+import pytest
+
+from spec_model.board1.battery import stale_below_15
+from spec_model.board1.temperature import stale_above_65
+from spec_model.environment import heartbeat_clock, reception_clock, temperature_readings
+from spec_model.lang.evaluate import evaluate
+from spec_model.lang.expr import Expr, Var
+from spec_model.lang.interpret import Interpreter
+from spec_model.lang.system import in_order
+from spec_model.signals.board1 import batt_age, battery_pct, heartbeat_age, rx_age, temp_age, temperature_degC
+
+
+@pytest.mark.parametrize(
+    ("estimate", "value", "age", "slowest"),
+    [(stale_above_65, temperature_degC, temp_age, -16), (stale_below_15, battery_pct, batt_age, 80)],
+    ids=["temperature", "battery"],
+)
+def test_an_age_stops_where_every_estimate_is_past_its_limit(
+    estimate: Expr, value: Var, age: Var, slowest: int
+) -> None:
+    last = age.domain.high
+    assert all(evaluate(estimate, {value.name: raw, age.name: last}) for raw in value.domain.values)
+    assert not evaluate(estimate, {value.name: value.domain.raw(slowest), age.name: last - 1})
+
+
+@pytest.mark.parametrize("age", [rx_age, heartbeat_age], ids=lambda age: age.name)
+def test_the_age_of_a_link_stops_at_the_first_value_above_120_ms(age: Var) -> None:
+    assert [age.domain.show(age.domain.high - 1), age.domain.show(age.domain.high)] == ["120", "140"]
+
+
+def test_before_the_first_update_the_age_counts_from_power_up() -> None:
+    clocks = Interpreter(in_order("clocks", reception_clock, heartbeat_clock))
+    clocks.step({"rx_update": 0, "heartbeat_update": 1})
+    assert rx_age.domain.show(clocks.data["rx_age"]) == "20"
+    assert heartbeat_age.domain.show(clocks.data["heartbeat_age"]) == "0"
+
+
+def test_a_reading_is_kept_until_the_next() -> None:
+    board = Interpreter(in_order("board", temperature_readings))
+    warm, cold = (temperature_degC.domain.raw(t) for t in (57, -6))
+    for update, reading in [(1, warm), (0, cold), (0, cold)]:
+        board.step({"temp_update": update, "temp_reading": reading})
+    assert board.data["temperature_degC"] == warm
+    assert temp_age.domain.show(board.data["temp_age"]) == "40"

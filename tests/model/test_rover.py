@@ -1,0 +1,22 @@
+"""The list of systems: every one can be lowered, and each has a name of its own."""
+
+import pytest
+
+from spec_model.lang.errors import ModelError
+from spec_model.lang.lower import lower
+from spec_model.rover import merged, systems
+
+
+@pytest.mark.parametrize("name", systems())
+def test_every_system_has_a_meaning(name: str) -> None:
+    system = systems()[name]
+    assert system.name == name
+    assert system.text.endswith(".")
+    assert lower(system).inputs
+    assert not system.concrete or system.concrete in systems()
+
+
+def test_two_systems_of_one_name_are_refused() -> None:
+    one = systems()["relay"]
+    with pytest.raises(ModelError, match="Two systems are named 'relay'"):
+        merged([one, one])
