@@ -201,48 +201,24 @@ class _Made:
 
 # --- forks ---------------------------------------------------------------------------------------
 
-_FORKS = 10
-"""Forks on a path, about: more save running statements again, but cost copies and compile time."""
+_FORKS = 12
 
 
 def forked(program: PathProgram) -> PathProgram:
-    """The program with a fork at its start, and before choices that much is run before."""
-    if not _chooses(program):
-        return program
+    """The program with a fork at its start, and before choices before which much is run.
+
+    Forks lie outside of branches, so that they nest: the native code is a nest of plain loops.
+    """
     apart = max(2, _weight(program) // _FORKS)
-    while True:
-        forks = _Forks(apart)
-        made = (forks.made(), *forks.placed(program, 0)[0])
-        if forks.count <= 2 * _FORKS:
-            return made
-        apart *= 2
-
-
-@dataclass
-class _Forks:
-    apart: int
-    count: int = 0
-
-    def made(self) -> Fork:
-        self.count += 1
-        return Fork(self.count - 1)
-
-    def placed(self, program: PathProgram, weight: int) -> tuple[PathProgram, int]:
-        """``weight`` statements have been run since the last fork; the same after the program."""
-        out: list[PathStatement] = []
-        for statement in program:
-            if weight >= self.apart and _chooses((statement,)):
-                out.append(self.made())
-                weight = 0
-            if isinstance(statement, Branch) and _chooses((statement,)):
-                then, after_then = self.placed(statement.then, weight + 1)
-                otherwise, after_else = self.placed(statement.otherwise, weight + 1)
-                out.append(Branch(statement.condition, then, otherwise))
-                weight = max(after_then, after_else)
-            else:
-                out.append(statement)
-                weight += _weight((statement,))
-        return tuple(out), weight
+    out: list[PathStatement] = []
+    forks, weight = 0, apart
+    for statement in program:
+        if weight >= apart and _chooses((statement,)):
+            out.append(Fork(forks))
+            forks, weight = forks + 1, 0
+        out.append(statement)
+        weight += _weight((statement,))
+    return tuple(out)
 
 
 def _weight(program: PathProgram) -> int:

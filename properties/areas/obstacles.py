@@ -178,7 +178,7 @@ PB2_09c_right = responds(
 PB2_09b = responds(
     "PB2-09b", "Moving toward sonar 1 ends within 10 s.",
     trigger=B2Decision == 2, response=B2Decision != 2, within=10 * sec,
-    covers=["B2-OBS-09"], on="obstacles_n_free", readings=["E08"],
+    covers=["B2-OBS-09"], on="obstacles_n_left", readings=["E08"],
 )  # fmt: skip
 
 PB2_09b_straight = responds(

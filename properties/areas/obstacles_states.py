@@ -3,6 +3,8 @@
 from properties.forms import Property, reachable
 from spec_model.board2.obstacles import obstacles_n
 from spec_model.board2.obstacles_degraded import obstacles_degraded
+from spec_model.lang.expr import previous
+from spec_model.signals.board2 import obj2Detected
 
 chart = obstacles_n()
 degraded = obstacles_degraded()
@@ -30,4 +32,12 @@ PB2_23_window_32 = reached("PB2-23-window-32", "timerSonar32.Fall1Detected", "B2
 PB2_23_degraded_stop = reachable(
     "PB2-23-degraded-stop", "The degraded chart can stop the rover.",
     that=degraded.active("check_sonars_for_moving_again"), covers=["B2-OBS-22"], on="obstacles_d",
+)  # fmt: skip
+
+window_12 = chart.active("timerSonar12.Fall1Detected")
+
+PB2_23_expiry = reachable(
+    "PB2-23-expiry", "A window of 3 s can end without a confirmation.",
+    that=previous(window_12) & ~window_12 & ~previous(obj2Detected) & ~obj2Detected,
+    covers=("B2-OBS-18", "B2-OBS-20"), on="obstacles_n", readings=["E14"],
 )  # fmt: skip

@@ -9,7 +9,7 @@ from spec_model.lang.action import assign
 from spec_model.lang.chart import Block, Chart, Component
 from spec_model.lang.expr import all_of, flag, implies, ite, var, wrap
 from spec_model.lang.system import System, in_order
-from spec_model.signals.board2 import B2Decision
+from spec_model.signals.board2 import B2Decision, d2, d3
 
 deg_mask_b1 = flag("deg_mask_b1", "the degraded mask last received from Board 1 is not zero")
 crit_mask_b1 = flag("crit_mask_b1", "the critical mask last received from Board 1 is not zero")
@@ -82,6 +82,14 @@ SYSTEMS: tuple[System, ...] = (
             name,
         )
         for name in WINDOWS
+    ),
+    in_order(
+        "obstacles_n_left",
+        obstacles_n(),
+        text="The non-degraded obstacle chart alone, with an obstacle ahead and nothing on the right.",
+        assume=(d2 == 200) & (d3 == 301),
+        notes=("S2 measures 200 cm and S3 nothing in every step; d1 is arbitrary.", FREE_FLAG, FREE_HEADING),
+        under=True,
     ),
     in_order(
         "obstacles_heading",

@@ -62,6 +62,7 @@ class _Search:
         build = self.build
         self.drain()
         finished = build.append_basic_block("finished")
+        most = max(1, len(self.task.system.inputs))
         self.body = Body(build, saved(self.task.paths, self.task.live_at_end), finished, most)
         self.parent, self.filled, self.tried, self.spent = (
             self.body.local(INT, n) for n in ("parent", "filled", "tried", "spent")
