@@ -1,88 +1,107 @@
 """The command line: every verb, and the one place where errors become exit codes."""
 
 import sys
-from enum import StrEnum
+from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated
+from typing import Any
 
 import click
-import typer
 
 from checker.commands.codes import Exit, UsageError
 from checker.commands.output import err
 from checker.decide import AUTO, Disagreement
 from checker.engine import Limits
 from checker.replay import ReplayError
-from spec_model.lang.errors import ModelError
+from spec_model.lang.errors import ModelError, did_you_mean
 
-app = typer.Typer(
-    add_completion=False,
-    no_args_is_help=True,
-    help="Check the rover's supervisors: charts, properties, verdicts with evidence.",
-    epilog=(
-        "Exit codes: 0 all as expected; 1 a violation, or an expected violation that is gone; "
-        "2 inconclusive; 3 internal error or engines disagree; 4 usage or model error; "
-        "5 nothing to check; 130 interrupted."
-    ),
+CODES = (
+    "Exit codes: 0 all as expected; 1 a violation, or an expected violation that is gone; "
+    "2 inconclusive; 3 internal error or engines disagree; 4 usage or model error; "
+    "5 nothing to check; 130 interrupted."
 )
+LISTS = ("properties", "systems", "charts", "requirements", "engines")
 
 
-class Lists(StrEnum):
-    """What ``list`` can show."""
+class Verbs(click.Group):
+    """A group that offers the nearest verb."""
 
-    properties = "properties"
-    systems = "systems"
-    charts = "charts"
-    requirements = "requirements"
-    engines = "engines"
-
-
-Engine = Annotated[str, typer.Option(help="explicit, bmc, auto or all.")]
-Depth = Annotated[int | None, typer.Option(min=1, help="Ticks to look ahead at most.")]
-Timeout = Annotated[float | None, typer.Option(min=0.001, help="Seconds per search.")]
-Output = Annotated[Path | None, typer.Option("--output", "-o", help="File to write.")]
+    def resolve_command(
+        self, ctx: click.Context, args: list[str]
+    ) -> tuple[str | None, click.Command | None, list[str]]:
+        if self.get_command(ctx, args[0]) is None:
+            ctx.fail(f"No such command {args[0]!r}. {did_you_mean(args[0], self.commands)}")
+        return super().resolve_command(ctx, args)
 
 
-def limits(depth: int | None, timeout: float | None) -> Limits:
-    """What the options allow each search."""
-    return Limits(depth=depth, seconds=timeout)
+@click.group(cls=Verbs, epilog=CODES, context_settings={"help_option_names": ["-h", "--help"]})
+def app() -> None:
+    """Check the rover's supervisors: charts, properties, verdicts with evidence."""
+
+
+def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The options of every verb that searches."""
+    options: list[Callable[[Any], Any]] = [
+        click.option("--engine", default=AUTO, show_default=True, help="explicit, bmc, auto or all."),
+        click.option("--depth", type=click.IntRange(min=1), help="Ticks to look ahead at most."),
+        click.option("--timeout", type=click.FloatRange(min=0, min_open=True), help="Seconds per search."),
+    ]
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def writing(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The option of every verb that writes."""
+    where = click.Path(path_type=Path)
+    return click.option("--output", "-o", type=where, help="Where to write.")(command)
 
 
 @app.command()
+@click.argument("ids", nargs=-1, metavar="[ID]...")
+@click.option("--system", help="Only properties about this system.")
+@click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
+@searching
 def check(
-    ids: Annotated[list[str] | None, typer.Argument(help="Property ids; all by default.")] = None,
-    system: Annotated[str | None, typer.Option(help="Only properties about this system.")] = None,
-    engine: Engine = AUTO,
-    depth: Depth = None,
-    timeout: Timeout = None,
-    json: Annotated[bool, typer.Option("--json", help="Verdicts as JSON.")] = False,
+    ids: tuple[str, ...],
+    system: str | None,
+    as_json: bool,
+    engine: str,
+    depth: int | None,
+    timeout: float | None,
 ) -> Exit:
     """Check properties and compare the verdicts with the baseline."""
     from checker.commands.check import check as run
     from checker.commands.select import pick_engine, pick_properties
     from spec_model.rover import systems
 
-    chosen = pick_properties(ids or [], system)
-    return run(chosen, systems(), pick_engine(engine), limits(depth, timeout), json)
+    return run(
+        pick_properties(ids, system), systems(), pick_engine(engine), Limits(depth, timeout), as_json
+    )  # fmt: skip
 
 
 @app.command("list")
-def list_(what: Lists) -> Exit:
+@click.argument("what", type=click.Choice(LISTS))
+def list_(what: str) -> Exit:
     """List properties, systems, charts, requirements or engines."""
     from checker.commands.listing import listing
 
-    return listing(what.value)
+    return listing(what)
 
 
 @app.command()
+@click.argument("id")
+@click.option("--format", default="table", show_default=True, help="table, markdown, json or vcd.")
+@click.option("--all", "everything", is_flag=True, help="Also what the property does not depend on.")
+@searching
+@writing
 def trace(
-    id: Annotated[str, typer.Argument(help="A property id.")],
-    format: Annotated[str, typer.Option(help="table, markdown, json or vcd.")] = "table",
-    everything: Annotated[bool, typer.Option("--all", help="Also what the property ignores.")] = False,
-    engine: Engine = AUTO,
-    depth: Depth = None,
-    timeout: Timeout = None,
-    output: Output = None,
+    id: str,
+    format: str,
+    everything: bool,
+    engine: str,
+    depth: int | None,
+    timeout: float | None,
+    output: Path | None,
 ) -> Exit:
     """Show the counterexample of a violated property, or the witness of a reachable one."""
     from checker.commands.select import pick, pick_engine
@@ -90,16 +109,15 @@ def trace(
     from properties.catalogue import catalogue
 
     prop = pick("property", id, catalogue())
-    return run(prop, pick_engine(engine), limits(depth, timeout), format, everything, output)
+    return run(prop, pick_engine(engine), Limits(depth, timeout), format, everything, output)
 
 
 @app.command()
-def graph(
-    name: Annotated[str, typer.Argument(help="A chart, or a system with --project.")],
-    project: Annotated[str | None, typer.Option(help="Variables of the state graph, VAR,VAR.")] = None,
-    format: Annotated[str, typer.Option(help="svg, dot, mermaid, graphml or json.")] = "svg",
-    output: Output = None,
-) -> Exit:
+@click.argument("name")
+@click.option("--project", metavar="VAR,VAR", help="Variables of the state graph of a system.")
+@click.option("--format", default="svg", show_default=True, help="svg, dot, mermaid, graphml or json.")
+@writing
+def graph(name: str, project: str | None, format: str, output: Path | None) -> Exit:
     """Draw a chart, or the reachable graph of a system projected on some variables."""
     from checker.commands.graphing import graph as run
 
@@ -107,10 +125,9 @@ def graph(
 
 
 @app.command()
-def reports(
-    output: Output = None,
-    stale: Annotated[bool, typer.Option("--stale", help="Only say what is out of date.")] = False,
-) -> Exit:
+@click.option("--stale", is_flag=True, help="Write nothing; say what is out of date (exit code 1).")
+@writing
+def reports(stale: bool, output: Path | None) -> Exit:
     """Write the evidence: verdict table, diagrams, a page per counterexample."""
     from checker.commands.reporting import reports as run
 
@@ -125,11 +142,8 @@ def main() -> None:
 def run(arguments: list[str]) -> Exit:
     """The exit code of a command line; messages go to standard error."""
     try:
-        code: object = app(arguments, standalone_mode=False, prog_name="rovercheck")
+        code: object = app.main(arguments, prog_name="rovercheck", standalone_mode=False)
         return code if isinstance(code, Exit) else Exit.AS_EXPECTED
-    except click.exceptions.NoArgsIsHelpError as error:
-        err.print(error.format_message(), markup=False)
-        return Exit.USAGE
     except click.ClickException as error:
         return _say(error.format_message(), Exit.USAGE)
     except (UsageError, ModelError) as error:
@@ -142,6 +156,17 @@ def run(arguments: list[str]) -> Exit:
         return Exit.AS_EXPECTED
     except MemoryError:
         return _say("Out of memory. Check fewer properties at once, or one --system.", Exit.INCONCLUSIVE)
+    except Exception as error:
+        return _say(f"INTERNAL: {type(error).__name__}: {error}. {_where(error)}", Exit.INTERNAL)
+
+
+def _where(error: Exception) -> str:
+    """Where an error of ours arose, for the report of it."""
+    last = error.__traceback__
+    while last is not None and last.tb_next is not None:
+        last = last.tb_next
+    place = "" if last is None else f" ({last.tb_frame.f_globals.get('__name__')}, line {last.tb_lineno})"
+    return f"This is a bug of rovercheck{place}; please report it with the command and the model."
 
 
 def _say(message: str, code: Exit) -> Exit:

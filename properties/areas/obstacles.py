@@ -184,7 +184,7 @@ PB2_09b = responds(
 PB2_09b_straight = responds(
     "PB2-09b-straight", "Moving toward sonar 2 ends within 10 s.",
     trigger=B2Decision == 3, response=B2Decision != 3, within=10 * sec,
-    covers=["B2-OBS-09"], on="obstacles_n_straight", readings=("E05", "E08"),
+    covers=["B2-OBS-09"], on="obstacles_n_sides", readings=("E05", "E08"),
 )  # fmt: skip
 
 PB2_10_least = leaves_only_if(

@@ -20,7 +20,7 @@ WRONG = [
     (["check", "--engine", "explicite"], Exit.USAGE, "no engine 'explicite'. Did you mean 'explicit'"),
     (["graph", "Relais"], Exit.USAGE, "There is no chart or system 'Relais'. Did you mean"),
     (["graph", "relay", "--project", "giv_b2_actuation"], Exit.USAGE, "Did you mean 'give_b2_actuation'"),
-    (["graph", "relay", "--format", "svgg"], Exit.USAGE, "Did you mean 'svg'"),
+    (["graph", "Relay", "--format", "svgg"], Exit.USAGE, "Did you mean 'svg'"),
     (["trace", "PB1-15", "--format", "vdc"], Exit.USAGE, "Did you mean 'vcd'"),
     (["check", "--depth", "deep"], Exit.USAGE, "'deep' is not a valid int"),
     (["check", "--depth", "0"], Exit.USAGE, "0 is not in the range"),

@@ -2,9 +2,7 @@
 
 The choices of the path that is run lie on a stack.  At its end the last choice that has values left
 takes its next one, and the path is run again from the innermost fork before that choice.  Every fork
-is a loop around the rest of the tick.  Where the fork around it is known while the code is made, this
-is a plain loop nest, and LLVM moves what an inner loop does not change out of it; where it depends on
-the path, a switch on the innermost open fork goes back, and what that fork restores lies in memory.
+is a loop around the rest of the tick, so that LLVM moves what an inner loop does not change out of it.
 """
 
 from collections.abc import Iterable, Mapping
@@ -19,15 +17,13 @@ from spec_model.lang.action import Assign
 from spec_model.lang.expr import Var
 
 _NUMBER = ir.IntType(32)
-_BOTTOM = -1
-Names = frozenset[str]
 
 
 class Body:
     """Emits a path program into a function.
 
-    ``finished`` is the block to go to when every path of the current valuation has been run.
-    ``most`` is the number of inputs.  Call ``close`` at the end.
+    ``saved`` says what each fork restores; ``finished`` is the block to go to when every path of the
+    current valuation has been run; ``most`` is the number of inputs.
     """
 
     def __init__(
@@ -37,15 +33,9 @@ class Body:
         self.saved = saved
         self.slots: dict[str, Slot] = {}
         self.emit = Expressions(builder, self.slots)
-        self.top = self.local(_NUMBER, "top")
         self.depth, self.next = self.local(_NUMBER, "depth"), self.local(_NUMBER, "next")
         self.position, self.count = (self.local(ir.ArrayType(_NUMBER, most), n) for n in ("at", "of"))
-        self.tops: frozenset[int] = frozenset({_BOTTOM})
-        self.back: dict[int, Any] = {_BOTTOM: finished}
-        self.dispatch: Any = None
-        self.dynamic: set[int] = set()
-        self.memory = _scratch(builder.module, sum(len(v) + 2 for v in saved.values()))
-        self.used = 0
+        self.back = finished
 
     def local(self, type_: Any, name: str) -> Any:
         """A local variable of the function."""
@@ -73,7 +63,6 @@ class Body:
         """Begin with the first path."""
         for place in (self.depth, self.next):
             self.builder.store(_NUMBER(0), place)
-        self.builder.store(_NUMBER(_BOTTOM), self.top)
 
     def run(self, program: PathProgram) -> None:
         """Emit the statements, from the start of a tick."""
@@ -93,17 +82,8 @@ class Body:
                     self._fork(number)
 
     def go_back(self) -> None:
-        """End the path: go on with the next value of the innermost open choice."""
-        self._resume(self.tops)
-
-    def close(self) -> None:
-        """Emit the switch that goes back where the open choice depends on the path."""
-        if self.dispatch is None:
-            return
-        self.builder.position_at_end(self.dispatch)
-        switch = self.builder.switch(self.builder.load(self.top), self.back[_BOTTOM])
-        for number in sorted(self.dynamic - {_BOTTOM}):
-            switch.add_case(_NUMBER(number), self.back[number])
+        """End the path: go on with the next one."""
+        self.builder.branch(self.back)
 
     # --- statements ------------------------------------------------------------------------------
 
@@ -111,28 +91,23 @@ class Body:
         build = self.builder
         blocks = [build.append_basic_block(n) for n in ("then", "else", "join")]
         build.cbranch(condition, blocks[0], blocks[1])
-        before, tops = dict(self.slots), self.tops
+        before = dict(self.slots)
         build.position_at_end(blocks[0])
         self.run(then)
         build.branch(blocks[2])
-        after_then, tops_then = dict(self.slots), self.tops
+        after_then = dict(self.slots)
         self.slots.update(before)
-        self.tops = tops
         build.position_at_end(blocks[1])
         self.run(otherwise)
         build.branch(blocks[2])
         build.position_at_end(blocks[2])
-        self.tops |= tops_then
         for name, slot in after_then.items():
             self.slots[name] = Slot(slot.place, slot.within | self.slots[name].within)
 
     def _require(self, condition: Any) -> None:
-        build = self.builder
-        fails, holds = build.append_basic_block("fails"), build.append_basic_block("holds")
-        build.cbranch(condition, holds, fails)
-        build.position_at_end(fails)
-        self.go_back()
-        build.position_at_end(holds)
+        holds = self.builder.append_basic_block("holds")
+        self.builder.cbranch(condition, holds, self.back)
+        self.builder.position_at_end(holds)
 
     def _choose(self, var: Var, values: tuple[int, ...]) -> None:
         within = Interval(min(values), max(values))
@@ -153,34 +128,24 @@ class Body:
         return self.builder.gep(array, [_NUMBER(0), index])
 
     def _fork(self, number: int) -> None:
-        build, outer = self.builder, self.tops
-        fixed = len(outer) == 1
-        kept = [(self.slots[v.name].place, self._copy(kind(v), fixed)) for v in self.saved[number]]
-        kept.append((self.next, self._copy(_NUMBER, fixed)))
-        around = self._copy(_NUMBER, fixed)
-        for place, copy in [*kept, (self.top, around)]:
+        build = self.builder
+        places = [*(self.slots[v.name].place for v in self.saved[number]), self.next]
+        kept = [(place, self.local(place.type.pointee, "kept")) for place in places]
+        for place, copy in kept:
             build.store(build.load(place), copy)
-        build.store(_NUMBER(number), self.top)
-        self.tops = frozenset({number})
         resume, back = (build.append_basic_block(f"{n}.{number}") for n in ("fork", "back"))
         build.branch(resume)
         build.position_at_end(back)
-        self.back[number] = back
         self._advance(back, kept, resume)
-        build.store(_NUMBER(min(outer)) if fixed else build.load(around), self.top)
-        self._resume(outer)
+        self.back = back
         build.position_at_end(resume)
 
     def _advance(self, back: Any, kept: list[tuple[Any, Any]], resume: Any) -> None:
-        """Going back to a fork: the next value of the last choice after it that has one left.
-
-        The builder is left where there is none.
-        """
+        """Going back to a fork: the next value of the last choice after it that has one left."""
         build = self.builder
-        own, more, drop, over = (build.append_basic_block(n) for n in ("own", "more", "drop", "over"))
+        own, more, drop = (build.append_basic_block(n) for n in ("own", "more", "drop"))
         depth = build.load(self.depth)
-        first = build.load(kept[-1][1])
-        build.cbranch(build.icmp_signed(">", depth, first), own, over)
+        build.cbranch(build.icmp_signed(">", depth, build.load(kept[-1][1])), own, self.back)
         build.position_at_end(own)
         last = build.sub(depth, _NUMBER(1))
         position = self._at(self.position, last)
@@ -195,24 +160,6 @@ class Body:
         for place, copy in kept:
             build.store(build.load(copy), place)
         build.branch(resume)
-        build.position_at_end(over)
-
-    def _copy(self, type_: Any, fixed: bool) -> Any:
-        """A place for a copy that outlives the path."""
-        if fixed:
-            return self.local(type_, "copy")
-        self.used += 1
-        return self.memory.gep([INT(0), INT(self.used - 1)]).bitcast(type_.as_pointer())
-
-    def _resume(self, tops: frozenset[int]) -> None:
-        build = self.builder
-        if len(tops) == 1:
-            build.branch(self.back[min(tops)])
-            return
-        if self.dispatch is None:
-            self.dispatch = build.append_basic_block("dispatch")
-        self.dynamic |= tops
-        build.branch(self.dispatch)
 
     def _nth(self, var: Var, values: tuple[int, ...], position: Any) -> Any:
         build, type_ = self.builder, kind(var)
@@ -230,10 +177,3 @@ class Body:
         table.initializer = ir.Constant(type_, list(values))
         return table
 
-
-def _scratch(module: Any, words: int) -> Any:
-    """Memory of the module for copies; not thread-safe."""
-    type_ = ir.ArrayType(INT, max(1, words))
-    scratch = ir.GlobalVariable(module, type_, module.get_unique_name("scratch"))
-    scratch.initializer = ir.Constant(type_, None)
-    return scratch

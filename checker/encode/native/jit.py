@@ -41,6 +41,6 @@ class Library:
 
 
 def _optimise(parsed: Any, machine: Any) -> None:
-    options = binding.create_pipeline_tuning_options(speed_level=2)
+    options = binding.create_pipeline_tuning_options(speed_level=1)
     passes = binding.create_pass_builder(machine, options)
     passes.getModulePassManager().run(parsed, passes)

@@ -40,7 +40,6 @@ def add_retrace(module: Any, task: Task) -> None:
             build.store(build.select(known, value, INT(UNREAD)), build.gep(a["chosen"], [INT(number)]))
         build.ret(INT(1))
     body.go_back()
-    body.close()
     build.position_at_end(finished)
     build.ret(INT(0))
 

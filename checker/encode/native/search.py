@@ -80,7 +80,6 @@ class _Search:
         self.body.run(self.task.paths)
         self._end_of_path(words)
         self.body.go_back()
-        self.body.close()
         self._finished(finished, head)
 
     def get(self, name: str) -> Any:
