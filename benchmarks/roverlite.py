@@ -2,7 +2,7 @@
 
 The parts are chosen by the bits of ``comp`` (1 temperature, 2 battery, 4 reception, 8 heartbeat,
 16 relay, 32 obstacles, 64 observer of P5); timers are divided by ``k``.  ``benchmarks/c`` is the
-same model written by hand in C. 
+same model written by hand in C.
 """
 
 from spec_model.lang.action import Assign, If
@@ -44,12 +44,13 @@ def monitor(made: Made, name: str, critical: Expr, fine: Expr, limit: int) -> Va
     """OK, DEGRADED, and CRITICAL after ``limit`` consecutive critical ticks."""
     status = made.variable(f"{name}_status", STATUS)
     count = made.variable(f"{name}_count", integer(0, limit))
+    healthy = ite(fine, OK, DEGRADED)
     made.step += [
         Assign(count, ite(critical, minimum(count + 1, limit), 0)),
         If(
             status == CRITICAL,
             (If(fine, (Assign(status, OK),)),),
-            (Assign(status, ite(critical, ite(count >= limit, CRITICAL, DEGRADED), ite(fine, OK, DEGRADED))),),
+            (Assign(status, ite(critical, ite(count >= limit, CRITICAL, DEGRADED), healthy)),),
         ),
         If(status == CRITICAL, (Assign(count, const(0)),)),
     ]

@@ -44,7 +44,9 @@ class Task:
 
     @property
     def title(self) -> str:
-        return f"{self.system.name}: {', '.join(p.id for p in self.properties)}"
+        """``relay PB1-11 and 4 more``."""
+        more = f" and {len(self.properties) - 1} more" if len(self.properties) > 1 else ""
+        return f"{self.system.name} {self.properties[0].id}{more}"
 
 
 def tasks(properties: Sequence[Property], systems: Mapping[str, System]) -> Iterator[Task]:

@@ -47,8 +47,9 @@ def integers(draw: DrawFn, scope: Sequence[Var], depth: int) -> Expr:
     """A random whole-number expression over the variables in scope."""
     numbers = _pick(scope, Num)
     if depth <= 0 or draw(st.integers(0, 4)) == 0:
-        if numbers and draw(st.booleans()):
-            return draw(st.sampled_from(numbers))
+        if bool(numbers) and draw(st.booleans()):
+            drawn: Expr = draw(st.sampled_from(numbers))
+            return drawn
         return number(draw(st.integers(-4, 9)))
     op = draw(st.sampled_from([Op.ADD, Op.SUB, Op.NEG, Op.MUL, Op.SCALE, Op.DIV, Op.MOD, Op.ABS]
                               + [Op.MIN, Op.MAX, Op.ITE]))
@@ -114,7 +115,9 @@ def _nearest(value: Expr, domain: Domain) -> Expr:
     return result
 
 
-def programs(draw: DrawFn, targets: Sequence[Var], scope: Sequence[Var], size: int, nested: int = 2) -> Program:
+def programs(
+    draw: DrawFn, targets: Sequence[Var], scope: Sequence[Var], size: int, nested: int = 2
+) -> Program:
     """A random program of at most ``size`` statements that assigns to the targets."""
     statements: list[Statement] = []
     for _ in range(draw(st.integers(0, size))):

@@ -118,14 +118,30 @@ def worst(found: Sequence[Compared]) -> Exit:
 
 
 def line(compared: Compared) -> str:
-    """One verdict in one line: mark, id, verdict, evidence."""
+    """One verdict in one line of 80 columns: sign, id, verdict, evidence."""
     verdict = compared.verdict
-    mark = "=" if compared.as_expected else "!"
     sign = {"proved": "✓", "violated": "✗", "unknown": "?"}[verdict.word]
-    text = f"{mark} {sign} {compared.result.property.id:<10} {verdict.word:<9} {evidence(compared.result)}"
+    text = f"{sign} {compared.result.property.id:<21} {verdict.word:<8} {in_short(compared.result)}"
     if compared.as_expected:
-        return text + (" (as on record)" if verdict.word != "proved" else "")
-    return text + f"\n      CHANGED: on record is {recorded(compared.expected)}"
+        return text + (", as on record" if verdict.word != "proved" else "")
+    return text + f"\n    CHANGED: on record is {recorded(compared.expected)}"
+
+
+def in_short(result: Result) -> str:
+    """The evidence in half a line."""
+    verdict, system = result.verdict, result.system
+    match verdict:
+        case Unknown(reason, depth):
+            return f"after {depth} ticks of {system}: {reason}"
+        case Proved(Exhausted() as all_):
+            return f"all {all_.states:,} valuations of {system}"
+        case Violated(Exhausted() as all_):
+            return f"in none of {all_.states:,} valuations of {system}"
+        case Proved(Trace() as trace):
+            return f"reached in {ticks(trace)} of {system}"
+        case Violated(Trace() as trace):
+            return f"{ticks(trace)} of {system}"
+    raise AssertionError(verdict)
 
 
 def recorded(entry: Expected) -> str:

@@ -196,7 +196,7 @@ PB2_10_least = leaves_only_if(
 PB2_10_most = never(
     "PB2-10-most", "Moving toward sonar 2 lasts at most 25 steps.",
     that=held(B2Decision == 3, 25 * ticks),
-    covers=["B2-OBS-08"], on="obstacles_n", readings=["E05"],
+    covers=["B2-OBS-08"], on="obstacles_n_sides", readings=["E05"],
 )  # fmt: skip
 
 # --- the output [seed §3.4.1 (1), Figs 24, 25] -----------------------------------------------------

@@ -1,5 +1,7 @@
 """The explicit engine against a naive search with the reference semantics."""
 
+from itertools import pairwise
+
 import pytest
 from hypothesis import given
 
@@ -54,7 +56,8 @@ def test_random_systems_goal_by_goal(system: TransitionSystem) -> None:
 def test_a_depth_limit_never_proves_more_than_was_seen(system: TransitionSystem) -> None:
     naive = search(system, goals(system))
     for depth in range(3):
-        for goal, answer in zip(goals(system), check(system, *goals(system), limits=Limits(depth)), strict=True):
+        answers = check(system, *goals(system), limits=Limits(depth))
+        for goal, answer in zip(goals(system), answers, strict=True):
             first = naive.reached.get(goal.name)
             assert isinstance(answer, Reached) == (first is not None and first <= depth)
             assert not isinstance(answer, Open) or answer.depth == depth
@@ -139,7 +142,7 @@ def test_valuations_of_several_words(parts: int) -> None:
 def test_many_bits_in_many_variables() -> None:
     fed = flag("fed")
     flags = [flag(f"was{i}") for i in range(140)]
-    shift = [Assign(b, a) for a, b in zip(flags, flags[1:], strict=False)][::-1]
+    shift = [Assign(b, a) for a, b in pairwise(flags)][::-1]
     far, never = flag("far"), flag("never")
     program = (*shift, Assign(flags[0], fed), Assign(far, flags[-1]), Assign(never, flags[0] & ~flags[0]))
     system = TransitionSystem("", (fed,), (), (*flags, far, never), (), program)
@@ -221,8 +224,8 @@ def test_frozen_variables_are_part_of_the_valuation() -> None:
     (answer,) = check(system, reached)
     assert isinstance(answer, Reached) and answer.run.frozen["limit"] >= 5 and len(answer.run) == 5
     never = flag("never")
-    program = (*program, Assign(never, (count > limit)))
-    (answer,) = check(TransitionSystem("", (), (limit,), (count, reached, never), (), program), never)
+    more = (*program, Assign(never, (count > limit)))
+    (answer,) = check(TransitionSystem("", (), (limit,), (count, reached, never), (), more), never)
     assert isinstance(answer, Unreachable) and answer.because.states == 4 + 5 + 6 + 7
 
 

@@ -6,6 +6,7 @@ is a loop around the rest of the tick, so that LLVM moves what an inner loop doe
 """
 
 from collections.abc import Iterable, Mapping
+from itertools import pairwise
 from typing import Any
 
 from llvmlite import ir
@@ -166,7 +167,7 @@ class Body:
         if type_ != INT:
             return build.icmp_unsigned("!=", position, _NUMBER(0)) if values == (0, 1) else type_(values[0])
         index, step = build.zext(position, INT), values[1] - values[0]
-        if all(b - a == step for a, b in zip(values, values[1:], strict=False)):
+        if all(b - a == step for a, b in pairwise(values)):
             return build.add(INT(values[0]), build.mul(index, INT(step)))
         return build.load(build.gep(self._table(var, values), [INT(0), index]))
 

@@ -17,7 +17,8 @@ from spec_model.lang.system import TransitionSystem
 BATCH = 2048
 """Successors kept before they are stored together."""
 
-MOST_SUCCESSORS = 1 << 27
+MOST_SUCCESSORS = 1 << 25
+"""Successors of one valuation beyond which a search is given up: it could not be interrupted."""
 
 
 class Status(IntEnum):
@@ -145,7 +146,8 @@ class _Search:
         self.put("filled", INT(BATCH))
         self.drain()
         build.store(INT(0), self.filled)
-        with build.if_then(build.icmp_signed(">", build.load(self.tried), INT(MOST_SUCCESSORS)), likely=False):
+        many = build.icmp_signed(">", build.load(self.tried), INT(MOST_SUCCESSORS))
+        with build.if_then(many, likely=False):
             self.leave(Status.TOO_MANY)
 
     def _goals(self) -> None:

@@ -5,6 +5,7 @@ table holds the word + 1 itself (0 marks an empty place).  With more it holds th
 valuation + 1 and, above it, 32 bits of its hash, so that most others are told apart in place.
 """
 
+from dataclasses import dataclass
 from typing import Any
 
 from llvmlite import ir
@@ -57,7 +58,9 @@ def _local(builder: Any, type_: Any) -> Any:
         return builder.alloca(type_)
 
 
-def function(module: Any, name: str, result: Any, arguments: dict[str, Any]) -> tuple[Any, dict[str, Any], Any]:
+def function(
+    module: Any, name: str, result: Any, arguments: dict[str, Any]
+) -> tuple[Any, dict[str, Any], Any]:
     """A function whose pointers do not overlap: itself, its arguments by name, a builder."""
     made = ir.Function(module, ir.FunctionType(result, list(arguments.values())), name)
     for argument, own in zip(made.args, arguments, strict=True):
@@ -69,6 +72,15 @@ def function(module: Any, name: str, result: Any, arguments: dict[str, Any]) -> 
     builder.branch(start)
     builder.position_at_end(start)
     return made, dict(zip(arguments, made.args, strict=True)), builder
+
+
+@dataclass(frozen=True)
+class _Found:
+    """A place of the table, whether it is empty, and the hash that led there."""
+
+    place: Any
+    empty: Any
+    hashed: Any
 
 
 class Table:
@@ -97,14 +109,15 @@ class Table:
         with Loop(build, drained, filled) as i:
             self._prefetch_later(build, a, mask, i, filled)
             key = self.load(build, a["buffer"], i)
-            place, new = self._find(build, a, key, mask)
-            with build.if_then(new):
+            found = self._probe(build, a, key, mask, new=False)
+            with build.if_then(found.empty):
                 full = build.icmp_signed(">=", build.load(count), room)
                 with build.if_then(full, likely=False):
                     build.store(i, places["drained"])
                     build.store(build.load(count), places["count"])
                     build.ret(INT(1))
-                self._append(build, a, key, place, count, build.load(build.gep(a["origins"], [i])))
+                index = self._append(build, a, key, found, count)
+                build.store(build.load(build.gep(a["origins"], [i])), build.gep(a["parents"], [index]))
         for name, value in (("count", build.load(count)), ("filled", INT(0)), ("drained", INT(0))):
             build.store(value, places[name])
         build.ret(INT(0))
@@ -118,8 +131,8 @@ class Table:
         with Loop(build, INT(0), a["count"]) as i:
             self._prefetch_later(build, {**a, "buffer": a["words"]}, a["mask"], i, a["count"])
             key = self.load(build, a["words"], i)
-            place, hashed = self._empty(build, a, key)
-            build.store(self._entry(build, key, hashed, i), place)
+            found = self._probe(build, a, key, a["mask"], new=True)
+            build.store(self._entry(build, key, found.hashed, i), found.place)
         build.ret_void()
         return made
 
@@ -163,28 +176,30 @@ class Table:
         mark = build.and_(hashed, INT(-1 << 32))
         return build.or_(mark, build.add(index, INT(1)))
 
-    def _find(self, build: Any, a: dict[str, Any], key: list[Any], mask: Any) -> tuple[Any, Any]:
-        """The place of a valuation in the table, and whether it is still empty."""
+    def _probe(self, build: Any, a: dict[str, Any], key: list[Any], mask: Any, new: bool) -> _Found:
+        """Where a valuation is in the table, or the empty place where it belongs.
+
+        ``new``: it is known not to be there.
+        """
         hashed = self.hash(build, key)
         at = _local(build, INT)
         build.store(self._home(build, hashed, mask), at)
-        probe, other, found = (build.append_basic_block(n) for n in ("probe", "other", "found"))
+        probe, taken, other, found = (
+            build.append_basic_block(n) for n in ("probe", "taken", "other", "found")
+        )
         build.branch(probe)
         build.position_at_end(probe)
         place = build.gep(a["table"], [build.load(at)])
         entry = build.load(place)
         empty = build.icmp_unsigned("==", entry, INT(0))
-        with build.if_then(empty, likely=False):
-            build.branch(found)
-        same = self._same(build, a, entry, key, hashed)
-        build.cbranch(same, found, other)
+        build.cbranch(empty, found, taken)
+        build.position_at_end(taken)
+        build.cbranch(BIT(0) if new else self._same(build, a, entry, key, hashed), found, other)
         build.position_at_end(other)
         build.store(build.and_(build.add(build.load(at), INT(1)), mask), at)
         build.branch(probe)
         build.position_at_end(found)
-        build_place = build.gep(a["table"], [build.load(at)])
-        self.hashed = hashed
-        return build_place, build.icmp_unsigned("==", build.load(build_place), INT(0))
+        return _Found(place, empty, hashed)
 
     def _same(self, build: Any, a: dict[str, Any], entry: Any, key: list[Any], hashed: Any) -> Any:
         if self.words == 1:
@@ -202,25 +217,10 @@ class Table:
             build.store(equal, result)
         return build.load(result)
 
-    def _empty(self, build: Any, a: dict[str, Any], key: list[Any]) -> tuple[Any, Any]:
-        """The first empty place for a valuation known to be new."""
-        hashed = self.hash(build, key)
-        at = _local(build, INT)
-        build.store(self._home(build, hashed, a["mask"]), at)
-        probe, other, found = (build.append_basic_block(n) for n in ("probe", "other", "found"))
-        build.branch(probe)
-        build.position_at_end(probe)
-        place = build.gep(a["table"], [build.load(at)])
-        build.cbranch(build.icmp_unsigned("==", build.load(place), INT(0)), found, other)
-        build.position_at_end(other)
-        build.store(build.and_(build.add(build.load(at), INT(1)), a["mask"]), at)
-        build.branch(probe)
-        build.position_at_end(found)
-        return build.gep(a["table"], [build.load(at)]), hashed
-
-    def _append(self, build: Any, a: dict[str, Any], key: list[Any], place: Any, count: Any, parent: Any) -> None:
+    def _append(self, build: Any, a: dict[str, Any], key: list[Any], found: _Found, count: Any) -> Any:
+        """Store a valuation; the result is its number."""
         index = build.load(count)
-        build.store(self._entry(build, key, self.hashed, index), place)
+        build.store(self._entry(build, key, found.hashed, index), found.place)
         self.save(build, a["words"], index, key)
-        build.store(parent, build.gep(a["parents"], [index]))
         build.store(build.add(index, INT(1)), count)
+        return index

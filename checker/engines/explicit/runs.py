@@ -5,7 +5,7 @@ Inputs that a tick does not read keep their value where they may, so that traces
 
 from collections.abc import Mapping
 from functools import cached_property
-from itertools import product
+from itertools import pairwise, product
 
 from checker.encode.native import LEAVE_DOMAIN, REACH_TARGET, NativeRetrace, OutsideDomain, Task
 from checker.engines.explicit.search import Found
@@ -67,8 +67,7 @@ class Runs:
 
     def _chosen(self, last: int, wanted: int) -> list[dict[str, int]]:
         words, numbers = self.found.words, self.chain(last)
-        pairs = zip(numbers, numbers[1:], strict=False)
-        ticks = [self.native.inputs(words[a], words[b], REACH_TARGET) for a, b in pairs]
+        ticks = [self.native.inputs(words[a], words[b], REACH_TARGET) for a, b in pairwise(numbers)]
         return [*ticks, self.native.inputs(words[last], words[last], wanted)]
 
     def _frozen(self, last: int) -> dict[str, int]:
@@ -87,9 +86,10 @@ class Runs:
 
     def _calm(self, own: Partition, read: int | None, before: int | None) -> int:
         if read is None:
-            return before if before in own.cell_of else own.values[0]
-        stays = before is not None and own.cell_of.get(before) == own.cell_of[read]
-        return before if stays and before is not None else read
+            return before if before is not None and before in own.cell_of else own.values[0]
+        if before is not None and own.cell_of.get(before) == own.cell_of[read]:
+            return before
+        return read
 
     def _solved(
         self, group: list[Expr], at: Mapping[str, int], inputs: Mapping[str, int], read: Mapping[str, int]
