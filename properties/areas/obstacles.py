@@ -130,13 +130,13 @@ turned_right = named("turn since entry", wrap(yaw - previous(targetAngle) + 45))
 PB2_08_left = leaves_only_if(
     "PB2-08-left", "Moving toward sonar 1 ends only 45 degrees to the left, by emergency or prevDEG_B1.",
     leaving=chart.active("MoveToS1"), only_if=(turned <= -45) | cut_short,
-    covers=["B2-OBS-09"], on="obstacles_heading", readings=("E06", "E07"),
+    covers=["B2-OBS-09"], on="obstacles_heading_free", readings=("E06", "E07"),
 )  # fmt: skip
 
 PB2_08_right = leaves_only_if(
     "PB2-08-right", "Moving toward sonar 3 ends only 45 degrees to the right, by emergency or prevDEG_B1.",
     leaving=chart.active("MoveToS3"), only_if=(turned_right >= 45) | cut_short,
-    covers=["B2-OBS-09"], on="obstacles_heading", readings=("E06", "E07"),
+    covers=["B2-OBS-09"], on="obstacles_heading_free", readings=("E06", "E07"),
 )  # fmt: skip
 
 PB2_08_135 = leaves_only_if(

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, State, Transition
-from spec_model.lang.domain import Number, exact
-from spec_model.lang.expr import Apply, Const, Expr, Named, Num, Op, Temporal, When
+from spec_model.lang.domain import Num, Number, exact
+from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Temporal, When
 from spec_model.lang.system import System
 from spec_model.lang.time import Span
 
