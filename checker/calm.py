@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping
 
 from checker.slice import sliced
 from checker.verdict import Run
-from spec_model.lang.evaluate import evaluate
+from spec_model.lang.evaluate import admissible, evaluate, step
 from spec_model.lang.evaluate import run as execute
 from spec_model.lang.expr import Var, variables
 from spec_model.lang.system import TransitionSystem
@@ -36,6 +36,23 @@ def calmed(system: TransitionSystem, goal: Var, run: Run) -> Run:
         for variable in system.inputs:
             _fewer_changes(work, variable.name)
     return work.run
+
+
+def transferred(run: Run, system: TransitionSystem, goal: Var) -> Run | None:
+    """The run on another system that has the goal, if it reaches it there in the last tick too.
+
+    Inputs that the other system does not have are dropped, those that only it has stay initial.
+    """
+    frozen = {v.name: run.frozen.get(v.name, v.init) for v in system.frozen}
+    at: dict[str, int] = {**system.init, **frozen}
+    ticks: list[dict[str, int]] = []
+    for given in run.inputs:
+        inputs = {v.name: given.get(v.name, v.init) for v in system.inputs}
+        if not admissible(system, at, inputs):
+            return None
+        ticks.append(inputs)
+        at = {n: v for n, v in step(system, at, inputs).items() if n not in inputs}
+    return Run(frozen, tuple(ticks)) if at[goal.name] else None
 
 
 def _constant(work: "_Rerun", variable: Var) -> None:

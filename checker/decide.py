@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import prod
 
-from checker.calm import calmed
+from checker.calm import calmed, transferred
 from checker.engine import Engine, Limits, Progress, engines
 from checker.replay import replay
 from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Verdict, Violated
@@ -96,7 +96,9 @@ def decide(
     for goal in question.goals:
         answer, by = found[goal.var.name]
         if isinstance(answer, Reached) and task.system.over:
-            results.append(_reproduced(task.system, goal, answer, systems, limits, progress))
+            results.append(
+                _reproduced(task.system, question.system, goal, answer, by, systems, limits, progress)
+            )
         else:
             verdict = _verdict(question.system, goal, answer, by)
             results.append(Result(goal.property, verdict, task.system.name))
@@ -198,17 +200,29 @@ def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> V
 
 def _reproduced(
     system: System,
+    over: TransitionSystem,
     goal: Goal,
     answer: Reached,
+    by: str,
     systems: Mapping[str, System],
     limits: Limits,
     progress: Progress,
 ) -> Result:
-    """A run of an over-approximation counts only if its concrete system has one too."""
+    """A run of an over-approximation counts only if its concrete system has one too.
+
+    The same inputs are tried first: a run of the concrete system as short as the shortest of the
+    over-approximation is a shortest one.
+    """
     found = f"reached after {len(answer.run)} ticks on {system.name}, an over-approximation"
     if not system.concrete:
         return Result(goal.property, Unknown(f"{found} with no concrete system", 0, "replay"), system.name)
     prop = replace(goal.property, on=system.concrete)
+    question = reduce(lower(systems[system.concrete]), [prop])
+    [same] = question.goals
+    for run in (answer.run, calmed(over, goal.var, answer.run)):
+        moved = transferred(run, question.system, same.var)
+        if moved is not None:
+            return Result(prop, _verdict(question.system, same, Reached(moved), by), system.concrete)
     [result] = decide(Task(systems[system.concrete], (prop,)), systems, "bmc", limits, progress)
     verdict = result.verdict
     if isinstance(verdict, Unknown):

@@ -90,7 +90,7 @@ def within_the_window(id: str, pair: Pair) -> Property:
         id, f"The signal of pair {pair.name} is sent only if sonar {pair.name[0]} lost an object in the "
             f"last 3 s and sonar {pair.name[1]} has one.",
         entering=B2Decision == pair.decision,
-        only_if=(recently(pair.opens) & pair.confirming) | another,
+        only_if=(recently(lost[pair.first - 1]) & pair.confirming) | another,
         covers=WINDOW, on=pair.on, readings=("E05", "E14", "E15", "E16"),
     )  # fmt: skip
 

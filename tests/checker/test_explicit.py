@@ -155,6 +155,20 @@ def test_many_bits_in_many_variables() -> None:
     assert isinstance(answer, Reached) and len(answer.run) == 140
 
 
+def test_valuations_with_the_same_hash_are_told_apart() -> None:
+    """The hash of the table, computed here to make two valuations collide in all its bits."""
+    first = next(n for n in range((1 << 62) + 5, 1 << 63) if _mix(n) >> 63 == 0)
+    a, b = var("a", chosen([0, 1, first])), var("b", chosen([0, 1, _mix(first)]))
+    never = flag("never")
+    program = (Assign(never, (a == 1) & (b == 1)), Assign(a, const(first)), Assign(b, const(_mix(first))))
+    (answer,) = check(TransitionSystem("", (), (), (a, b, never), (), program), never)
+    assert isinstance(answer, Unreachable) and answer.because.states == 2
+
+
+def _mix(word: int) -> int:
+    return (word ^ word >> 32) * 0xD6E8FEB86659FD93 % (1 << 64)
+
+
 def test_a_value_outside_its_domain_is_an_error_that_names_the_variable() -> None:
     count, over = var("count", integer(0, 5)), flag("over")
     system = TransitionSystem(

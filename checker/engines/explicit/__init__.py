@@ -10,7 +10,7 @@ from checker.encode.native import NativeSearch, Task, TooWide, layout
 from checker.encode.paths import path_program
 from checker.engine import Limits, Progress
 from checker.engines.explicit.runs import Runs
-from checker.engines.explicit.search import Found, search
+from checker.engines.explicit.levels import Found, search
 from checker.partition import partitions
 from checker.slice import sliced
 from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable

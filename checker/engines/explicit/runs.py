@@ -8,7 +8,7 @@ from functools import cached_property
 from itertools import pairwise, product
 
 from checker.encode.native import LEAVE_DOMAIN, REACH_TARGET, NativeRetrace, OutsideDomain, Task
-from checker.engines.explicit.search import Found
+from checker.engines.explicit.levels import Found
 from checker.partition import Partition, partition
 from checker.slice import assumption_groups
 from checker.verdict import Run

@@ -1,0 +1,135 @@
+"""The explicit engine beside the hand-written C search of the same model, interleaved in one run.
+
+    python -m benchmarks.explicit [repetitions]
+
+Prints medians.  ``search`` is the search alone and what the ratios compare; ``all`` adds slicing,
+cells and compiling.  Both store parents.  Naive C tries every input vector, factored C multiplies
+the distinct successors of each part.  Without gcc the C columns stay empty.
+"""
+
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from statistics import median
+from time import perf_counter
+
+from benchmarks.roverlite import roverlite
+from checker.encode.native import NativeSearch, Task, layout
+from checker.encode.paths import path_program
+from checker.engine import Limits, quiet
+from checker.engines.explicit.levels import Found, search
+from checker.partition import partitions
+from checker.slice import sliced
+from properties.catalogue import catalogue
+from properties.reduce import reduce
+from spec_model.lang.expr import Var
+from spec_model.lang.lower import lower
+from spec_model.lang.system import TransitionSystem
+from spec_model.rover import systems
+
+SOURCE = Path(__file__).parent / "c"
+MODELS = ((3, 1), (28, 1), (32, 1), (31, 10), (85, 1))
+GOALS = {85: "P5"}
+"""By default the goal is ``broken``, never true: the whole state space is searched."""
+CHART, PROPERTY, SECONDS = "obstacles_n", "PB2-05-12", 8.0
+
+
+@dataclass(frozen=True)
+class Timed:
+    """One run: stored valuations, transitions, seconds of the search, seconds of everything."""
+
+    states: int
+    transitions: int
+    seconds: float
+    whole: float
+
+
+def ours(system: TransitionSystem, goals: Sequence[Var], limits: Limits = Limits()) -> Timed:
+    """Slice, compile and search once."""
+    began = perf_counter()
+    part = sliced(system, goals)
+    packing = layout((*part.frozen, *part.variables))
+    native = NativeSearch.compile(Task(part, packing, path_program(part, partitions(part)), tuple(goals)))
+    started = perf_counter()
+    found: Found = search(native, limits, limits.deadline(), quiet)
+    ended = perf_counter()
+    return Timed(found.states, found.transitions, ended - started, ended - began)
+
+
+def compiled(comp: int, k: int, factored: bool, folder: str) -> str | None:
+    """The C search of one model, compiled; None without gcc."""
+    gcc = shutil.which("gcc")
+    if gcc is None:
+        return None
+    program = f"{folder}/bfs-{comp}-{k}-{factored}"
+    options = ["-O3", "-march=native", "-w", "-DPARENT", f"-DCOMP={comp}", f"-DK={k}"]
+    options += ["-DFACT"] * factored + ["-DSTOPON=16"] * (comp == 85)
+    subprocess.run([gcc, *options, "-o", program, str(SOURCE / "bfs.c")], check=True)
+    return program
+
+
+def c(program: str) -> Timed:
+    """Run a compiled C search once."""
+    out = subprocess.run([program], check=True, capture_output=True, text=True).stdout
+    states, transitions, seconds = (
+        re.search(rf"\b{name}=([\d.]+)", out).group(1)  # type: ignore[union-attr]
+        for name in ("states", "trans", "t")
+    )
+    return Timed(int(states), int(transitions), float(seconds), float(seconds))
+
+
+def model(comp: int, k: int, repetitions: int, folder: str) -> Iterator[str]:
+    """A line of the table for one model."""
+    system, goals = roverlite(comp, k)
+    goals = tuple(g for g in goals if g.name == GOALS.get(comp, "broken"))
+    runs: list[tuple[str, Callable[[], Timed]]] = [("ours", lambda: ours(system, goals))]
+    for name, factored in (("naive", False), ("factored", True)):
+        program = compiled(comp, k, factored, folder)
+        if program is not None:
+            runs.append((name, lambda p=program: c(p)))  # type: ignore[misc]
+    taken: dict[str, list[Timed]] = {name: [] for name, _ in runs}
+    for _ in range(repetitions):
+        for name, run in runs:
+            taken[name].append(run())
+    yield line(f"{comp} k{k}", taken)
+
+
+def line(name: str, taken: dict[str, list[Timed]]) -> str:
+    """States, times and ratios; a ratio above 1 means that ours is slower."""
+    own = taken["ours"]
+    seconds = median(t.seconds for t in own)
+    text = f"{name:>12} {own[0].states:>12,} {own[0].transitions:>14,} {median(t.whole for t in own):>8.3f}"
+    text += f" {seconds:>8.3f} {own[0].states / seconds / 1e6:>7.2f} {own[0].transitions / seconds / 1e6:>7.1f}"
+    for other in ("naive", "factored"):
+        if other in taken:
+            theirs = median(t.seconds for t in taken[other])
+            text += f" {theirs:>8.3f} {seconds / theirs:>5.2f}"
+    return text
+
+
+def chart(repetitions: int) -> str:
+    """The obstacle chart with all its counters and the monitor of a property, for some seconds."""
+    question = reduce(lower(systems()[CHART]), [replace(catalogue()[PROPERTY], on=CHART)])
+    goals = tuple(g.var for g in question.goals)
+    runs = [ours(question.system, goals, Limits(seconds=SECONDS)) for _ in range(repetitions)]
+    return line(CHART, {"ours": runs})
+
+
+def main() -> None:
+    repetitions = int(sys.argv[1]) if len(sys.argv) > 1 else 5
+    print(f"{'model':>12} {'states':>12} {'transitions':>14} {'all s':>8} {'search s':>8} {'Mst/s':>7} {'Mtr/s':>7}"
+          f" {'C s':>8} {'x':>5} {'C fact s':>8} {'x':>5}")
+    with tempfile.TemporaryDirectory() as folder:
+        for comp, k in MODELS:
+            for text in model(comp, k, repetitions, folder):
+                print(text, flush=True)
+    print(chart(min(repetitions, 3)))
+
+
+if __name__ == "__main__":
+    main()
