@@ -7,8 +7,9 @@ same model written by hand in C.
 
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import Domain, boolean, enumeration, integer
-from spec_model.lang.expr import FALSE, TRUE, Expr, Var, any_of, const, flag, ite, member, minimum, var
+from spec_model.lang.expr import FALSE, TRUE, Expr, Var, any_of, const, flag, ite, member, var
 from spec_model.lang.system import Program, Statement, TransitionSystem
+from spec_model.lang.words import minimum
 
 STATUS = enumeration("Status", ["OK", "DEGRADED", "CRITICAL"])
 OK, DEGRADED, CRITICAL = (member(STATUS, name) for name in ("OK", "DEGRADED", "CRITICAL"))

@@ -11,8 +11,9 @@ from checker.slice import sliced
 from checker.verdict import Run
 from spec_model.lang.evaluate import admissible, evaluate, step
 from spec_model.lang.evaluate import run as execute
-from spec_model.lang.expr import Var, variables
+from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
+from spec_model.lang.walk import variables
 
 BUDGET = 40_000
 """Ticks that may be re-run for one trace."""

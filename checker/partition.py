@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 
 from checker.encode.intervals import intervals
 from spec_model.lang.action import Assign, If
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var, plain
+from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
 from spec_model.lang.system import Program, TransitionSystem
+from spec_model.lang.walk import plain
 
 Array = NDArray[np.int64]
 

@@ -13,9 +13,9 @@ from properties.reduce import Goal
 from spec_model.lang.chart import Chart, Path
 from spec_model.lang.errors import ModelError
 from spec_model.lang.evaluate import admissible, evaluate, step
-from spec_model.lang.expr import variables
 from spec_model.lang.interpret import Fired, Interpreter
 from spec_model.lang.system import TransitionSystem
+from spec_model.lang.walk import variables
 
 
 class ReplayError(Exception):

@@ -11,8 +11,9 @@ from itertools import product
 from checker.partition import partition
 from spec_model.lang.action import Assign, If
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import TRUE, Apply, Const, Expr, Op, Var, all_of, plain, variables
+from spec_model.lang.expr import TRUE, Apply, Const, Expr, Op, Var, all_of
 from spec_model.lang.system import Program, Statement, TransitionSystem
+from spec_model.lang.walk import plain, variables
 
 Names = frozenset[str]
 

@@ -24,27 +24,12 @@ from spec_model.lang.action import Assign
 from spec_model.lang.domain import Domain, boolean, integer
 from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import (
-    TRUE,
-    Apply,
-    Const,
-    Expr,
-    Named,
-    Op,
-    Temporal,
-    Var,
-    When,
-    all_of,
-    ite,
-    maximum,
-    minimum,
-    plain,
-    structure,
-    variables,
-)
+from spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Op, Temporal, Var, When, all_of, ite
 from spec_model.lang.lower.ranges import possible
 from spec_model.lang.system import Statement, TransitionSystem
 from spec_model.lang.time import Span
+from spec_model.lang.walk import plain, structure, variables
+from spec_model.lang.words import maximum, minimum
 
 
 @dataclass(frozen=True)

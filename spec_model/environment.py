@@ -18,7 +18,8 @@ from collections.abc import Sequence
 from spec_model.lang.action import Action, assign, when
 from spec_model.lang.chart import Block
 from spec_model.lang.domain import integer
-from spec_model.lang.expr import Expr, Var, all_of, bit, const, flag, implies, ite, minimum, modulo, var
+from spec_model.lang.expr import Expr, Var, all_of, const, flag, implies, ite, var
+from spec_model.lang.words import bit, minimum, modulo
 from spec_model.signals import board1 as b1
 
 INTERVALS = 10

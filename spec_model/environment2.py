@@ -9,7 +9,8 @@ scan time of up to 20 ms, by which one replacement may come a step later, is lef
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block
 from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import TRUE, flag, ite, maximum, var
+from spec_model.lang.expr import TRUE, flag, ite, var
+from spec_model.lang.words import maximum
 from spec_model.signals.board2 import SONARS
 
 # One distance for each set that no limit of the charts divides: ..70, 71..100, 101..300, 301..

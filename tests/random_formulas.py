@@ -8,17 +8,14 @@ from hypothesis.strategies import DrawFn
 
 from spec_model.lang.action import Action, assign, when
 from spec_model.lang.domain import Bool, Domain, Enum, Num, boolean, enumeration, fixed, integer
-from spec_model.lang.expr import (
-    Const,
-    Expr,
-    Var,
+from spec_model.lang.expr import Const, Expr, Var, const, ite
+from spec_model.lang.time import Span, ms, ticks
+from spec_model.lang.words import (
     absolute,
     after,
     bit,
-    const,
     duration,
     held,
-    ite,
     maximum,
     minimum,
     modulo,
@@ -27,7 +24,6 @@ from spec_model.lang.expr import (
     rising,
     sign,
 )
-from spec_model.lang.time import Span, ms, ticks
 
 T = TypeVar("T")
 MODE = enumeration("Mode", {"idle": 1, "busy": 2, "lost": 5})

@@ -14,7 +14,7 @@ CONFIG = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 PACKAGES = CONFIG["tool"]["importlinter"]["root_packages"]
 MODULES = [p.relative_to(ROOT).as_posix() for name in PACKAGES for p in sorted((ROOT / name).rglob("*.py"))]
 MOST_LINES = 400
-LONGER = {"spec_model/lang/expr.py": 540}
+LONGER: dict[str, int] = {}
 """Files whose parts are read together, each with a limit of its own."""
 TEXT = {".py", ".md", ".toml", ".lock", ".txt", ".json", ".svg", ".html", ".csv", ".dot", ".mmd", ".vcd"}
 SOMEONES_MACHINE = re.compile(r"(?<![\w.])/(?:work|root|home|Users)/\w|[A-Z]:\\Users|file:/{2}")

@@ -10,10 +10,11 @@ from spec_model.lang.action import assign, send
 from spec_model.lang.chart import Chart, State, to
 from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import step
-from spec_model.lang.expr import flag, minimum, var
+from spec_model.lang.expr import flag, var
 from spec_model.lang.interpret import Interpreter
 from spec_model.lang.lower import lower
 from spec_model.lang.system import System, in_order
+from spec_model.lang.words import minimum
 from tests.strategies import frozen_values, input_blocks, systems
 
 

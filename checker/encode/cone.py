@@ -10,7 +10,8 @@ from dataclasses import dataclass, replace
 from checker.encode.intervals import Interval, postorder
 from checker.encode.symbolic import Transition
 from checker.encode.terms import Terms
-from spec_model.lang.expr import Apply, Const, Expr, Var, variables
+from spec_model.lang.expr import Apply, Const, Expr, Var
+from spec_model.lang.walk import variables
 
 
 @dataclass(frozen=True)

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 
 from checker.trace import Arrow, Tick, Trace
 from spec_model.lang.domain import Enum, Num
-from spec_model.lang.expr import Expr, Named, variables
+from spec_model.lang.expr import Expr, Named
 from spec_model.lang.label import text
+from spec_model.lang.walk import variables
 
 NAME = re.compile(r"(?!.*\.rising\d+$)[^\W\d][\w.]*")
 """Names a reader knows; others belong to the property, or remember what ``rising`` compares."""

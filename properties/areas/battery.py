@@ -2,8 +2,9 @@
 
 from properties.forms import always, holds_after, reachable, until
 from spec_model.board1.battery import critical_range, monitor_battery, stale_below_15
-from spec_model.lang.expr import held, implies, previous
+from spec_model.lang.expr import implies
 from spec_model.lang.time import sec
+from spec_model.lang.words import held, previous
 from spec_model.signals.board1 import batt_age, batt_status, batt_update
 from spec_model.signals.board1 import battery_pct as b
 

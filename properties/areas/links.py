@@ -6,8 +6,9 @@ Bits 2 and 7 of the masks follow the two statuses by PB1-10.
 from properties.forms import always, holds_after, reachable
 from spec_model.board1.heartbeat import monitor_heartbeat
 from spec_model.board1.reception import monitor_reception
-from spec_model.lang.expr import Expr, all_of, implies, previous
+from spec_model.lang.expr import Expr, all_of, implies
 from spec_model.lang.time import ms, ticks
+from spec_model.lang.words import previous
 from spec_model.signals.board1 import (
     b2_sup_status,
     heartbeat_age,

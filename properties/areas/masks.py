@@ -2,7 +2,8 @@
 
 from properties.forms import always, reachable
 from spec_model.board1.masks import COMPONENTS
-from spec_model.lang.expr import all_of, bit
+from spec_model.lang.expr import all_of
+from spec_model.lang.words import bit
 from spec_model.signals.board1 import WHEELS, critical_mask, degraded_mask, wheel_status
 
 ON = "masks"

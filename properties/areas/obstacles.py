@@ -7,8 +7,10 @@ more, so that what is proved on them holds for the chart; ``obstacles_n`` is the
 from properties.forms import always, enters_only_if, holds_after, leaves_only_if, never, responds
 from spec_model.board2.obstacles import obstacles_n
 from spec_model.board2.systems import targetAngle, yaw
-from spec_model.lang.expr import all_of, any_of, held, implies, named, previous, wrap
+from spec_model.environment2 import echo
+from spec_model.lang.expr import all_of, any_of, implies
 from spec_model.lang.time import sec, tick, ticks
+from spec_model.lang.words import held, named, previous, wrap
 from spec_model.signals.board2 import (
     DEG_B1,
     B2Dec,
@@ -22,6 +24,7 @@ from spec_model.signals.board2 import (
 
 chart = obstacles_n()
 near = within(70)
+echo_near = named("nearest echo <= 70", any_of(*(e <= 70 for e in echo)))
 stopped = named("DEC = 1", B2Decision == 1)
 deviating = named("DEC in {2, 3, 4}", any_of(*(B2Decision == n for n in (2, 3, 4))))
 cut_short = named("emergency or prevDEG_B1", chart.active("InEmergency") | prevDEG_B1)
@@ -76,6 +79,18 @@ PB2_02e = holds_after(
     "PB2-02e", "An obstacle at 70 cm or less in two steps running means CMD_ESTOP, degraded or not.",
     premise=near, for_=1 * tick, then=command == "CMD_ESTOP",
     covers=(*STOP, "B2-OBS-04"), on="obstacles_free", readings=("E04", "E12", "E32"),
+)  # fmt: skip
+
+PB2_02_scan = holds_after(
+    "PB2-02-scan", "With a sonar scan every 60 ms, an obstacle at 70 cm or less for 3 steps stops the rover.",
+    premise=echo_near, for_=3 * ticks, then=command == "CMD_ESTOP",
+    covers=STOP, on="obstacles_scan_free", readings=("E04", "E12", "E32"),
+)  # fmt: skip
+
+PB2_02_scan_2 = holds_after(
+    "PB2-02-scan-2", "With a sonar scan every 60 ms, an obstacle at 70 cm or less for 2 steps stops the rover.",
+    premise=echo_near, for_=2 * ticks, then=command == "CMD_ESTOP",
+    covers=STOP, on="obstacles_scan_free", readings=("E04", "E12", "E32"),
 )  # fmt: skip
 
 PB2_03 = always(

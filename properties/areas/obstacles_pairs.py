@@ -7,8 +7,9 @@ from dataclasses import dataclass
 
 from properties.forms import Property, always, enters_only_if, until
 from spec_model.board2.obstacles import obstacles_n
-from spec_model.lang.expr import Expr, Var, all_of, any_of, held, implies, named, previous
+from spec_model.lang.expr import Expr, Var, all_of, any_of, implies
 from spec_model.lang.time import ticks
+from spec_model.lang.words import held, named, previous
 from spec_model.signals.board2 import (
     SONARS,
     B2Decision,

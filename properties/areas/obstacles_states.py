@@ -3,7 +3,7 @@
 from properties.forms import Property, reachable
 from spec_model.board2.obstacles import obstacles_n
 from spec_model.board2.obstacles_degraded import obstacles_degraded
-from spec_model.lang.expr import previous
+from spec_model.lang.words import previous
 from spec_model.signals.board2 import obj2Detected
 
 chart = obstacles_n()

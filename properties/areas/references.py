@@ -3,8 +3,9 @@
 from properties.forms import always, holds_after, reachable, until
 from spec_model.board1.motion import motion_supervision
 from spec_model.board1.safety import critical, degraded
-from spec_model.lang.expr import Expr, absolute, all_of, any_of, implies, named, previous
+from spec_model.lang.expr import Expr, all_of, any_of, implies
 from spec_model.lang.time import tick, ticks
+from spec_model.lang.words import absolute, named, previous
 from spec_model.signals.board1 import (
     OMEGA_GO_LEFT,
     OMEGA_GO_RIGHT,

@@ -2,8 +2,9 @@
 
 from properties.forms import always, enters_only_if, holds_after, holds_for, leaves_only_if, reachable
 from spec_model.board1.relay import relay
-from spec_model.lang.expr import held, implies, named, previous
+from spec_model.lang.expr import implies
 from spec_model.lang.time import ticks
+from spec_model.lang.words import held, named, previous
 from spec_model.signals.board1 import b2_sup_status, give_b2_actuation, heartbeat_age, rx_age, rx_status
 
 ON = "relay"

@@ -2,8 +2,9 @@
 
 from properties.forms import always, holds_after, reachable, responds
 from spec_model.board1.safety import critical, degraded, safety_state
-from spec_model.lang.expr import implies, named
+from spec_model.lang.expr import implies
 from spec_model.lang.time import tick
+from spec_model.lang.words import named
 from spec_model.signals.board1 import give_b2_actuation, rover_safety_state
 
 ON = "safety"

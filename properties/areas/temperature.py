@@ -8,8 +8,9 @@ from spec_model.board1.temperature import (
     ok_range,
     stale_above_65,
 )
-from spec_model.lang.expr import held, implies
+from spec_model.lang.expr import implies
 from spec_model.lang.time import sec
+from spec_model.lang.words import held
 from spec_model.signals.board1 import temp_age, temp_status, temp_update
 
 ON = "temperature"

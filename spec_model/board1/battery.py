@@ -8,8 +8,9 @@ from fractions import Fraction
 
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import const, held, named
+from spec_model.lang.expr import const
 from spec_model.lang.time import sec
+from spec_model.lang.words import held, named
 from spec_model.signals.board1 import batt_age, batt_status, battery_pct
 
 b = battery_pct

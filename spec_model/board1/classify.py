@@ -6,7 +6,7 @@ Some critical bits of Board 2 only slow the rover down (S55).  The bits (S54): 0
 
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block
-from spec_model.lang.expr import bit, named
+from spec_model.lang.words import bit, named
 from spec_model.signals.board1 import b2_critical, b2_degraded, crit_mask_b2, degr_mask_b2
 
 stop_required = named("stop_required", bit(crit_mask_b2, 0) | bit(crit_mask_b2, 1))

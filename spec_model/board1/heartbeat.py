@@ -5,7 +5,7 @@ The heartbeat travels in the frames, so a dead link also stops it; each row is r
 
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import named
+from spec_model.lang.words import named
 from spec_model.signals.board1 import b2_sup_status, heartbeat_age, heartbeat_slow
 
 silent = named("age_S > 120 ms", heartbeat_age > 120)

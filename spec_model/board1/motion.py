@@ -10,8 +10,8 @@ assume that the user does not ask for the rotation: see `no_rotation_asked`.
 
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.expr import duration, maximum, minimum, named
 from spec_model.lang.time import sec
+from spec_model.lang.words import duration, maximum, minimum, named
 from spec_model.signals.board1 import (
     OMEGA_GO_LEFT,
     OMEGA_GO_RIGHT,

@@ -2,7 +2,7 @@
 
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import named
+from spec_model.lang.words import named
 from spec_model.signals.board1 import rx_age, rx_slow, rx_status
 
 silent = named("age_R > 120 ms", rx_age > 120)

@@ -7,8 +7,8 @@ more than 3 s without it (S45, S46).
 
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.expr import duration
 from spec_model.lang.time import sec
+from spec_model.lang.words import duration
 from spec_model.signals.board1 import b2_sup_status, give_b2_actuation, rx_status
 
 relay = Chart(

@@ -17,8 +17,9 @@ from dataclasses import dataclass
 
 from spec_model.lang.action import Action, assign
 from spec_model.lang.domain import chosen
-from spec_model.lang.expr import Expr, Var, after, flag, ite, named, var, wrap
+from spec_model.lang.expr import Expr, Var, flag, ite, var
 from spec_model.lang.time import tick
+from spec_model.lang.words import after, named, wrap
 from spec_model.signals.board2 import B2Decision
 
 turned_45 = flag("turned_45", "the rover has turned 45 degrees toward the sonar that detected first")

@@ -9,8 +9,9 @@ from collections.abc import Collection
 from spec_model.board2.heading import FREE, Heading
 from spec_model.lang.action import assign, send
 from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import Expr, Var, after, any_of, flag, named
+from spec_model.lang.expr import Expr, Var, any_of, flag
 from spec_model.lang.time import Span, sec, tick
+from spec_model.lang.words import after, named
 from spec_model.signals.board2 import (
     SONARS,
     B2Decision,

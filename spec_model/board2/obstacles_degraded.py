@@ -2,7 +2,8 @@
 
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.expr import Var, any_of, named
+from spec_model.lang.expr import Var, any_of
+from spec_model.lang.words import named
 from spec_model.signals.board2 import B2DecDegraded, d1, d2, d3
 
 # Drawn as check_emergency_stop(sonars), as in the other chart, but with the limit of the text: 300 cm.

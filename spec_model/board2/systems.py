@@ -7,8 +7,9 @@ from spec_model.board2.selection import selection
 from spec_model.environment2 import scan_phase, sonar_scan
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block, Chart, Component
-from spec_model.lang.expr import Expr, all_of, flag, implies, ite, var, wrap
+from spec_model.lang.expr import Expr, all_of, flag, implies, ite, var
 from spec_model.lang.system import System, in_order
+from spec_model.lang.words import wrap
 from spec_model.signals.board2 import B2Decision, d1, d2, d3
 
 deg_mask_b1 = flag("deg_mask_b1", "the degraded mask last received from Board 1 is not zero")
@@ -72,6 +73,10 @@ turning = all_of(
 AS_TOLD = (
     f"During a deviation yaw moves {HEADING_GRID} to 90 degrees a step in the direction of the deviation "
     f"(A06); otherwise it is a multiple of {HEADING_GRID} degrees, arbitrary in every step."
+)
+SCANNED = (
+    "Distances are replaced every third step, in a phase that is constant and unknown (A01, A07).",
+    "One distance stands for each of the four sets that the limits 70, 100 and 300 cm divide.",
 )
 ON_GRID = f"yaw is a multiple of {HEADING_GRID} degrees, arbitrary in every step."
 
@@ -163,11 +168,16 @@ SYSTEMS: tuple[System, ...] = (
         *_selected(obstacles_n()),
         text="As obstacles, with sonar data that are replaced every 60 ms.",
         frozen=(scan_phase,),
-        notes=(
-            "Distances are replaced every third step, in a phase that is constant and unknown (A01, A07).",
-            "One distance stands for each of the four sets that the limits 70, 100 and 300 cm divide.",
-            FREE_MASKS,
-            FREE_HEADING,
-        ),
+        notes=(*SCANNED, FREE_MASKS, FREE_HEADING),
+    ),
+    in_order(
+        "obstacles_scan_free",
+        sonar_scan,
+        *_selected(obstacles_n(())),
+        text="As obstacles_scan; every timed stay of the non-degraded chart ends at will.",
+        frozen=(scan_phase,),
+        notes=(*SCANNED, FREE_MASKS, FREE_HEADING, _any_stay()),
+        over=True,
+        concrete="obstacles_scan",
     ),
 )

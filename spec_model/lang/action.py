@@ -6,19 +6,9 @@ from typing import Union
 
 from spec_model.lang.domain import Bool, Num, show
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import (
-    Const,
-    Expr,
-    Operand,
-    Temporal,
-    Var,
-    is_multiple,
-    lift,
-    nodes,
-    rescale,
-    variables,
-)
+from spec_model.lang.expr import Const, Expr, Operand, Temporal, Var, is_multiple, lift, rescale
 from spec_model.lang.label import text
+from spec_model.lang.walk import nodes, variables
 
 
 @dataclass(frozen=True)

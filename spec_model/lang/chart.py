@@ -13,7 +13,8 @@ from functools import cached_property
 from spec_model.lang.action import Action, expressions, reads, writes
 from spec_model.lang.domain import Domain, Enum, enumeration
 from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.expr import Const, Expr, Var, any_of, variables
+from spec_model.lang.expr import Const, Expr, Var, any_of
+from spec_model.lang.walk import variables
 
 Path = tuple[str, ...]
 """Names from the chart's outermost level down to a state; the chart itself is the empty path."""

@@ -5,7 +5,6 @@ reader) and ``Temporal`` (removed by lowering and by property reduction).  All a
 integers; the sort of a node says which numbers they stand for.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
@@ -83,7 +82,7 @@ class Expr:
         return any_of(other, self)
 
     def __invert__(self) -> "Expr":
-        return Apply(Op.NOT, (_boolean(self, "not"),), Bool())
+        return Apply(Op.NOT, (as_boolean(self, "not"),), Bool())
 
     def __eq__(self, other: object) -> "Expr":  # type: ignore[override]
         return _compare(Op.EQ, self, other)
@@ -104,19 +103,19 @@ class Expr:
         return _compare(Op.GE, self, other)
 
     def __add__(self, other: Operand) -> "Expr":
-        return _linear(Op.ADD, self, other)
+        return linear(Op.ADD, self, other)
 
     def __radd__(self, other: Operand) -> "Expr":
-        return _linear(Op.ADD, other, self)
+        return linear(Op.ADD, other, self)
 
     def __sub__(self, other: Operand) -> "Expr":
-        return _linear(Op.SUB, self, other)
+        return linear(Op.SUB, self, other)
 
     def __rsub__(self, other: Operand) -> "Expr":
-        return _linear(Op.SUB, other, self)
+        return linear(Op.SUB, other, self)
 
     def __neg__(self) -> "Expr":
-        return Apply(Op.NEG, (self,), _number(self, "-").sort)
+        return Apply(Op.NEG, (self,), as_number(self, "-").sort)
 
     def __mul__(self, other: Operand) -> "Expr":
         return _product(self, other)
@@ -233,6 +232,11 @@ def var(name: str, domain: Domain, init: Number | bool | None = None, doc: str =
     return Var(name, domain, raw, doc)
 
 
+def flag(name: str, doc: str = "") -> Var:
+    """A boolean variable, false before the first tick."""
+    return Var(name, boolean, 0, doc)
+
+
 def member(domain: Domain, name: str) -> Const:
     """The member of an enumeration as a constant."""
     return Const(domain.raw(name), domain.sort)
@@ -274,14 +278,14 @@ def _sort_of(*operands: object) -> Sort:
     raise ModelError(f"{operands!r} holds no formula; write at least one variable or const().")
 
 
-def _boolean(value: object, where: str) -> Expr:
+def as_boolean(value: object, where: str) -> Expr:
     expr = lift(value, Bool())
     if not isinstance(expr.sort, Bool):
         raise ModelError(f"`{expr}` is a {expr.sort}; `{where}` needs a condition, such as a comparison.")
     return expr
 
 
-def _number(expr: Expr, where: str) -> Expr:
+def as_number(expr: Expr, where: str) -> Expr:
     if not isinstance(expr.sort, Num):
         raise ModelError(f"`{expr}` is a {expr.sort}; `{where}` needs a number.")
     return expr
@@ -306,9 +310,9 @@ def is_multiple(literal: Const, resolution: Fraction) -> bool:
     return (literal.value * literal.sort.resolution / resolution).denominator == 1
 
 
-def _aligned(where: str, *exprs: Expr) -> tuple[tuple[Expr, ...], Num]:
+def aligned(where: str, *exprs: Expr) -> tuple[tuple[Expr, ...], Num]:
     """Numbers of one unit in one resolution."""
-    sorts = [_number(e, where).sort for e in exprs]
+    sorts = [as_number(e, where).sort for e in exprs]
     nums = [s for s in sorts if isinstance(s, Num)]
     if len({n.unit for n in nums}) > 1:
         shown = " and ".join(f"`{e}` in {n.unit or 'no unit'}" for e, n in zip(exprs, nums, strict=True))
@@ -326,7 +330,7 @@ def _compare(op: Op, left: object, right: object) -> Expr:
     like = _sort_of(left, right)
     a, b = lift(left, like), lift(right, like)
     if isinstance(a.sort, Num) and isinstance(b.sort, Num):
-        return Apply(op, _aligned(op.value, a, b)[0], Bool())
+        return Apply(op, aligned(op.value, a, b)[0], Bool())
     if a.sort != b.sort:
         raise ModelError(f"`{a}` is a {a.sort} and `{b}` a {b.sort}; compare values of one sort.")
     if op not in (Op.EQ, Op.NE):
@@ -334,15 +338,15 @@ def _compare(op: Op, left: object, right: object) -> Expr:
     return Apply(op, (a, b), Bool())
 
 
-def _linear(op: Op, left: Operand, right: Operand) -> Expr:
+def linear(op: Op, left: Operand, right: Operand) -> Expr:
     like = _sort_of(left, right)
-    args, sort = _aligned(op.value, lift(left, like), lift(right, like))
+    args, sort = aligned(op.value, lift(left, like), lift(right, like))
     return Apply(op, args, sort)
 
 
 def _product(left: Operand, right: Operand) -> Expr:
     a, b = lift(left, Num()), lift(right, Num())
-    sa, sb = _number(a, "*").sort, _number(b, "*").sort
+    sa, sb = as_number(a, "*").sort, as_number(b, "*").sort
     assert isinstance(sa, Num) and isinstance(sb, Num)
     return Apply(Op.MUL, (a, b), Num(sa.resolution * sb.resolution, sa.unit * sb.unit))
 
@@ -350,7 +354,7 @@ def _product(left: Operand, right: Operand) -> Expr:
 def _flat(op: Op, parts: tuple[object, ...]) -> tuple[Expr, ...]:
     flat: list[Expr] = []
     for part in parts:
-        expr = _boolean(part, op.value)
+        expr = as_boolean(part, op.value)
         flat.extend(expr.args if isinstance(expr, Apply) and expr.op is op else (expr,))
     return tuple(flat)
 
@@ -368,169 +372,17 @@ def any_of(*parts: Operand) -> Expr:
 
 
 def implies(premise: Operand, conclusion: Operand) -> Expr:
-    return any_of(~_boolean(premise, "implies"), conclusion)
+    return any_of(~as_boolean(premise, "implies"), conclusion)
 
 
 def ite(condition: Operand, then: Operand, otherwise: Operand) -> Expr:
     """``then`` where the condition holds, ``otherwise`` elsewhere."""
-    test = _boolean(condition, "ite")
+    test = as_boolean(condition, "ite")
     like = _sort_of(then, otherwise) if isinstance(then, Expr) or isinstance(otherwise, Expr) else Num()
     a, b = lift(then, like), lift(otherwise, like)
     if isinstance(a.sort, Num) and isinstance(b.sort, Num):
-        (a, b), sort = _aligned("ite", a, b)
+        (a, b), sort = aligned("ite", a, b)
         return Apply(Op.ITE, (test, a, b), sort)
     if a.sort != b.sort:
         raise ModelError(f"`{a}` is a {a.sort} and `{b}` a {b.sort}; both branches need one sort.")
     return Apply(Op.ITE, (test, a, b), a.sort)
-
-
-def minimum(left: Operand, right: Operand) -> Expr:
-    return _linear(Op.MIN, left, right)
-
-
-def maximum(left: Operand, right: Operand) -> Expr:
-    return _linear(Op.MAX, left, right)
-
-
-def absolute(value: Expr) -> Expr:
-    return Apply(Op.ABS, (_number(value, "abs"),), value.sort)
-
-
-def sign(value: Expr) -> Expr:
-    """-1, 0 or 1; sign(0) = 0."""
-    return ite(value > 0, const(1), ite(value < 0, const(-1), const(0)))
-
-
-def modulo(value: Expr, divisor: Number) -> Expr:
-    """The remainder in [0, divisor[.  Raises ``ModelError`` unless the divisor is positive."""
-    return _by_constant(Op.MOD, value, divisor)
-
-
-def quotient(value: Expr, divisor: int) -> Expr:
-    """A whole number divided by a positive whole constant, rounded down."""
-    if not isinstance(value.sort, Num) or value.sort.resolution != 1:
-        raise ModelError(f"quotient() needs a whole number; `{value}` is a {value.sort}.")
-    return _by_constant(Op.DIV, value, divisor)
-
-
-def _by_constant(op: Op, value: Expr, divisor: Number) -> Expr:
-    if exact(divisor) <= 0:
-        raise ModelError(f"{op.value} by {divisor} has no meaning; write a positive constant.")
-    args, sort = _aligned(op.value, value, lift(exact(divisor), _number(value, op.value).sort))
-    return Apply(op, args, sort)
-
-
-def wrap(angle: Expr) -> Expr:
-    """((z + 180) mod 360) - 180, in [-180; 180[ degrees."""
-    return modulo(angle + 180, 360) - 180
-
-
-def bit(mask: Expr, index: int) -> Expr:
-    """Bit ``index`` of a mask (a non-negative whole number)."""
-    if not isinstance(mask.sort, Num) or mask.sort.resolution != 1 or index < 0:
-        raise ModelError(f"bit({mask}, {index}) needs a whole number and an index >= 0.")
-    return Apply(Op.BIT, (mask, Const(index, Num())), Bool())
-
-
-def named(name: str, body: Expr) -> Named:
-    """Give a formula a name that labels and traces show."""
-    return Named(name, body)
-
-
-def after(span: Span) -> Temporal:
-    """Stateflow's after(n, sec): true from n after the source state was entered (rule G13)."""
-    return Temporal(When.AFTER, None, span)
-
-
-def rising(value: Expr) -> Temporal:
-    """True in a step in which the value is positive (or true) and was not in the step before (G15)."""
-    return Temporal(When.RISING, value if isinstance(value.sort, Bool) else value > 0)
-
-
-def held(condition: Operand, for_: Span) -> Temporal:
-    """True when the condition has been true in every step of the last ``for_``, ends included."""
-    return Temporal(When.HELD, _boolean(condition, "held"), for_)
-
-
-def previous(value: Expr) -> Temporal:
-    """The value at the end of the previous tick; before the first tick, its initial value."""
-    return Temporal(When.PREVIOUS, value)
-
-
-def once(condition: Operand) -> Temporal:
-    """True when the condition has been true in some tick so far, this one included."""
-    return Temporal(When.ONCE, _boolean(condition, "once"))
-
-
-@dataclass(frozen=True)
-class duration:
-    """Stateflow's duration(c): compare it with a time, ``duration(c) > 3 * sec`` (rule G14)."""
-
-    condition: Expr
-
-    def __gt__(self, span: Span) -> Temporal:
-        return Temporal(When.DURATION, _boolean(self.condition, "duration"), span, strict=True)
-
-    def __ge__(self, span: Span) -> Temporal:
-        return Temporal(When.DURATION, _boolean(self.condition, "duration"), span)
-
-
-# --- walking -------------------------------------------------------------------------------------
-
-
-def children(expr: Expr) -> tuple[Expr, ...]:
-    """The direct sub-expressions."""
-    match expr:
-        case Apply(_, args, _):
-            return args
-        case Named(_, body):
-            return (body,)
-        case Temporal(_, arg, _, _):
-            return () if arg is None else (arg,)
-        case _:
-            return ()
-
-
-def nodes(*roots: Expr) -> Iterator[Expr]:
-    """Every node reachable from the roots once, parents before children."""
-    seen: set[int] = set()
-    stack = list(reversed(roots))
-    while stack:
-        expr = stack.pop()
-        if id(expr) not in seen:
-            seen.add(id(expr))
-            yield expr
-            stack.extend(reversed(children(expr)))
-
-
-def variables(*roots: Expr) -> dict[str, Var]:
-    """The variables that occur, by name, in order of first occurrence."""
-    return {e.name: e for e in nodes(*roots) if isinstance(e, Var)}
-
-
-def plain(expr: Expr) -> Expr:
-    """The formula under any names."""
-    while isinstance(expr, Named):
-        expr = expr.body
-    return expr
-
-
-def flag(name: str, doc: str = "") -> Var:
-    """A boolean variable, false before the first tick."""
-    return Var(name, boolean, 0, doc)
-
-
-def structure(expr: Expr) -> tuple[object, ...]:
-    """A key equal for two formulas iff they are built alike (names see-through)."""
-    match expr:
-        case Const(value, sort):
-            return ("const", value, sort)
-        case Var(name):
-            return ("var", name)
-        case Named(_, body):
-            return structure(body)
-        case Apply(op, args, _):
-            return (op, *(structure(a) for a in args))
-        case Temporal(when, arg, span, strict):
-            return (when, None if arg is None else structure(arg), span, strict)
-    raise AssertionError(expr.__class__)

@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 
 from spec_model.lang.action import Assign, If
 from spec_model.lang.chart import Block, Chart, Component, Enabled, parts
-from spec_model.lang.expr import TRUE, Expr, Var, variables
+from spec_model.lang.expr import TRUE, Expr, Var
+from spec_model.lang.walk import variables
 
 Valuation = Mapping[str, int]
 """A raw value for every variable, by name."""

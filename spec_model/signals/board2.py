@@ -1,7 +1,8 @@
 """Signals of the obstacle logic of Board 2: what the sonars measure, what the charts keep and decide."""
 
 from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import Expr, Var, any_of, flag, named, var
+from spec_model.lang.expr import Expr, Var, any_of, flag, var
+from spec_model.lang.words import named
 from spec_model.signals.common import COMMAND
 
 # Both sides of every limit the charts compare with: 70, 100 and 300 cm; 301 is "no echo" (E13).

@@ -4,8 +4,9 @@ from properties.forms import Always, Property
 from properties.reduce import reduce
 from spec_model.lang.action import Assign
 from spec_model.lang.evaluate import step
-from spec_model.lang.expr import flag, previous
+from spec_model.lang.expr import flag
 from spec_model.lang.system import TransitionSystem
+from spec_model.lang.words import previous
 
 p, x = flag("p"), flag("x")
 FREE = TransitionSystem("free", (p,), (), (x,), (), (Assign(x, p),))

@@ -10,8 +10,9 @@ from checker.encode.bitvector import OPERATORS, Encoder, literal, member, symbol
 from checker.encode.intervals import Interval, intervals
 from spec_model.lang.domain import Bool, Domain, Num, Sort, boolean, chosen, enumeration, integer
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Apply, Const, Expr, Op, Var, ite, variables
+from spec_model.lang.expr import Apply, Const, Expr, Op, Var, ite
 from spec_model.lang.system import TransitionSystem
+from spec_model.lang.walk import variables
 from tests.strategies_ts import transition_systems
 
 B0, B1, B2 = (Var(f"b{i}", boolean) for i in range(3))

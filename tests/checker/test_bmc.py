@@ -14,8 +14,9 @@ from checker.isolate import Send
 from checker.verdict import Open, Reached, Run
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import FALSE, TRUE, flag, ite, minimum, var
+from spec_model.lang.expr import FALSE, TRUE, flag, ite, var
 from spec_model.lang.system import TransitionSystem
+from spec_model.lang.words import minimum
 from tests import naive
 from tests.strategies_ts import goals, transition_systems
 

@@ -4,7 +4,9 @@ from itertools import pairwise
 
 import pytest
 from hypothesis import given
+from hypothesis import strategies as st
 
+from benchmarks.roverlite import roverlite
 from checker.encode.native import OutsideDomain
 from checker.engine import Limits, quiet
 from checker.engines import explicit
@@ -12,8 +14,9 @@ from checker.slice import sliced
 from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Op, Var, all_of, const, flag, ite, minimum, var
+from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Op, Var, all_of, const, flag, ite, var
 from spec_model.lang.system import TransitionSystem
+from spec_model.lang.words import minimum
 from tests.naive import Searched, projected, replay, search
 from tests.strategies_ts import goals, transition_systems
 
@@ -52,16 +55,15 @@ def test_random_systems_goal_by_goal(system: TransitionSystem) -> None:
         agrees(system, (goal,), naive)
 
 
-@given(transition_systems())
-def test_a_depth_limit_never_proves_more_than_was_seen(system: TransitionSystem) -> None:
+@given(transition_systems(), st.integers(0, 3))
+def test_a_depth_limit_never_proves_more_than_was_seen(system: TransitionSystem, depth: int) -> None:
     naive = search(system, goals(system))
-    for depth in range(3):
-        answers = check(system, *goals(system), limits=Limits(depth))
-        for goal, answer in zip(goals(system), answers, strict=True):
-            first = naive.reached.get(goal.name)
-            assert isinstance(answer, Reached) == (first is not None and first <= depth)
-            assert not isinstance(answer, Open) or answer.depth == depth
-            assert not isinstance(answer, Unreachable) or first is None
+    answers = check(system, *goals(system), limits=Limits(depth))
+    for goal, answer in zip(goals(system), answers, strict=True):
+        first = naive.reached.get(goal.name)
+        assert isinstance(answer, Reached) == (first is not None and first <= depth)
+        assert not isinstance(answer, Open) or answer.depth == depth
+        assert not isinstance(answer, Unreachable) or first is None
 
 
 # --- limits ------------------------------------------------------------------------------------------
@@ -251,3 +253,20 @@ def test_more_goals_than_bits_in_a_word() -> None:
     answers = check(TransitionSystem("", (), (), (count, *wanted), (), program), *wanted)
     lengths = [len(a.run) if isinstance(a, Reached) else None for a in answers]
     assert lengths == [100, *range(1, 100), *[None] * 20]
+
+
+# --- a known model -----------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("parts", "k", "states"), [(3, 1, 50_904), (32, 1, 93_180), (31, 25, 40_560)])
+def test_roverlite_has_as_many_valuations_as_in_c(parts: int, k: int, states: int) -> None:
+    system, wanted = roverlite(parts, k)
+    never = next(g for g in wanted if g.name == "broken")
+    (answer,) = check(system, never)
+    assert isinstance(answer, Unreachable) and answer.because.states == states
+
+
+def test_roverlite_fails_after_as_many_ticks_as_in_c() -> None:
+    system, wanted = roverlite(85, 10)
+    lengths = {g.name: len(a.run) for g in wanted if isinstance(a := check(system, g)[0], Reached)}
+    assert lengths == {"P4": 20, "P5": 46}

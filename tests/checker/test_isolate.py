@@ -11,7 +11,8 @@ from pathlib import Path
 import pytest
 
 from checker.isolate import Send, Stopped, messages
-from spec_model.lang.expr import flag, nodes
+from spec_model.lang.expr import flag
+from spec_model.lang.walk import nodes
 
 ROOT = Path(__file__).parents[2]
 

@@ -6,8 +6,9 @@ from checker.partition import Partition, expressions, partitions
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import chosen, integer
 from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.expr import TRUE, Expr, Var, absolute, all_of, any_of, flag, ite, named, var
+from spec_model.lang.expr import TRUE, Expr, Var, all_of, any_of, flag, ite, var
 from spec_model.lang.system import Program, TransitionSystem
+from spec_model.lang.words import absolute, named
 from tests.naive import vectors
 from tests.strategies_ts import transition_systems
 

@@ -11,8 +11,10 @@ from checker.encode.symbolic import transition
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import enumeration, integer
 from spec_model.lang.evaluate import evaluate, step
-from spec_model.lang.expr import TRUE, Var, flag, ite, minimum, nodes, var
+from spec_model.lang.expr import TRUE, Var, flag, ite, var
 from spec_model.lang.system import TransitionSystem
+from spec_model.lang.walk import nodes
+from spec_model.lang.words import minimum
 from tests.strategies_ts import goals, transition_systems
 
 

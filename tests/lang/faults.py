@@ -6,10 +6,7 @@ from spec_model.lang.action import Action
 from spec_model.lang.chart import Chart, State
 from spec_model.lang.domain import integer
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import (
-    flag,
-    var,
-)
+from spec_model.lang.expr import flag, var
 from spec_model.lang.system import in_order
 from spec_model.lang.wellformed import check_chart, check_system
 

@@ -8,18 +8,16 @@ from spec_model.lang.action import assign, send, when
 from spec_model.lang.domain import boolean, enumeration, fixed, integer
 from spec_model.lang.errors import ModelError
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import (
+from spec_model.lang.expr import all_of, any_of, const, flag, implies, ite, var
+from spec_model.lang.label import text
+from spec_model.lang.time import ms, sec, ticks
+from spec_model.lang.walk import structure
+from spec_model.lang.words import (
     absolute,
     after,
-    all_of,
-    any_of,
     bit,
-    const,
     duration,
-    flag,
     held,
-    implies,
-    ite,
     maximum,
     minimum,
     modulo,
@@ -27,12 +25,8 @@ from spec_model.lang.expr import (
     quotient,
     rising,
     sign,
-    structure,
-    var,
     wrap,
 )
-from spec_model.lang.label import text
-from spec_model.lang.time import ms, sec, ticks
 
 a, b = flag("a"), flag("b")
 mode = var("mode", enumeration("Mode", ["IDLE", "BUSY"]))

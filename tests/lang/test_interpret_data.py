@@ -6,10 +6,11 @@ from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block, Chart, Enabled, State, to
 from spec_model.lang.domain import boolean, integer
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Var, after, maximum, minimum, var
+from spec_model.lang.expr import Var, var
 from spec_model.lang.interpret import Interpreter
 from spec_model.lang.system import in_order
 from spec_model.lang.time import ticks
+from spec_model.lang.words import after, maximum, minimum
 from tests.lang.bench import Bench, a, b, n
 
 # --- data, frozen subsystems (G11, G12) -------------------------------------------------------

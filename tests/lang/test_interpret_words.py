@@ -7,8 +7,9 @@ import pytest
 from spec_model.lang.action import assign, send, when
 from spec_model.lang.chart import Chart, Enabled, Junction, State, to
 from spec_model.lang.domain import enumeration
-from spec_model.lang.expr import Temporal, Var, after, duration, flag, held, rising, var
+from spec_model.lang.expr import Temporal, Var, flag, var
 from spec_model.lang.time import ms, sec, ticks
+from spec_model.lang.words import after, duration, held, rising
 from tests.lang.bench import Bench, a, b, c, n, note
 
 

@@ -12,9 +12,10 @@ from properties.reduce import reduce
 from spec_model.lang.action import Assign
 from spec_model.lang.errors import ModelError
 from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Expr, after, flag, held, once, previous, rising
+from spec_model.lang.expr import Expr, flag
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.time import ms, ticks
+from spec_model.lang.words import after, held, once, previous, rising
 
 p, q, r = flag("p"), flag("q"), flag("r")
 x = flag("x")

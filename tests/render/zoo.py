@@ -5,8 +5,9 @@ from checker.trace import Arrow, Tick, Trace
 from spec_model.lang.action import assign, send, when
 from spec_model.lang.chart import Chart, Junction, State, to
 from spec_model.lang.domain import enumeration, fixed, integer
-from spec_model.lang.expr import Var, after, duration, flag, named, rising, var
+from spec_model.lang.expr import Var, flag, var
 from spec_model.lang.time import sec
+from spec_model.lang.words import after, duration, named, rising
 
 level = var("level", integer(0, 300), 0, "how high <it> stands & more")
 speed = var("speed", fixed(-1, 1, 0.1, "m/s"))

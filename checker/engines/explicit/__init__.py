@@ -9,8 +9,8 @@ from collections.abc import Mapping, Sequence
 from checker.encode.native import NativeSearch, Task, TooWide, layout
 from checker.encode.paths import path_program
 from checker.engine import Limits, Progress
-from checker.engines.explicit.runs import Runs
 from checker.engines.explicit.levels import Found, search
+from checker.engines.explicit.runs import Runs
 from checker.partition import partitions
 from checker.slice import sliced
 from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable

@@ -13,8 +13,9 @@ from checker.partition import Partition, partition
 from checker.slice import assumption_groups
 from checker.verdict import Run
 from spec_model.lang.evaluate import evaluate, step
-from spec_model.lang.expr import Expr, Var, variables
+from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem
+from spec_model.lang.walk import variables
 
 
 class Runs:

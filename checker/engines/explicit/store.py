@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from checker.encode.native import BATCH, NativeSearch
 
-_LOAD = 0.6
+_LOAD = 0.75
 _FULLEST = 0.9
 _FIRST = 1 << 13
 _MOST = (1 << 32) - 2

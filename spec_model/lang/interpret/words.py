@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from spec_model.lang.chart import Chart, Path
 from spec_model.lang.errors import ModelError
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, Temporal, When, nodes
+from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, Temporal, When
+from spec_model.lang.walk import nodes
 
 
 @dataclass

@@ -5,20 +5,9 @@ from itertools import product
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import Bool, Domain, boolean
 from spec_model.lang.evaluate import operate
-from spec_model.lang.expr import (
-    COMPARISONS,
-    TRUE,
-    Apply,
-    Const,
-    Expr,
-    Named,
-    Op,
-    Var,
-    all_of,
-    any_of,
-    plain,
-)
+from spec_model.lang.expr import COMPARISONS, TRUE, Apply, Const, Expr, Named, Op, Var, all_of, any_of
 from spec_model.lang.system import Statement
+from spec_model.lang.walk import plain
 
 _FEW = 4096
 

@@ -6,8 +6,9 @@ from spec_model.lang.action import Action, Assign, each_action, expressions, rea
 from spec_model.lang.chart import Chart, Component, Enabled, Path, parts
 from spec_model.lang.domain import Enum
 from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.expr import Expr, Var, nodes, variables
+from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import System
+from spec_model.lang.walk import nodes, variables
 from spec_model.lang.wellformed.places import legs, name_of, places
 
 

@@ -6,7 +6,8 @@ from spec_model.lang.action import Send, each_action, expressions
 from spec_model.lang.chart import Block, Chart
 from spec_model.lang.domain import Bool
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Expr, Temporal, When, nodes, variables
+from spec_model.lang.expr import Expr, Temporal, When
+from spec_model.lang.walk import nodes, variables
 from spec_model.lang.wellformed.places import Place, conditions, legs, places
 
 _OF_A_STATE = (When.AFTER, When.DURATION)

@@ -1,0 +1,58 @@
+"""Walking formulas: sub-expressions, variables, structure."""
+
+from collections.abc import Iterator
+
+from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var
+
+
+def children(expr: Expr) -> tuple[Expr, ...]:
+    """The direct sub-expressions."""
+    match expr:
+        case Apply(_, args, _):
+            return args
+        case Named(_, body):
+            return (body,)
+        case Temporal(_, arg, _, _):
+            return () if arg is None else (arg,)
+        case _:
+            return ()
+
+
+def nodes(*roots: Expr) -> Iterator[Expr]:
+    """Every node reachable from the roots once, parents before children."""
+    seen: set[int] = set()
+    stack = list(reversed(roots))
+    while stack:
+        expr = stack.pop()
+        if id(expr) not in seen:
+            seen.add(id(expr))
+            yield expr
+            stack.extend(reversed(children(expr)))
+
+
+def variables(*roots: Expr) -> dict[str, Var]:
+    """The variables that occur, by name, in order of first occurrence."""
+    return {e.name: e for e in nodes(*roots) if isinstance(e, Var)}
+
+
+def plain(expr: Expr) -> Expr:
+    """The formula under any names."""
+    while isinstance(expr, Named):
+        expr = expr.body
+    return expr
+
+
+def structure(expr: Expr) -> tuple[object, ...]:
+    """A key equal for two formulas iff they are built alike (names see-through)."""
+    match expr:
+        case Const(value, sort):
+            return ("const", value, sort)
+        case Var(name):
+            return ("var", name)
+        case Named(_, body):
+            return structure(body)
+        case Apply(op, args, _):
+            return (op, *(structure(a) for a in args))
+        case Temporal(when, arg, span, strict):
+            return (when, None if arg is None else structure(arg), span, strict)
+    raise AssertionError(expr.__class__)
