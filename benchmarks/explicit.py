@@ -36,6 +36,7 @@ SOURCE = Path(__file__).parent / "c"
 MODELS = ((3, 1), (28, 1), (32, 1), (31, 10), (85, 1))
 GOALS = {85: "P5"}
 """By default the goal is ``broken``, never true: the whole state space is searched."""
+UNLIMITED = Limits()
 CHART, PROPERTY, SECONDS = "obstacles_n", "PB2-05-12", 8.0
 
 
@@ -49,7 +50,7 @@ class Timed:
     whole: float
 
 
-def ours(system: TransitionSystem, goals: Sequence[Var], limits: Limits = Limits()) -> Timed:
+def ours(system: TransitionSystem, goals: Sequence[Var], limits: Limits = UNLIMITED) -> Timed:
     """Slice, compile and search once."""
     began = perf_counter()
     part = sliced(system, goals)
@@ -104,7 +105,8 @@ def line(name: str, taken: dict[str, list[Timed]]) -> str:
     own = taken["ours"]
     seconds = median(t.seconds for t in own)
     text = f"{name:>12} {own[0].states:>12,} {own[0].transitions:>14,} {median(t.whole for t in own):>8.3f}"
-    text += f" {seconds:>8.3f} {own[0].states / seconds / 1e6:>7.2f} {own[0].transitions / seconds / 1e6:>7.1f}"
+    text += f" {seconds:>8.3f}"
+    text += "".join(f" {n / seconds / 1e6:>7.{d}f}" for n, d in ((own[0].states, 2), (own[0].transitions, 1)))
     for other in ("naive", "factored"):
         if other in taken:
             theirs = median(t.seconds for t in taken[other])
@@ -122,8 +124,9 @@ def chart(repetitions: int) -> str:
 
 def main() -> None:
     repetitions = int(sys.argv[1]) if len(sys.argv) > 1 else 5
-    print(f"{'model':>12} {'states':>12} {'transitions':>14} {'all s':>8} {'search s':>8} {'Mst/s':>7} {'Mtr/s':>7}"
-          f" {'C s':>8} {'x':>5} {'C fact s':>8} {'x':>5}")
+    columns = [("model", 12), ("states", 12), ("transitions", 14), ("all s", 8), ("search s", 8)]
+    columns += [("Mst/s", 7), ("Mtr/s", 7), ("C s", 8), ("x", 5), ("C fact s", 8), ("x", 5)]
+    print(" ".join(f"{name:>{width}}" for name, width in columns))
     with tempfile.TemporaryDirectory() as folder:
         for comp, k in MODELS:
             for text in model(comp, k, repetitions, folder):

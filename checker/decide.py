@@ -1,15 +1,15 @@
 """From properties to verdicts: properties that share a system and its monitors are searched together."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import prod
 
-from checker.calm import calmed, transferred
 from checker.engine import Engine, Limits, Progress, engines
-from checker.replay import replay
-from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Verdict, Violated
+from checker.reproduce import reproduced
+from checker.result import Result, check_domains, result
+from checker.verdict import Answer, Open, Reached, Unreachable
 from properties.forms import Property
-from properties.reduce import Goal, Question, reduce
+from properties.reduce import Question, reduce
 from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.expr import Var
 from spec_model.lang.lower import lower
@@ -24,15 +24,6 @@ ALL = "all"
 
 class Disagreement(Exception):
     """Two engines gave answers that cannot both be true: a bug of ours."""
-
-
-@dataclass(frozen=True)
-class Result:
-    """A property, its verdict, and the name of the system the verdict is about."""
-
-    property: Property
-    verdict: Verdict
-    system: str
 
 
 @dataclass(frozen=True)
@@ -91,24 +82,22 @@ def decide(
     """
     question = reduce(lower(task.system), task.properties)
     found = _answers(question, engine, limits, progress)
-    _check_domains(question.system, found)
-    results = []
-    for goal in question.goals:
-        answer, by = found[goal.var.name]
-        if isinstance(answer, Reached) and task.system.over:
-            results.append(
-                _reproduced(task.system, question.system, goal, answer, by, systems, limits, progress)
-            )
-        else:
-            verdict = _verdict(question.system, goal, answer, by)
-            results.append(Result(goal.property, verdict, task.system.name))
-    return results
+    check_domains(question.system, found)
+    runs = {n: (a, by) for n, (a, by) in found.items() if isinstance(a, Reached)} if task.system.over else {}
+    results = [
+        result(question.system, g, *found[g.var.name]) for g in question.goals if g.var.name not in runs
+    ]
+    if not runs:
+        return results
+    if not task.system.concrete:
+        raise ModelError(f"{task.system.name} is an over-approximation; write concrete= to say of what.")
+    concrete = systems[task.system.concrete]
+    return results + reproduced(question, runs, concrete, engines()["bmc"], limits, progress)
 
 
-Answers = dict[str, tuple[Answer, str]]
-
-
-def _answers(question: Question, engine: str, limits: Limits, progress: Progress) -> Answers:
+def _answers(
+    question: Question, engine: str, limits: Limits, progress: Progress
+) -> dict[str, tuple[Answer, str]]:
     goals = [g.var for g in question.goals] + [check for check, _ in question.system.checks]
     known = engines()
     if engine == ALL:
@@ -125,7 +114,7 @@ def _answers(question: Question, engine: str, limits: Limits, progress: Progress
 
 def _ask(
     engine: Engine, system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
-) -> Answers:
+) -> dict[str, tuple[Answer, str]]:
     return {n: (a, engine.NAME) for n, a in engine.check(system, goals, limits, progress).items()}
 
 
@@ -144,7 +133,7 @@ def _compared(
     known: Mapping[str, Engine],
     limits: Limits,
     progress: Progress,
-) -> Answers:
+) -> dict[str, tuple[Answer, str]]:
     each = [_ask(engine, system, goals, limits, progress) for engine in known.values()]
     merged = each[0]
     for other in each[1:]:
@@ -175,56 +164,3 @@ def _word(answer: Answer) -> str:
             return "never"
         case Open(_, depth):
             return f"not within {depth} ticks"
-
-
-def _check_domains(system: TransitionSystem, found: Answers) -> None:
-    for check, text in system.checks:
-        answer, _ = found[check.name]
-        if isinstance(answer, Reached):
-            raise ModelError(
-                f"{system.name}: {text}, first in tick {len(answer.run)}. "
-                "Widen the domain or saturate the assignment."
-            )
-
-
-def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Verdict:
-    match answer:
-        case Reached(run):
-            trace = replay(system, goal, calmed(system, goal.var, run))
-            return Proved(trace, by) if goal.reach else Violated(trace, by)
-        case Unreachable(because):
-            return Violated(because, by) if goal.reach else Proved(because, by)
-        case Open(reason, depth):
-            return Unknown(reason, depth, by)
-
-
-def _reproduced(
-    system: System,
-    over: TransitionSystem,
-    goal: Goal,
-    answer: Reached,
-    by: str,
-    systems: Mapping[str, System],
-    limits: Limits,
-    progress: Progress,
-) -> Result:
-    """A run of an over-approximation counts only if its concrete system has one too.
-
-    The same inputs are tried first: a run of the concrete system as short as the shortest of the
-    over-approximation is a shortest one.
-    """
-    found = f"reached after {len(answer.run)} ticks on {system.name}, an over-approximation"
-    if not system.concrete:
-        return Result(goal.property, Unknown(f"{found} with no concrete system", 0, "replay"), system.name)
-    prop = replace(goal.property, on=system.concrete)
-    question = reduce(lower(systems[system.concrete]), [prop])
-    [same] = question.goals
-    for run in (answer.run, calmed(over, goal.var, answer.run)):
-        moved = transferred(run, question.system, same.var)
-        if moved is not None:
-            return Result(prop, _verdict(question.system, same, Reached(moved), by), system.concrete)
-    [result] = decide(Task(systems[system.concrete], (prop,)), systems, "bmc", limits, progress)
-    verdict = result.verdict
-    if isinstance(verdict, Unknown):
-        verdict = replace(verdict, reason=f"{found}; not reproduced on {system.concrete}: {verdict.reason}")
-    return Result(goal.property, verdict, system.concrete)

@@ -157,7 +157,7 @@ def _required(assume: Expr, scope: Mapping[str, Var]) -> dict[str, list[Expr]]:
 
 
 def _split(var: Var, alone: Sequence[Expr], required: Sequence[Expr]) -> Partition:
-    values = _column(var, var)
+    values: Array = np.array(var.domain.values, dtype=np.int64)
     for condition in required:
         values = values[_at(condition, var, values) != 0]
     cell = np.zeros(len(values), dtype=np.int64)
@@ -177,13 +177,8 @@ def _numbered(var: Var, values: Array, cell: Array) -> Partition:
     return Partition(var, cells, tuple(map(int, values)), tuple(map(int, rank[back])))
 
 
-def _column(var: Var, *exprs: Expr) -> Array:
-    """The domain as an array; of Python integers where 64 bits could overflow."""
-    return np.array(var.domain.values, dtype=np.int64)
-
-
 def _at(expr: Expr, var: Var, values: Array) -> Array:
-    """The formula at every value of its only variable."""
+    """The formula at every value of its only variable; in Python integers where 64 bits could overflow."""
     wide = any(not -(1 << 62) < end < 1 << 62 for i in intervals(expr).values() for end in (i.low, i.high))
     column = values.astype(object) if wide else values
     result = _array(expr, column, {})

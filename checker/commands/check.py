@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from checker.commands.codes import Exit
 from checker.commands.output import err, out
 from checker.commands.progress import Watch
-from checker.decide import Result, Task, decide, tasks
+from checker.decide import Task, decide, tasks
 from checker.engine import Limits
+from checker.result import Result
 from checker.trace import Trace
 from checker.verdict import Exhausted, Proved, Unknown, Verdict, Violated
 from properties.catalogue import Expected, expected

@@ -202,6 +202,7 @@ class _Made:
 # --- forks ---------------------------------------------------------------------------------------
 
 _FORKS = 12
+"""Forks in a program, at most about: more save running statements again, but cost registers."""
 
 
 def forked(program: PathProgram) -> PathProgram:

@@ -82,13 +82,13 @@ PB2_02e = holds_after(
 )  # fmt: skip
 
 PB2_02_scan = holds_after(
-    "PB2-02-scan", "With a sonar scan every 60 ms, an obstacle at 70 cm or less for 3 steps stops the rover.",
+    "PB2-02-scan", "With a sonar scan every 60 ms, an obstacle at 70 cm or less for 3 steps stops it.",
     premise=echo_near, for_=3 * ticks, then=command == "CMD_ESTOP",
     covers=STOP, on="obstacles_scan_free", readings=("E04", "E12", "E32"),
 )  # fmt: skip
 
 PB2_02_scan_2 = holds_after(
-    "PB2-02-scan-2", "With a sonar scan every 60 ms, an obstacle at 70 cm or less for 2 steps stops the rover.",
+    "PB2-02-scan-2", "With a sonar scan every 60 ms, an obstacle at 70 cm or less for 2 steps stops it.",
     premise=echo_near, for_=2 * ticks, then=command == "CMD_ESTOP",
     covers=STOP, on="obstacles_scan_free", readings=("E04", "E12", "E32"),
 )  # fmt: skip

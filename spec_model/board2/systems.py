@@ -4,13 +4,11 @@ from spec_model.board2.heading import headings, measured
 from spec_model.board2.obstacles import TIMED, WINDOWS, obstacles_n
 from spec_model.board2.obstacles_degraded import obstacles_degraded
 from spec_model.board2.selection import selection
-from spec_model.environment2 import scan_phase, sonar_scan
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block, Chart, Component
-from spec_model.lang.expr import Expr, all_of, flag, implies, ite, var
+from spec_model.environment2 import scan_phase, sonar_scan, turns_as_told
+from spec_model.lang.chart import Chart, Component
+from spec_model.lang.expr import Expr, flag
 from spec_model.lang.system import System, in_order
-from spec_model.lang.words import wrap
-from spec_model.signals.board2 import B2Decision, d1, d2, d3
+from spec_model.signals.board2 import d1, d2, d3
 
 deg_mask_b1 = flag("deg_mask_b1", "the degraded mask last received from Board 1 is not zero")
 crit_mask_b1 = flag("crit_mask_b1", "the critical mask last received from Board 1 is not zero")
@@ -61,15 +59,7 @@ def _selected(chart: Chart) -> tuple[Component, ...]:
 
 HEADING_GRID = 15
 yaw, targetAngle = headings(HEADING_GRID)
-last_yaw = var("last_yaw", yaw.domain, doc="yaw in the step before, while the rover deviates")
-remember_yaw = Block("RememberYaw", [
-    assign(last_yaw, ite((B2Decision == 2) | (B2Decision == 4), yaw, 0)),
-], text="What the assumption about turning compares with (A06)")  # fmt: skip
-turn = wrap(yaw - last_yaw)
-turning = all_of(
-    implies(B2Decision == 2, (turn <= -HEADING_GRID) & (turn >= -90)),
-    implies(B2Decision == 4, (turn >= HEADING_GRID) & (turn <= 90)),
-)
+remember_yaw, turning = turns_as_told(yaw, least=HEADING_GRID, most=90)
 AS_TOLD = (
     f"During a deviation yaw moves {HEADING_GRID} to 90 degrees a step in the direction of the deviation "
     f"(A06); otherwise it is a multiple of {HEADING_GRID} degrees, arbitrary in every step."

@@ -33,11 +33,14 @@ class Library:
         _optimise(parsed, machine)
         self.engine = binding.create_mcjit_compiler(parsed, machine)
         self.engine.finalize_object()
+        self.functions: dict[str, Any] = {}
 
     def function(self, name: str, result: Any, arguments: Sequence[Any]) -> Any:
         """A function as a callable, with ctypes types; calls release the interpreter's lock."""
-        address = self.engine.get_function_address(name)
-        return ctypes.CFUNCTYPE(result, *arguments)(address)
+        if name not in self.functions:
+            address = self.engine.get_function_address(name)
+            self.functions[name] = ctypes.CFUNCTYPE(result, *arguments)(address)
+        return self.functions[name]
 
 
 def _optimise(parsed: Any, machine: Any) -> None:

@@ -13,7 +13,7 @@ from checker.engine import Limits, Progress
 from checker.engines.explicit.store import Store
 
 _PAUSE = 0.2
-_REPORT = 0.9
+_REPORT = 0.7
 _MOST_INITIAL = 1 << 22
 
 

@@ -1,0 +1,70 @@
+"""A run of an over-approximation counts only if the system it stands for has one too."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from checker.calm import calmed, transferred
+from checker.engine import Engine, Limits, Progress
+from checker.result import Result, check_domains, result
+from checker.verdict import Reached, Unknown
+from properties.reduce import Goal, Question, reduce
+from spec_model.lang.lower import lower
+from spec_model.lang.system import System
+
+Runs = Mapping[str, tuple[Reached, str]]
+"""The goals that were reached, with the engine that did."""
+
+
+def reproduced(
+    question: Question, runs: Runs, concrete: System, engine: Engine, limits: Limits, progress: Progress
+) -> list[Result]:
+    """A result about ``concrete`` for each goal reached on the over-approximation in ``question``.
+
+    The same inputs are tried first: a run of the concrete system as short as the shortest of the
+    over-approximation is a shortest one.  What is left is searched for, all goals together.
+    """
+    reached = [g for g in question.goals if g.var.name in runs]
+    there = reduce(lower(concrete), [replace(g.property, on=concrete.name) for g in reached])
+    found: list[Result] = []
+    left: list[tuple[Goal, Goal]] = []
+    for goal, same in zip(reached, there.goals, strict=True):
+        moved = _moved(question, goal, runs[goal.var.name][0], there, same)
+        if moved is None:
+            left.append((goal, same))
+        else:
+            found.append(result(there.system, same, moved, runs[goal.var.name][1]))
+    return found + (_searched(question, runs, there, left, engine, limits, progress) if left else [])
+
+
+def _moved(question: Question, goal: Goal, answer: Reached, there: Question, same: Goal) -> Reached | None:
+    for run in (answer.run, calmed(question.system, goal.var, answer.run)):
+        moved = transferred(run, there.system, same.var)
+        if moved is not None:
+            return Reached(moved, answer.shortest)
+    return None
+
+
+def _searched(
+    question: Question,
+    runs: Runs,
+    there: Question,
+    left: list[tuple[Goal, Goal]],
+    engine: Engine,
+    limits: Limits,
+    progress: Progress,
+) -> list[Result]:
+    goals = [same.var for _, same in left] + [check for check, _ in there.system.checks]
+    answers = {n: (a, engine.NAME) for n, a in engine.check(there.system, goals, limits, progress).items()}
+    check_domains(there.system, answers)
+    found = []
+    for goal, same in left:
+        outcome = result(there.system, same, *answers[same.var.name])
+        if isinstance(outcome.verdict, Unknown):
+            ticks = len(runs[goal.var.name][0].run)
+            reason = (
+                f"reached after {ticks} ticks on {question.system.name}, an over-approximation; "
+                f"not reproduced on {there.system.name}: {outcome.verdict.reason}"
+            )
+            outcome = replace(outcome, verdict=replace(outcome.verdict, reason=reason))
+        found.append(outcome)
+    return found

@@ -1,0 +1,51 @@
+"""Results: an answer about a goal taken home as a verdict on a property."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from checker.calm import calmed
+from checker.replay import replay
+from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Verdict, Violated
+from properties.forms import Property
+from properties.reduce import Goal
+from spec_model.lang.errors import ModelError
+from spec_model.lang.system import TransitionSystem
+
+Answers = Mapping[str, tuple[Answer, str]]
+"""An answer for each goal and the name of the engine that gave it."""
+
+
+@dataclass(frozen=True)
+class Result:
+    """A property, its verdict, and the name of the system the verdict is about."""
+
+    property: Property
+    verdict: Verdict
+    system: str
+
+
+def result(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Result:
+    """The result of a goal; a run is calmed and replayed first.  Raises ``ReplayError``."""
+    return Result(goal.property, _verdict(system, goal, answer, by), system.name)
+
+
+def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Verdict:
+    match answer:
+        case Reached(run):
+            trace = replay(system, goal, calmed(system, goal.var, run))
+            return Proved(trace, by) if goal.reach else Violated(trace, by)
+        case Unreachable(because):
+            return Violated(because, by) if goal.reach else Proved(because, by)
+        case Open(reason, depth):
+            return Unknown(reason, depth, by)
+
+
+def check_domains(system: TransitionSystem, found: Answers) -> None:
+    """Raises ``ModelError`` if some run takes a variable out of its domain."""
+    for check, text in system.checks:
+        answer, _ = found[check.name]
+        if isinstance(answer, Reached):
+            raise ModelError(
+                f"{system.name}: {text}, first in tick {len(answer.run)}. "
+                "Widen the domain or saturate the assignment."
+            )
