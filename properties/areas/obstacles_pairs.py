@@ -85,13 +85,15 @@ def within_the_window(id: str, pair: Pair) -> Property:
     For decision 3, which has two pairs, this is said of the steps in which the other pair cannot
     be the cause.
     """
+    # A window of these two cannot end and open again in one step; saying so needs far fewer valuations.
+    cause = pair.opens if pair in (PAIR_12, PAIR_21) else lost[pair.first - 1]
     others = [p for p in PAIRS if p is not pair and p.decision == pair.decision]
     another = any_of(*(p.was_open & p.confirming for p in others))
     return enters_only_if(
         id, f"The signal of pair {pair.name} is sent only if sonar {pair.name[0]} lost an object in the "
             f"last 3 s and sonar {pair.name[1]} has one.",
         entering=B2Decision == pair.decision,
-        only_if=(recently(lost[pair.first - 1]) & pair.confirming) | another,
+        only_if=(recently(cause) & pair.confirming) | another,
         covers=WINDOW, on=pair.on, readings=("E05", "E14", "E15", "E16"),
     )  # fmt: skip
 
