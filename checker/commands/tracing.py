@@ -35,9 +35,9 @@ def trace(
         return Exit.AS_EXPECTED
     if output is None and format == "table":
         reason = expected(prop.id).because
-        out.print(f"{prop.id} is {verdict.word}: {prop.text}", markup=False)
+        out.print(f"{prop.id} is {verdict.word}: {prop.text}", markup=False, soft_wrap=False)
         if reason:
-            out.print(f"Why: {reason}", markup=False)
+            out.print(f"Why: {reason}", markup=False, soft_wrap=False)
     shown = verdict.because if everything or format not in FOR_READERS else verdict.because.focused()
     write(renderer.render(shown), output)
     return Exit.AS_EXPECTED
