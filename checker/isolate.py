@@ -72,7 +72,8 @@ def _child(job: bytes, errors: IO[bytes]) -> Iterator[tuple[subprocess.Popen[byt
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=errors,
-        env={**os.environ, "PYTHONPATH": path},
+        # One hash seed, so that the same question is put to a solver in the same words every time.
+        env={**os.environ, "PYTHONPATH": path, "PYTHONHASHSEED": "0"},
         start_new_session=True,
     ) as process:
         assert process.stdin is not None and process.stdout is not None
