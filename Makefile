@@ -56,7 +56,7 @@ reports: $(STAMP)
 	@$(RUN) -m checker reports $(ARGS)
 
 bench: $(STAMP)
-	@$(RUN) -m benchmarks $(ARGS)
+	@$(RUN) -m benchmarks.explicit $(ARGS)
 
 setup: $(STAMP)
 

@@ -4,7 +4,7 @@ A monitor reads the valuation at the end of a tick, with the inputs of the tick.
 properties share (the same ``previous(x)``, the same tick counter) are made once.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from properties.forms import (
@@ -231,13 +231,12 @@ class _Monitors:
 
     # --- making variables ---
 
-    def _memory(self, key: tuple[object, ...], name: str, make) -> Expr:  # type: ignore[no-untyped-def]
+    def _memory(self, key: tuple[object, ...], name: str, make: Callable[[str], Expr]) -> Expr:
         if key not in self._shared:
             unique = name if name not in self.variables else f"{name} #{len(self.variables)}"
             self._shared[key] = make(unique)
         self._used |= set(variables(self._shared[key]))
-        result: Expr = self._shared[key]
-        return result
+        return self._shared[key]
 
     def _own(self, name: str, domain: Domain, doc: str) -> Var:
         return self._variable(f"{self._owner}.{name}", domain, 0, doc)

@@ -2,12 +2,12 @@
 
 A block of ticks is searched in one query, and a run found is shortened until no shorter one exists
 in its block.  Goals that k-induction shows to be out of reach need no unrolling.  Groups take turns:
-the one that has used the least time goes on.
+the one for which Z3 has done the least goes on.  Work is counted in Z3's own steps, not in seconds,
+so that the same question has the same answer on a busy machine.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import chain
-from time import monotonic
 
 import z3
 
@@ -25,7 +25,8 @@ ALONE = 16
 BLOCK = 32
 WINDOW = 6
 """Ticks of the longest induction that is tried; half of the goals that are never reached need three."""
-_PATIENCE_MS = 2000
+_PATIENCE = 3_000_000
+"""Steps of Z3 that one induction query may take, a second or two."""
 
 
 def search(system: TransitionSystem, goals: Sequence[str], most: int) -> Iterator[Event]:
@@ -50,12 +51,12 @@ def _by_cone(whole: Transition, goals: Sequence[str]) -> list[list[str]]:
 
 
 class _Group:
-    """Goals searched together: those still open, the ticks they are not reached in, the seconds spent."""
+    """Goals searched together: those still open, the ticks they are not reached in, Z3's work so far."""
 
     def __init__(self, whole: Transition, goals: Sequence[str]) -> None:
         self.open = list(goals)
         self.depth = 0
-        self.spent = 0.0
+        self.spent = 0
         part = self._part = cone(whole, goals)
         self._rest = _Rest(whole.system, part)
         self._leaving = _feasible(part, leaving(part, whole.terms))
@@ -64,7 +65,7 @@ class _Group:
 
     def go_on(self, most: int) -> Iterator[Event]:
         """Search the next block of ticks."""
-        start = monotonic()
+        start = _work(self._unrolling.solver)
         if self._rest.possible:
             yield from self._block(self.depth + 1, min(most, self.depth + self._block_length()))
             if self.depth == WINDOW and not self._leaving:
@@ -72,7 +73,7 @@ class _Group:
         else:  # there is no run at all
             self.depth = most
             yield Bound(tuple(self.open), most)
-        self.spent += monotonic() - start
+        self.spent += max(0, _work(self._unrolling.solver) - start)
 
     def _block_length(self) -> int:
         if self.depth < ALONE or self._leaving:
@@ -139,9 +140,9 @@ class _Group:
 
 def inductive(part: Slice, goal: str) -> int | None:
     """The least k up to ``WINDOW`` such that the goal, false after k - 1 ticks from any valuation, is
-    false after the next one too; None when there is none or Z3 takes too long to tell."""
+    false after the next one too; None when there is none or Z3 takes too many steps to tell."""
     unrolling = Unrolling(part, anywhere=True)
-    unrolling.solver.set("timeout", _PATIENCE_MS)
+    unrolling.solver.set("rlimit", _PATIENCE)
     for ticks in range(1, WINDOW + 1):
         unrolling.tick()
         hit = unrolling.after(ticks, goal)
@@ -150,6 +151,12 @@ def inductive(part: Slice, goal: str) -> int | None:
             return ticks if answer == z3.unsat else None
         unrolling.solver.add(z3.Not(hit))
     return None
+
+
+def _work(solver: z3.Solver) -> int:
+    """The steps that Z3 has counted so far."""
+    counts = solver.statistics()
+    return int(counts.get_key_value("rlimit count")) if "rlimit count" in counts.keys() else 0  # noqa: SIM118
 
 
 class _Rest:

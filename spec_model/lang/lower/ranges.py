@@ -20,7 +20,7 @@ def possible(expr: Expr) -> Possible:
         case Const(value, _):
             return frozenset({value})
         case Var(_, domain):
-            return frozenset(domain.values) if len(domain) <= _FEW else domain.values  # type: ignore[return-value]
+            return frozenset(domain.values) if len(domain) <= _FEW else range(domain.low, domain.high + 1)
         case Apply(op, _, _) if op in COMPARISONS or op in (Op.NOT, Op.AND, Op.OR, Op.BIT):
             return frozenset({0, 1})
         case Apply(Op.ITE, (_, then, otherwise), _):
