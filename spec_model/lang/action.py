@@ -6,9 +6,9 @@ from typing import Union
 
 from spec_model.lang.domain import Bool, Num, show
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Const, Expr, Operand, Temporal, Var, is_multiple, lift, rescale
+from spec_model.lang.expr import Const, Expr, Operand, Var, is_multiple, lift, rescale
 from spec_model.lang.label import text
-from spec_model.lang.walk import nodes, variables
+from spec_model.lang.walk import variables
 
 
 @dataclass(frozen=True)
@@ -117,8 +117,3 @@ def expressions(actions: Sequence[Action]) -> Iterator[Expr]:
             yield action.value
         elif isinstance(action, If):
             yield action.condition
-
-
-def temporals(*roots: Expr) -> list[Temporal]:
-    """The temporal words that occur, outermost first."""
-    return [e for e in nodes(*roots) if isinstance(e, Temporal)]

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from spec_model.lang.action import Action, expressions, reads, writes
-from spec_model.lang.domain import Domain, Enum, enumeration
+from spec_model.lang.domain import Domain, enumeration
 from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.expr import Const, Expr, Var, any_of
 from spec_model.lang.walk import variables
@@ -300,9 +300,3 @@ def parts(components: Sequence[Component]) -> Iterator[Chart | Block]:
             yield from parts(component.components)
         else:
             yield component
-
-
-def location_enum(location: Var) -> Enum:
-    """The enumeration behind a location variable."""
-    assert isinstance(location.sort, Enum)
-    return location.sort

@@ -115,11 +115,6 @@ def padded(lines: tuple[str, ...]) -> tuple[int, int]:
     return (wide + 10, high + 3) if lines else (0, 0)
 
 
-def reversed_in(cut: Cut, drawn: Edge) -> bool:
-    """Whether the edge runs against the arrow."""
-    return drawn.tail != (cut.source or cut.port)
-
-
 def meetings(found: Sequence[Cut], member: str, way: Way) -> dict[str, bool]:
     """The arrows that meet a member from outside, and whether they meet it on its right side."""
     return {
