@@ -3,6 +3,7 @@
 import importlib
 import pkgutil
 import tomllib
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -10,6 +11,7 @@ from pathlib import Path
 from properties.forms import Property
 from properties.requirements import requirement
 from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.readings import fixed
 
 
 @dataclass(frozen=True)
@@ -23,7 +25,22 @@ class Expected:
 
 @cache
 def catalogue() -> dict[str, Property]:
-    """Every property by id, area by area.  Raises ``ModelError`` for an id used twice."""
+    """Every property by id, area by area, every reading at its default."""
+    return under({})
+
+
+def under(choices: Mapping[str, str]) -> dict[str, Property]:
+    """Every property by id under chosen readings; what reads no reading is the same under all.
+
+    Raises ``ModelError`` for an unknown reading or choice.
+    """
+    fixing = fixed(choices)
+    return {id: replace(prop, form=fixing.parts_of(prop.form)) for id, prop in as_written().items()}
+
+
+@cache
+def as_written() -> dict[str, Property]:
+    """Every property by id, with its readings open.  Raises ``ModelError`` for an id used twice."""
     import properties.areas as folder
 
     found: dict[str, Property] = {}

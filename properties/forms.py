@@ -98,9 +98,54 @@ class Reachable:
     that: Expr
 
 
+@dataclass(frozen=True)
+class LeadsTo:
+    """If ``trigger`` is true in tick k, ``response`` is true in k or some later tick; no bound is set.
+
+    Required only of runs in which each of ``fair`` is true again and again.  If ``bound`` is given,
+    it is tried first to prove that the response comes within it.
+    """
+
+    trigger: Expr
+    response: Expr
+    bound: Span | None = None
+    fair: tuple[Expr, ...] = ()
+
+
+@dataclass(frozen=True)
+class Settles:
+    """If from some tick on ``premise`` is true in every tick, so is ``then`` from some tick on.
+
+    Required only of runs in which each of ``fair`` is true again and again.  If ``bound`` is given,
+    it is tried first to prove that ``then`` is true once ``premise`` has been for as long.
+    """
+
+    premise: Expr
+    then: Expr
+    bound: Span | None = None
+    fair: tuple[Expr, ...] = ()
+
+
+@dataclass(frozen=True)
+class Recoverable:
+    """From every valuation that some run reaches, some continuation reaches a tick with ``to``.
+
+    If ``by``, a condition on inputs alone, is given, it is tried first to prove that inputs which
+    meet it in every tick lead to ``to`` after ``within``, from wherever the run is.
+    """
+
+    to: Expr
+    by: Expr | None = None
+    within: Span | None = None
+
+
 Form = Union[
-    Always, Never, Responds, HoldsAfter, HoldsFor, LeavesOnlyIf, EntersOnlyIf, Precedes, Until, Reachable
-]
+    Always, Never, Responds, HoldsAfter, HoldsFor, LeavesOnlyIf, EntersOnlyIf, Precedes, Until, Reachable,
+    LeadsTo, Settles, Recoverable,
+]  # fmt: skip
+
+Unbounded = LeadsTo | Settles | Recoverable
+"""Forms that no finite run breaks: they are decided by a loop, or by what can no longer be reached."""
 
 
 @dataclass(frozen=True)
@@ -176,3 +221,25 @@ def until(id: str, text: str, *, start: Expr, holds: Expr, release: Expr, covers
 def reachable(id: str, text: str, *, that: Expr, covers: Sequence[str], on: str,
               from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
     return _property(id, text, Reachable(that), covers, on, from_tick, readings)
+
+
+def leads_to(id: str, text: str, *, trigger: Expr, response: Expr, covers: Sequence[str], on: str,
+             bound: Span | None = None, fair: Sequence[Expr] = (),
+             from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    form = LeadsTo(trigger, response, bound, tuple(fair))
+    return _property(id, text, form, covers, on, from_tick, readings)
+
+
+def settles(id: str, text: str, *, premise: Expr, then: Expr, covers: Sequence[str], on: str,
+            bound: Span | None = None, fair: Sequence[Expr] = (),
+            from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    form = Settles(premise, then, bound, tuple(fair))
+    return _property(id, text, form, covers, on, from_tick, readings)
+
+
+def recoverable(id: str, text: str, *, to: Expr, covers: Sequence[str], on: str,
+                by: Expr | None = None, within: Span | None = None,
+                from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    if (by is None) != (within is None):
+        raise ModelError(f"{id} gives only one of by= and within=; write both, or neither.")
+    return _property(id, text, Recoverable(to, by, within), covers, on, from_tick, readings)

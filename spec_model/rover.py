@@ -1,20 +1,37 @@
 """The systems that are checked, by name: every chart with its environment, and each board as a whole."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from importlib import import_module
 from importlib.util import find_spec
+from types import MappingProxyType
 
 from spec_model.lang.chart import Chart
 from spec_model.lang.errors import ModelError
 from spec_model.lang.system import System
+from spec_model.readings import fixed, left_open, modelled_only
+
+AS_READ: Mapping[str, str] = MappingProxyType({})
+"""Every reading at its default."""
 
 BOARDS = ("spec_model.board1.systems", "spec_model.board2.systems")
 """Modules with a tuple SYSTEMS, in the order in which the systems are listed."""
 
 
-def systems() -> dict[str, System]:
-    """Every system by name.  Raises ``ModelError`` for a name used twice."""
-    return merged(system for module in BOARDS for system in _systems_of(module))
+def systems(choices: Mapping[str, str] = AS_READ) -> dict[str, System]:
+    """Every system by name, under chosen readings; a reading not mentioned takes its default.
+
+    A reading chosen as ``any`` is a frozen variable of every system.  Raises ``ModelError`` for a name
+    used twice, an unknown reading or choice.
+    """
+    fixing, open_, modelled = fixed(choices), left_open(choices), modelled_only(choices)
+    found = merged(fixing.system(system) for module in BOARDS for system in _systems_of(module))
+    if not open_:
+        return found
+    return {
+        name: replace(system, frozen=(*system.frozen, *open_), assume=system.assume & modelled)
+        for name, system in found.items()
+    }
 
 
 def _systems_of(module: str) -> tuple[System, ...]:
@@ -35,10 +52,10 @@ def merged(found: Iterable[System]) -> dict[str, System]:
     return by_name
 
 
-def charts() -> dict[str, Chart]:
+def charts(choices: Mapping[str, str] = AS_READ) -> dict[str, Chart]:
     """Every chart by name, as drawn: of charts with one name in several systems, the first listed."""
     found: dict[str, Chart] = {}
-    for system in systems().values():
+    for system in systems(choices).values():
         for chart in system.charts:
             found.setdefault(chart.name, chart)
     return found

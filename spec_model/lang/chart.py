@@ -146,6 +146,14 @@ class Chart:
         self.local_to = tuple((data, tuple(owners)) for data, owners in local_to)
         self.root = State(name, states=states, junctions=junctions, default=default, parallel=parallel)
 
+    def with_local_data(self, local_to: Sequence[tuple[Var, Sequence[str]]]) -> "Chart":
+        """The chart with other data that mean something only in some states."""
+        level = self.root
+        return Chart(
+            self.name, level.states, default=level.default, junctions=level.junctions,
+            parallel=level.parallel, text=self.text, local_to=local_to,
+        )  # fmt: skip
+
     @cached_property
     def states(self) -> dict[Path, State]:
         """Every state by path, parents first, in execution order; the empty path is the chart."""

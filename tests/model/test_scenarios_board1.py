@@ -9,9 +9,9 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import pytest
 
-from spec_model.board1.systems import SYSTEMS
 from spec_model.lang.interpret import Interpreter
 from spec_model.lang.system import TICK_MS, System
+from spec_model.rover import systems
 from spec_model.signals.board1 import WHEELS
 
 Given = Mapping[str, bool | float | str]
@@ -19,7 +19,7 @@ Block = tuple[int, Given]
 Expected = tuple[int, str, str]
 """Instant in ms, signal, value as shown."""
 
-SYSTEM = {s.name: s for s in SYSTEMS}
+SYSTEM = systems()
 ALONE = {"temp_status": "temperature", "batt_status": "battery", "rx_status": "reception_exact"}
 """Statuses that the chart alone shows; all else runs on the whole board."""
 

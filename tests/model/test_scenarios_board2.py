@@ -10,12 +10,12 @@ import pytest
 
 from spec_model.board2.heading import headings, measured
 from spec_model.board2.obstacles import TIMED, obstacles_n
-from spec_model.board2.systems import SYSTEMS
 from spec_model.lang.interpret import Interpreter
 from spec_model.lang.system import System, in_order
+from spec_model.rover import systems
 
 Block = tuple[int, dict[str, int]]
-SYSTEM = {s.name: s for s in SYSTEMS}
+SYSTEM = systems()
 NOMINAL = dict(d1=301, d2=301, d3=301, yaw=0)
 
 # One of the values of the model for each set of distances that no limit divides.
