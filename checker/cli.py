@@ -19,7 +19,7 @@ CODES = (
     "2 inconclusive; 3 internal error or engines disagree; 4 usage or model error; "
     "5 nothing to check; 130 interrupted."
 )
-LISTS = ("properties", "systems", "charts", "requirements", "engines")
+LISTS = ("properties", "systems", "charts", "requirements", "readings", "engines")
 
 
 class Verbs(click.Group):
@@ -50,6 +50,17 @@ def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
     return command
 
 
+def reading(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The option of every verb that looks at the charts."""
+    return click.option(
+        "--reading",
+        "chosen",
+        multiple=True,
+        metavar="ID=CHOICE",
+        help="Read a sentence otherwise, as S43=AND; S43=any leaves it open. See list readings.",
+    )(command)
+
+
 def writing(command: Callable[..., Exit]) -> Callable[..., Exit]:
     """The option of every verb that writes."""
     where = click.Path(path_type=Path)
@@ -60,29 +71,37 @@ def writing(command: Callable[..., Exit]) -> Callable[..., Exit]:
 @click.argument("ids", nargs=-1, metavar="[ID]...")
 @click.option("--system", help="Only properties about this system.")
 @click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
+@reading
 @searching
 def check(
     ids: tuple[str, ...],
     system: str | None,
     as_json: bool,
+    chosen: tuple[str, ...],
     engine: str,
     depth: int | None,
     timeout: float | None,
 ) -> Exit:
     """Check properties and compare the verdicts with the baseline."""
     from checker.commands.check import check as run
-    from checker.commands.select import pick_engine, pick_properties
+    from checker.commands.select import pick_engine, pick_properties, pick_readings
     from spec_model.rover import systems
 
+    choices = pick_readings(chosen)
     return run(
-        pick_properties(ids, system), systems(), pick_engine(engine), Limits(depth, timeout), as_json
-    )  # fmt: skip
+        pick_properties(ids, system, choices),
+        systems(choices),
+        pick_engine(engine),
+        Limits(depth, timeout),
+        as_json,
+        choices,
+    )
 
 
 @app.command("list")
 @click.argument("what", type=click.Choice(LISTS))
 def list_(what: str) -> Exit:
-    """List properties, systems, charts, requirements or engines."""
+    """List properties, systems, charts, requirements, readings or engines."""
     from checker.commands.listing import listing
 
     return listing(what)
@@ -92,36 +111,43 @@ def list_(what: str) -> Exit:
 @click.argument("id")
 @click.option("--format", default="table", show_default=True, help="table, markdown, json or vcd.")
 @click.option("--all", "everything", is_flag=True, help="Also what the property does not depend on.")
+@reading
 @searching
 @writing
 def trace(
     id: str,
     format: str,
     everything: bool,
+    chosen: tuple[str, ...],
     engine: str,
     depth: int | None,
     timeout: float | None,
     output: Path | None,
 ) -> Exit:
     """Show the counterexample of a violated property, or the witness of a reachable one."""
-    from checker.commands.select import pick, pick_engine
+    from checker.commands.select import pick, pick_engine, pick_readings
     from checker.commands.tracing import trace as run
-    from properties.catalogue import catalogue
+    from properties.catalogue import under
+    from spec_model.rover import systems
 
-    prop = pick("property", id, catalogue())
-    return run(prop, pick_engine(engine), Limits(depth, timeout), format, everything, output)
+    choices = pick_readings(chosen)
+    prop = pick("property", id, under(choices))
+    limits = Limits(depth, timeout)
+    return run(prop, systems(choices), pick_engine(engine), limits, format, everything, output)
 
 
 @app.command()
 @click.argument("name")
 @click.option("--project", metavar="VAR,VAR", help="Variables of the state graph of a system.")
 @click.option("--format", default="svg", show_default=True, help="svg, dot, mermaid, graphml or json.")
+@reading
 @writing
-def graph(name: str, project: str | None, format: str, output: Path | None) -> Exit:
+def graph(name: str, project: str | None, format: str, chosen: tuple[str, ...], output: Path | None) -> Exit:
     """Draw a chart, or the reachable graph of a system projected on some variables."""
     from checker.commands.graphing import graph as run
+    from checker.commands.select import pick_readings
 
-    return run(name, project, format, output)
+    return run(name, project, format, pick_readings(chosen), output)
 
 
 @app.command()

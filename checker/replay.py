@@ -55,7 +55,7 @@ def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
 
 def _relevant(system: TransitionSystem, goal: Goal) -> frozenset[str]:
     """The variables that the goal, or a part of the property, depends on."""
-    part = sliced(system, [goal.var])
+    part = sliced(system, [goal.var, *goal.recurs])
     inside = {v.name for v in (*part.inputs, *part.frozen, *part.variables, *part.temps)}
     return frozenset(inside | set(variables(*(formula for _, formula in goal.parts))))
 

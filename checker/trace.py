@@ -44,6 +44,10 @@ class Trace:
     ``before`` is the valuation before the first tick (frozen variables included); ``false_parts``
     are the conjuncts of the property that are false after the last tick (for a witness, empty).
     ``relevant`` and ``charts`` name the variables and the charts the property depends on.
+
+    ``loop`` is set for a run without end: after the last tick all that the property depends on is as
+    after that tick (0: as before the first), and the ticks in between repeat for ever.  ``trapped``
+    is set for a run after which something is out of reach: it counts the valuations still reached.
     """
 
     system: str
@@ -55,6 +59,8 @@ class Trace:
     false_parts: tuple[Expr, ...] = ()
     relevant: frozenset[str] = frozenset()
     charts: frozenset[str] = frozenset()
+    loop: int | None = None
+    trapped: int | None = None
 
     def __len__(self) -> int:
         return len(self.ticks)

@@ -66,10 +66,14 @@ Answer = Union[Reached, Unreachable, Open]
 
 @dataclass(frozen=True)
 class Proved:
-    """The property holds: because the search was exhausted, or (reachability) because of a witness."""
+    """The property holds: because the search was exhausted, or (reachability) because of a witness.
+
+    ``stronger`` says what was proved instead, when that is more than the property demands.
+    """
 
     because: Exhausted | Trace
     engine: str
+    stronger: str = ""
     word: str = field(default="proved", init=False)
 
 

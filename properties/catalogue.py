@@ -8,10 +8,12 @@ from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
 
-from properties.forms import Property
+from properties.forms import Property, formulas
 from properties.requirements import requirement
 from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.readings import fixed
+from spec_model.lang.walk import variables
+from spec_model.readings import fixed, readings
+from spec_model.rover import readings_of
 
 
 @dataclass(frozen=True)
@@ -36,6 +38,12 @@ def under(choices: Mapping[str, str]) -> dict[str, Property]:
     """
     fixing = fixed(choices)
     return {id: replace(prop, form=fixing.parts_of(prop.form)) for id, prop in as_written().items()}
+
+
+def read_by(prop: Property) -> set[str]:
+    """The readings that the property or its system depends on."""
+    own = {name for e in formulas(as_written()[prop.id].form) for name in variables(e)}
+    return (own & readings().keys()) | readings_of(prop.on)
 
 
 @cache

@@ -6,7 +6,7 @@ of k" is some tick of k..k+n.  ``from_tick`` is the first tick at which a proper
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Union
 
 from spec_model.lang.errors import ModelError
@@ -128,7 +128,7 @@ class Settles:
 
 @dataclass(frozen=True)
 class Recoverable:
-    """From every valuation that some run reaches, some continuation reaches a tick with ``to``.
+    """After every tick of every run, some continuation reaches a tick with ``to``, if that was none.
 
     If ``by``, a condition on inputs alone, is given, it is tried first to prove that inputs which
     meet it in every tick lead to ``to`` after ``within``, from wherever the run is.
@@ -146,6 +146,13 @@ Form = Union[
 
 Unbounded = LeadsTo | Settles | Recoverable
 """Forms that no finite run breaks: they are decided by a loop, or by what can no longer be reached."""
+
+
+def formulas(form: Form) -> list[Expr]:
+    """The formulas a form is made of, in the order in which it is written."""
+    values = (getattr(form, f.name) for f in fields(form))
+    parts = (part for value in values for part in (value if isinstance(value, tuple) else (value,)))
+    return [part for part in parts if isinstance(part, Expr)]
 
 
 @dataclass(frozen=True)
@@ -232,14 +239,14 @@ def leads_to(id: str, text: str, *, trigger: Expr, response: Expr, covers: Seque
 
 def settles(id: str, text: str, *, premise: Expr, then: Expr, covers: Sequence[str], on: str,
             bound: Span | None = None, fair: Sequence[Expr] = (),
-            from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+            readings: Sequence[str] = ()) -> Property:  # fmt: skip
     form = Settles(premise, then, bound, tuple(fair))
-    return _property(id, text, form, covers, on, from_tick, readings)
+    return _property(id, text, form, covers, on, 1, readings)
 
 
 def recoverable(id: str, text: str, *, to: Expr, covers: Sequence[str], on: str,
                 by: Expr | None = None, within: Span | None = None,
-                from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+                readings: Sequence[str] = ()) -> Property:  # fmt: skip
     if (by is None) != (within is None):
         raise ModelError(f"{id} gives only one of by= and within=; write both, or neither.")
-    return _property(id, text, Recoverable(to, by, within), covers, on, from_tick, readings)
+    return _property(id, text, Recoverable(to, by, within), covers, on, 1, readings)

@@ -12,12 +12,15 @@ from properties.forms import (
     EntersOnlyIf,
     HoldsAfter,
     HoldsFor,
+    LeadsTo,
     LeavesOnlyIf,
     Never,
     Precedes,
     Property,
     Reachable,
+    Recoverable,
     Responds,
+    Settles,
     Until,
 )
 from spec_model.lang.action import Assign
@@ -39,6 +42,10 @@ class Goal:
     ``reach`` tells that reaching it is what the property wants.  ``parts`` pairs each conjunct of
     the property, as written, with its formula over the monitored system's variables.
     ``memory`` names the monitor variables that outlive a tick.
+
+    No single tick breaks a ``LeadsTo`` or a ``Settles``, but a loop: ``var`` is true in every tick of
+    it, and each of ``recurs`` in some (see ``properties.lasso``).  For a ``Recoverable``, ``var`` is
+    true in the ticks to come back to.
     """
 
     property: Property
@@ -46,6 +53,7 @@ class Goal:
     reach: bool
     parts: tuple[tuple[Expr, Expr], ...]
     memory: frozenset[str]
+    recurs: tuple[Var, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -93,10 +101,20 @@ class _Monitors:
         armed = self._armed(prop.from_tick)
         bad, wanted = self._form(prop, armed)
         doc = f"{prop.id} is {'reached' if wanted is None else 'broken'}"
-        var = self._variable(prop.id, boolean, 0, doc)
-        self.goals.append(Assign(var, bad))
+        var = self._at_end(prop.id, bad, doc)
+        recurs = tuple(
+            self._at_end(f"{prop.id}.recurs{i}", self.formula(c), f"{c} in this tick")
+            for i, c in enumerate(_recurring(prop))
+        )
         parts = [(p, self.formula(p)) for p in (_conjuncts(wanted) if wanted is not None else ())]
-        return Goal(prop, var, wanted is None, tuple(parts), frozenset(self._used - {prop.id}))
+        passing = {prop.id, *(v.name for v in recurs)}
+        return Goal(prop, var, wanted is None, tuple(parts), frozenset(self._used - passing), recurs)
+
+    def _at_end(self, name: str, value: Expr, doc: str) -> Var:
+        """A variable that tells at the end of a tick whether something is so in it."""
+        var = self._variable(name, boolean, 0, doc)
+        self.goals.append(Assign(var, value))
+        return var
 
     def _form(self, prop: Property, armed: Expr) -> tuple[Expr, Expr | None]:
         """The goal formula, and the formula whose falsity it reports (None: reaching is wanted)."""
@@ -125,6 +143,12 @@ class _Monitors:
                 return all_of(armed, f(then), ~self._once(f(first))), first
             case Until(start, holds, release):
                 return self._until(all_of(armed, f(start)), f(holds), f(release)), holds
+            case LeadsTo(trigger, response):
+                return self._pending(all_of(armed, f(trigger)), f(response)), response
+            case Settles(premise, then):
+                return f(premise), then
+            case Recoverable(to):
+                return f(to), None
 
     # --- formulas about the past ---
 
@@ -229,6 +253,11 @@ class _Monitors:
         self.before.append(Assign(open_, (open_ | start) & ~release))
         return open_ & ~holds
 
+    def _pending(self, trigger: Expr, response: Expr) -> Expr:
+        pending = self._own("pending", boolean, "a trigger has had no response so far")
+        self.before.append(Assign(pending, (pending | trigger) & ~response))
+        return pending
+
     # --- making variables ---
 
     def _memory(self, key: tuple[object, ...], name: str, make: Callable[[str], Expr]) -> Expr:
@@ -261,6 +290,17 @@ def _domain_of(expr: Expr) -> Domain:
         return inner.domain
     values = possible(expr)
     return Domain(expr.sort, range(min(values), max(values) + 1))
+
+
+def _recurring(prop: Property) -> tuple[Expr, ...]:
+    """What is true again and again in a run that breaks a property about infinite runs."""
+    match prop.form:
+        case LeadsTo(fair=fair):
+            return fair
+        case Settles(then=then, fair=fair):
+            return (~then, *fair)
+        case _:
+            return ()
 
 
 def _conjuncts(expr: Expr) -> tuple[Expr, ...]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
+from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
 from types import MappingProxyType
@@ -9,7 +10,7 @@ from types import MappingProxyType
 from spec_model.lang.chart import Chart
 from spec_model.lang.errors import ModelError
 from spec_model.lang.system import System
-from spec_model.readings import fixed, left_open, modelled_only
+from spec_model.readings import fixed, left_open, modelled_only, readings
 
 AS_READ: Mapping[str, str] = MappingProxyType({})
 """Every reading at its default."""
@@ -32,6 +33,13 @@ def systems(choices: Mapping[str, str] = AS_READ) -> dict[str, System]:
         name: replace(system, frozen=(*system.frozen, *open_), assume=system.assume & modelled)
         for name, system in found.items()
     }
+
+
+@cache
+def readings_of(name: str) -> frozenset[str]:
+    """The readings on which the behaviour of a system depends.  Raises ``KeyError`` for an unknown one."""
+    written = merged(system for module in BOARDS for system in _systems_of(module))
+    return frozenset(written[name].inputs.keys() & readings().keys())
 
 
 def _systems_of(module: str) -> tuple[System, ...]:

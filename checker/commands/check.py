@@ -3,7 +3,7 @@
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from checker.commands.codes import Exit
 from checker.commands.output import err, out
@@ -23,10 +23,11 @@ WORKERS = 2
 
 @dataclass(frozen=True)
 class Compared:
-    """A result beside the verdict on record."""
+    """A result beside the verdict on record, which was given with every reading at its default."""
 
     result: Result
     expected: Expected
+    choices: Mapping[str, str] = field(default_factory=dict)
 
     @property
     def verdict(self) -> Verdict:
@@ -37,12 +38,12 @@ class Compared:
         """Same verdict, and for a counterexample on record the same length."""
         if self.verdict.word != self.expected.verdict:
             return False
-        depth = self.expected.depth
+        depth = None if self.choices else self.expected.depth
         return depth is None or not isinstance(self.verdict, Violated) or length(self.verdict) == depth
 
     @property
     def code(self) -> Exit:
-        if self.as_expected:
+        if self.as_expected or (self.choices and isinstance(self.verdict, Proved)):
             return Exit.AS_EXPECTED
         return Exit.INCONCLUSIVE if isinstance(self.verdict, Unknown) else Exit.CHANGED
 
@@ -86,6 +87,7 @@ def check(
     engine: str,
     limits: Limits,
     as_json: bool,
+    choices: Mapping[str, str],
 ) -> Exit:
     """Print every verdict with its evidence and what the baseline says of it."""
     if not properties:
@@ -94,7 +96,7 @@ def check(
     found: list[Compared] = []
     try:
         for result in results(properties, systems, engine, limits):
-            found.append(Compared(result, expected(result.property.id)))
+            found.append(Compared(result, expected(result.property.id), choices))
             if not as_json:
                 out.print(line(found[-1]), markup=False)
     except KeyboardInterrupt:
@@ -125,7 +127,15 @@ def line(compared: Compared) -> str:
     text = f"{sign} {compared.result.property.id:<21} {verdict.word:<8} {in_short(compared.result)}"
     if compared.as_expected:
         return text + (", as on record" if verdict.word != "proved" else "")
-    return text + f"\n    CHANGED: on record is {recorded(compared.expected)}"
+    return text + f"\n    {_other(compared)} is {recorded(compared.expected)}"
+
+
+def _other(compared: Compared) -> str:
+    """What the verdict is compared with, in front of the verdict on record."""
+    if not compared.choices:
+        return "CHANGED: on record"
+    chosen = ", ".join(f"{id}={choice}" for id, choice in compared.choices.items())
+    return f"under {chosen}; by default it"
 
 
 def in_short(result: Result) -> str:
@@ -181,6 +191,9 @@ def summary(found: Sequence[Compared]) -> None:
     if not changed:
         out.print("Every verdict is as on record in the baseline.")
         return
+    if changed[0].choices:
+        out.print(f"{len(changed)} of them differ from the verdict by default.")
+        return
     for compared in changed:
         _explain(compared)
 
@@ -200,6 +213,7 @@ def document(found: Sequence[Compared], complete: bool) -> dict[str, object]:
     """The verdicts as JSON; ``complete`` is false after an interruption."""
     return {
         "schema": f"rovercheck/check/{SCHEMA}",
+        "readings": dict(found[0].choices) if found else {},
         "complete": complete,
         "exit": int(worst(found)) if complete else int(Exit.INTERRUPTED),
         "results": [_row(c) for c in sorted(found, key=lambda c: c.result.property.id)],

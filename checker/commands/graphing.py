@@ -1,5 +1,6 @@
 """``rovercheck graph``: a chart as it is drawn, or the reachable graph of a system on some variables."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from checker.commands.codes import Exit, UsageError
@@ -13,13 +14,16 @@ from spec_model.lang.system import System
 from spec_model.rover import charts, systems
 
 
-def graph(name: str, project: str | None, format: str, output: Path | None) -> Exit:
+def graph(
+    name: str, project: str | None, format: str, choices: Mapping[str, str], output: Path | None
+) -> Exit:
     """Draw what the name means: with ``project`` a system's state graph, without it a chart."""
+    by_name, drawn = systems(choices), charts(choices)
     if project is not None:
-        return _states(pick("system", name, systems()), project, format, output)
-    if name in systems() and name not in charts():
-        raise UsageError(f"{name} is a system. {_how_to_project(systems()[name])}")
-    known = charts() | dict.fromkeys(systems())
+        return _states(pick("system", name, by_name), project, format, output)
+    if name in by_name and name not in drawn:
+        raise UsageError(f"{name} is a system. {_how_to_project(by_name[name])}")
+    known = drawn | dict.fromkeys(by_name)
     chart = pick("chart or system", name, known)
     renderer = pick("chart format", format, renderers("statechart"))
     write(renderer.render(chart), output)

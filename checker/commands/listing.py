@@ -1,6 +1,7 @@
 """``rovercheck list``: what there is."""
 
 from collections.abc import Callable, Iterable
+from textwrap import fill
 
 from rich.table import Table
 
@@ -10,6 +11,7 @@ from checker.decide import ALL, AUTO
 from checker.engine import engines
 from properties.catalogue import catalogue, expected
 from properties.requirements import requirements
+from spec_model.readings import readings
 from spec_model.rover import charts, systems
 
 
@@ -64,6 +66,28 @@ def list_requirements() -> None:
     )
 
 
+def list_readings() -> None:
+    """Every reading: the sentence, the choices (the default marked), what tells them apart."""
+    about = ""
+    for one in readings().values():
+        if one.about != about:
+            about = one.about
+            out.print(f"\n{about}", style="bold", markup=False)
+        out.print()
+        _hanging(f"{one.id}  {one.says}")
+        for choice, meaning in one.choices.items():
+            mark = "*" if choice == one.default else "-"
+            why = one.not_modelled.get(choice)
+            text = f"{choice}{f': {meaning}' if meaning else ''}{f' (not modelled: {why})' if why else ''}"
+            _hanging(f"     {mark} {text}", 7)
+        _hanging(f"     Scenario: {one.scenario}")
+        _hanging(f"     Default:  {one.because}")
+
+
+def _hanging(text: str, indent: int = 5) -> None:
+    out.print(fill(text, out.width, subsequent_indent=" " * indent), markup=False)
+
+
 def list_engines() -> None:
     rows = [(e.NAME, e.SUMMARY) for e in engines().values()]
     rows.append((AUTO, "Explicit search first, then bounded model checking of what it leaves open."))
@@ -76,6 +100,7 @@ LISTS: dict[str, Callable[[], None]] = {
     "systems": list_systems,
     "charts": list_charts,
     "requirements": list_requirements,
+    "readings": list_readings,
     "engines": list_engines,
 }
 

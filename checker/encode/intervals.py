@@ -31,8 +31,13 @@ class Interval:
     @property
     def width(self) -> int:
         """Bits of the narrowest signed bit-vector that holds every value."""
-        return max(self.low.bit_length() if self.low >= 0 else (~self.low).bit_length(),
-                   self.high.bit_length() if self.high >= 0 else (~self.high).bit_length()) + 1
+        return (
+            max(
+                self.low.bit_length() if self.low >= 0 else (~self.low).bit_length(),
+                self.high.bit_length() if self.high >= 0 else (~self.high).bit_length(),
+            )
+            + 1
+        )
 
 
 TRUTH = Interval(0, 1)

@@ -155,9 +155,7 @@ class _Made:
         out.extend(steps)
         return seen.with_(var.name)
 
-    def junction(
-        self, op: Op, args: list[Expr], seen: _Seen, out: list[PathStatement]
-    ) -> tuple[Expr, _Seen]:
+    def junction(self, op: Op, args: list[Expr], seen: _Seen, out: list[PathStatement]) -> tuple[Expr, _Seen]:
         """Operands that need no choice first; the others only if these leave the result open."""
         known = [a for a in args if self.ready(a, seen)]
         rest = [a for a in args if not self.ready(a, seen)]

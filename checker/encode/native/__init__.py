@@ -19,8 +19,19 @@ Words = NDArray[np.uint64]
 Numbers = NDArray[np.uint32]
 
 __all__ = [
-    "BATCH", "CONTEXT", "LEAVE_DOMAIN", "REACH_TARGET", "UNREAD", "Layout", "NativeRetrace",
-    "NativeSearch", "OutsideDomain", "Status", "Task", "TooWide", "layout",
+    "BATCH",
+    "CONTEXT",
+    "LEAVE_DOMAIN",
+    "REACH_TARGET",
+    "UNREAD",
+    "Layout",
+    "NativeRetrace",
+    "NativeSearch",
+    "OutsideDomain",
+    "Status",
+    "Task",
+    "TooWide",
+    "layout",
 ]
 
 

@@ -27,9 +27,7 @@ class Body:
     current valuation has been run; ``most`` is the number of inputs.
     """
 
-    def __init__(
-        self, builder: Any, saved: Mapping[int, tuple[Var, ...]], finished: Any, most: int
-    ) -> None:
+    def __init__(self, builder: Any, saved: Mapping[int, tuple[Var, ...]], finished: Any, most: int) -> None:
         self.builder = builder
         self.saved = saved
         self.slots: dict[str, Slot] = {}
@@ -177,4 +175,3 @@ class Body:
         table.linkage, table.global_constant = "internal", True
         table.initializer = ir.Constant(type_, list(values))
         return table
-

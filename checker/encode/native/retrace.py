@@ -1,6 +1,5 @@
 """Which inputs lead from one stored valuation to the next: the same paths, run until one fits."""
 
-
 from typing import Any
 
 from checker.encode.native.body import Body
@@ -57,5 +56,3 @@ def _fits(body: Body, task: Task, a: dict[str, Any], before: list[Any], target: 
         wanted = build.icmp_signed("==", a["wanted"], INT(number))
         result = build.or_(result, build.and_(wanted, value))
     return result
-
-

@@ -96,10 +96,19 @@ class Table:
     def store(self) -> Any:
         """``store(context, words, parents, table, buffer, origins)``: insert the successors in the
         buffer.  Returns 0, or 1 when there is no room for more; what is left stays in the buffer."""
-        made, a, build = function(self.module, "store", INT, {
-            "context": WORDS, "words": WORDS, "parents": NUMBERS, "table": WORDS,
-            "buffer": WORDS, "origins": NUMBERS,
-        })
+        made, a, build = function(
+            self.module,
+            "store",
+            INT,
+            {
+                "context": WORDS,
+                "words": WORDS,
+                "parents": NUMBERS,
+                "table": WORDS,
+                "buffer": WORDS,
+                "origins": NUMBERS,
+            },
+        )
         made.attributes.add("noinline")
         places = {name: context(build, a["context"], name) for name in CONTEXT}
         mask, room = build.load(places["mask"]), build.load(places["room"])
@@ -125,9 +134,17 @@ class Table:
 
     def rehash(self) -> Any:
         """``rehash(table, mask, words, count)``: enter the stored valuations into an empty table."""
-        made, a, build = function(self.module, "rehash", ir.VoidType(), {
-            "table": WORDS, "mask": INT, "words": WORDS, "count": INT,
-        })
+        made, a, build = function(
+            self.module,
+            "rehash",
+            ir.VoidType(),
+            {
+                "table": WORDS,
+                "mask": INT,
+                "words": WORDS,
+                "count": INT,
+            },
+        )
         with Loop(build, INT(0), a["count"]) as i:
             self._prefetch_later(build, {**a, "buffer": a["words"]}, a["mask"], i, a["count"])
             key = self.load(build, a["words"], i)

@@ -147,8 +147,15 @@ class _Search:
         hits = tuple(int(h) - 1 if h else None for h in self.hits[: len(self.native.task.goals)])
         store = self.store
         return Found(
-            hits, store.words, store.parents, self.initial, self["count"], self["transitions"],
-            self.depth, self.stopped, self.outside,
+            hits,
+            store.words,
+            store.parents,
+            self.initial,
+            self["count"],
+            self["transitions"],
+            self.depth,
+            self.stopped,
+            self.outside,
         )
 
 

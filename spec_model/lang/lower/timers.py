@@ -1,7 +1,8 @@
 """Temporal words of a chart as saturating counters and one-tick memories (rules G13-G15, section 7).
 
 A counter stops one above what is ever asked of it and is 0 while its state is not active, so that
-valuations that behave alike are equal.
+valuations that behave alike are equal.  One that is only asked for its first tick is set anew in each
+step and belongs to no valuation.
 """
 
 from collections.abc import Iterator
@@ -110,13 +111,19 @@ class Timers:
 
     def at_start(self) -> list[Statement]:
         """What counts at the start of every executed step of the chart, the first included."""
-        return [_count(counter, word.arg) for word, counter in self.helds.values()]
+        counts: list[Statement] = [_count(counter, word.arg) for word, counter in self.helds.values()]
+        return counts + [
+            Assign(c, ite(self.chart.active_path(path), _one(c), _zero(c)))
+            for path, c in self.after.items()
+            if c.domain.high == 1
+        ]
 
     def at_start_entered(self) -> list[Statement]:
         """What counts at the start of every later step (rule G13)."""
         return [
             If(self.chart.active_path(path), (Assign(c, minimum(c + 1, c.domain.high)),))
             for path, c in self.after.items()
+            if c.domain.high > 1
         ]
 
     def on_execution(self, path: Path) -> list[Statement]:
@@ -155,6 +162,11 @@ def _zero(counter: Var) -> Const:
     return Const(0, counter.sort)
 
 
+def _one(counter: Var) -> Const:
+    return Const(1, counter.sort)
+
+
 def _count(counter: Var, condition: Expr | None) -> Assign:
     assert condition is not None
-    return Assign(counter, ite(condition, minimum(counter + 1, counter.domain.high), _zero(counter)))
+    more = minimum(counter + 1, counter.domain.high) if counter.domain.high > 1 else _one(counter)
+    return Assign(counter, ite(condition, more, _zero(counter)))
