@@ -22,7 +22,7 @@ from benchmarks.roverlite import roverlite
 from checker.encode.native import NativeSearch, Task, layout
 from checker.encode.paths import path_program
 from checker.engine import Limits, quiet
-from checker.engines.explicit.levels import Found, search
+from checker.engines.explicit.levels import Found, Search
 from checker.partition import partitions
 from checker.slice import sliced
 from properties.catalogue import catalogue
@@ -57,7 +57,7 @@ def ours(system: TransitionSystem, goals: Sequence[Var], limits: Limits = UNLIMI
     packing = layout((*part.frozen, *part.variables))
     native = NativeSearch.compile(Task(part, packing, path_program(part, partitions(part)), tuple(goals)))
     started = perf_counter()
-    found: Found = search(native, limits, limits.deadline(), quiet)
+    found: Found = Search(native, limits, limits.deadline(), quiet).run()
     ended = perf_counter()
     return Timed(found.states, found.transitions, ended - started, ended - began)
 

@@ -19,7 +19,7 @@ CODES = (
     "2 inconclusive; 3 internal error or engines disagree; 4 usage or model error; "
     "5 nothing to check; 130 interrupted."
 )
-LISTS = ("properties", "systems", "charts", "requirements", "readings", "engines")
+LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs", "engines")
 
 
 class Verbs(click.Group):
@@ -50,15 +50,21 @@ def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
     return command
 
 
-def reading(command: Callable[..., Exit]) -> Callable[..., Exit]:
-    """The option of every verb that looks at the charts."""
-    return click.option(
-        "--reading",
-        "chosen",
-        multiple=True,
-        metavar="ID=CHOICE",
-        help="Read a sentence otherwise, as S43=AND; S43=any leaves it open. See list readings.",
-    )(command)
+def varying(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The options of every verb that looks at the charts: other readings, a proposed repair."""
+    options: list[Callable[[Any], Any]] = [
+        click.option(
+            "--reading",
+            "chosen",
+            multiple=True,
+            metavar="ID=CHOICE",
+            help="Read a sentence otherwise: S43=AND; S43=any leaves it open.",
+        ),
+        click.option("--repair", metavar="NAME", help="With a proposed repair; see list repairs."),
+    ]
+    for option in reversed(options):
+        command = option(command)
+    return command
 
 
 def writing(command: Callable[..., Exit]) -> Callable[..., Exit]:
@@ -71,47 +77,59 @@ def writing(command: Callable[..., Exit]) -> Callable[..., Exit]:
 @click.argument("ids", nargs=-1, metavar="[ID]...")
 @click.option("--system", help="Only properties about this system.")
 @click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
-@reading
+@varying
 @searching
 def check(
     ids: tuple[str, ...],
     system: str | None,
     as_json: bool,
     chosen: tuple[str, ...],
+    repair: str | None,
     engine: str,
     depth: int | None,
     timeout: float | None,
 ) -> Exit:
     """Check properties and compare the verdicts with the baseline."""
     from checker.commands.check import check as run
-    from checker.commands.select import pick_engine, pick_properties, pick_readings
-    from spec_model.rover import systems
+    from checker.commands.select import pick_engine, pick_properties
+    from checker.commands.variant import pick_variant
 
-    choices = pick_readings(chosen)
+    variant = pick_variant(chosen, repair)
+    properties = pick_properties(ids, system, variant.properties())
+    if variant.name and not ids:
+        properties = list(filter(variant.concerns(), properties))
+    limits = Limits(depth, timeout)
     return run(
-        pick_properties(ids, system, choices),
-        systems(choices),
-        pick_engine(engine),
-        Limits(depth, timeout),
-        as_json,
-        choices,
+        properties, variant.systems(), pick_engine(engine), limits, as_json, variant.name, variant.expected
     )
 
 
 @app.command("list")
 @click.argument("what", type=click.Choice(LISTS))
-def list_(what: str) -> Exit:
-    """List properties, systems, charts, requirements, readings or engines."""
+@click.argument("ids", nargs=-1, metavar="[ID]...")
+@click.option("--english", is_flag=True, help="What is checked of each property, in words.")
+def list_(what: str, ids: tuple[str, ...], english: bool) -> Exit:
+    """List properties, systems, charts, requirements, readings, repairs or engines."""
     from checker.commands.listing import listing
 
-    return listing(what)
+    return listing(what, ids, english)
+
+
+@app.command()
+@click.option("--check", "decide", is_flag=True, help="Decide the verdicts now, instead of the baseline's.")
+@click.option("--json", "as_json", is_flag=True, help="The matrix as JSON.")
+def requirements(decide: bool, as_json: bool) -> Exit:
+    """Show which properties cover each requirement; exit code 1 if none does and no reason is given."""
+    from checker.commands.requirements import requirements as run
+
+    return run(decide, as_json)
 
 
 @app.command()
 @click.argument("id")
 @click.option("--format", default="table", show_default=True, help="table, markdown, json or vcd.")
 @click.option("--all", "everything", is_flag=True, help="Also what the property does not depend on.")
-@reading
+@varying
 @searching
 @writing
 def trace(
@@ -119,35 +137,42 @@ def trace(
     format: str,
     everything: bool,
     chosen: tuple[str, ...],
+    repair: str | None,
     engine: str,
     depth: int | None,
     timeout: float | None,
     output: Path | None,
 ) -> Exit:
     """Show the counterexample of a violated property, or the witness of a reachable one."""
-    from checker.commands.select import pick, pick_engine, pick_readings
+    from checker.commands.select import pick, pick_engine
     from checker.commands.tracing import trace as run
-    from properties.catalogue import under
-    from spec_model.rover import systems
+    from checker.commands.variant import pick_variant
 
-    choices = pick_readings(chosen)
-    prop = pick("property", id, under(choices))
+    variant = pick_variant(chosen, repair)
+    prop = pick("property", id, variant.properties())
     limits = Limits(depth, timeout)
-    return run(prop, systems(choices), pick_engine(engine), limits, format, everything, output)
+    return run(prop, variant.systems(), pick_engine(engine), limits, format, everything, output)
 
 
 @app.command()
 @click.argument("name")
 @click.option("--project", metavar="VAR,VAR", help="Variables of the state graph of a system.")
 @click.option("--format", default="svg", show_default=True, help="svg, dot, mermaid, graphml or json.")
-@reading
+@varying
 @writing
-def graph(name: str, project: str | None, format: str, chosen: tuple[str, ...], output: Path | None) -> Exit:
+def graph(
+    name: str,
+    project: str | None,
+    format: str,
+    chosen: tuple[str, ...],
+    repair: str | None,
+    output: Path | None,
+) -> Exit:
     """Draw a chart, or the reachable graph of a system projected on some variables."""
     from checker.commands.graphing import graph as run
-    from checker.commands.select import pick_readings
+    from checker.commands.variant import pick_variant
 
-    return run(name, project, format, pick_readings(chosen), output)
+    return run(name, project, format, pick_variant(chosen, repair).systems(), output)
 
 
 @app.command()

@@ -1,14 +1,15 @@
 """From properties to verdicts: properties that share a system and its monitors are searched together."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import prod
 
 from checker.engine import Engine, Limits, Progress, engines
-from checker.reproduce import reproduced
-from checker.result import Result, check_domains, result
+from checker.liveness import unbounded
+from checker.reproduce import not_reproducible, reproduced
+from checker.result import Answers, Result, check_domains, result
 from checker.verdict import Answer, Open, Reached, Unreachable
-from properties.forms import Property
+from properties.forms import Property, Unbounded
 from properties.reduce import Question, reduce
 from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.expr import Var
@@ -17,6 +18,11 @@ from spec_model.lang.system import System, TransitionSystem
 
 FEW = 64
 """Monitors with at most this many combinations of values share a search: compiling costs more."""
+
+SHORT = 40
+"""Ticks in which ``auto`` looks for a loop before it enumerates pairs of valuations."""
+LITTLE = 64 << 20
+"""Bytes that it grants to that enumeration."""
 
 AUTO = "auto"
 ALL = "all"
@@ -52,7 +58,9 @@ def tasks(properties: Sequence[Property], systems: Mapping[str, System]) -> Iter
             raise ModelError(f"{prop.id} is about {prop.on!r}, no known system. {near}")
         by_system.setdefault(prop.on, []).append(prop)
     for name, group in by_system.items():
-        for together in _together(reduce(lower(systems[name]), group)):
+        yield from (Task(systems[name], (p,)) for p in group if isinstance(p.form, Unbounded))
+        bounded = [p for p in group if not isinstance(p.form, Unbounded)]
+        for together in _together(reduce(lower(systems[name]), bounded)):
             yield Task(systems[name], tuple(together))
 
 
@@ -80,8 +88,14 @@ def decide(
     what it leaves open) or ``all`` (every engine, answers compared).  Raises ``Disagreement``,
     ``ReplayError``, and ``ModelError`` when the model itself leaves a domain.
     """
+    if isinstance(task.properties[0].form, Unbounded):
+
+        def ask(system: TransitionSystem, goals: Sequence[Var], short: bool = False) -> Answers:
+            return _answers(system, goals, engine, limits, progress, short)
+
+        return [unbounded(prop, systems, ask, progress) for prop in task.properties]
     question = reduce(lower(task.system), task.properties)
-    found = _answers(question, engine, limits, progress)
+    found = _answers(question.system, [g.var for g in question.goals], engine, limits, progress)
     check_domains(question.system, found)
     runs = {n: (a, by) for n, (a, by) in found.items() if isinstance(a, Reached)} if task.system.over else {}
     results = [
@@ -90,25 +104,41 @@ def decide(
     if not runs:
         return results
     if not task.system.concrete:
-        raise ModelError(f"{task.system.name} is an over-approximation; write concrete= to say of what.")
+        return results + not_reproducible(question, runs)
     concrete = systems[task.system.concrete]
     return results + reproduced(question, runs, concrete, engines()["bmc"], limits, progress)
 
 
 def _answers(
-    question: Question, engine: str, limits: Limits, progress: Progress
+    system: TransitionSystem,
+    wanted: Sequence[Var],
+    engine: str,
+    limits: Limits,
+    progress: Progress,
+    short: bool = False,
 ) -> dict[str, tuple[Answer, str]]:
-    goals = [g.var for g in question.goals] + [check for check, _ in question.system.checks]
-    known = engines()
+    """Answers for the goals and for the checks of the system.
+
+    ``auto`` looks for ``short`` runs first, and then grants little to an exhaustive search.
+    """
+    goals = [*wanted, *(check for check, _ in system.checks)]
     if engine == ALL:
-        return _compared(question.system, goals, known, limits, progress)
+        return _compared(system, goals, engines(), limits, progress)
     if engine != AUTO:
-        return _ask(known[engine], question.system, goals, limits, progress)
-    found = _ask(known["explicit"], question.system, goals, limits, progress)
-    left = [g for g in goals if isinstance(found[g.name][0], Open)]
-    if left and limits.depth is None:
-        second = _ask(known["bmc"], question.system, left, limits, progress)
-        found |= {name: _better(found[name], answer) for name, answer in second.items()}
+        return _ask(engines()[engine], system, goals, limits, progress)
+    whole = ("explicit", limits), ("bmc", limits)
+    near = (
+        ("bmc", replace(limits, depth=min(SHORT, limits.depth or SHORT))),
+        ("explicit", replace(limits, memory=LITTLE)),
+        whole[1],
+    )
+    found: dict[str, tuple[Answer, str]] = {}
+    for name, granted in near if short else whole:
+        left = [g for g in goals if g.name not in found or isinstance(found[g.name][0], Open)]
+        if not left or (found and limits.depth is not None):
+            break
+        for goal, answer in _ask(engines()[name], system, left, granted, progress).items():
+            found[goal] = _better(found[goal], answer) if goal in found else answer
     return found
 
 

@@ -9,6 +9,7 @@ import importlib
 import pkgutil
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from enum import StrEnum
 from time import monotonic
 from typing import Protocol
 
@@ -17,13 +18,28 @@ from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 
 
+class Timers(StrEnum):
+    """How timers are searched, with the same verdicts (docs/timers.md)."""
+
+    EXACT = "exact"
+    """Every valuation of the saturating counters is stored."""
+    SKIP = "skip"
+    """Valuations reached by ticks in which only counters move on are visited and not stored."""
+    FREE = "free"
+    """First on the system whose timers run out at will; what that leaves open, exactly."""
+
+
 @dataclass(frozen=True)
 class Limits:
-    """What an engine may spend: ticks of depth (None: no bound), wall seconds, bytes of memory."""
+    """What an engine may spend: ticks of depth (None: no bound), wall seconds, bytes of memory.
+
+    ``timers`` is how; an engine that does not store valuations need not look at it.
+    """
 
     depth: int | None = None
     seconds: float | None = None
     memory: int = 8 << 30
+    timers: Timers = Timers.EXACT
 
     def deadline(self) -> float | None:
         """The moment on ``time.monotonic()`` at which the time is over."""

@@ -22,6 +22,10 @@ MOST_STEPS = 500_000
 _REPORT = 1000
 
 
+class TooLarge(ModelError):
+    """More valuations or ticks than the limits allow."""
+
+
 def state_graph(
     system: TransitionSystem,
     onto: Sequence[str],
@@ -32,7 +36,7 @@ def state_graph(
     """The reachable graph of the system projected on the variables named ``onto``.
 
     Only the part of the system they depend on is explored.  Raises ``ModelError`` for an unknown
-    variable, and when more than ``most`` valuations or ``steps`` ticks would have to be tried: the
+    variable, ``TooLarge`` when more than ``most`` valuations or ``steps`` ticks would have to be tried: the
     graph is whole or there is none.
     """
     known = {v.name: v for v in (*system.variables, *system.frozen)}
@@ -44,12 +48,12 @@ def state_graph(
     part = sliced(system, [known[name] for name in onto])
     kept = {v.name for v in part.variables} | {v.name for v in part.frozen} | set(onto)
     variables = [v for v in (*system.frozen, *system.variables) if v.name in kept]
-    search = _Search(part, variables, most, steps, progress)
+    search = Search(part, variables, most, steps, progress)
     inputs = {v.name: v for v in part.inputs}
     return project(f"{system.name} on {', '.join(onto)}", variables, onto, search.initial(), search, inputs)
 
 
-class _Search:
+class Search:
     """Yields each reachable valuation once, with its ticks, in breadth-first order."""
 
     def __init__(
@@ -88,7 +92,7 @@ class _Search:
             return
         widest = sorted(self.variables, key=lambda v: (-len(v.domain), v.name))[:3]
         advice = ", ".join(f"{v.name} ({len(v.domain)} values)" for v in widest)
-        raise ModelError(
+        raise TooLarge(
             f"{self.system.name}: more than {self.most if valuations > self.most else self.steps} "
             f"{'valuations' if valuations > self.most else 'ticks'} stand behind this graph. "
             f"Its largest variables are {advice}. Project on variables that do not depend on them, "

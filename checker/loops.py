@@ -31,15 +31,16 @@ def _deciding(question: Question, goal: Goal) -> tuple[Var, ...]:
     """The variables that decide how the goal goes on, and which inputs are admissible."""
     system = question.system
     read = [v for v in system.variables if v.name in variables(system.assume)]
-    live = {v.name for v in sliced(system, [goal.var, *goal.recurs, *read]).variables}
-    return tuple(v for v in system.variables if v.name in live or v in read)
+    live = sliced(system, [goal.var, *goal.recurs, *read]).variables
+    names = {v.name for v in (*live, *read)}
+    return tuple(v for v in system.variables if v.name in names)
 
 
 def looped(hunt: Hunt, run: Run) -> Trace:
     """The trace of a run of the lasso system that closes a loop.
 
-    Raises ``ReplayError`` unless the charts, run by the interpreter, come back to the same valuation
-    and the same inputs take them round the loop once more.
+    Raises ``ReplayError`` unless the same inputs take the charts round the loop once more, tick by
+    tick through the same valuations.  The interpreter, which counts time on its own, goes along.
     """
     calm = calmed(hunt.lasso.system, hunt.lasso.goal, run)
     save = hunt.lasso.save.name

@@ -1,7 +1,8 @@
 """Results: an answer about a goal taken home as a verdict on a property."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 from checker.calm import calmed
 from checker.replay import replay
@@ -9,10 +10,19 @@ from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable,
 from properties.forms import Property
 from properties.reduce import Goal
 from spec_model.lang.errors import ModelError
+from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 
 Answers = Mapping[str, tuple[Answer, str]]
 """An answer for each goal and the name of the engine that gave it."""
+
+
+class Ask(Protocol):
+    """Asks the engines that the user chose; ``short`` tells that a run, if there is one, is short."""
+
+    def __call__(self, system: TransitionSystem, goals: Sequence[Var], short: bool = False) -> Answers:
+        """An answer for each goal and for each check of the system."""
+        ...
 
 
 @dataclass(frozen=True)

@@ -171,6 +171,19 @@ def _vectors(chosen: Sequence[Var], cells: Mapping[str, Sequence[int]]) -> Itera
     return (dict(zip([v.name for v in chosen], values, strict=True)) for values in product(*domains))
 
 
+def always_met(system: TransitionSystem, condition: Expr) -> bool:
+    """Whether in every valuation some admissible inputs meet a condition on inputs alone.
+
+    False also when there are too many combinations to try.
+    """
+    inputs = {v.name: v for v in system.inputs}
+    if not names([condition]) <= inputs.keys():
+        return False
+    demanded = replace(system, assume=all_of(system.assume, condition))
+    groups = assumption_groups(demanded)
+    return all(_always_met(group, variables(*group), inputs) for group in groups)
+
+
 # --- the result ----------------------------------------------------------------------------------
 
 

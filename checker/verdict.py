@@ -29,13 +29,15 @@ class Exhausted:
 
     ``states`` counts distinct valuations of ``variables`` (those the goals depend on, the others
     being sliced away), ``transitions`` the distinct input cells tried, ``depth`` the number of
-    ticks after which nothing new appeared.
+    ticks after which nothing new appeared.  With ``skipped`` quiet ticks (see docs/timers.md) these are
+    the valuations stored; the others were visited in passing, and ``depth`` is an upper bound.
     """
 
     states: int
     transitions: int
     depth: int
     variables: tuple[str, ...]
+    skipped: bool = False
 
 
 @dataclass(frozen=True)

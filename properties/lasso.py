@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from properties.reduce import Goal
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import Bool, boolean, integer
-from spec_model.lang.expr import Apply, Const, Expr, Op, Var, all_of
+from spec_model.lang.expr import Apply, Const, Expr, Op, Var, all_of, implies
 from spec_model.lang.system import Statement, TransitionSystem
 
 BEFORE, INSIDE, FAILED = range(3)
@@ -21,7 +21,7 @@ BEFORE, INSIDE, FAILED = range(3)
 class Lasso:
     """A system in which ``goal`` is 1 exactly when a loop closes that breaks the property.
 
-    ``save`` is the input whose first 1 marks the first tick of the loop; ``kept`` are the variables
+    ``save`` is the input that is 1 in the first tick of the loop and in no other; ``kept`` are the variables
     that are the same before and after it.
     """
 
@@ -45,6 +45,8 @@ def lasso(system: TransitionSystem, goal: Goal, kept: Sequence[Var]) -> Lasso:
     last, *others = goal.recurs or (goal.var,)
     seen = [Var(f"{v.name} seen", boolean, 0, f"{v.doc}, or in an earlier one of the loop") for v in others]
 
+    # The saved valuation comes again at the end, where the condition of the loop is true.
+    worthwhile = [v for v in kept if v.name == goal.var.name]
     start: list[Statement] = [Assign(phase, _value(phase, INSIDE))]
     start += [Assign(copy, v) for copy, v in zip(copies, kept, strict=True)]
     fail: list[Statement] = [Assign(phase, _value(phase, FAILED))]
@@ -52,7 +54,7 @@ def lasso(system: TransitionSystem, goal: Goal, kept: Sequence[Var]) -> Lasso:
     inside = phase == INSIDE
     again = (_same(v, copy) for copy, v in zip(copies, kept, strict=True))
     step = (
-        If(all_of(save, phase == BEFORE), tuple(start), ()),
+        If(save, tuple(start), ()),
         *system.step,
         If(all_of(inside, ~goal.var), tuple(fail), ()),
         *(Assign(s, all_of(inside, s | v)) for s, v in zip(seen, others, strict=True)),
@@ -63,7 +65,7 @@ def lasso(system: TransitionSystem, goal: Goal, kept: Sequence[Var]) -> Lasso:
         inputs=(*system.inputs, save),
         variables=(*system.variables, phase, *copies, *seen, closed),
         step=step,
-        assume=all_of(system.assume, phase != FAILED),
+        assume=all_of(system.assume, phase != FAILED, implies(save, all_of(phase == BEFORE, *worthwhile))),
     )
     return Lasso(made, closed, save, tuple(kept))
 

@@ -144,11 +144,12 @@ class _Monitors:
             case Until(start, holds, release):
                 return self._until(all_of(armed, f(start)), f(holds), f(release)), holds
             case LeadsTo(trigger, response):
-                return self._pending(all_of(armed, f(trigger)), f(response)), response
+                pending = Var(prop.id, boolean)
+                return (pending | all_of(armed, f(trigger))) & ~f(response), response
             case Settles(premise, then):
                 return f(premise), then
             case Recoverable(to):
-                return f(to), None
+                return f(to), to
 
     # --- formulas about the past ---
 
@@ -252,11 +253,6 @@ class _Monitors:
         open_ = self._own("open", boolean, "started and not released")
         self.before.append(Assign(open_, (open_ | start) & ~release))
         return open_ & ~holds
-
-    def _pending(self, trigger: Expr, response: Expr) -> Expr:
-        pending = self._own("pending", boolean, "a trigger has had no response so far")
-        self.before.append(Assign(pending, (pending | trigger) & ~response))
-        return pending
 
     # --- making variables ---
 

@@ -10,7 +10,11 @@ from spec_model.lang.errors import ModelError, did_you_mean
 
 @dataclass(frozen=True)
 class Requirement:
-    """One normative sentence.  ``source`` is a section, table or figure of the source document."""
+    """One normative sentence.  ``source`` is a section, table or figure of the source document.
+
+    ``checkable`` is "yes", "structural" or "not modelled", perhaps with a remark; ``reason`` says of
+    a sentence that no property covers why that is so, and where.
+    """
 
     id: str
     text: str
@@ -18,6 +22,7 @@ class Requirement:
     bounds: str
     kind: str
     checkable: str
+    reason: str = ""
 
 
 @cache

@@ -15,7 +15,14 @@ from spec_model.readings import fixed, left_open, modelled_only, readings
 AS_READ: Mapping[str, str] = MappingProxyType({})
 """Every reading at its default."""
 
-BOARDS = ("spec_model.board1.systems", "spec_model.board2.systems")
+BOARDS = (
+    "spec_model.board1.systems",
+    "spec_model.board1.fine_systems",
+    "spec_model.board2.systems",
+    "spec_model.board2.motion_systems",
+    "spec_model.board2.supervisor_systems",
+    "spec_model.composition.fine_systems",
+)
 """Modules with a tuple SYSTEMS, in the order in which the systems are listed."""
 
 
@@ -61,9 +68,14 @@ def merged(found: Iterable[System]) -> dict[str, System]:
 
 
 def charts(choices: Mapping[str, str] = AS_READ) -> dict[str, Chart]:
-    """Every chart by name, as drawn: of charts with one name in several systems, the first listed."""
+    """Every chart by name, as drawn under chosen readings."""
+    return charts_of(systems(choices))
+
+
+def charts_of(by_name: Mapping[str, System]) -> dict[str, Chart]:
+    """The charts of systems by name: of charts with one name in several systems, the first listed."""
     found: dict[str, Chart] = {}
-    for system in systems(choices).values():
+    for system in by_name.values():
         for chart in system.charts:
             found.setdefault(chart.name, chart)
     return found

@@ -1,9 +1,9 @@
 """``rovercheck check``: verdicts against the baseline."""
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from checker.commands.codes import Exit
 from checker.commands.output import err, out
@@ -23,11 +23,11 @@ WORKERS = 2
 
 @dataclass(frozen=True)
 class Compared:
-    """A result beside the verdict on record, which was given with every reading at its default."""
+    """A result beside the verdict on record; ``variant`` says how the charts differ from those specified."""
 
     result: Result
     expected: Expected
-    choices: Mapping[str, str] = field(default_factory=dict)
+    variant: str = ""
 
     @property
     def verdict(self) -> Verdict:
@@ -38,12 +38,12 @@ class Compared:
         """Same verdict, and for a counterexample on record the same length."""
         if self.verdict.word != self.expected.verdict:
             return False
-        depth = None if self.choices else self.expected.depth
+        depth = None if self.variant else self.expected.depth
         return depth is None or not isinstance(self.verdict, Violated) or length(self.verdict) == depth
 
     @property
     def code(self) -> Exit:
-        if self.as_expected or (self.choices and isinstance(self.verdict, Proved)):
+        if self.as_expected or (self.variant and isinstance(self.verdict, Proved)):
             return Exit.AS_EXPECTED
         return Exit.INCONCLUSIVE if isinstance(self.verdict, Unknown) else Exit.CHANGED
 
@@ -87,7 +87,8 @@ def check(
     engine: str,
     limits: Limits,
     as_json: bool,
-    choices: Mapping[str, str],
+    variant: str = "",
+    expect: Callable[[str], Expected] = expected,
 ) -> Exit:
     """Print every verdict with its evidence and what the baseline says of it."""
     if not properties:
@@ -96,7 +97,7 @@ def check(
     found: list[Compared] = []
     try:
         for result in results(properties, systems, engine, limits):
-            found.append(Compared(result, expected(result.property.id), choices))
+            found.append(Compared(result, expect(result.property.id), variant))
             if not as_json:
                 out.print(line(found[-1]), markup=False)
     except KeyboardInterrupt:
@@ -132,10 +133,7 @@ def line(compared: Compared) -> str:
 
 def _other(compared: Compared) -> str:
     """What the verdict is compared with, in front of the verdict on record."""
-    if not compared.choices:
-        return "CHANGED: on record"
-    chosen = ", ".join(f"{id}={choice}" for id, choice in compared.choices.items())
-    return f"under {chosen}; by default it"
+    return f"{compared.variant}; as specified it" if compared.variant else "CHANGED: on record"
 
 
 def in_short(result: Result) -> str:
@@ -144,8 +142,8 @@ def in_short(result: Result) -> str:
     match verdict:
         case Unknown(reason, depth):
             return f"after {depth} ticks of {system}: {reason}"
-        case Proved(Exhausted() as all_):
-            return f"all {all_.states:,} valuations of {system}"
+        case Proved(Exhausted() as all_, _, stronger):
+            return f"all {all_.states:,} valuations of {system}" + (f", {stronger}" if stronger else "")
         case Violated(Exhausted() as all_):
             return f"in none of {all_.states:,} valuations of {system}"
         case Proved(Trace() as trace):
@@ -166,8 +164,9 @@ def evidence(result: Result) -> str:
     match verdict:
         case Unknown(reason, depth, engine):
             return f"{engine} on {result.system}, no counterexample within {depth} ticks: {reason}"
-        case Proved(Exhausted() as all_, engine):
-            return f"{engine}: all {all_.states:,} valuations of {result.system}, depth {all_.depth}"
+        case Proved(Exhausted() as all_, engine, stronger):
+            claim = f", {stronger}" if stronger else ""
+            return f"{engine}: all {all_.states:,} valuations of {result.system}, depth {all_.depth}{claim}"
         case Violated(Exhausted() as all_, engine):
             return f"{engine}: in none of all {all_.states:,} valuations of {result.system}"
         case Proved(Trace() as trace, engine):
@@ -178,8 +177,9 @@ def evidence(result: Result) -> str:
 
 
 def ticks(trace: Trace) -> str:
-    """``155 ticks = 3.1 s``."""
-    return f"{len(trace)} tick{'s' * (len(trace) != 1)} = {len(trace) * trace.tick_ms / 1000:g} s"
+    """``155 ticks = 3.1 s``, and how many of them repeat for ever."""
+    ending = f", the last {len(trace) - trace.loop} for ever" if trace.loop is not None else ""
+    return f"{len(trace)} tick{'s' * (len(trace) != 1)} = {len(trace) * trace.tick_ms / 1000:g} s{ending}"
 
 
 def summary(found: Sequence[Compared]) -> None:
@@ -191,8 +191,8 @@ def summary(found: Sequence[Compared]) -> None:
     if not changed:
         out.print("Every verdict is as on record in the baseline.")
         return
-    if changed[0].choices:
-        out.print(f"{len(changed)} of them differ from the verdict by default.")
+    if changed[0].variant:
+        out.print(f"{len(changed)} of them differ {changed[0].variant}.", markup=False)
         return
     for compared in changed:
         _explain(compared)
@@ -213,7 +213,7 @@ def document(found: Sequence[Compared], complete: bool) -> dict[str, object]:
     """The verdicts as JSON; ``complete`` is false after an interruption."""
     return {
         "schema": f"rovercheck/check/{SCHEMA}",
-        "readings": dict(found[0].choices) if found else {},
+        "variant": found[0].variant if found else "",
         "complete": complete,
         "exit": int(worst(found)) if complete else int(Exit.INTERRUPTED),
         "results": [_row(c) for c in sorted(found, key=lambda c: c.result.property.id)],

@@ -11,14 +11,14 @@ from checker.explore import state_graph
 from checker.render import renderers
 from spec_model.lang.lower import lower
 from spec_model.lang.system import System
-from spec_model.rover import charts, systems
+from spec_model.rover import charts_of
 
 
 def graph(
-    name: str, project: str | None, format: str, choices: Mapping[str, str], output: Path | None
+    name: str, project: str | None, format: str, by_name: Mapping[str, System], output: Path | None
 ) -> Exit:
     """Draw what the name means: with ``project`` a system's state graph, without it a chart."""
-    by_name, drawn = systems(choices), charts(choices)
+    drawn = charts_of(by_name)
     if project is not None:
         return _states(pick("system", name, by_name), project, format, output)
     if name in by_name and name not in drawn:

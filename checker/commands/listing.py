@@ -1,17 +1,21 @@
 """``rovercheck list``: what there is."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from textwrap import fill
 
 from rich.table import Table
 
-from checker.commands.codes import Exit
+from checker.commands.codes import Exit, UsageError
 from checker.commands.output import out
+from checker.commands.select import pick_properties
+from checker.commands.wording import in_english
 from checker.decide import ALL, AUTO
 from checker.engine import engines
 from properties.catalogue import catalogue, expected
+from properties.forms import Property
 from properties.requirements import requirements
 from spec_model.readings import readings
+from spec_model.repairs import repairs
 from spec_model.rover import charts, systems
 
 
@@ -31,10 +35,10 @@ def _print(columns: Iterable[str], rows: Iterable[tuple[str, ...]]) -> None:
     out.print(table, soft_wrap=False)
 
 
-def list_properties() -> None:
+def list_properties(chosen: Iterable[Property]) -> None:
     _print(
         ("id", "system", "on record", "requires"),
-        ((p.id, p.on, expected(p.id).verdict, p.text) for p in catalogue().values()),
+        ((p.id, p.on, expected(p.id).verdict, p.text) for p in chosen),
     )
 
 
@@ -88,6 +92,13 @@ def _hanging(text: str, indent: int = 5) -> None:
     out.print(fill(text, out.width, subsequent_indent=" " * indent), markup=False)
 
 
+def list_repairs() -> None:
+    _print(
+        ("name", "repairs", "what changes"),
+        ((r.name, ", ".join(r.fixes), r.text) for r in repairs().values()),
+    )
+
+
 def list_engines() -> None:
     rows = [(e.NAME, e.SUMMARY) for e in engines().values()]
     rows.append((AUTO, "Explicit search first, then bounded model checking of what it leaves open."))
@@ -96,16 +107,28 @@ def list_engines() -> None:
 
 
 LISTS: dict[str, Callable[[], None]] = {
-    "properties": list_properties,
     "systems": list_systems,
     "charts": list_charts,
     "requirements": list_requirements,
     "readings": list_readings,
+    "repairs": list_repairs,
     "engines": list_engines,
 }
 
 
-def listing(what: str) -> Exit:
-    """Print one of the lists."""
-    LISTS[what]()
+def listing(what: str, ids: Sequence[str] = (), english: bool = False) -> Exit:
+    """Print one of the lists; of the properties those of ``ids``, in words if ``english``.
+
+    Raises ``UsageError`` for ids or ``english`` with another list.
+    """
+    if what == "properties":
+        show = in_english if english else list_properties
+        show(pick_properties(ids, None, catalogue()))
+    elif ids or english:
+        raise UsageError(
+            f"Ids and --english choose among properties; write `rovercheck list {what}` without them, "
+            "or `rovercheck list properties [ID]... --english`."
+        )
+    else:
+        LISTS[what]()
     return Exit.AS_EXPECTED

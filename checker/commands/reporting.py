@@ -1,17 +1,22 @@
 """``rovercheck reports``: the evidence as files that change only when a verdict or a chart does."""
 
 from collections.abc import Iterator, Sequence
+from html import escape
 from pathlib import Path
 
 from checker.commands.check import Compared, evidence, results
 from checker.commands.codes import Exit, UsageError
 from checker.commands.output import err, out, write
+from checker.commands.requirements import page as matrix_page
+from checker.commands.wording import formally
 from checker.decide import AUTO
 from checker.engine import Limits
 from checker.render import renderers
 from checker.trace import Trace
 from checker.verdict import Unknown
 from properties.catalogue import catalogue, expected
+from properties.english import HOW_TO_READ
+from properties.forms import Property
 from properties.requirements import requirements
 from spec_model.rover import charts, systems
 
@@ -79,7 +84,11 @@ def _put(folder: Path, name: str, made: Pages) -> None:
 def pages(found: Sequence[Compared]) -> Pages:
     """Every file of the report, from the verdicts."""
     ordered = sorted(found, key=lambda c: (c.result.property.area, c.result.property.id))
-    made = {"README.md": _index(ordered), "requirements.md": _matrix(ordered), "systems.md": _systems()}
+    made = {
+        "README.md": _index(ordered),
+        "requirements.md": HEADER + matrix_page(ordered),
+        "systems.md": _systems(),
+    }
     for compared in ordered:
         if compared.verdict.word == "violated":
             made[_page(compared)] = _finding(compared)
@@ -103,7 +112,7 @@ def _index(found: Sequence[Compared]) -> str:
     counts = ", ".join(f"{words.count(w)} {w}" for w in ("proved", "violated", "unknown"))
     lines = ["# Verdicts", "", f"{len(found)} properties: {counts}.", ""]
     lines += ["- [Charts](charts/README.md)", "- [Requirements](requirements.md)"]
-    lines += ["- [Systems](systems.md)", ""]
+    lines += ["- [Systems](systems.md)", "", f"Each property opens to what is checked. {HOW_TO_READ}", ""]
     lines += ["## Findings", "", "Properties that fail on the charts as specified.", ""]
     for compared in found:
         if compared.verdict.word == "violated":
@@ -123,9 +132,15 @@ def _table(found: Sequence[Compared]) -> list[str]:
         word = compared.verdict.word
         shown = f"[{word}]({_page(compared)})" if word == "violated" else word
         covers = ", ".join(prop.covers)
-        cells = (prop.id, shown, _cell(prop.text), covers, _cell(evidence(compared.result)))
+        cells = (prop.id, shown, _in_detail(prop), covers, _cell(evidence(compared.result)))
         rows.append(f"| {' | '.join(cells)} |")
     return rows
+
+
+def _in_detail(prop: Property) -> str:
+    """What people say of a property; a click opens what is checked."""
+    formal = "<br>".join(_cell(escape(line, quote=False)) for line in formally(prop))
+    return f"<details><summary>{_cell(escape(prop.text, quote=False))}</summary>{formal}</details>"
 
 
 def _cell(text: str) -> str:
@@ -137,6 +152,7 @@ def _finding(compared: Compared) -> str:
     assert not isinstance(verdict, Unknown)
     known = requirements()
     lines = [f"# {prop.id}: violated", "", prop.text, ""]
+    lines += ["\n>\n".join(f"> {line}" for line in formally(prop)), ""]
     lines += [f"- {known[id].id} [{known[id].source}]: {known[id].text}" for id in prop.covers]
     if prop.readings:
         lines.append(f"- readings: {', '.join(prop.readings)}")
@@ -147,19 +163,6 @@ def _finding(compared: Compared) -> str:
         names = dict.fromkeys(a.chart for t in verdict.because.ticks for a in t.arrows)
         lines += ["", "## Charts", "", *(f"- [{n}](../charts/{n}.svg)" for n in names)]
     return HEADER + "\n".join(lines).rstrip() + "\n"
-
-
-def _matrix(found: Sequence[Compared]) -> str:
-    by: dict[str, list[Compared]] = {}
-    for compared in found:
-        for id in compared.result.property.covers:
-            by.setdefault(id, []).append(compared)
-    lines = ["# Requirements", "", "| requirement | source | text | properties |", "|---|---|---|---|"]
-    for item in requirements().values():
-        shown = ", ".join(f"{c.result.property.id} {c.verdict.word}" for c in by.get(item.id, []))
-        none = "" if item.checkable.startswith("yes") else f"none: {item.checkable}"
-        lines.append(f"| {item.id} | {item.source} | {_cell(item.text)} | {shown or none or 'not yet'} |")
-    return HEADER + "\n".join(lines) + "\n"
 
 
 def _systems() -> str:

@@ -6,11 +6,9 @@ from typing import TypeVar
 from checker.commands.codes import UsageError
 from checker.decide import ALL, AUTO
 from checker.engine import engines
-from properties.catalogue import read_by, under
 from properties.forms import Property
 from spec_model.lang.errors import did_you_mean
-from spec_model.readings import ANY, readings
-from spec_model.rover import AS_READ, systems
+from spec_model.rover import systems
 
 Thing = TypeVar("Thing")
 
@@ -29,32 +27,11 @@ def pick_engine(name: str) -> str:
     return name
 
 
-def pick_readings(chosen: Sequence[str]) -> dict[str, str]:
-    """Readings and their choices from ``ID=CHOICE``.  Raises ``UsageError`` or ``ModelError``."""
-    choices: dict[str, str] = {}
-    for text in chosen:
-        id, equals, choice = text.partition("=")
-        one = pick("reading", id, readings())
-        options = [c for c in one.choices if c not in one.not_modelled]
-        if not equals or not choice:
-            raise UsageError(f"{text!r} names no choice; write {id}= and one of {', '.join(options)}, {ANY}.")
-        if choice != ANY:
-            one.value(choice)
-        choices[id] = choice
-    return choices
-
-
-def pick_properties(
-    ids: Sequence[str], system: str | None, choices: Mapping[str, str] = AS_READ
-) -> list[Property]:
+def pick_properties(ids: Sequence[str], system: str | None, known: Mapping[str, Property]) -> list[Property]:
     """Properties by id, or by the beginning that its forms share (PB1-16 is PB1-16a, PB1-16b...).
 
-    All of them when no id is given; only those about ``system`` when one is.  Under chosen readings,
-    without an id, only those that a chosen reading can change.
+    All of them when no id is given; only those about ``system`` when one is.
     """
-    known = under(choices)
-    if choices and not ids:
-        known = {id: p for id, p in known.items() if choices.keys() & read_by(p)}
     chosen = _distinct(p for id in ids for p in _matching(id, known)) if ids else list(known.values())
     if system is None:
         return chosen

@@ -77,7 +77,21 @@ class FalsePart:
     values: tuple[tuple[str, str], ...]
 
 
-Row = Event | Quiet
+@dataclass(frozen=True)
+class Repeats:
+    """What follows repeats for ever: ticks ``first`` to ``last``."""
+
+    first: int
+    last: int
+
+    @property
+    def what(self) -> str:
+        """The mark in one sentence."""
+        span = f"ticks {self.first}–{self.last} repeat" if self.last > self.first else "this tick repeats"
+        return f"from here on {span} for ever"
+
+
+Row = Event | Quiet | Repeats
 
 
 def value(trace: Trace, name: str, raw: int) -> str:
@@ -88,10 +102,15 @@ def value(trace: Trace, name: str, raw: int) -> str:
 
 
 def rows(trace: Trace) -> Iterator[Row]:
-    """Events and quiet stretches in order; the last tick is always an event."""
+    """Events and quiet stretches in order, and the start of a loop; the last tick is always an event."""
     at = [dict(trace.before), *({**t.after, **t.inputs} for t in trace.ticks)]
     start: int | None = None
     for i, tick in enumerate(trace.ticks):
+        if i == trace.loop:
+            if start is not None:
+                yield _quiet(trace, at, start, i)
+                start = None
+            yield Repeats(i + 1, len(trace))
         last = i == len(trace.ticks) - 1
         arrows = tuple(a for a in tick.arrows if not _repeats(a, trace.ticks[i - 1] if i else None))
         told = {a.chart for a in arrows}
@@ -192,7 +211,19 @@ def heading(trace: Trace) -> str:
     """One line about the whole run."""
     count = len(trace)
     ticks = f"{count} tick{'s' if count != 1 else ''} of {trace.tick_ms} ms"
-    return f"{trace.system}: {ticks}, {count * trace.tick_ms} ms"
+    ending = f", the last {count - trace.loop} of them for ever" if trace.loop is not None else ""
+    return f"{trace.system}: {ticks}, {count * trace.tick_ms} ms{ending}"
+
+
+def ending(trace: Trace) -> str:
+    """What a run without end comes back to, or what a trapped run can no longer reach; else empty."""
+    if trace.loop is not None:
+        back = f"tick {trace.loop}" if trace.loop else "the start"
+        return f"Loop: back to {back}, with all that the property depends on as it was then."
+    if trace.trapped is not None:
+        count = f"any of the {trace.trapped:,} valuations" if trace.trapped > 1 else "the only valuation"
+        return f"No way back: what is false now is false in {count} that can follow."
+    return ""
 
 
 def start_of(arrow: Arrow) -> str:

@@ -34,6 +34,8 @@ def document(trace: Trace) -> dict[str, Any]:
         "vars": [_variable(n, v, n in trace.inputs) for n, v in trace.variables.items()],
         "before": _values(trace, trace.before),
         "states": [_state(trace, tick) for tick in trace.ticks],
+        **({"loop": trace.loop} if trace.loop is not None else {}),
+        **({"trapped": trace.trapped} if trace.trapped is not None else {}),
         "false": [
             {"name": p.name, "formula": p.formula, "values": dict(p.values)} for p in false_parts(trace)
         ],
@@ -123,6 +125,8 @@ SCHEMA: dict[str, Any] = {
                 },
             },
         },
+        "loop": {"type": "integer", "minimum": 0},  # after the last tick it is again as after this one
+        "trapped": {"type": "integer", "minimum": 1},  # valuations that can follow, all false
         "false": {"type": "array", "items": {"type": "object", "required": ["name", "formula", "values"]}},
     },
     "additionalProperties": False,

@@ -2,7 +2,19 @@
 
 from xml.sax.saxutils import escape
 
-from checker.render.story import UNTOLD, Event, Quiet, false_parts, heading, rows, start_of, start_values
+from checker.render.story import (
+    UNTOLD,
+    Event,
+    Quiet,
+    Repeats,
+    Row,
+    ending,
+    false_parts,
+    heading,
+    rows,
+    start_of,
+    start_values,
+)
 from checker.trace import Trace
 
 NAME = "markdown"
@@ -19,14 +31,24 @@ def render(trace: Trace) -> str:
     if chosen := start_values(trace):
         lines += ["Fixed for the whole run: " + ", ".join(_code(f"{n} = {v}") for n, v in chosen) + ".", ""]
     lines += ["| Tick | ms | Inputs | Changes | Arrows that fired |", "|---:|---:|---|---|---|"]
-    for row in rows(trace):
-        lines.append(_quiet(row) if isinstance(row, Quiet) else _event(row))
+    lines += map(_row, rows(trace))
+    lines += ["", f"**{_plain(last)}**"] if (last := ending(trace)) else []
     lines += ["", UNTOLD]
     for part in false_parts(trace):
         lines += ["", f"**False after tick {len(trace)}:** {_code(part.name or part.formula)}"]
         lines += ["", f"which stands for {_code(part.formula)}"] if part.name else []
         lines += ["", "with " + ", ".join(_code(f"{n} = {v}") for n, v in part.values)] if part.values else []
     return "\n".join([*lines, ""])
+
+
+def _row(row: Row) -> str:
+    match row:
+        case Event():
+            return _event(row)
+        case Quiet():
+            return f"| … | | | *{_plain(row.what)}* | |"
+        case Repeats():
+            return f"| ↻ | | | **{_plain(row.what)}** | |"
 
 
 def _event(event: Event) -> str:
@@ -38,10 +60,6 @@ def _event(event: Event) -> str:
     ]
     cells = [str(event.number), str(event.ms), *("<br>".join(c) for c in (inputs, others, arrows))]
     return "| " + " | ".join(cells) + " |"
-
-
-def _quiet(stretch: Quiet) -> str:
-    return f"| … | | | *{_plain(stretch.what)}* | |"
 
 
 def _code(shown: str) -> str:

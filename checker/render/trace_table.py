@@ -13,6 +13,8 @@ from checker.render.story import (
     Event,
     FalsePart,
     Quiet,
+    Repeats,
+    ending,
     false_parts,
     heading,
     rows,
@@ -38,6 +40,8 @@ def render(trace: Trace, width: int = 80, color: bool = False) -> str:
     if chosen := start_values(trace):
         console.print(Text("fixed: " + ", ".join(f"{n} = {v}" for n, v in chosen)))
     console.print(_table(trace))
+    if last := ending(trace):
+        console.print(Text(last, style="bold"))
     console.print(Text(UNTOLD, style="dim"))
     for part in false_parts(trace):
         console.print(Text(f"False after tick {len(trace)}: {part.name or part.formula}", style="bold red"))
@@ -51,7 +55,9 @@ def _table(trace: Trace) -> Table:
     table.add_column("ms", justify="right", no_wrap=True)
     table.add_column("what happened", ratio=1)
     for row in rows(trace):
-        if isinstance(row, Quiet):
+        if isinstance(row, Repeats):
+            table.add_row("↻", "", _hanging(row.what, style="bold"))
+        elif isinstance(row, Quiet):
             table.add_row("·", "", _hanging(row.what, style="dim"))
         else:
             _event(table, row)

@@ -4,6 +4,7 @@ Fault detection, masks, classes of Board 2's faults, relay; then, if Board 1 act
 limits and references.  A block sees in the same step what the blocks before it produced.
 """
 
+from spec_model.board1.backward import toggle
 from spec_model.board1.battery import monitor_battery
 from spec_model.board1.classify import process_b2_masks
 from spec_model.board1.heartbeat import monitor_heartbeat
@@ -15,8 +16,10 @@ from spec_model.board1.relay import relay
 from spec_model.board1.safety import safety_state
 from spec_model.board1.temperature import monitor_temperature
 from spec_model.board1.wheels import monitor_wheels
-from spec_model.lang.chart import Component, Enabled
-from spec_model.signals.board1 import give_b2_actuation
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Block, Component, Enabled
+from spec_model.readings import under
+from spec_model.signals.board1 import give_b2_actuation, omega_ref, v_ref
 
 MONITORS: tuple[Component, ...] = (
     monitor_temperature,
@@ -27,7 +30,18 @@ MONITORS: tuple[Component, ...] = (
 )
 """Fault detection: mutually independent [seed §2.4, Fig 15]."""
 
-REFERENCES = Enabled(~give_b2_actuation, safety_state, update_safety_limits, motion_supervision)
+computed = ~give_b2_actuation | under("S48", "STILL-COMPUTED")
+safety_computed = computed | under("S49", "STOP-AND-GIVE")
+
+REFERENCES = Enabled(
+    safety_computed,
+    safety_state,
+    Enabled(computed, update_safety_limits, toggle, motion_supervision),
+    Enabled(
+        give_b2_actuation & under("S48", "ZERO"),
+        Block("No_references", [assign(v_ref, 0), assign(omega_ref, 0)], text="None while Board 2 drives."),
+    ),
+)
 """Calculation of the references, executed only while Board 1 actuates [seed §2.1] (S48, S49)."""
 
 SUPERVISOR: tuple[Component, ...] = (

@@ -5,20 +5,22 @@ of it holds in the board too, and a counterexample counts when the board has one
 """
 
 from spec_model import environment as env
-from spec_model.board1 import REFERENCES, SUPERVISOR
+from spec_model.board1 import SUPERVISOR
+from spec_model.board1.backward import toggle
 from spec_model.board1.battery import monitor_battery
 from spec_model.board1.classify import process_b2_masks
 from spec_model.board1.heartbeat import monitor_heartbeat
+from spec_model.board1.limits import update_safety_limits
 from spec_model.board1.masks import fault_masks, own_causes
-from spec_model.board1.motion import no_rotation_asked
+from spec_model.board1.motion import motion_with_free_error
 from spec_model.board1.reception import monitor_reception
 from spec_model.board1.relay import relay
 from spec_model.board1.safety import safety_state
 from spec_model.board1.temperature import monitor_temperature
 from spec_model.board1.wheels import monitor_wheels
 from spec_model.lang.chart import Enabled
-from spec_model.lang.expr import ite
 from spec_model.lang.system import System, in_order
+from spec_model.records import arrival_window, slow_record
 from spec_model.signals import board1 as b1
 
 GRID = (
@@ -33,9 +35,14 @@ FREE_STATUSES = (
     "The statuses are free in every step, which allows every run of the monitors and more: what is "
     "proved here holds for the whole board."
 )
-NO_ROTATION = (
-    "Retromarcia_180 and the toggle of backward mode are not modelled yet: backward mode is free in "
-    "every step, and y_norm < -0.5 is assumed to come in backward mode only."
+FREE_CAUSES = (
+    "The relay decision is free, the causes b1_critical, b1_degraded, b2_critical and b2_degraded do not "
+    "follow from masks, nor wheels_below_2_5 from four wheel speeds."
+)
+FREE_BACKWARD = "Backward mode is free in every step, which allows every run of its toggle and more."
+FREE_ERROR = (
+    "In Retromarcia_180 what is left to turn is free in every step after that of entry, where it is -180 "
+    "degrees; for a chart that meets an arbitrary yaw this adds and loses no run."
 )
 FEW_VALUES = "Measurements take representative values on each side of every limit."
 
@@ -67,7 +74,7 @@ wheels = tuple(
 reception = in_order(
     "reception",
     env.reception_clock,
-    env.slow_record("rx", b1.rx_update, exact=False),
+    slow_record("rx", b1.rx_update, exact=False),
     monitor_reception,
     text="Reception monitor with frames that arrive at will, the mean of ten intervals left open.",
     notes=[GRID, ANY_INTERVALS],
@@ -78,7 +85,7 @@ reception = in_order(
 reception_exact = in_order(
     "reception_exact",
     env.reception_clock,
-    env.arrival_window("rx", b1.rx_update),
+    arrival_window("rx", b1.rx_update),
     monitor_reception,
     text="Reception monitor with frames that arrive at will and the exact mean of ten intervals.",
     notes=[GRID],
@@ -87,7 +94,7 @@ reception_exact = in_order(
 heartbeat = in_order(
     "heartbeat",
     env.heartbeat_clock,
-    env.slow_record("heartbeat", b1.heartbeat_update, exact=False),
+    slow_record("heartbeat", b1.heartbeat_update, exact=False, moves=b1.heartbeat_moves),
     monitor_heartbeat,
     text="Heartbeat monitor with heartbeats that change at will, the mean of ten intervals left open.",
     notes=[GRID, ANY_INTERVALS],
@@ -98,7 +105,7 @@ heartbeat = in_order(
 heartbeat_exact = in_order(
     "heartbeat_exact",
     env.heartbeat_clock,
-    env.arrival_window("heartbeat", b1.heartbeat_update),
+    arrival_window("heartbeat", b1.heartbeat_update, moves=b1.heartbeat_moves),
     monitor_heartbeat,
     text="Heartbeat monitor with heartbeats that change at will and the exact mean of ten intervals.",
     notes=[GRID],
@@ -147,23 +154,43 @@ safety = in_order(
     concrete="board1",
 )
 
+references_parts = (safety_state, update_safety_limits, motion_with_free_error)
+
 references = in_order(
     "references",
-    REFERENCES,
+    Enabled(~b1.give_b2_actuation, *references_parts),
     text="Safety state, limits and references, for any relay decision, faults, commands and wheel speeds.",
-    assume=no_rotation_asked,
-    notes=[
-        FREE_STATUSES,
-        "The relay decision is free, the causes b1_critical, b1_degraded, b2_critical and b2_degraded do not "
-        "follow from masks, nor wheels_below_2_5 from four wheel speeds.",
-        NO_ROTATION,
-    ],
+    notes=[FREE_STATUSES, FREE_CAUSES, FREE_BACKWARD, FREE_ERROR],
     over=True,
     concrete="board1",
 )
 
-latched_y = ite(b1.rx_update, b1.sent(b1.y_norm), b1.y_norm)
-"""y_norm as the charts of this step will see it."""
+references_executed = in_order(
+    "references_executed",
+    *references_parts,
+    text="As references, alone, in the steps in which Board 1 actuates: time is counted in executed steps.",
+    notes=[
+        "The causes, the command, the user, backward mode and the wheels are free in every step.",
+        FREE_ERROR,
+        "While Board 2 actuates nothing here changes (S48); those steps are left out.",
+    ],
+)
+
+backward = in_order(
+    "backward",
+    toggle,
+    text="The toggle of backward mode for any buttons and stick, in the steps in which Board 1 actuates.",
+    notes=["While Board 2 actuates the toggle is frozen (S48); those steps are left out."],
+)
+
+backward_frozen = in_order(
+    "backward_frozen",
+    Enabled(~b1.give_b2_actuation, toggle),
+    text="The toggle of backward mode for any buttons, stick and relay decision.",
+    notes=["The relay decision is free in every step."],
+    over=True,
+    concrete="board1",
+)
 
 board1 = in_order(
     "board1",
@@ -172,15 +199,16 @@ board1 = in_order(
     env.received_payload,
     env.reception_clock,
     env.heartbeat_clock,
-    env.arrival_window("rx", b1.rx_update),
-    env.arrival_window("heartbeat", b1.heartbeat_update),
+    arrival_window("rx", b1.rx_update),
+    arrival_window("heartbeat", b1.heartbeat_update, moves=b1.heartbeat_moves),
     env.check_stop,
     *SUPERVISOR,
     text="The whole supervisor of Board 1, with exact records of ten intervals.",
-    assume=env.heartbeat_travels_in_frames & ((latched_y >= -0.5) | b1.backward_enabled),
-    notes=[GRID, FEW_VALUES, NO_ROTATION],
+    assume=env.heartbeat_travels_in_frames,
+    notes=[GRID, FEW_VALUES, "Headings are multiples of 2.5 degrees, arbitrary in every frame."],
 )
 
+# The board comes before systems with a simpler form of its charts: charts are shown as in the first.
 SYSTEMS: tuple[System, ...] = (
     temperature,
     battery,
@@ -193,6 +221,9 @@ SYSTEMS: tuple[System, ...] = (
     relay_alone,
     relay_links,
     safety,
-    references,
     board1,
+    references,
+    references_executed,
+    backward,
+    backward_frozen,
 )

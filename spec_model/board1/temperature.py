@@ -1,26 +1,59 @@
 """Temperature monitor of Board 1: how warm is the board, and is anybody still measuring [seed §2.4, Table 2].
 
 The ranges read the last valid temperature, also when it is old (S11, S12); absence of readings counts
-only through the assumed rise (S13).
+only through the assumed rise (S13).  The words of the rows under other readings: `temperature_ranges`.
 """
 
-from fractions import Fraction
-
+from spec_model.board1.temperature_ranges import (
+    T_cold,
+    T_hot,
+    absent,
+    assumed_T,
+    count_steps,
+    critical_for_4_s,
+    critical_range,
+    for_4_s,
+)
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, Junction, State, to
 from spec_model.lang.expr import const
 from spec_model.lang.time import sec
 from spec_model.lang.words import held, named
-from spec_model.signals.board1 import temp_age, temp_status, temperature_degC
+from spec_model.readings import choose, under
+from spec_model.signals.board1 import temp_age, temp_status
 
-T = temperature_degC
+__all__ = ["critical_range", "degraded_range", "monitor_temperature", "ok_range", "stale_above_65"]
 
-ok_range = named("T in ]-5;55[", (T > -5) & (T < 55))
-degraded_range = named("T in ]-15;-5] or [55;60[", ((T > -15) & (T <= -5)) | ((T >= 55) & (T < 60)))
-critical_range = named("T in ]-inf;-15] or [60;+inf[", (T <= -15) | (T >= 60))  # one set (S03)
+ok_range = named("T in ]-5;55[", (T_cold > -5) & (T_hot < 55))
+degraded_range = named(
+    "T in ]-15;-5] or [55;60[", ((T_cold > -15) & (T_cold <= -5)) | ((T_hot >= 55) & (T_hot < 60))
+)
+to_be_degraded = degraded_range | (under("S01", "DEG-WHILE-PENDING") & critical_range)
+to_be_ok = ok_range | (under("S01", "OK-DEFAULT") & critical_range)
 
-assumed_T = named("assumed_T", T + temp_age * const(Fraction(1, 1000), "°C/ms"))  # 1 °C/s (S09)
-stale_above_65 = named("stale_above_65", (temp_age >= 500) & (assumed_T > 65))  # S06, S07, S08, S14
+old = choose("S08", {"EQ": temp_age == 500, "GE": temp_age >= 500, "GT": temp_age > 500})
+limit = choose("S06", {"AS-WRITTEN": const(65, "°C"), "ALL-60": const(60, "°C")})
+above = choose("S14", {"GT": assumed_T > limit, "GE": assumed_T >= limit})
+stale_above_65 = named(
+    "stale_above_65",
+    choose("S07", {"TEMP": old & above, "RATE": False}),  # the assumed 1 °C/s is never above 65 °C/s
+)
+
+sustained = choose(
+    "S01",
+    {
+        "HOLD": critical_for_4_s,
+        "DEG-WHILE-PENDING": critical_for_4_s,
+        "OK-DEFAULT": critical_for_4_s,
+        "CRIT-AT-ONCE": critical_range,
+    },
+)
+estimated = choose("S10", {"INSTANT": stale_above_65, "SUSTAINED": for_4_s(stale_above_65)})
+
+released = choose(
+    "S05",
+    {"IMMEDIATE": True, "SYMMETRIC": held(~critical_range & ~stale_above_65, for_=4 * sec), "LATCH": False},
+)
 
 monitor_temperature = Chart(
     "Monitor_temperature",
@@ -28,27 +61,27 @@ monitor_temperature = Chart(
         State(
             "Temp_OK",
             entry=[assign(temp_status, "TEMP_HEALTH_OK")],
-            transitions=[to("decide")],
+            transitions=[to("decide", do=[count_steps])],
         ),
         State(
             "Temp_DEG",
             entry=[assign(temp_status, "TEMP_HEALTH_DEGRADED")],
-            transitions=[to("decide")],
+            transitions=[to("decide", do=[count_steps])],
         ),
         State(
             "Temp_CRIT",
             entry=[assign(temp_status, "TEMP_HEALTH_CRITICAL")],
-            transitions=[to("decide")],
+            transitions=[to("decide", when=released, do=[count_steps])],
         ),
     ],
-    default=[to("decide"), to("Temp_OK")],  # classified in the very first step (S65)
+    default=[to("decide", do=[count_steps]), to("Temp_OK")],  # classified in the very first step (S65)
     junctions=[
         Junction(
             "decide",
             [
-                to("Temp_CRIT", when=held(critical_range, for_=4 * sec) | stale_above_65),  # S02, S04, S10
-                to("Temp_DEG", when=degraded_range | critical_range),  # degraded while pending (S01)
-                to("Temp_OK", when=ok_range),  # released at once (S05)
+                to("Temp_CRIT", when=sustained | estimated | (under("S13", "TABLE1-CRIT") & absent)),
+                to("Temp_DEG", when=to_be_degraded | (under("S13", "TABLE1-DEG") & absent)),
+                to("Temp_OK", when=to_be_ok),
             ],
         )
     ],

@@ -5,28 +5,55 @@
 
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.signals.board1 import WHEELS, has_no_feedback, is_motion_consistent, wheel_status
+from spec_model.readings import choose, under
+from spec_model.signals.board1 import WHEELS, has_no_feedback, is_motion_consistent, rx_age, wheel_status
+
+consistent = choose(
+    "S31",
+    {
+        "LAST-VALUE": is_motion_consistent,
+        "IGNORE": is_motion_consistent | (rx_age > 120),  # on a dead link nothing speaks against it
+    },
+)
 
 
 def monitor_of_wheel(wheel: str) -> Chart:
     """The monitor of one wheel: FL, FR, RL or RR (S33)."""
-    lost, consistent, status = has_no_feedback[wheel], is_motion_consistent, wheel_status[wheel]
+    flag, status = has_no_feedback[wheel], wheel_status[wheel]
+    lost = choose("S32", {"TRUE=NO-FEEDBACK": flag, "TRUE=CORRESPONDENCE": ~flag})
+    ok = choose("S27", {"HOLD": ~lost & consistent, "OK": ~lost, "DEG": ~lost & consistent})
+    released = choose("S30", {"FOLLOW": True, "LATCH": ~lost & consistent})  # from critical
     return Chart(
         f"Monitor_wheel_{wheel}",
         [
-            State("Wheel_OK", entry=[assign(status, "WHEEL_OK")], transitions=[to("decide")]),
+            State(
+                "Wheel_OK",
+                entry=[assign(status, "WHEEL_OK")],
+                transitions=[
+                    to("Wheel_DEG", when=under("S28", "SEQ") & lost & ~consistent),
+                    to("decide"),
+                ],
+            ),
             State("Wheel_DEG", entry=[assign(status, "WHEEL_DEGRADED_ENCODER")], transitions=[to("decide")]),
-            State("Wheel_CRIT", entry=[assign(status, "WHEEL_CRITICAL_MOTOR")], transitions=[to("decide")]),
+            State(
+                "Wheel_CRIT",
+                entry=[assign(status, "WHEEL_CRITICAL_MOTOR")],
+                transitions=[to("decide", when=choose("S29", {"FOLLOW": released, "LATCH": False}))],
+            ),
         ],
-        default=[to("decide"), to("Wheel_OK")],  # S65
+        default=[
+            to("Wheel_DEG", when=under("S28", "SEQ") & lost & ~consistent),
+            to("decide"),  # S65
+            to("Wheel_OK"),
+        ],
         junctions=[
             Junction(
                 "decide",
                 [
-                    to("Wheel_CRIT", when=lost & ~consistent),  # both together, in one step (S28, S29)
-                    to("Wheel_DEG", when=lost & consistent),  # S30
-                    to("Wheel_OK", when=~lost & consistent),
-                    to("Wheel_DEG", when=~lost & ~consistent),  # S27
+                    to("Wheel_CRIT", when=lost & ~consistent),  # both together, in one step (S28)
+                    to("Wheel_DEG", when=lost & consistent),
+                    to("Wheel_OK", when=ok),
+                    to("Wheel_DEG", when=under("S27", "DEG") & ~lost & ~consistent),
                 ],
             )
         ],

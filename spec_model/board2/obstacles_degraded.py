@@ -4,7 +4,7 @@ from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, State, to
 from spec_model.lang.expr import Var, any_of
 from spec_model.lang.words import named
-from spec_model.signals.board2 import B2DecDegraded, d1, d2, d3
+from spec_model.signals.board2 import B2DecDegraded, d1, d2, d3, number
 
 # Drawn as check_emergency_stop(sonars), as in the other chart, but with the limit of the text: 300 cm.
 check300 = named("check_emergency_stop(sonars)", any_of(d1 <= 300, d2 <= 300, d3 <= 300))
@@ -14,13 +14,13 @@ def obstacles_degraded(name: str = "ObstaclesDegraded", decision: Var = B2DecDeg
     """An instance of the chart that writes ``decision``.
 
     Board 2 holds two: one beside the non-degraded chart, executed in every step, and one in the
-    subsystem that executes only while Board 2 drives.
+    subsystem that executes only while Board 2 drives.  ``number``: E04.
     """
     return Chart(name, [
-        State("check_sonars_for_stopping", entry=[assign(decision, 5)], transitions=[
+        State("check_sonars_for_stopping", entry=[assign(decision, number(5))], transitions=[
             to("check_sonars_for_moving_again", when=check300),
         ]),
-        State("check_sonars_for_moving_again", entry=[assign(decision, 6)], transitions=[
+        State("check_sonars_for_moving_again", entry=[assign(decision, number(6))], transitions=[
             to("check_sonars_for_stopping", when=~check300),
         ]),
     ], default="check_sonars_for_stopping",

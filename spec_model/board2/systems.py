@@ -1,11 +1,12 @@
 """The systems in which the obstacle charts of Board 2 are checked, from one chart alone to both selected."""
 
 from spec_model.board2.heading import headings, measured
-from spec_model.board2.obstacles import TIMED, WINDOWS, obstacles_n
+from spec_model.board2.obstacles import WINDOWS, obstacles_n
 from spec_model.board2.obstacles_degraded import obstacles_degraded
 from spec_model.board2.selection import selection
 from spec_model.environment2 import scan_phase, sonar_scan, turns_as_told
 from spec_model.lang.chart import Chart, Component
+from spec_model.lang.expiry import free_timers
 from spec_model.lang.expr import Expr, flag
 from spec_model.lang.system import System, in_order
 from spec_model.signals.board2 import d1, d2, d3
@@ -14,8 +15,6 @@ deg_mask_b1 = flag("deg_mask_b1", "the degraded mask last received from Board 1 
 crit_mask_b1 = flag("crit_mask_b1", "the critical mask last received from Board 1 is not zero")
 autorized_prev = flag("autorized_prev", "Board 2 was authorised to move the rover in the step before")
 
-AS_DRAWN = "obstacles_n"
-
 ARBITRARY = "The three distances are arbitrary in every step, on both sides of 70, 100 and 300 cm."
 FREE_FLAG = "prevDEG_B1 is arbitrary in every step."
 FREE_MASKS = "Non-zero Board 1 masks and the authorisation of the step before are arbitrary in every step."
@@ -23,20 +22,6 @@ FREE_HEADING = (
     "The 45 degree test of the heading is a free input, false in the step of entry; for a chart that "
     "meets an arbitrary yaw in every step this adds and loses no run."
 )
-
-
-def _any_stay(*timed: str) -> str:
-    free = ", ".join(name for name in TIMED if name not in timed)
-    return f"The stay in {free} may end in any step after the step of entry, which only adds runs."
-
-
-def _alone(name: str, text: str, *timed: str) -> System:
-    """The non-degraded chart alone, with counters for ``timed`` and free ends for the others."""
-    exact = set(timed) == set(TIMED)
-    notes = (ARBITRARY, FREE_FLAG, FREE_HEADING, *(() if exact else (_any_stay(*timed),)))
-    return in_order(
-        name, obstacles_n(timed), text=text, notes=notes, over=not exact, concrete="" if exact else AS_DRAWN
-    )
 
 
 def _scene(name: str, scene: str, assume: Expr) -> System:
@@ -70,21 +55,71 @@ SCANNED = (
 )
 ON_GRID = f"yaw is a multiple of {HEADING_GRID} degrees, arbitrary in every step."
 
+AS_DRAWN = in_order(
+    "obstacles_n",
+    obstacles_n(),
+    text="The non-degraded obstacle chart alone, as drawn.",
+    notes=(ARBITRARY, FREE_FLAG, FREE_HEADING),
+)
+HEADING = in_order(
+    "obstacles_heading",
+    obstacles_n(measured(yaw, targetAngle)),
+    text="The non-degraded obstacle chart alone, with the heading it measures.",
+    notes=(ARBITRARY, FREE_FLAG, ON_GRID),
+    under=True,
+)
+TURNING = in_order(
+    "obstacles_turning",
+    obstacles_n(measured(yaw, targetAngle)),
+    remember_yaw,
+    text="As obstacles_heading, for a rover that turns as it is told.",
+    assume=turning,
+    notes=(ARBITRARY, FREE_FLAG, AS_TOLD),
+    under=True,
+)
+BOTH = in_order(
+    "obstacles",
+    *_selected(obstacles_n()),
+    text="Both obstacle charts, the selection between them and the command for Board 1.",
+    notes=(ARBITRARY, FREE_MASKS, FREE_HEADING),
+)
+SCAN = in_order(
+    "obstacles_scan",
+    sonar_scan,
+    *_selected(obstacles_n()),
+    text="As obstacles, with sonar data that are replaced every 60 ms.",
+    frozen=(scan_phase,),
+    notes=(*SCANNED, FREE_MASKS, FREE_HEADING),
+)
+
+
+TURNS = ("MoveToS1", "MoveToS3")
+"""As drawn, these have no timer; where a reading gives them one it stays counted (E08)."""
+
+
+def _counting(*kept: str, name: str, text: str) -> System:
+    """The non-degraded chart alone; only the timers of the states named are counted."""
+    return free_timers(
+        AS_DRAWN, (*TURNS, *kept), name=name, text=f"The non-degraded obstacle chart alone; {text}"
+    )
+
+
+def _free(system: System) -> System:
+    name, text = f"{system.name}_free", f"As {system.name}; every timed stay ends at will."
+    return free_timers(system, TURNS, name=name, text=text)
+
+
 SYSTEMS: tuple[System, ...] = (
-    _alone(AS_DRAWN, "The non-degraded obstacle chart alone, as drawn.", *TIMED),
-    _alone("obstacles_n_free", "The non-degraded obstacle chart alone; every timed stay ends at will."),
-    _alone(
-        "obstacles_n_straight",
-        "The non-degraded obstacle chart alone; only the 0.5 s of MoveToS2 are counted.",
-        "MoveToS2",
-    ),
+    AS_DRAWN,
+    _counting(name="obstacles_n_free", text="every timed stay ends at will."),
+    _counting("MoveToS2", name="obstacles_n_straight", text="only the 0.5 s of MoveToS2 are counted."),
     *(
-        _alone(
-            f"obstacles_n_{name.removeprefix('timerSonar')}",
-            f"The non-degraded obstacle chart alone; only the 3 s of {name} are counted.",
-            name,
+        _counting(
+            window,
+            name=f"obstacles_n_{window.removeprefix('timerSonar')}",
+            text=f"only the 3 s of {window} are counted.",
         )
-        for name in WINDOWS
+        for window in WINDOWS
     ),
     _scene(
         "obstacles_n_left",
@@ -96,78 +131,18 @@ SYSTEMS: tuple[System, ...] = (
         "In every step either S2 measures 200 cm, or S1 and S3 do; the others measure nothing.",
         ((d1 == 200) & (d2 == 301) & (d3 == 200)) | ((d1 == 301) & (d2 == 200) & (d3 == 301)),
     ),
-    in_order(
-        "obstacles_heading",
-        obstacles_n(TIMED, measured(yaw, targetAngle)),
-        text="The non-degraded obstacle chart alone, with the heading it measures.",
-        notes=(ARBITRARY, FREE_FLAG, ON_GRID),
-        under=True,
-    ),
-    in_order(
-        "obstacles_heading_free",
-        obstacles_n((), measured(yaw, targetAngle)),
-        text="As obstacles_heading; every timed stay ends at will.",
-        notes=(ARBITRARY, FREE_FLAG, ON_GRID, _any_stay()),
-        over=True,
-        under=True,
-        concrete="obstacles_heading",
-    ),
-    in_order(
-        "obstacles_turning",
-        obstacles_n(TIMED, measured(yaw, targetAngle)),
-        remember_yaw,
-        text="As obstacles_heading, for a rover that turns as it is told.",
-        assume=turning,
-        notes=(ARBITRARY, FREE_FLAG, AS_TOLD),
-        under=True,
-    ),
-    in_order(
-        "obstacles_turning_free",
-        obstacles_n((), measured(yaw, targetAngle)),
-        remember_yaw,
-        text="As obstacles_turning; every timed stay ends at will.",
-        assume=turning,
-        notes=(ARBITRARY, FREE_FLAG, AS_TOLD, _any_stay()),
-        over=True,
-        under=True,
-        concrete="obstacles_turning",
-    ),
+    HEADING,
+    _free(HEADING),
+    TURNING,
+    _free(TURNING),
     in_order(
         "obstacles_d",
         obstacles_degraded(),
         text="The degraded obstacle chart alone.",
         notes=(ARBITRARY,),
     ),
-    in_order(
-        "obstacles",
-        *_selected(obstacles_n()),
-        text="Both obstacle charts, the selection between them and the command for Board 1.",
-        notes=(ARBITRARY, FREE_MASKS, FREE_HEADING),
-    ),
-    in_order(
-        "obstacles_free",
-        *_selected(obstacles_n(())),
-        text="As obstacles; every timed stay of the non-degraded chart ends at will.",
-        notes=(ARBITRARY, FREE_MASKS, FREE_HEADING, _any_stay()),
-        over=True,
-        concrete="obstacles",
-    ),
-    in_order(
-        "obstacles_scan",
-        sonar_scan,
-        *_selected(obstacles_n()),
-        text="As obstacles, with sonar data that are replaced every 60 ms.",
-        frozen=(scan_phase,),
-        notes=(*SCANNED, FREE_MASKS, FREE_HEADING),
-    ),
-    in_order(
-        "obstacles_scan_free",
-        sonar_scan,
-        *_selected(obstacles_n(())),
-        text="As obstacles_scan; every timed stay of the non-degraded chart ends at will.",
-        frozen=(scan_phase,),
-        notes=(*SCANNED, FREE_MASKS, FREE_HEADING, _any_stay()),
-        over=True,
-        concrete="obstacles_scan",
-    ),
+    BOTH,
+    _free(BOTH),
+    SCAN,
+    _free(SCAN),
 )

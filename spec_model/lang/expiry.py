@@ -4,8 +4,8 @@ The counter behind a temporal word only ever rises tick by tick or returns to 0.
 its first tick tells and leaves the rest to a free input:
 
     after(3 s)          over1 & after(1 tick)           not in the step in which the state is entered
-    duration(c) > 3 s   over1 & (duration(c) >= 1 tick)  c holds now, and held at the end of the last step
-    held(c, 3 s)        over1 & held(c, 0 s)             c holds now
+    duration(c) > 3 s   over1 & (duration(c) >= 1 tick)  c held at the end of the last step, and still does
+    held(c, 3 s)        over1 & held(c, 0 s)             c holds at the start of the step
 
 Giving ``over1`` the value that the exact counter would have shows that every run of the system is a
 run of the free one; ``tests/lang/test_expiry.py`` does that on random charts.
@@ -29,9 +29,7 @@ Counter = tuple[Path, When, tuple[object, ...]]
 Change = Callable[[Expr], Expr]
 
 
-def free_timers(
-    system: System, keep: Collection[str] = (), *, name: str = "", text: str = "", suffix: str = "free"
-) -> System:
+def free_timers(system: System, keep: Collection[str] = (), *, name: str = "", text: str = "") -> System:
     """The system with the timers of its charts free, except those of the states in ``keep``.
 
     A name in ``keep`` is that of a state or of a chart, and covers what is inside; a word on a
@@ -40,19 +38,16 @@ def free_timers(
     is.  Raises ``ModelError`` for a name in ``keep`` that no chart knows.
     """
     _known(system, keep)
-    charts = [(c, _Free(c, system.tick_ms, keep)) for c in system.charts]
-    freed = [f"{name} in {chart.name}" for chart, free in charts for name in free.names]
+    charts = [(c, Expiry(c, system.step_ms, keep)) for c in system.charts]
+    freed = [word for _, free in charts for word in free.freed]
     if not freed:
         return system
-    note = (
-        f"These timers may run out in any step after their first, which only adds runs: {', '.join(freed)}."
-    )
     return replace(
         system,
-        name=name or f"{system.name}~{suffix}",
+        name=name or f"{system.name}~free",
         text=text or f"As {system.name}; timers run out at will.",
         components=tuple(_components(system.components, {id(c): free.chart() for c, free in charts})),
-        notes=(*system.notes, note),
+        notes=(*system.notes, _note(freed)),
         over=True,
         concrete=system.concrete or system.name,
     )
@@ -67,6 +62,12 @@ def _known(system: System, keep: Collection[str]) -> None:
                 f"No chart of {system.name} has a state {wanted!r} whose timer could be kept; write the "
                 f"name of a state or of a chart. {did_you_mean(wanted, names)}"
             )
+
+
+def _note(freed: Sequence[tuple[str, str]]) -> str:
+    words = dict.fromkeys(word for word, _ in freed)
+    listed = (f"`{word}` of {', '.join(state for w, state in freed if w == word)}" for word in words)
+    return f"These may be over in any step after their first, which only adds runs: {'; '.join(listed)}."
 
 
 def _components(components: Sequence[Component], charts: dict[int, Chart]) -> Iterator[Component]:
@@ -88,15 +89,19 @@ class _Word:
     least: int
 
 
-class _Free:
-    """One chart whose timers are made free."""
+class Expiry:
+    """One chart whose timers are made free.
+
+    ``flags`` holds the free inputs: for each counter, by the least value that the exact counter must have
+    for the input to be true.
+    """
 
     def __init__(self, chart: Chart, tick_ms: int, keep: Collection[str]) -> None:
         self.original, self.tick_ms = chart, tick_ms
         self.exact = {p for p in chart.states if _covered(chart, p, keep)}
         self.leaving = _sources(chart)
         self.flags: dict[Counter, dict[int, Var]] = {}
-        self.names: list[str] = []
+        self.freed: list[tuple[str, str]] = []
         for expr, source in self._formulas():
             for node in nodes(expr):
                 if isinstance(node, Temporal):
@@ -130,7 +135,7 @@ class _Free:
         state = ".".join((self.original.name, *found.counter[0]))
         number = 1 + sum(len(f) for c, f in self.flags.items() if c[0] == found.counter[0])
         self.flags[found.counter][found.least] = flag(f"{state}.over{number}", f"`{word}` may be over")
-        self.names.append(f"`{word}`" + (f" of {found.counter[0][-1]}" if found.counter[0] else ""))
+        self.freed.append((str(word), _short(self.original, found.counter[0])))
 
     def _free(self, word: Temporal, source: Path | None) -> Expr:
         """The word with its counter cut off after one tick; a longer time is over only if a shorter is."""
@@ -189,6 +194,13 @@ def _covered(chart: Chart, path: Path, keep: Collection[str]) -> bool:
     return any(name in keep for name in dotted)
 
 
+def _short(chart: Chart, path: Path) -> str:
+    """As little of the path as names one state of the chart."""
+    alike = [p for p in chart.states if p[-1:] == path[-1:] and p != path]
+    length = next(n for n in range(1, len(path) + 2) if all(p[-n:] != path[-n:] for p in alike))
+    return ".".join(path[-length:]) or chart.name
+
+
 def _sources(chart: Chart) -> dict[Path, Path]:
     """The state that paths through a junction leave, for junctions that only one state leads to."""
     leading: dict[Path, set[Path]] = {}
@@ -229,4 +241,4 @@ def _action(action: Action, change: Change) -> Action:
             return action
 
 
-__all__ = ["free_timers"]
+__all__ = ["Counter", "Expiry", "free_timers"]

@@ -117,8 +117,10 @@ class Fixing:
 
     def _enabled(self, enabled: Enabled) -> Component | None:
         by, inside = self.expr(enabled.by), self.components(enabled.components)
-        nothing = isinstance(by, Const) and not by.value
-        return Enabled(by, *inside) if inside and not nothing else None
+        never, always = (isinstance(by, Const) and bool(by.value) is known for known in (False, True))
+        if never or not inside:
+            return None
+        return inside[0] if always and len(inside) == 1 else Enabled(by, *inside)
 
     def chart(self, chart: Chart) -> Chart:
         """The chart with the variables fixed: one chart for one chart, whatever systems hold it."""

@@ -32,7 +32,8 @@ class System:
     ``assume`` restricts the inputs of a tick (it may read the valuation before the tick); ``notes``
     say in words what the system abstracts and assumes; ``over`` and ``under`` say whether it has
     more or fewer behaviours than the specification.  ``concrete`` names the system that a violation
-    found on an over-approximation must be reproduced on.
+    found on an over-approximation must be reproduced on.  A tick is ``tick_ms`` long; the temporal words
+    of charts count executed steps of ``step_ms``, also where a chart executes in few of the ticks.
     """
 
     name: str
@@ -42,6 +43,7 @@ class System:
     assume: Expr = TRUE
     notes: tuple[str, ...] = ()
     tick_ms: int = TICK_MS
+    step_ms: int = TICK_MS
     over: bool = False
     under: bool = False
     concrete: str = ""
@@ -92,10 +94,21 @@ def in_order(
     over: bool = False,
     under: bool = False,
     concrete: str = "",
+    tick_ms: int = TICK_MS,
 ) -> System:
-    """A system whose components run in the order given, once per tick of 20 ms."""
+    """A system whose components run in the order given, once per tick, by default of 20 ms."""
     return System(
-        name, tuple(components), text, tuple(frozen), assume, tuple(notes), TICK_MS, over, under, concrete
+        name,
+        tuple(components),
+        text,
+        tuple(frozen),
+        assume,
+        tuple(notes),
+        tick_ms,
+        TICK_MS,
+        over,
+        under,
+        concrete,
     )
 
 

@@ -17,16 +17,13 @@ from spec_model.signals.common import (
     USER_Y,
     WHEEL_RPM,
 )
+from spec_model.signals.rotation import ERROR, ERROR_CLASSES, HEADING, TARGET
 
 WHEELS = ("FL", "FR", "RL", "RR")
 """Front left, front right, rear left, rear right: bits 3 to 6 of the masks [seed Table 1]."""
 
-TEMP_STATUS = enumeration(
-    "TempStatus", ["TEMP_HEALTH_OK", "TEMP_HEALTH_DEGRADED", "TEMP_HEALTH_CRITICAL"]
-)
-BATT_STATUS = enumeration(
-    "BattStatus", ["BATT_HEALTH_OK", "BATT_HEALTH_DEGRADED", "BATT_HEALTH_CRITICAL"]
-)
+TEMP_STATUS = enumeration("TempStatus", ["TEMP_HEALTH_OK", "TEMP_HEALTH_DEGRADED", "TEMP_HEALTH_CRITICAL"])
+BATT_STATUS = enumeration("BattStatus", ["BATT_HEALTH_OK", "BATT_HEALTH_DEGRADED", "BATT_HEALTH_CRITICAL"])
 WHEEL_STATUS = enumeration("WheelStatus", ["WHEEL_OK", "WHEEL_DEGRADED_ENCODER", "WHEEL_CRITICAL_MOTOR"])
 
 # --- Board_Health [seed Fig 13] ------------------------------------------------------------------
@@ -37,7 +34,7 @@ DEGREES_C = chosen([-16, -15, -14, -6, -5, -4, 0, 25, 54, 55, 57, 59, 60, 64, 65
 temp_update = flag("temp_update", "a valid temperature reading arrived since the last step")
 temp_reading = var("temp_reading", DEGREES_C, doc="the reading that arrives with temp_update")
 temperature_degC = var("temperature_degC", DEGREES_C, 0, "last valid temperature; 0 at power-up")
-temp_age = var("temp_age", fixed(0, 81_020, 20, "ms"), 0, "now_ms - temp_last_valid_ms")
+temp_age = var("temp_age", fixed(0, 81_520, 20, "ms"), 0, "now_ms - temp_last_valid_ms")
 
 PERCENT = chosen([0, 10, 15, "15.1", "22.9", 23, 24, 25, "25.1", 80], "%")
 """One value on each side of every limit."""
@@ -45,7 +42,8 @@ PERCENT = chosen([0, 10, 15, "15.1", "22.9", 23, 24, 25, "25.1", 80], "%")
 batt_update = flag("batt_update", "a valid battery reading arrived since the last step")
 batt_reading = var("batt_reading", PERCENT, doc="the reading that arrives with batt_update")
 battery_pct = var("battery_pct", PERCENT, 0, "last valid battery level; 0 at power-up")
-batt_age = var("batt_age", fixed(0, 154_780, 20, "ms"), 0, "now_ms - batt_last_valid_ms")
+batt_age = var("batt_age", fixed(0, 155_280, 20, "ms"), 0, "now_ms - batt_last_valid_ms")
+degraded_row_counts = flag("degraded_row_counts", "free: the degraded row counts before the critical one")
 
 # --- Encoder [seed Fig 14] -----------------------------------------------------------------------
 
@@ -69,6 +67,9 @@ is_motion_consistent = var(
 )
 crit_mask_b2 = var("crit_mask_b2", B2_FAULT_MASK, 0, "critical mask of Board 2, as last received")
 degr_mask_b2 = var("degr_mask_b2", B2_FAULT_MASK, 0, "degraded mask of Board 2, as last received")
+current_yaw = var("current_yaw", HEADING, 0, "heading, clockwise positive, as last received")
+btn1 = flag("btn1", "joystick button 1 is pressed, as last received")
+btn2 = flag("btn2", "joystick button 2 is pressed, as last received")
 
 # --- fault detection and masks [seed §2.4, §2.6] --------------------------------------------------
 
@@ -98,14 +99,20 @@ OMEGA_GO_RIGHT = var("OMEGA_GO_RIGHT", chosen(["-0.4", "-0.2", 0]), "-0.4", "lea
 
 V_REFERENCE = fixed(-1, 1, "0.05")
 """Normalised linear reference (S58): every product of a user command and a limit is exact."""
-OMEGA_REFERENCE = fixed(-1, 1, "0.1")
-"""Normalised angular reference (S58), positive = left (S64)."""
+OMEGA_REFERENCE = fixed(-1, 1, "0.0125")
+"""Normalised angular reference (S58), positive = left (S64): also 0.005 per 2.5 degrees of rotation."""
 
 v_user = var("v_user", V_REFERENCE, doc="y_norm scaled by V_MAX, of the last execution of UPD")
 omega_user = var("omega_user", OMEGA_REFERENCE, doc="x_norm scaled by OMEGA_MAX")
 backward_enabled = flag("backward_enabled", "backward mode, toggled by the joystick buttons")
 wheels_below_2_5 = flag("wheels_below_2_5", "checkStop: all four wheels are slower than 2.5 rpm")
 rover_is_stopped = flag("roverIsStopped", "checkStop, as remembered by In_frenata_di_emergenza")
+invert_y = flag("invert_y", "turned around with the stick pulled back, which now means forward")
+is_rotating180 = flag("is_rotating180", "Retromarcia_180 is active")
+targetAngle = var("targetAngle180", TARGET, 0, "heading at which the 180° rotation ends")
+angle_err = var("angle_err", ERROR, 0, "what is left of the 180° rotation, clockwise positive")
+rotation_error = var("rotation_error", ERROR_CLASSES, 0, "free: angleError of an arbitrary yaw")
+nearly_turned = flag("nearly_turned", "the last error of the rotation was below 7.5 degrees")
 estop_recover_enabled = flag("estop_recover_enabled", "the rover has been at rest since the emergency stop")
 
 v_ref = var("v_ref", V_REFERENCE, doc="linear velocity reference")
@@ -120,8 +127,7 @@ def sent(received: Var) -> Var:
     return Var(f"frame_{received.name}", received.domain, received.init, doc)
 
 
+heartbeat_moves = var("heartbeat_moves", integer(1, 3), doc="by how much a new heartbeat has moved (S40)")
+
 rx_mean_slow = flag("rx_mean_slow", "free: whether the mean exceeds 40 ms at this update")
 heartbeat_mean_slow = flag("heartbeat_mean_slow", "free: whether the mean exceeds 40 ms at this update")
-
-UPDATES = integer(0, 11)
-"""Updates seen, counted up to eleven: the number at which ten intervals are recorded (S34, S66)."""

@@ -1,9 +1,10 @@
 """Signals of the obstacle logic of Board 2: what the sonars measure, what the charts keep and decide."""
 
 from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import Expr, Var, any_of, flag, var
+from spec_model.lang.expr import TRUE, Expr, Var, any_of, flag, var
 from spec_model.lang.words import named
-from spec_model.signals.common import COMMAND
+from spec_model.readings import choose
+from spec_model.signals.common import COMMAND, USER_X
 
 # Both sides of every limit the charts compare with: 70, 100 and 300 cm; 301 is "no echo" (E13).
 distance = chosen([0, 70, 71, 100, 101, 200, 299, 300, 301], "cm")
@@ -13,8 +14,20 @@ d2 = var("d2", distance, doc="distance on the centre sonar S2 [seed §1.3.1]")
 d3 = var("d3", distance, doc="distance on the right sonar S3 [seed §1.3.1]")
 SONARS = (d1, d2, d3)
 
-decision = integer(0, 6)
+decision = integer(0, 7)
 """0 execute the user command, 1 stop, 2 3 4 move toward sonar 1 2 3, 5 move degraded, 6 stop degraded."""
+
+MEANING = (
+    "CMD_NORMAL", "CMD_ESTOP", "CMD_GO_LEFT", "CMD_NORMAL", "CMD_GO_RIGHT", "CMD_NORMAL", "CMD_ESTOP",
+)  # fmt: skip
+"""The command that each decision stands for [seed Fig 12]."""
+
+
+def number(decision: int) -> Expr:
+    """How a chart writes a decision: as drawn, or as the number of its command (E04 ENUM8, up to 7)."""
+    enum8 = COMMAND.raw(MEANING[decision])
+    return choose("E04", {"INDEX5-MAPPED": decision, "INDEX5-RAW": decision, "ENUM8": enum8})
+
 
 # --- chart of the non-degraded state [seed §3.4.1, Figs 24-27] ------------------------------------
 
@@ -34,6 +47,7 @@ DEG_B1 = flag("DEG_B1", "Board 1 is not healthy or Board 2 drives: the degraded 
 prevDEG_B1 = flag("prevDEG_B1", "DEG_B1 of the step before, read by the non-degraded chart [seed Fig 25]")
 B2Dec = var("B2Dec", decision, doc="decision of Board 2 about obstacles [seed Figs 24, 28]")
 command = var("command", COMMAND, doc="the decision as a command for Board 1 [seed Fig 12]")
+x_sent = var("x_sent", USER_X, 0, "the turning command that Board 2 transmits (E31 ZERO-TURN)")
 
 
 def within(limit: int) -> Expr:
@@ -43,4 +57,17 @@ def within(limit: int) -> Expr:
 
 def in_range(d: Var) -> Expr:
     """The range in which a moving obstacle is looked for: above 100, up to 300 cm (E01, E03)."""
-    return named(f"closeRange({d.name})", (d > 100) & (d <= 300))
+    beyond_100 = choose("E03", {"OPEN": d > 100, "CLOSED": d >= 100, "HALF": d > 100, "UNBOUNDED": d > 100})
+    least = choose("E01", {"GAP-NONE": beyond_100, "GAP-STOP": beyond_100, "GAP-MOVING": d > 70})
+    return named(f"closeRange({d.name})", least & up_to_300(d))
+
+
+def up_to_300(d: Var) -> Expr:
+    """The far end of that range (E03)."""
+    return choose("E03", {"OPEN": d < 300, "CLOSED": d <= 300, "HALF": d <= 300, "UNBOUNDED": TRUE})
+
+
+def touching(d: Var) -> Expr:
+    """So near that the rover must stop: 70 cm or less (E01, E02)."""
+    at_70 = choose("E02", {"B70-STOP": d <= 70, "B70-BOTH": d <= 70, "B70-LT": d < 70})
+    return choose("E01", {"GAP-NONE": at_70, "GAP-STOP": d <= 100, "GAP-MOVING": at_70})

@@ -92,9 +92,9 @@ def test_enables_and_assumptions_have_no_words() -> None:
     ]
 
 
-def test_the_tick_is_that_of_the_system() -> None:
+def test_the_step_is_that_of_the_system() -> None:
     chart = Chart("C", [leaf("A", to("A", when=after(30 * ms)))], default="A")
-    assert faults(lambda: check_system(System("S", (chart,), tick_ms=10))) == []
+    assert faults(lambda: check_system(System("S", (chart,), step_ms=10))) == []
 
 
 # --- data ----------------------------------------------------------------------------------------

@@ -5,16 +5,20 @@ from random import Random
 import pytest
 
 from spec_model.board2.heading import angleCalculator, headings, measured
-from spec_model.board2.obstacles import TIMED, obstacles_n
+from spec_model.board2.obstacles import obstacles_n
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.interpret import Interpreter
 from spec_model.lang.system import in_order
+from spec_model.readings import fixed
 from spec_model.signals.board2 import B2Decision
 
 yaw, target = headings(15)
+as_read = fixed({})
 heading = measured(yaw, target)
-exact = in_order("measured", obstacles_n(TIMED, heading))
-free = in_order("free", obstacles_n(TIMED))
+turned = as_read.expr(heading.turned)
+half_right = as_read.expr(angleCalculator(yaw, B2Decision))
+exact = as_read.system(in_order("measured", obstacles_n(heading)))
+free = as_read.system(in_order("free", obstacles_n()))
 
 
 @pytest.mark.parametrize("seed", range(5))
@@ -33,9 +37,9 @@ def test_a_measured_run_is_a_run_with_the_free_predicate(seed: int) -> None:
         heading_now = random.choice([heading_now, random.choice(list(yaw.domain.values))])
         prevDEG = int(random.random() < 0.01)
         before = one.valuation()
-        turned = evaluate(heading.turned, {**before, "yaw": heading_now})
+        is_turned = evaluate(turned, {**before, "yaw": heading_now})
         one.step({**distances, "prevDEG_B1": prevDEG, "yaw": heading_now})
-        other.step({**distances, "prevDEG_B1": prevDEG, "turned_45": turned})
+        other.step({**distances, "prevDEG_B1": prevDEG, "turned_45": is_turned})
         assert one.valuation()["B2Decision"] == other.valuation()["B2Decision"]
         decisions.add(one.valuation()["B2Decision"])
     assert decisions == {0, 1, 2, 3, 4}
@@ -45,8 +49,7 @@ def test_a_measured_run_is_a_run_with_the_free_predicate(seed: int) -> None:
 @pytest.mark.parametrize("decision", [2, 4])
 def test_for_every_target_the_test_can_come_out_either_way(decision: int, at: int) -> None:
     outcomes = {
-        evaluate(heading.turned, {"B2Decision": decision, "targetAngle": at, "yaw": now})
-        for now in yaw.domain.values
+        evaluate(turned, {"B2Decision": decision, "targetAngle": at, "yaw": now}) for now in yaw.domain.values
     }
     assert outcomes == {0, 1}
 
@@ -55,5 +58,5 @@ def test_for_every_target_the_test_can_come_out_either_way(decision: int, at: in
 @pytest.mark.parametrize("decision", [2, 4])
 def test_in_the_step_of_entry_the_test_is_false(decision: int, now: int) -> None:
     at = {"B2Decision": decision, "yaw": now}
-    at["targetAngle"] = evaluate(angleCalculator(yaw, B2Decision), at)
-    assert evaluate(heading.turned, at) == 0
+    at["targetAngle"] = evaluate(half_right, at)
+    assert evaluate(turned, at) == 0

@@ -1,16 +1,19 @@
-"""A stay that may end at will stands for a counted one: every run of the chart as drawn is a run of it."""
+"""The obstacle chart with free timers stands for the counted one: every run as drawn is a run of it."""
 
 from random import Random
 
 import pytest
 
-from spec_model.board2.obstacles import TIMED, obstacles_n
+from spec_model.board2.obstacles import WINDOWS, obstacles_n
 from spec_model.lang.evaluate import step
+from spec_model.lang.expiry import free_timers
 from spec_model.lang.lower import lower
 from spec_model.lang.system import in_order
+from spec_model.readings import fixed
 
-counted = lower(in_order("counted", obstacles_n()))
-free = lower(in_order("free", obstacles_n(())))
+drawn = fixed({}).system(in_order("counted", obstacles_n()))
+counted, free = lower(drawn), lower(free_timers(drawn))
+TIMED = (*WINDOWS, "MoveToS2")
 
 COUNTERS = {
     name: counter.name
@@ -19,6 +22,11 @@ COUNTERS = {
     if counter.name.endswith(f"{name}.after") or counter.name.endswith(f"{name}.Fall1Detected.after")
 }
 """The counter of each timed stay, increased at the start of a step."""
+
+
+def _end(counter: str) -> str:
+    """The free end that stands for a counter."""
+    return counter.removesuffix("after") + "over1"
 
 
 @pytest.mark.parametrize("seed", range(4))
@@ -33,7 +41,7 @@ def test_a_counted_run_is_a_run_with_free_ends(seed: int) -> None:
             inputs[random.choice(["d1", "d2", "d3"])] = random.choice([70, 100, *3 * [200, 301]])
         inputs["turned_45"] = int(random.random() < 0.05)
         high = {name: counted.var(counter).domain.high for name, counter in COUNTERS.items()}
-        over = {f"{name}_over": int(one[counter] + 1 >= high[name]) for name, counter in COUNTERS.items()}
+        over = {_end(counter): int(one[counter] + 1 >= high[name]) for name, counter in COUNTERS.items()}
         ended |= {name for name, value in over.items() if value}
         one, other = step(counted, one, inputs), step(free, other, {**inputs, **over})
         same = [v.name for v in free.variables if not v.name.endswith(".after")]

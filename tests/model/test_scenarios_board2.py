@@ -9,9 +9,10 @@ from itertools import groupby
 import pytest
 
 from spec_model.board2.heading import headings, measured
-from spec_model.board2.obstacles import TIMED, obstacles_n
+from spec_model.board2.obstacles import obstacles_n
 from spec_model.lang.interpret import Interpreter
 from spec_model.lang.system import System, in_order
+from spec_model.readings import fixed
 from spec_model.rover import systems
 
 Block = tuple[int, dict[str, int]]
@@ -100,7 +101,7 @@ def test_E02_the_detection_flags_are_frozen_at_70() -> None:
 
 # --- the heading [seed §3.4.1 (1)] ----------------------------------------------------------------
 
-five_degrees = in_order("heading_in_5_degrees", obstacles_n(TIMED, measured(*headings(5))))
+five_degrees = fixed({}).system(in_order("heading_in_5_degrees", obstacles_n(measured(*headings(5)))))
 SEEN_LEFT: Block = (10, dict(d1=200, d2=200))
 
 

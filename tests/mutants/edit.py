@@ -1,197 +1,24 @@
-"""Edits of charts: what a slip of the hand in the figure would do."""
+"""Edits of charts, as faults put in by hand."""
 
-from collections.abc import Callable
-from dataclasses import replace
+from spec_model.lang.edit import (
+    arrow,
+    arrows,
+    constant,
+    drop,
+    edit_junction,
+    edit_state,
+    entry,
+    everywhere,
+    guard,
+    in_block,
+    in_expressions,
+    in_system,
+    operator,
+    swap,
+    timer,
+)  # fmt: skip
 
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, State, Transition
-from spec_model.lang.domain import Num, Number, exact
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Temporal, When
-from spec_model.lang.system import System
-from spec_model.lang.time import Span
-
-
-def _rebuilt(chart: Chart, root: State) -> Chart:
-    return Chart(
-        chart.name, root.states, default=root.default, junctions=root.junctions,
-        parallel=root.parallel, text=chart.text, local_to=chart.local_to,
-    )  # fmt: skip
-
-
-def edit_state(chart: Chart, name: str, change: Callable[[State], State]) -> Chart:
-    """The chart with one state changed; ``name`` as in ``Chart.path``."""
-    return _rebuilt(chart, _down(chart.root, chart.path(name), change))
-
-
-def _down(state: State, path: tuple[str, ...], change: Callable[[State], State]) -> State:
-    if not path:
-        return change(state)
-    children = [_down(s, path[1:], change) if s.name == path[0] else s for s in state.states]
-    return replace(state, states=tuple(children))
-
-
-def edit_junction(chart: Chart, name: str, change: Callable[[Junction], Junction]) -> Chart:
-    """The chart with one junction changed, wherever it is drawn."""
-
-    def walk(state: State) -> State:
-        return replace(
-            state,
-            states=tuple(walk(s) for s in state.states),
-            junctions=tuple(change(j) if j.name == name else j for j in state.junctions),
-        )
-
-    assert any(j.name == name for j in chart.junctions.values()), name
-    return _rebuilt(chart, walk(chart.root))
-
-
-def arrows(chart: Chart, name: str, change: Callable[[list[Transition]], list[Transition]]) -> Chart:
-    """The chart with the arrows of a state or junction changed."""
-    if any(j.name == name for j in chart.junctions.values()):
-        return edit_junction(chart, name, lambda j: Junction(j.name, change(list(j.transitions))))
-    return edit_state(chart, name, lambda s: replace(s, transitions=tuple(change(list(s.transitions)))))
-
-
-def swap(chart: Chart, name: str, first: int = 1, second: int = 2) -> Chart:
-    """Two priorities exchanged (1 is tested first)."""
-
-    def exchanged(found: list[Transition]) -> list[Transition]:
-        found[first - 1], found[second - 1] = found[second - 1], found[first - 1]
-        return found
-
-    return arrows(chart, name, exchanged)
-
-
-def arrow(chart: Chart, name: str, order: int, change: Callable[[Transition], Transition]) -> Chart:
-    """One arrow changed, by its priority."""
-    return arrows(chart, name, lambda found: [change(t) if i == order else t for i, t in enumerate(found, 1)])
-
-
-def drop(chart: Chart, name: str, order: int) -> Chart:
-    """One arrow removed."""
-    return arrows(chart, name, lambda found: [t for i, t in enumerate(found, 1) if i != order])
-
-
-def guard(chart: Chart, name: str, order: int, change: Callable[[Expr], Expr]) -> Chart:
-    """The guard of one arrow changed."""
-
-    def changed(segment: Transition) -> Transition:
-        assert segment.guard is not None
-        return replace(segment, guard=change(segment.guard))
-
-    return arrow(chart, name, order, changed)
-
-
-def everywhere(expr: Expr, change: Callable[[Expr], Expr]) -> Expr:
-    """Every node replaced, innermost first; names stay."""
-    match expr:
-        case Apply(op, args, sort):
-            return change(Apply(op, tuple(everywhere(a, change) for a in args), sort))
-        case Named(name, body):
-            return Named(name, everywhere(body, change))
-        case Temporal(word, arg, span, strict):
-            return change(Temporal(word, None if arg is None else everywhere(arg, change), span, strict))
-        case _:
-            return change(expr)
-
-
-def constant(old: Number, new: Number) -> Callable[[Expr], Expr]:
-    """Every constant ``old`` becomes ``new``, where the resolution allows it."""
-
-    def change(expr: Expr) -> Expr:
-        if not (isinstance(expr, Const) and isinstance(expr.sort, Num)):
-            return expr
-        if expr.value * expr.sort.resolution != exact(old):
-            return expr
-        raw = exact(new) / expr.sort.resolution
-        assert raw.denominator == 1
-        return Const(int(raw), expr.sort)
-
-    return lambda expr: everywhere(expr, change)
-
-
-def operator(old: Op, new: Op) -> Callable[[Expr], Expr]:
-    """Every operator ``old`` becomes ``new``."""
-
-    def change(expr: Expr) -> Expr:
-        return Apply(new, expr.args, expr.sort) if isinstance(expr, Apply) and expr.op is old else expr
-
-    return lambda expr: everywhere(expr, change)
-
-
-def timer(span: Span | None = None, strict: bool | None = None) -> Callable[[Expr], Expr]:
-    """Another time, or ``>`` against ``>=``, on a timer."""
-
-    def change(expr: Expr) -> Expr:
-        if isinstance(expr, Temporal) and expr.when in (When.AFTER, When.DURATION, When.HELD):
-            return replace(
-                expr,
-                span=expr.span if span is None else span,
-                strict=expr.strict if strict is None else strict,
-            )
-        return expr
-
-    return lambda expr: everywhere(expr, change)
-
-
-def in_expressions(chart: Chart, change: Callable[[Expr], Expr]) -> Chart:
-    """A change made in every guard and action of the chart."""
-
-    def walk(state: State) -> State:
-        return replace(
-            state,
-            entry=_acts(state.entry, change), during=_acts(state.during, change),
-            exit=_acts(state.exit, change), states=tuple(walk(s) for s in state.states),
-            transitions=tuple(_seg(t, change) for t in state.transitions),
-            default=tuple(_seg(t, change) for t in state.default),
-            junctions=tuple(
-                Junction(j.name, [_seg(t, change) for t in j.transitions]) for j in state.junctions
-            ),
-        )  # fmt: skip
-
-    return _rebuilt(chart, walk(chart.root))
-
-
-def _seg(segment: Transition, change: Callable[[Expr], Expr]) -> Transition:
-    changed = None if segment.guard is None else change(segment.guard)
-    return replace(segment, guard=changed, do=_acts(segment.do, change), then=_acts(segment.then, change))
-
-
-def _acts(actions: tuple[Action, ...], change: Callable[[Expr], Expr]) -> tuple[Action, ...]:
-    out: list[Action] = []
-    for action in actions:
-        if isinstance(action, Assign):
-            out.append(Assign(action.var, change(action.value)))
-        elif isinstance(action, If):
-            then, otherwise = _acts(action.then, change), _acts(action.otherwise, change)
-            out.append(If(change(action.condition), then, otherwise))
-        else:
-            out.append(action)
-    return tuple(out)
-
-
-def entry(chart: Chart, name: str, change: Callable[[tuple[Action, ...]], tuple[Action, ...]]) -> Chart:
-    """The entry actions of a state changed."""
-    return edit_state(chart, name, lambda s: replace(s, entry=change(s.entry)))
-
-
-def in_block(block: Block, change: Callable[[Expr], Expr]) -> Block:
-    """A change made in every expression of a function block."""
-    return Block(block.name, _acts(block.do, change), text=block.text)
-
-
-def in_system(system: System, part: str, change: Callable[[Chart | Block], Chart | Block]) -> System:
-    """The system with the chart or block of that name changed."""
-    hits = 0
-
-    def walk(component: Component) -> Component:
-        nonlocal hits
-        if isinstance(component, Enabled):
-            return Enabled(component.by, *(walk(c) for c in component.components))
-        if component.name == part:
-            hits += 1
-            return change(component)
-        return component
-
-    changed = replace(system, components=tuple(walk(c) for c in system.components))
-    assert hits == 1, f"{system.name} has {hits} parts named {part}"
-    return changed
+__all__ = [
+    "arrow", "arrows", "constant", "drop", "edit_junction", "edit_state", "entry", "everywhere", "guard",
+    "in_block", "in_expressions", "in_system", "operator", "swap", "timer",
+]  # fmt: skip

@@ -140,7 +140,6 @@ FAULTS: dict[str, list[tuple[str, str, ChartEdit]]] = {
 CHART_FAULTS = [Fault(text, chart, killer, edit) for chart in FAULTS for text, killer, edit in FAULTS[chart]]
 
 
-
 def _decided(killer: str, edit: Callable[[System], System]) -> Verdict:
     """The killer's verdict on its own system after the edit; an over-approximation is taken as it is."""
     prop = catalogue()[killer]

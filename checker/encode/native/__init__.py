@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from checker.encode.native.expressions import TooWide
 from checker.encode.native.jit import Library
 from checker.encode.native.layout import Layout, OutsideDomain, layout
+from checker.encode.native.quiet import Shift, moved_on, shifts
 from checker.encode.native.retrace import LEAVE_DOMAIN, REACH_TARGET, UNREAD, add_retrace
 from checker.encode.native.search import BATCH, Status, Task, add_search
 from checker.encode.native.table import CONTEXT, Table
@@ -28,10 +29,13 @@ __all__ = [
     "NativeRetrace",
     "NativeSearch",
     "OutsideDomain",
+    "Shift",
     "Status",
     "Task",
     "TooWide",
     "layout",
+    "moved_on",
+    "shifts",
 ]
 
 
@@ -41,7 +45,7 @@ def _address(array: NDArray[Any]) -> ctypes.c_void_p:
 
 @dataclass(frozen=True)
 class NativeSearch:
-    """The compiled search: ``search`` and ``rehash`` on arrays that the caller owns."""
+    """The compiled search: ``search``, ``rehash`` and ``known`` on arrays that the caller owns."""
 
     library: Library
     task: Task
@@ -53,6 +57,7 @@ class NativeSearch:
         table = Table(module, task.layout.words)
         store = table.store()
         table.rehash()
+        table.known()
         add_search(module, task, table, store)
         return NativeSearch(Library(module), task)
 
@@ -66,6 +71,14 @@ class NativeSearch:
         types = [ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64]
         call = self.library.function("rehash", None, types)
         call(_address(table), len(table) - 1, _address(words), count)
+
+    def known(self, table: Words, words: Words, asked: Words) -> NDArray[np.bool_]:
+        """Which of the valuations asked about are stored."""
+        found: NDArray[np.int64] = np.zeros(len(asked), dtype=np.int64)
+        types = [ctypes.c_void_p, ctypes.c_int64, *[ctypes.c_void_p] * 2, ctypes.c_int64, ctypes.c_void_p]
+        call = self.library.function("known", None, types)
+        call(_address(table), len(table) - 1, _address(words), _address(asked), len(asked), _address(found))
+        return found.astype(np.bool_)
 
 
 @dataclass(frozen=True)

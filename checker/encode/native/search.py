@@ -9,6 +9,7 @@ from checker.encode.intervals import Interval
 from checker.encode.native.body import Body
 from checker.encode.native.expressions import BIT, INT, Slot
 from checker.encode.native.layout import Field, Layout
+from checker.encode.native.quiet import Shift, emit_moved_on
 from checker.encode.native.table import CONTEXT, NUMBER, NUMBERS, WORDS, Table, context, function
 from checker.encode.paths import PathProgram, assigned, saved
 from spec_model.lang.expr import Var
@@ -33,12 +34,16 @@ class Status(IntEnum):
 
 @dataclass(frozen=True)
 class Task:
-    """What is compiled: the sliced system, its packed valuation, its paths and the goals."""
+    """What is compiled: the sliced system, its packed valuation, its paths and the goals.
+
+    With ``shifts`` the result of a quiet tick is not stored (see ``add_search``).
+    """
 
     system: TransitionSystem
     layout: Layout
     paths: PathProgram
     goals: tuple[Var, ...]
+    shifts: tuple[Shift, ...] = ()
 
     @property
     def live_at_end(self) -> frozenset[str]:
@@ -47,7 +52,12 @@ class Task:
 
 def add_search(module: Any, task: Task, table: Table, store: Any) -> None:
     """``search(context, words, parents, table, buffer, origins, hits)``: expand the valuations
-    next..last-1 until the budget of transitions is spent.  Returns a ``Status``."""
+    next..last-1 until the budget of transitions is spent.  Returns a ``Status``.
+
+    For a task with shifts four arrays more, ``frontier, anchors, onward, carried``: expand the
+    valuations of the frontier, found by quiet ticks from the stored ones that ``anchors`` numbers.
+    Those with a quiet tick move on to ``onward`` with their anchor in ``carried``, ``lines`` of them.
+    """
     _Search(module, task, table, store).emit()
 
 
@@ -56,6 +66,8 @@ class _Search:
         self.task, self.table, self.store = task, table, store
         arguments = {"context": WORDS, "words": WORDS, "parents": NUMBERS, "table": WORDS}
         arguments |= {"buffer": WORDS, "origins": NUMBERS, "hits": WORDS}
+        if task.shifts:
+            arguments |= {"frontier": WORDS, "anchors": NUMBERS, "onward": WORDS, "carried": NUMBERS}
         self.made, self.a, self.build = function(module, "search", INT, arguments)
         self.places = {name: context(self.build, self.a["context"], name) for name in CONTEXT}
 
@@ -76,12 +88,21 @@ class _Search:
         self._head(head, expand)
         build.position_at_end(expand)
         build.store(INT(0), self.tried)
-        words = self.table.load(build, self.a["words"], build.load(self.parent))
+        frontier = self.a["frontier" if self.task.shifts else "words"]
+        words = self.table.load(build, frontier, build.load(self.parent))
+        self._expect(words)
         begin(self.body, self.task, words)
         self.body.run(self.task.paths)
         self._end_of_path(words)
         self.body.go_back()
         self._finished(finished, head)
+
+    def _expect(self, words: list[Any]) -> None:
+        """Note where a quiet tick would lead; none has been found so far."""
+        if self.task.shifts:
+            self.expected = emit_moved_on(self.build, words, self.task.shifts)
+            self.is_quiet = self.body.local(BIT, "quiet")
+            self.build.store(BIT(0), self.is_quiet)
 
     def get(self, name: str) -> Any:
         return self.build.load(self.places[name])
@@ -121,8 +142,24 @@ class _Search:
         tried = build.load(self.tried)
         self.put("transitions", build.add(self.get("transitions"), tried))
         build.store(build.add(build.load(self.spent), build.add(tried, INT(1))), self.spent)
+        if self.task.shifts:
+            with build.if_then(build.load(self.is_quiet)):
+                self._move_on()
         build.store(build.add(build.load(self.parent), INT(1)), self.parent)
         build.branch(head)
+
+    def _move_on(self) -> None:
+        build, at = self.build, self.get("lines")
+        self.table.save(build, self.a["onward"], at, self.expected)
+        build.store(build.trunc(self._anchor(), NUMBER), build.gep(self.a["carried"], [at]))
+        self.put("lines", build.add(at, INT(1)))
+
+    def _anchor(self) -> Any:
+        """The number of the stored valuation that the current one is, or is found from by quiet ticks."""
+        number = self.build.load(self.parent)
+        if not self.task.shifts:
+            return number
+        return self.build.zext(self.build.load(self.build.gep(self.a["anchors"], [number])), INT)
 
     # --- the end of a path -----------------------------------------------------------------------
 
@@ -132,9 +169,25 @@ class _Search:
         self._goals()
         with build.if_then(outside(self.body, self.task.layout), likely=False):
             self.leave(Status.OUTSIDE)
+        after = packed(self.body, self.task, before)
+        if not self.task.shifts:
+            self._keep(after)
+            return
+        same = BIT(1)
+        for one, two in zip(after, self.expected, strict=True):
+            same = build.and_(same, build.icmp_unsigned("==", one, two))
+        with build.if_else(same) as (quiet, other):
+            with quiet:
+                build.store(BIT(1), self.is_quiet)
+            with other:
+                self._keep(after)
+
+    def _keep(self, after: list[Any]) -> None:
+        """Put a successor into the buffer."""
+        build = self.build
         at = build.load(self.filled)
-        self.table.save(build, self.a["buffer"], at, packed(self.body, self.task, before))
-        build.store(build.trunc(build.load(self.parent), NUMBER), build.gep(self.a["origins"], [at]))
+        self.table.save(build, self.a["buffer"], at, after)
+        build.store(build.trunc(self._anchor(), NUMBER), build.gep(self.a["origins"], [at]))
         following = build.add(at, INT(1))
         build.store(following, self.filled)
         with build.if_then(build.icmp_signed(">=", following, INT(BATCH)), likely=False):
@@ -163,12 +216,12 @@ class _Search:
                 self.leave(Status.DECIDED)
 
     def _hit(self, number: int, value: Any) -> None:
-        """The first valuation from which a goal is reached: its number + 1."""
+        """The first valuation from which a goal is reached: its number, or that of its anchor, + 1."""
         build = self.build
         place = build.gep(self.a["hits"], [INT(number)])
         first = build.and_(value, build.icmp_signed("==", build.load(place), INT(0)))
         with build.if_then(first, likely=False):
-            build.store(build.add(build.load(self.parent), INT(1)), place)
+            build.store(build.add(self._anchor(), INT(1)), place)
             self.put("pending", build.sub(self.get("pending"), INT(1)))
 
 

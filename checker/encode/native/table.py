@@ -16,7 +16,19 @@ NUMBER = ir.IntType(32)
 WORDS = INT.as_pointer()
 NUMBERS = NUMBER.as_pointer()
 
-CONTEXT = ("next", "last", "count", "room", "mask", "transitions", "budget", "pending", "filled", "drained")
+CONTEXT = (
+    "next",
+    "last",
+    "count",
+    "room",
+    "mask",
+    "transitions",
+    "budget",
+    "pending",
+    "filled",
+    "drained",
+    "lines",
+)
 """Numbers shared with Python, in this order, as signed 64-bit integers."""
 
 _AHEAD = 16
@@ -150,6 +162,28 @@ class Table:
             key = self.load(build, a["words"], i)
             found = self._probe(build, a, key, a["mask"], new=True)
             build.store(self._entry(build, key, found.hashed, i), found.place)
+        build.ret_void()
+        return made
+
+    def known(self) -> Any:
+        """``known(table, mask, words, asked, count, found)``: which of the valuations are stored."""
+        made, a, build = function(
+            self.module,
+            "known",
+            ir.VoidType(),
+            {
+                "table": WORDS,
+                "mask": INT,
+                "words": WORDS,
+                "asked": WORDS,
+                "count": INT,
+                "found": WORDS,
+            },
+        )
+        with Loop(build, INT(0), a["count"]) as i:
+            self._prefetch_later(build, {**a, "buffer": a["asked"]}, a["mask"], i, a["count"])
+            place = self._probe(build, a, self.load(build, a["asked"], i), a["mask"], new=False)
+            build.store(build.zext(build.not_(place.empty), INT), build.gep(a["found"], [i]))
         build.ret_void()
         return made
 

@@ -6,10 +6,12 @@ is reached or nothing new appears.
 
 from collections.abc import Mapping, Sequence
 
-from checker.encode.native import NativeSearch, Task, TooWide, layout
+from checker.encode.counting import counters
+from checker.encode.native import NativeSearch, Task, TooWide, layout, shifts
 from checker.encode.paths import path_program
-from checker.engine import Limits, Progress
-from checker.engines.explicit.levels import Found, search
+from checker.engine import Limits, Progress, Timers
+from checker.engines.explicit.levels import Found, Search
+from checker.engines.explicit.lines import LineSearch
 from checker.engines.explicit.runs import Runs
 from checker.partition import partitions
 from checker.slice import sliced
@@ -35,12 +37,13 @@ def check(
     cells = partitions(part)
     try:
         packing = layout((*part.frozen, *part.variables))
-        task = Task(part, packing, path_program(part, cells), tuple(goals))
+        moved = shifts(packing, counters(part)) if limits.timers is Timers.SKIP else ()
+        task = Task(part, packing, path_program(part, cells), tuple(goals), moved)
         progress(f"explicit: compiling {len(packing.fields)} variables in {packing.bits} bits")
         native = NativeSearch.compile(task)
     except (TooWide, ValueError) as problem:
         return {g.name: Open(str(problem), 0) for g in goals}
-    found = search(native, limits, deadline, progress)
+    found = (LineSearch if task.shifts else Search)(native, limits, deadline, progress).run()
     runs = Runs(system, task, cells, found)
     if found.outside is not None:
         raise runs.left_domain(found.outside)
@@ -53,4 +56,6 @@ def _answer(found: Found, runs: Runs, number: int, goal: Var) -> Answer:
     if found.stopped:
         return Open(found.stopped, found.depth)
     counted = tuple(f.var.name for f in runs.task.layout.fields)
-    return Unreachable(Exhausted(found.states, found.transitions, found.depth, counted))
+    return Unreachable(
+        Exhausted(found.states, found.transitions, found.depth, counted, bool(runs.task.shifts))
+    )

@@ -1,9 +1,11 @@
 """Breadth-first search, level by level: native code expands, Python keeps limits and reports."""
 
+from bisect import bisect_right
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import product
 from time import monotonic
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,9 +22,15 @@ _MOST_INITIAL = 1 << 22
 @dataclass(frozen=True)
 class Found:
     """What a search found: for each goal the valuation from which it is first reached (or None),
-    and why it stopped early (empty if it did not)."""
+    and why it stopped early (empty if it did not).
+
+    ``starts`` has the number of the first valuation of each level, ``levels`` the level from which
+    each goal was reached; what lies between a valuation and its parent's level are quiet ticks.
+    """
 
     hits: tuple[int | None, ...]
+    levels: tuple[int, ...]
+    starts: tuple[int, ...]
     words: NDArray[np.uint64]
     parents: NDArray[np.uint32]
     initial: int
@@ -30,15 +38,19 @@ class Found:
     transitions: int
     depth: int
     stopped: str
-    outside: int | None = None
+    outside: tuple[int, ...] | None = None
+
+    def level(self, number: int) -> int:
+        """The ticks after which a stored valuation is first reached."""
+        return bisect_right(self.starts, number) - 1
 
 
-def search(native: NativeSearch, limits: Limits, deadline: float | None, progress: Progress) -> Found:
-    """Visit what is reachable until all goals are decided or a limit is met."""
-    return _Search(native, limits, deadline, progress).run()
+class Search:
+    """Breadth-first search that stores every valuation it visits.
 
+    ``run`` visits what is reachable until all goals are decided or a limit is met.
+    """
 
-class _Search:
     def __init__(
         self, native: NativeSearch, limits: Limits, deadline: float | None, progress: Progress
     ) -> None:
@@ -51,7 +63,9 @@ class _Search:
         self.depth = self.frontier = self.initial = 0
         self.started = self.reported = monotonic()
         self.stopped = ""
-        self.outside: int | None = None
+        self.outside: tuple[int, ...] | None = None
+        self.starts: list[int] = [0]
+        self.levels: list[int | None] = [None] * len(native.task.goals)
 
     def __getitem__(self, name: str) -> int:
         return int(self.context[CONTEXT.index(name)])
@@ -61,17 +75,39 @@ class _Search:
 
     def run(self) -> Found:
         self._start()
-        first = 0
-        while not self.stopped and self["pending"] and first < self["count"]:
+        while not self.stopped and self["pending"] and self.prepare():
             if self.limits.depth is not None and self.depth >= self.limits.depth:
                 self.stopped = f"the depth limit of {self.limits.depth} ticks"
                 break
-            last = self["count"]
-            self.frontier = last - first
-            if self._expand(first, last) and last < self["count"]:
+            self.starts.append(self["count"])
+            whole = self._expand()
+            self.levels = [
+                self.depth if h and n is None else n for h, n in zip(self.hits, self.levels, strict=False)
+            ]
+            if whole and self.goes_on():
                 self.depth += 1
-            first = last
         return self._found()
+
+    def prepare(self) -> bool:
+        """Say what to expand next; False when there is nothing left."""
+        self["next"], self["last"] = self.starts[-1], self["count"]
+        self.frontier = self["last"] - self["next"]
+        return self.frontier > 0
+
+    def goes_on(self) -> bool:
+        """Whether the level that was expanded led to anything new."""
+        return self["count"] > self.starts[-1]
+
+    @property
+    def arrays(self) -> tuple[NDArray[Any], ...]:
+        """What the native code works on."""
+        s = self.store
+        return self.context, s.words, s.parents, s.table, s.buffer, s.origins, self.hits
+
+    @property
+    def expanded(self) -> NDArray[np.uint64]:
+        """The valuations of which ``next`` is one."""
+        return self.store.words
 
     def _start(self) -> None:
         """Store the initial valuations: one for each choice of the frozen variables."""
@@ -91,10 +127,9 @@ class _Search:
         self._call()
         self.initial = self["count"]
 
-    def _expand(self, first: int, last: int) -> bool:
+    def _expand(self) -> bool:
         """Expand a level; False when it was given up."""
-        self["next"], self["last"] = first, last
-        while self["next"] < last:
+        while self["next"] < self["last"]:
             began = monotonic()
             if not self._call() or not self["pending"]:
                 return False
@@ -114,10 +149,7 @@ class _Search:
         store = self.store
         while True:
             self["room"], self["mask"], self["budget"] = store.room, len(store.table) - 1, self.budget
-            status = self.native.search(
-                self.context, store.words, store.parents, store.table, store.buffer, store.origins, self.hits
-            )
-            match status:
+            match self.native.search(*self.arrays):
                 case Status.PAUSED | Status.DECIDED:
                     return True
                 case Status.NO_ROOM:
@@ -128,7 +160,7 @@ class _Search:
                     self.stopped = "too many inputs in one tick for an explicit search"
                     return False
                 case Status.OUTSIDE:
-                    self.outside = self["next"]
+                    self.outside = tuple(self.expanded[self["next"]].tolist())
                     self.stopped = "a value outside its domain"
                     return False
 
@@ -148,6 +180,8 @@ class _Search:
         store = self.store
         return Found(
             hits,
+            tuple(n or 0 for n in self.levels),
+            tuple(self.starts),
             store.words,
             store.parents,
             self.initial,

@@ -7,7 +7,17 @@ from collections.abc import Mapping
 from functools import cached_property
 from itertools import pairwise, product
 
-from checker.encode.native import LEAVE_DOMAIN, REACH_TARGET, NativeRetrace, OutsideDomain, Task
+import numpy as np
+from numpy.typing import NDArray
+
+from checker.encode.native import (
+    LEAVE_DOMAIN,
+    REACH_TARGET,
+    NativeRetrace,
+    OutsideDomain,
+    Task,
+    moved_on,
+)
 from checker.engines.explicit.levels import Found
 from checker.partition import Partition, partition
 from checker.slice import assumption_groups
@@ -16,6 +26,9 @@ from spec_model.lang.evaluate import evaluate, step
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables
+
+Packed = tuple[int, ...]
+"""The words of a valuation."""
 
 
 class Runs:
@@ -39,7 +52,7 @@ class Runs:
         """A shortest run to a goal that was hit.  Checked by running it on the whole system."""
         last = self.found.hits[number]
         assert last is not None
-        chosen = self._chosen(last, number)
+        chosen = self._chosen(self.line(last, self.found.levels[number]), number)
         at = {**self.system.init, **self._frozen(last)}
         inputs: list[Mapping[str, int]] = []
         for read in chosen:
@@ -49,27 +62,40 @@ class Runs:
             raise AssertionError(f"the run of {len(inputs)} ticks does not reach {goal.name}")
         return Run(self._frozen(last), tuple(inputs))
 
-    def left_domain(self, last: int) -> OutsideDomain:
+    def left_domain(self, last: Packed) -> OutsideDomain:
         """The error to raise when a tick from the last valuation breaks the model."""
-        words = self.found.words[last]
-        before = self.task.layout.unpack(words.tolist())
+        words = _array(last)
+        before = self.task.layout.unpack(last)
         default = {v.name: v.domain.low for v in self.task.system.inputs}
         inputs = default | self.native.inputs(words, words, LEAVE_DOMAIN)
         after = step(self.task.system, before, inputs)
         broken = next(v for v in self.task.system.variables if after[v.name] not in v.domain)
         return OutsideDomain(broken, after[broken.name])
 
-    def chain(self, last: int) -> list[int]:
-        """The numbers of the stored valuations from an initial one to the last."""
-        numbers = [last]
-        while numbers[-1] >= self.found.initial:
-            numbers.append(int(self.found.parents[numbers[-1]]))
-        return numbers[::-1]
+    def line(self, last: int, level: int) -> list[Packed]:
+        """The valuations before each tick of a run that visits the last and is then quiet up to a level."""
+        found: list[Packed] = []
+        while True:
+            found += reversed(self._quiet(last, level))
+            if last < self.found.initial:
+                return found[::-1]
+            level = self.found.level(last) - 1
+            last = int(self.found.parents[last])
 
-    def _chosen(self, last: int, wanted: int) -> list[dict[str, int]]:
-        words, numbers = self.found.words, self.chain(last)
-        ticks = [self.native.inputs(words[a], words[b], REACH_TARGET) for a, b in pairwise(numbers)]
-        return [*ticks, self.native.inputs(words[last], words[last], wanted)]
+    def _quiet(self, number: int, level: int) -> list[Packed]:
+        """A stored valuation and those that follow it by quiet ticks."""
+        at: Packed | None = tuple(self.found.words[number].tolist())
+        along = []
+        for _ in range(level - self.found.level(number) + 1):
+            assert at is not None
+            along.append(at)
+            at = moved_on(at, self.task.shifts)
+        return along
+
+    def _chosen(self, line: list[Packed], wanted: int) -> list[dict[str, int]]:
+        ticks = [self.native.inputs(_array(a), _array(b), REACH_TARGET) for a, b in pairwise(line)]
+        last = _array(line[-1])
+        return [*ticks, self.native.inputs(last, last, wanted)]
 
     def _frozen(self, last: int) -> dict[str, int]:
         packed = self.task.layout.unpack(self.found.words[last].tolist())
@@ -102,6 +128,10 @@ class Runs:
             if _holds(group, {**at, **inputs, **changed}):
                 return changed
         raise AssertionError("no inputs meet the assumption that the slice left out")
+
+
+def _array(words: Packed) -> NDArray[np.uint64]:
+    return np.array(words, dtype=np.uint64)
 
 
 def _holds(group: list[Expr], at: Mapping[str, int]) -> bool:

@@ -29,7 +29,7 @@ class Interpreter:
         self._at |= {v.name: v.init for v in system.frozen} | _checked("frozen", system.frozen, frozen)
         self._fired: list[Fired] = []
         self._places = {v.name for c in system.charts for v in (*c.locations, c.entered)}
-        self._runs = {id(c): ChartRun(c, self._at, self._fired, system.tick_ms) for c in system.charts}
+        self._runs = {id(c): ChartRun(c, self._at, self._fired, system.step_ms) for c in system.charts}
 
     @property
     def data(self) -> dict[str, int]:

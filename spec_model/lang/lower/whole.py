@@ -14,7 +14,7 @@ from spec_model.lang.wellformed import check_system
 def lower(system: System) -> TransitionSystem:
     """The transition system of a system.  Raises ``ModelError`` for an ill-formed one."""
     check_system(system)
-    made = _Made(system.tick_ms)
+    made = _Made(system.step_ms)
     body = made.run(system.components)
     data = {n: v for n, v in system.written.items() if n not in {f.name for f in system.frozen}}
     checks = _checks(body)

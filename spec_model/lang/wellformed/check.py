@@ -23,7 +23,7 @@ def check_system(system: System) -> None:
     """Raises ``ModelError`` with one line for each fault of the system and of its charts."""
     faults: list[str] = []
     for chart in system.charts:
-        faults += [f"{chart.name}: {fault}" for fault in _chart_faults(chart, system.tick_ms)]
+        faults += [f"{chart.name}: {fault}" for fault in _chart_faults(chart, system.step_ms)]
     for block in system.blocks:
         faults += [f"{block.name}: {fault}" for fault in block_word_faults(block)]
     if not faults:

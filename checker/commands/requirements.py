@@ -1,0 +1,159 @@
+"""``rovercheck requirements``: every requirement with the properties that cover it and their verdicts."""
+
+import json
+from collections.abc import Callable, Mapping, Sequence
+
+from rich.markup import escape
+from rich.table import Table
+
+from checker.commands.check import Compared, results, worst
+from checker.commands.codes import Exit
+from checker.commands.output import out
+from checker.decide import AUTO
+from checker.engine import Limits
+from properties.catalogue import catalogue, expected
+from properties.coverage import Coverage, matrix
+from properties.forms import Property, Reachable
+from spec_model.rover import systems
+
+SCHEMA = 1
+ON_RECORD = "Verdicts are those on record in the baseline; --check decides them now."
+DECIDED = "Verdicts were decided now."
+REACHED = (
+    "A requirement is covered by a property that demands something; "
+    "one whose properties only say that a state can be reached is not covered."
+)
+
+SAID = ("violated", "unknown", "proved", "not reached by", "reached by")
+"""How the properties of a row are grouped, in this order."""
+
+NOTHING = "neither a property nor a reason"
+
+BAR = "\\|"
+"""How a cell of a Markdown table holds a bar."""
+
+Verdicts = Mapping[str, str]
+"""The word of the verdict of each property, by id."""
+
+
+def requirements(decide: bool, as_json: bool) -> Exit:
+    """Print the matrix; exit code 1 if a requirement has neither a property that covers it nor a reason."""
+    rows = matrix(catalogue().values())
+    if not decide:
+        return show(rows, {id: expected(id).verdict for id in catalogue()}, ON_RECORD, as_json)
+    found = [
+        Compared(r, expected(r.property.id))
+        for r in results(list(catalogue().values()), systems(), AUTO, Limits())
+    ]
+    code = show(rows, words(found), DECIDED, as_json)
+    return code if code != Exit.AS_EXPECTED else worst(found)
+
+
+def words(found: Sequence[Compared]) -> Verdicts:
+    return {c.result.property.id: c.verdict.word for c in found}
+
+
+def show(rows: Sequence[Coverage], verdicts: Verdicts, origin: str, as_json: bool) -> Exit:
+    """Print the matrix as a table or as JSON."""
+    code = Exit.CHANGED if any(row.open for row in rows) else Exit.AS_EXPECTED
+    if as_json:
+        print(json.dumps(document(rows, verdicts, origin, code), indent=2))
+        return code
+    table = Table(box=None, pad_edge=False, header_style="bold")
+    table.add_column("requirement", no_wrap=True)
+    table.add_column("state", no_wrap=True)
+    table.add_column("properties, or the reason why none covers it", overflow="fold")
+    for row in rows:
+        table.add_row(row.requirement.id, row.state(verdicts), escape(because(row, verdicts)))
+    out.print(table, soft_wrap=False)
+    out.print()
+    for line in (*counts(rows, verdicts), REACHED, origin):
+        out.print(line, markup=False, soft_wrap=False)
+    return code
+
+
+def because(row: Coverage, verdicts: Verdicts, name: Callable[[str], str] = str) -> str:
+    """What speaks for a requirement: its properties, the worst verdicts first, or a reason.
+
+    Of the properties whose verdict is the state of the row only the names are said.
+    """
+    by: dict[str, list[str]] = {}
+    for prop in row.properties:
+        by.setdefault(_said(prop, verdicts[prop.id]), []).append(name(prop.id))
+    state = row.state(verdicts)
+    groups = [f"{'' if said == state else said} {', '.join(by[said])}".strip() for said in SAID if said in by]
+    return "; ".join(filter(None, (row.requirement.reason.removesuffix("."), *groups))) or NOTHING
+
+
+def _said(prop: Property, verdict: str) -> str:
+    if isinstance(prop.form, Reachable):
+        return {"proved": "reached by", "violated": "not reached by"}.get(verdict, verdict)
+    return verdict
+
+
+def counts(rows: Sequence[Coverage], verdicts: Verdicts) -> tuple[str, ...]:
+    """How many requirements are in each state, and which are open."""
+    states = [row.state(verdicts) for row in rows]
+    covered = sum(row.covered for row in rows)
+    worse = [f"{states.count(w)} by some {w} property" for w in ("violated", "unknown") if w in states]
+    shares = "; ".join((f"{states.count('proved')} by proved properties only", *worse))
+    opened = [row.requirement.id for row in rows if row.open]
+    first = (
+        f"{len(rows)} requirements: {covered} covered ({shares}), {states.count('reason')} with a reason "
+        f"instead ({_kinds_of_reasons(rows)}), {len(opened)} open."
+    )
+    return (first, f"Open: {', '.join(opened)}.") if opened else (first,)
+
+
+def _kinds_of_reasons(rows: Sequence[Coverage]) -> str:
+    kinds = [row.requirement.reason.partition(":")[0] for row in rows if row.requirement.reason]
+    return ", ".join(f"{kinds.count(kind)} {kind}" for kind in dict.fromkeys(kinds)) or "none given"
+
+
+def document(rows: Sequence[Coverage], verdicts: Verdicts, origin: str, code: Exit) -> dict[str, object]:
+    """The matrix as JSON."""
+    return {
+        "schema": f"rovercheck/requirements/{SCHEMA}",
+        "verdicts": origin,
+        "exit": int(code),
+        "requirements": [_row(row, verdicts) for row in rows],
+    }
+
+
+def _row(row: Coverage, verdicts: Verdicts) -> dict[str, object]:
+    item = row.requirement
+    return {
+        "id": item.id,
+        "text": item.text,
+        "source": item.source,
+        "bounds": item.bounds,
+        "kind": item.kind,
+        "checkable": item.checkable,
+        "state": row.state(verdicts),
+        "reason": item.reason,
+        "properties": [
+            {"id": p.id, "verdict": verdicts[p.id], "covers": not isinstance(p.form, Reachable)}
+            for p in row.properties
+        ],
+    }
+
+
+# --- the page of the reports ---------------------------------------------------------------------
+
+
+def page(found: Sequence[Compared]) -> str:
+    """The matrix in Markdown, from the verdicts found."""
+    rows, verdicts = matrix(c.result.property for c in found), words(found)
+    lines = ["# Requirements", "", *counts(rows, verdicts), "", REACHED, ""]
+    lines += ["| requirement | source | text | state | properties, or the reason why none covers it |"]
+    lines += ["|---|---|---|---|---|"]
+    for row in rows:
+        item = row.requirement
+        linked = because(row, verdicts, lambda id: _linked(id, verdicts[id]))
+        cells = (item.id, item.source, item.text, row.state(verdicts), linked)
+        lines.append(f"| {' | '.join(cell.replace('|', BAR) for cell in cells)} |")
+    return "\n".join(lines) + "\n"
+
+
+def _linked(id: str, verdict: str) -> str:
+    return f"[{id}](findings/{id}.md)" if verdict == "violated" else id

@@ -1,0 +1,83 @@
+"""What is checked instead of the charts as specified: other readings of the text, or a proposed repair."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from checker.commands.codes import UsageError
+from checker.commands.select import pick
+from properties.catalogue import Expected, expected, read_by, under
+from properties.forms import Property
+from spec_model.lang.system import System
+from spec_model.readings import ANY, readings
+from spec_model.repairs import Repair, repaired, repairs, touches
+from spec_model.rover import systems
+
+
+@dataclass(frozen=True)
+class Variant:
+    """Chosen readings and at most one repair; neither means the charts as specified."""
+
+    choices: Mapping[str, str]
+    repair: Repair | None = None
+
+    @property
+    def name(self) -> str:
+        """``under S43=AND with safety-critical-first``; empty for the charts as specified."""
+        chosen = ", ".join(f"{id}={choice}" for id, choice in self.choices.items())
+        parts = ([f"under {chosen}"] if chosen else []) + (
+            [f"with {self.repair.name}"] if self.repair else []
+        )
+        return " ".join(parts)
+
+    def systems(self) -> dict[str, System]:
+        """Every system by name, changed."""
+        found = systems(self.choices)
+        if self.repair is None:
+            return found
+        return {name: repaired(system, self.repair) for name, system in found.items()}
+
+    def properties(self) -> dict[str, Property]:
+        """Every property by id, under the chosen readings."""
+        return under(self.choices)
+
+    def concerns(self) -> Callable[[Property], bool]:
+        """Whether the variant can change the verdict on a property."""
+        by_name = systems(self.choices)
+
+        def concerned(prop: Property) -> bool:
+            edited = self.repair is not None and touches(by_name[prop.on], self.repair)
+            return edited or not self.choices.keys().isdisjoint(read_by(prop))
+
+        return concerned
+
+    def expected(self, id: str) -> Expected:
+        """The verdict to compare with: what the repair promises, else the verdict on record."""
+        if self.repair is not None and id in self.repair.fixes:
+            return Expected()
+        if self.repair is not None and id in self.repair.gives_up:
+            return Expected("violated", None, self.repair.gives_up[id])
+        return expected(id)
+
+
+def pick_variant(chosen: Sequence[str], repair: str | None) -> Variant:
+    """The variant that the command line asks for.  Raises ``UsageError`` or ``ModelError``."""
+    choices = _choices(chosen)
+    if repair is None:
+        return Variant(choices)
+    found = pick("repair", repair, repairs())
+    return Variant({**found.readings, **choices}, found)
+
+
+def _choices(chosen: Sequence[str]) -> dict[str, str]:
+    """Readings and their choices from ``ID=CHOICE``."""
+    choices: dict[str, str] = {}
+    for text in chosen:
+        id, equals, choice = text.partition("=")
+        one = pick("reading", id, readings())
+        options = [c for c in one.choices if c not in one.not_modelled]
+        if not equals or not choice:
+            raise UsageError(f"{text!r} names no choice; write {id}= and one of {', '.join(options)}, {ANY}.")
+        if choice != ANY:
+            one.value(choice)
+        choices[id] = choice
+    return choices

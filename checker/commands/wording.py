@@ -1,0 +1,41 @@
+"""Properties in structured English, for the terminal and for the reports."""
+
+from collections.abc import Sequence
+from functools import cache
+from textwrap import fill
+
+from checker.commands.output import out
+from properties.catalogue import expected
+from properties.english import HOW_TO_READ, definitions, sentence
+from properties.forms import Property
+from spec_model.rover import systems
+
+COLUMNS = 80
+
+
+def in_english(properties: Sequence[Property]) -> None:
+    """Print each property with its formal sentence, and the formulas it names spelled out."""
+    out.print(fill(HOW_TO_READ, COLUMNS), markup=False)
+    for prop in properties:
+        out.print("\n" + paragraph(prop), markup=False)
+
+
+def paragraph(prop: Property) -> str:
+    """One property in lines of 80 columns."""
+    head = f"{prop.id} (on {prop.on}, on record {expected(prop.id).verdict})"
+    return "\n".join((head, fill(prop.text, COLUMNS), *map(_indented, formally(prop))))
+
+
+def formally(prop: Property) -> tuple[str, ...]:
+    """What is checked, in a sentence, and a sentence for each formula that it names."""
+    tick_ms = _tick_ms()[prop.on]
+    return f"Formally: {sentence(prop, tick_ms)}", *definitions(prop, tick_ms)
+
+
+@cache
+def _tick_ms() -> dict[str, int]:
+    return {name: system.tick_ms for name, system in systems().items()}
+
+
+def _indented(text: str) -> str:
+    return fill(text, COLUMNS, initial_indent="  ", subsequent_indent="    ", break_on_hyphens=False)

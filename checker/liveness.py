@@ -1,0 +1,111 @@
+"""Verdicts on properties about infinite runs: a stronger bounded property first, then what refutes them.
+
+A ``LeadsTo`` or ``Settles`` is broken by a loop; that there is none proves it.  A ``Recoverable`` is
+broken by a valuation from which there is no way back (``checker.recover``).
+"""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from checker.engine import Progress
+from checker.loops import Hunt, hunt, looped
+from checker.recover import recovered
+from checker.result import Ask, Result, check_domains
+from checker.slice import always_met
+from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Violated
+from properties.forms import Form, HoldsAfter, LeadsTo, Property, Recoverable, Responds, Settles
+from properties.reduce import reduce
+from spec_model.lang.errors import ModelError
+from spec_model.lang.lower import lower
+from spec_model.lang.system import System
+from spec_model.lang.time import Span
+
+Systems = Mapping[str, System]
+
+
+def unbounded(prop: Property, systems: Systems, ask: Ask, progress: Progress) -> Result:
+    """The result of one property about infinite runs.
+
+    Raises ``ModelError`` when the model leaves a domain, ``ReplayError`` when a run cannot be replayed.
+    """
+    proved = _by_bound(prop, systems, ask)
+    if proved is not None:
+        return Result(prop, proved, prop.on)
+    if isinstance(prop.form, Recoverable):
+        return Result(prop, recovered(prop, systems[prop.on], ask, progress), prop.on)
+    return _by_loop(prop, systems, ask)
+
+
+# --- a bounded property that is stronger -----------------------------------------------------------
+
+
+def _by_bound(prop: Property, systems: Systems, ask: Ask) -> Proved | None:
+    """A proof by the bounded property that implies this one, if there is one and it holds."""
+    bounded = _bounded(prop, systems)
+    if bounded is None:
+        return None
+    form, span = bounded
+    question = reduce(lower(systems[prop.on]), [replace(prop, form=form)])
+    goal = question.goals[0].var
+    found = ask(question.system, [goal])
+    check_domains(question.system, found)
+    answer, by = found[goal.name]
+    return Proved(answer.because, by, f"even within {span}") if isinstance(answer, Unreachable) else None
+
+
+def _bounded(prop: Property, systems: Systems) -> tuple[Form, Span] | None:
+    match prop.form:
+        case LeadsTo(trigger, response, Span() as bound):
+            return Responds(trigger, response, bound), bound
+        case Settles(premise, then, Span() as bound):
+            return HoldsAfter(premise, bound, then), bound
+        case Recoverable(to, by, Span() as within) if by is not None:
+            concrete = systems[systems[prop.on].concrete or prop.on]
+            if not always_met(lower(concrete), by):
+                raise ModelError(
+                    f"{prop.id}: by = {by} must be a condition on inputs of {concrete.name} that can be met "
+                    "in every tick; leave variables and other inputs out of it."
+                )
+            return HoldsAfter(by, within, to), within
+        case _:
+            return None
+
+
+# --- loops -----------------------------------------------------------------------------------------
+
+
+def _by_loop(prop: Property, systems: Systems, ask: Ask) -> Result:
+    system = systems[prop.on]
+    hunted, answer, by = _hunted(prop, system, ask)
+    if not (isinstance(answer, Reached) and system.over):
+        return _result(hunted, answer, by)
+    if not system.concrete:
+        raise ModelError(f"{system.name} is an over-approximation; write concrete= to say of what.")
+    there = systems[system.concrete]
+    result = _result(*_hunted(replace(prop, on=there.name), there, ask))
+    if isinstance(result.verdict, Unknown):
+        reason = (
+            f"a loop of {system.name}, an over-approximation, was found after {len(answer.run)} ticks; "
+            f"not reproduced on {there.name}: {result.verdict.reason}"
+        )
+        result = replace(result, verdict=replace(result.verdict, reason=reason))
+    return result
+
+
+def _hunted(prop: Property, system: System, ask: Ask) -> tuple[Hunt, Answer, str]:
+    question = reduce(lower(system), [prop])
+    hunted = hunt(question, question.goals[0])
+    found = ask(hunted.lasso.system, [hunted.lasso.goal], short=True)
+    check_domains(hunted.lasso.system, found)
+    return hunted, *found[hunted.lasso.goal.name]
+
+
+def _result(hunted: Hunt, answer: Answer, by: str) -> Result:
+    prop, name = hunted.goal.property, hunted.question.system.name
+    match answer:
+        case Reached(run):
+            return Result(prop, Violated(looped(hunted, run), by), name)
+        case Unreachable(because):
+            return Result(prop, Proved(because, by), name)
+        case Open(reason, depth):
+            return Result(prop, Unknown(reason, depth, by), name)

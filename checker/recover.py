@@ -1,0 +1,113 @@
+"""The way back: from every reachable valuation some run must reach a condition, or a trap is shown.
+
+The reachable valuations and the ticks between them are enumerated and searched backward from the
+condition.  What the backward search misses is a trap: no run leaves it for the condition any more.
+"""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+
+from checker.calm import calmed
+from checker.engine import Progress
+from checker.explore import Search, TooLarge
+from checker.graph import Values
+from checker.replay import replay
+from checker.result import Ask, check_domains
+from checker.slice import sliced
+from checker.verdict import Exhausted, Proved, Reached, Unknown, Verdict, Violated
+from properties.forms import Property
+from properties.reduce import Goal, Question, reduce
+from spec_model.lang.action import Assign
+from spec_model.lang.domain import boolean
+from spec_model.lang.expr import Const, Var, all_of
+from spec_model.lang.lower import lower
+from spec_model.lang.system import System
+
+ENGINE = "graph"
+MOST_VALUATIONS = 20_000
+MOST_TICKS = 500_000
+
+
+@dataclass(frozen=True)
+class Trap:
+    """A valuation of ``variables`` that is reached after some tick, and how many it can lead to."""
+
+    variables: tuple[Var, ...]
+    valuation: Values
+    leads_to: int
+
+
+def recovered(prop: Property, system: System, ask: Ask, progress: Progress) -> Verdict:
+    """The verdict on a ``Recoverable``: proved, a run into a trap, or unknown for a large system."""
+    if system.over:
+        reason = f"{system.name} is an over-approximation, whose ways back need not be ways of the charts"
+        return Unknown(reason, 0, ENGINE)
+    question = reduce(lower(system), [prop])
+    try:
+        found = trapped(question, question.goals[0].var, progress)
+    except TooLarge:
+        limit = f"more than {MOST_VALUATIONS:,} valuations or {MOST_TICKS:,} ticks between them"
+        return Unknown(f"{limit}; all of them are needed to tell what can be reached again", 0, ENGINE)
+    if isinstance(found, Exhausted):
+        return Proved(found, ENGINE)
+    return shown(question, found, ask)
+
+
+def trapped(question: Question, to: Var, progress: Progress) -> Trap | Exhausted:
+    """The first valuation after some tick from which no run reaches ``to``, if there is one."""
+    part = sliced(question.system, [to])
+    carried = [v for v in (*part.frozen, *part.variables) if v.name != to.name]
+    variables = (*carried, to)
+    search = Search(part, variables, MOST_VALUATIONS, MOST_TICKS, progress)
+    depth = dict.fromkeys(search.initial(), 0)
+    following: dict[Values, set[Values]] = {}
+    tried = 0
+    for valuation, leaving in search:
+        tried += len(leaving)
+        following[valuation] = {after for after, _ in leaving}
+        for after in following[valuation]:
+            depth.setdefault(after, depth[valuation] + 1)
+    back = _reached((v for v in following if v[-1]), _reversed(following))
+    lost = [after for afters in following.values() for after in afters if after not in back]
+    if lost:
+        nearest = min(lost, key=lambda v: (depth[v], v))
+        return Trap(variables, nearest, len(_reached([nearest], following)))
+    return Exhausted(len(following), tried, max(depth.values()), tuple(v.name for v in variables))
+
+
+def _reversed(following: Mapping[Values, set[Values]]) -> Mapping[Values, set[Values]]:
+    before: dict[Values, set[Values]] = {valuation: set() for valuation in following}
+    for valuation, afters in following.items():
+        for after in afters:
+            before[after].add(valuation)
+    return before
+
+
+def _reached(start: Iterable[Values], following: Mapping[Values, set[Values]]) -> set[Values]:
+    found = set(start)
+    queue = list(found)
+    while queue:
+        new = following[queue.pop()] - found
+        found |= new
+        queue += new
+    return found
+
+
+def shown(question: Question, trap: Trap, ask: Ask) -> Verdict:
+    """A shortest run into the trap, replayed."""
+    [goal] = question.goals
+    entered = Var(f"{goal.var.name} trap", boolean, 0, "the run is in a valuation without a way back")
+    there = all_of(*(v == Const(raw, v.sort) for v, raw in zip(trap.variables, trap.valuation, strict=True)))
+    system = replace(
+        question.system,
+        variables=(*question.system.variables, entered),
+        step=(*question.system.step, Assign(entered, there)),
+    )
+    found = ask(system, [entered])
+    check_domains(system, found)
+    answer, by = found[entered.name]
+    if not isinstance(answer, Reached):
+        return Unknown(f"a trap is known to exist, but {by} found no run into it", 0, by)
+    into = Goal(goal.property, entered, False, goal.parts, goal.memory)
+    trace = replay(system, into, calmed(system, entered, answer.run))
+    return Violated(replace(trace, trapped=trap.leads_to), ENGINE)

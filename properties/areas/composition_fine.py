@@ -1,0 +1,84 @@
+"""Latencies through both boards in milliseconds, for arbitrary phases [system: chains of hops]."""
+
+from properties.forms import always, holds_after, reachable, responds, until
+from spec_model.composition.fine_systems import (
+    forward,
+    frame_accepted,
+    near,
+    rx_age_ms,
+    sends,
+    sup2_executes,
+    v_positive,
+)
+from spec_model.lang.expr import implies
+from spec_model.lang.time import ms
+from spec_model.lang.words import named, previous
+from spec_model.signals.board1 import give_b2_actuation, rx_status
+from spec_model.signals.board2_supervisor import autorized_to_send_command, sends_speeds
+
+opens = named("Board 1 opens the relay", give_b2_actuation & ~previous(give_b2_actuation))
+
+PSY_01b = always(
+    "PSY-01b", "While the relay is open, Board 1 sends no motor command.",
+    that=implies(give_b2_actuation, ~sends),
+    covers=["B1-REL-01", "B1-REL-03", "B1-REL-05"], on="silence_fine",
+)  # fmt: skip
+PSY_03a = responds(
+    "PSY-03a", "Within 61 ms of the step in which Board 1 opens the relay, Board 2 is authorised.",
+    trigger=opens, response=autorized_to_send_command, within=61 * ms,
+    covers=["B1-REL-02", "B2-ACT-01"], on="handover_fine", readings=["S45", "E22"],
+)  # fmt: skip
+PSY_03b = responds(
+    "PSY-03b", "Within 81 ms of the step in which Board 1 opens the relay, Board 2 sends wheel speeds.",
+    trigger=opens, response=sends_speeds, within=81 * ms,
+    covers=["B1-REL-02", "B2-ACT-01"], on="handover_fine", readings=["S45", "E22"],
+)  # fmt: skip
+PSY_03c = responds(
+    "PSY-03c", "Within 41 ms of the step in which Board 1 opens the relay, Board 2 is authorised.",
+    trigger=opens, response=autorized_to_send_command, within=41 * ms,
+    covers=["B1-REL-02", "B2-ACT-01"], on="handover_fine", readings=["S45", "E22"],
+)  # fmt: skip
+PSY_04a = holds_after(
+    "PSY-04a", "Within 140 ms of the last accepted frame of Board 2, Board 1 opens the relay.",
+    premise=~frame_accepted, for_=139 * ms, then=give_b2_actuation,
+    covers=["B1-RX-03", "B1-REL-02"], on="silence_fine", readings=["S37"],
+)  # fmt: skip
+PSY_04b = holds_after(
+    "PSY-04b", "From 150 ms after the last accepted frame of Board 2 on, Board 1 sends no motor command.",
+    premise=~frame_accepted, for_=149 * ms, then=~sends,
+    covers=["B1-RX-03", "B1-REL-02"], on="silence_fine", readings=["S37"],
+)  # fmt: skip
+PSY_05a = until(
+    "PSY-05a", "A critical reception stays critical until a frame of Board 2 is accepted.",
+    start=(rx_status == "RX_CRITICAL") & (rx_age_ms > 120), holds=rx_status == "RX_CRITICAL",
+    release=frame_accepted,
+    covers=["B1-RX-03", "B1-RX-05"], on="silence_fine", readings=["S38"],
+)  # fmt: skip
+PSY_05b = until(
+    "PSY-05b", "A relay open while the reception is critical stays open until a frame is accepted.",
+    start=give_b2_actuation & (rx_status == "RX_CRITICAL") & (rx_age_ms > 120), holds=give_b2_actuation,
+    release=frame_accepted,
+    covers=["B1-RX-03", "B1-REL-02"], on="silence_fine", readings=["S38"],
+)  # fmt: skip
+PSY_06 = holds_after(
+    "PSY-06", "Within 181 ms of the last execution of the Board 2 supervisor, Board 1 opens the relay.",
+    premise=~sup2_executes, for_=180 * ms, then=give_b2_actuation,
+    covers=["B1-SUP-01", "B1-SUP-03", "B1-REL-02"], on="heartbeat_fine", readings=["S40", "S41"],
+)  # fmt: skip
+PSY_10e = holds_after(
+    "PSY-10e",
+    "101 ms after a sonar snapshot with an obstacle at 70 cm or less, constant, the linear reference is "
+    "not positive, if the user drives forward meanwhile and no rotation is active.",
+    premise=near & forward, for_=101 * ms, then=~v_positive,
+    covers=["B2-OBS-01", "B1-EST-01"], on="stop_fine", readings=["E12"],
+)  # fmt: skip
+PSY_10f = holds_after(
+    "PSY-10f", "The same within 81 ms.",
+    premise=near & forward, for_=81 * ms, then=~v_positive,
+    covers=["B2-OBS-01", "B1-EST-01"], on="stop_fine", readings=["E12"],
+)  # fmt: skip
+
+REACH_HANDOVER_FINE = reachable(
+    "REACH-HANDOVER-FINE", "Board 2 can send wheel speeds after Board 1 has opened the relay.",
+    that=sends_speeds & give_b2_actuation, covers=["B1-REL-01", "B2-ACT-01"], on="handover_fine",
+)  # fmt: skip

@@ -1,0 +1,66 @@
+"""The link monitors of Board 1 with updates at any ms between two steps."""
+
+from spec_model import environment_fine as env
+from spec_model.board1.heartbeat import heartbeat_monitor
+from spec_model.board1.reception import reception_monitor
+from spec_model.lang.system import System, in_order
+from spec_model.signals import board1_fine as fine
+
+STAMPS = (
+    "Time stamps are exact to the ms. Several updates between two steps are one update with the latest "
+    "stamp, unless S36 is ARRIVAL."
+)
+ALIKE_INTERVALS = (
+    "The ten intervals are forgotten: from the eleventh update on, whether their mean exceeds 40 ms is "
+    "free at each update, unless all ten lie on one side of 40 ms (more runs than the specification)."
+)
+
+reception = reception_monitor(fine.rx_age_ms)
+heartbeat = heartbeat_monitor(fine.heartbeat_age_ms, fine.rx_age_ms)
+
+reception_ms = in_order(
+    "reception_ms",
+    env.reception_clock,
+    env.reception_any_mean,
+    reception,
+    text="Reception monitor with frames that arrive at any ms, the mean of ten unlike intervals left open.",
+    notes=[STAMPS, ALIKE_INTERVALS],
+    over=True,
+    concrete="reception_ms_exact",
+)
+
+reception_ms_exact = in_order(
+    "reception_ms_exact",
+    env.reception_clock,
+    env.reception_record,
+    reception,
+    text="Reception monitor with frames that arrive at any ms and the exact mean of ten intervals.",
+    notes=[STAMPS],
+)
+
+heartbeat_ms = in_order(
+    "heartbeat_ms",
+    env.heartbeat_clock,
+    env.heartbeat_any_mean,
+    heartbeat,
+    text="Heartbeat monitor with heartbeats at any ms, the mean of ten unlike intervals left open.",
+    notes=[STAMPS, ALIKE_INTERVALS],
+    over=True,
+    concrete="heartbeat_ms_exact",
+)
+
+heartbeat_ms_exact = in_order(
+    "heartbeat_ms_exact",
+    env.heartbeat_clock,
+    env.heartbeat_record,
+    heartbeat,
+    text="Heartbeat monitor with heartbeats at any ms and the exact mean of ten intervals.",
+    notes=[STAMPS],
+)
+
+SYSTEMS: tuple[System, ...] = (
+    reception_ms,
+    reception_ms_exact,
+    heartbeat_ms,
+    heartbeat_ms_exact,
+)

@@ -1,0 +1,61 @@
+"""What the links may do to Board 1 when updates come at any ms: ages to the ms, and the records of intervals.
+
+A stamp is the time of the arrival, not of the step that sees it, so that an age is the lag at an
+update and grows by 20 ms in every other step.  Time 0 is power-up with all stamps 0, and the first
+step is at 20 ms.
+"""
+
+from spec_model.intervals import Arrivals, any_mean, interval_record
+from spec_model.lang.action import Action, assign, when
+from spec_model.lang.chart import Block
+from spec_model.lang.expr import Var, const
+from spec_model.lang.words import minimum
+from spec_model.readings import under
+from spec_model.signals import board1 as b1
+from spec_model.signals import board1_fine as fine
+
+rx = Arrivals("rx", b1.rx_update, fine.rx_lag, fine.rx_first_lag)
+heartbeat = Arrivals("heartbeat", b1.heartbeat_update, fine.heartbeat_lag, fine.heartbeat_first_lag)
+heartbeat_moving = Arrivals(
+    "heartbeat", b1.heartbeat_update, fine.heartbeat_lag, fine.heartbeat_first_lag, b1.heartbeat_moves
+)
+
+
+def clock(name: str, update: Var, lag: Var, age: Var) -> Block:
+    """The age of a time stamp that an update sets to ``lag`` before the step."""
+    older = minimum(age + const(20, "ms"), const(age.domain.high, "ms"))
+    return Block(
+        name, [when(update, [assign(age, lag)], [assign(age, older)])], text=f"Time since {update.name}."
+    )
+
+
+reception_clock = clock("Board2_Data.age", b1.rx_update, fine.rx_lag, fine.rx_age_ms)
+heartbeat_clock = clock("Heartbeat.age", b1.heartbeat_update, fine.heartbeat_lag, fine.heartbeat_age_ms)
+
+
+def _record(name: str, do: list[Action]) -> Block:
+    return Block(name, do, text="Mean of the last ten update intervals in ms [seed Table 2].")
+
+
+def _any(name: str, do: list[Action]) -> Block:
+    return Block(name, do, text="Over-approximation: the mean is arbitrary, but for ten alike intervals.")
+
+
+by_counts = under("S40", "COUNT-DELTA")
+
+reception_record = _record("rx.intervals", interval_record(rx))
+reception_any_mean = _any("rx.any_intervals", any_mean(rx, b1.rx_mean_slow))
+heartbeat_record = _record(
+    "heartbeat.intervals",
+    [when(by_counts, interval_record(heartbeat_moving), interval_record(heartbeat))],
+)
+heartbeat_any_mean = _any(
+    "heartbeat.any_intervals",
+    [
+        when(
+            by_counts,
+            any_mean(heartbeat_moving, b1.heartbeat_mean_slow),
+            any_mean(heartbeat, b1.heartbeat_mean_slow),
+        )
+    ],
+)

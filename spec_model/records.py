@@ -1,0 +1,100 @@
+"""The ten-interval records of the links of Board 1, with updates on the grid of the steps."""
+
+from collections.abc import Sequence
+
+from spec_model.intervals import INTERVALS, Arrivals, from_power_up, interval_record
+from spec_model.lang.action import Action, assign, when
+from spec_model.lang.chart import Block
+from spec_model.lang.domain import integer
+from spec_model.lang.expr import Expr, Var, any_of, const, flag, ite
+from spec_model.lang.words import bit, minimum, modulo
+from spec_model.readings import choose, under
+
+
+def slow_record(name: str, update: Var, *, exact: bool = True, moves: Var | None = None) -> Block:
+    """``<name>_slow``: the mean of the last ten closed update intervals exceeds 40 ms.
+
+    The first update after power-up closes no interval (S66), before ten intervals exist the answer
+    is no (S34), and the open interval does not count (S35).  With ``exact=False`` the intervals are
+    forgotten: at each update from the eleventh on the free input ``<name>_mean_slow`` is the answer,
+    which allows every run of the exact record and more.  ``moves``: as in ``Arrivals``.
+    """
+    if exact:
+        record = interval_record(Arrivals(name, update, moves=moves))
+        return Block(
+            f"{name}.intervals", record, text="Mean of the last ten update intervals [seed Table 2]."
+        )
+    return Block(
+        f"{name}.any_intervals",
+        _record_forgotten(Arrivals(name, update, moves=moves)),
+        text="Over-approximation: the mean of the last ten intervals is arbitrary.",
+    )
+
+
+def _record_forgotten(arrivals: Arrivals) -> list[Action]:
+    updates, slow = arrivals.updates, arrivals.slow
+    answer = flag(f"{arrivals.name}_mean_slow")
+    enough = choose("S34", {"WAIT10": updates == INTERVALS + 1, "PARTIAL": updates >= 2})
+    open_too = choose("S34", {"WAIT10": updates >= INTERVALS, "PARTIAL": updates >= 1})
+    one_more = assign(updates, minimum(updates + 1, INTERVALS + 1))
+    counted: list[Action] = [one_more]
+    if arrivals.moves is not None:
+        all_ = minimum(updates + arrivals.moves, INTERVALS + 1)
+        further = when(updates >= 1, [assign(updates, all_)], [one_more])
+        counted = [when(under("S40", "COUNT-DELTA"), [further], [one_more])]
+    at_update = [*counted, when(enough, [assign(slow, answer)])]
+    between = when(under("S35", "OPEN") & open_too, [assign(slow, answer)])
+    return [from_power_up(updates), when(arrivals.update, at_update, [between])]
+
+
+def arrival_window(name: str, update: Var, *, moves: Var | None = None) -> Block:
+    """The same ``<name>_slow`` from the arrivals of the last 400 ms, exact and with fewer valuations.
+
+    The sum of ten successive intervals is the time from the eleventh last update to the last one.
+    So the mean exceeds 40 ms iff fewer than ten earlier updates lie within the last 400 ms.  Where a
+    heartbeat that moved by more closed more intervals (S40), they are recorded one by one.
+    """
+    do = _window(Arrivals(name, update))
+    if moves is not None:
+        shares = interval_record(Arrivals(name, update, moves=moves))
+        do = [when(under("S40", "COUNT-DELTA"), shares, do)]
+    return Block(
+        f"{name}.arrivals",
+        do,
+        text="Fewer than eleven updates within 400 ms: the mean interval exceeds 40 ms [seed Table 2].",
+    )
+
+
+def _window(arrivals: Arrivals) -> list[Action]:
+    name, update, updates = arrivals.name, arrivals.update, arrivals.updates
+    window = Var(f"{name}_arrivals", integer(0, 2**20 - 1), 0, "bit i: an update i+1 ticks ago", hidden=True)
+    one_more = assign(updates, minimum(updates + 1, INTERVALS + 1))
+    arrived = ite(update, const(1), const(0))
+    mean = assign(arrivals.slow, _mean_over(updates, window))
+    # As many intervals end now as there were updates before: the open one counts between updates (S35).
+    between = when(under("S35", "OPEN"), [mean])
+    return [
+        from_power_up(updates, assign(window, const(1))),
+        when(update, [mean, one_more], [between]),
+        assign(window, modulo(window * 2 + arrived, 2**20)),
+    ]
+
+
+def _mean_over(updates: Expr, window: Expr) -> Expr:
+    """Fewer than n updates in n times 40 ms, for n the number of updates before, ten or more as ten (S34)."""
+
+    def fewer(n: int) -> Expr:
+        recent = [bit(window, i) for i in range(2 * n)]
+        return choose("S37", {"GT": _count(recent) < n, "GE": _count(recent[:-1]) < n})
+
+    ten = (updates >= INTERVALS) & fewer(INTERVALS)
+    fewer_yet = [(updates == n) & fewer(n) for n in range(1, INTERVALS)]
+    return choose("S34", {"WAIT10": ten, "PARTIAL": any_of(ten, *fewer_yet)})
+
+
+def _count(conditions: Sequence[Expr]) -> Expr:
+    """How many of the conditions are true."""
+    ones: list[Expr] = [ite(c, const(1), const(0)) for c in conditions]
+    while len(ones) > 1:
+        ones = [a + b for a, b in zip(ones[::2], ones[1::2], strict=False)] + ones[len(ones) & ~1 :]
+    return ones[0]

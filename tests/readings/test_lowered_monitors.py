@@ -1,0 +1,52 @@
+"""Temperature, battery and wheels can be checked under every choice of their readings (S01 to S33)."""
+
+from functools import cache
+
+import pytest
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from spec_model.lang.lower import lower
+from spec_model.lang.system import System
+from spec_model.readings import readings
+from spec_model.rover import systems
+from tests.strategies import input_blocks
+from tests.test_lowering import compare
+
+OWN = (
+    ("S01", "S14", ["temperature"]),
+    ("S15", "S26", ["battery"]),
+    ("S27", "S33", ["wheel_FL", "wheel_FR", "wheel_RL", "wheel_RR"]),
+)
+"""From which reading to which: the systems of their charts."""
+
+BOARD = ["masks", "board1"]
+"""All of them show on the board, that of S33 in the masks."""
+
+CASES = [
+    (id, choice, name)
+    for first, last, names in OWN
+    for id, reading in readings().items()
+    if first <= id <= last
+    for choice in reading.choices
+    if choice not in reading.not_modelled
+    for name in (*names, *BOARD)
+]
+
+
+@cache
+def _system(id: str, choice: str, name: str) -> System:
+    return systems({id: choice})[name]
+
+
+@pytest.mark.parametrize(("id", "choice", "name"), CASES)
+def test_the_system_can_be_lowered(id: str, choice: str, name: str) -> None:
+    assert lower(_system(id, choice, name)).step
+
+
+@pytest.mark.parametrize(("id", "choice", "name"), [case for case in CASES if case[2] not in BOARD])
+@settings(max_examples=2, suppress_health_check=list(HealthCheck))
+@given(data=st.data())
+def test_interpreter_and_lowering_agree(id: str, choice: str, name: str, data: st.DataObject) -> None:
+    system = _system(id, choice, name)
+    compare(system, [inputs for inputs in data.draw(input_blocks(system)) for _ in range(20)])
