@@ -10,7 +10,7 @@ import click
 from checker.commands.codes import Exit, UsageError
 from checker.commands.output import err
 from checker.decide import AUTO, Disagreement
-from checker.engine import Limits
+from checker.engine import Limits, Timers
 from checker.replay import ReplayError
 from spec_model.lang.errors import ModelError, did_you_mean
 
@@ -44,6 +44,13 @@ def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
         click.option("--engine", default=AUTO, show_default=True, help="explicit, bmc, auto or all."),
         click.option("--depth", type=click.IntRange(min=1), help="Ticks to look ahead at most."),
         click.option("--timeout", type=click.FloatRange(min=0, min_open=True), help="Seconds per search."),
+        click.option(
+            "--timers",
+            type=click.Choice([t.value for t in Timers]),
+            default=Timers.EXACT.value,
+            show_default=True,
+            help="Count every tick, skip quiet ones, or try with timers that run out at will.",
+        ),
     ]
     for option in reversed(options):
         command = option(command)
@@ -88,6 +95,7 @@ def check(
     engine: str,
     depth: int | None,
     timeout: float | None,
+    timers: str,
 ) -> Exit:
     """Check properties and compare the verdicts with the baseline."""
     from checker.commands.check import check as run
@@ -98,7 +106,7 @@ def check(
     properties = pick_properties(ids, system, variant.properties())
     if variant.name and not ids:
         properties = list(filter(variant.concerns(), properties))
-    limits = Limits(depth, timeout)
+    limits = Limits(depth, timeout, timers=Timers(timers))
     return run(
         properties, variant.systems(), pick_engine(engine), limits, as_json, variant.name, variant.expected
     )
@@ -141,6 +149,7 @@ def trace(
     engine: str,
     depth: int | None,
     timeout: float | None,
+    timers: str,
     output: Path | None,
 ) -> Exit:
     """Show the counterexample of a violated property, or the witness of a reachable one."""
@@ -150,7 +159,7 @@ def trace(
 
     variant = pick_variant(chosen, repair)
     prop = pick("property", id, variant.properties())
-    limits = Limits(depth, timeout)
+    limits = Limits(depth, timeout, timers=Timers(timers))
     return run(prop, variant.systems(), pick_engine(engine), limits, format, everything, output)
 
 

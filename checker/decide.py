@@ -4,7 +4,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import prod
 
-from checker.engine import Engine, Limits, Progress, engines
+from checker.engine import Engine, Limits, Progress, Timers, engines
+from checker.freely import freely
 from checker.liveness import unbounded
 from checker.reproduce import not_reproducible, reproduced
 from checker.result import Answers, Result, check_domains, result
@@ -19,7 +20,7 @@ from spec_model.lang.system import System, TransitionSystem
 FEW = 64
 """Monitors with at most this many combinations of values share a search: compiling costs more."""
 
-SHORT = 40
+SHORT = 12
 """Ticks in which ``auto`` looks for a loop before it enumerates pairs of valuations."""
 LITTLE = 64 << 20
 """Bytes that it grants to that enumeration."""
@@ -85,8 +86,9 @@ def decide(
     """A verdict for each property of the task.
 
     ``engine`` is the name of one, ``auto`` (explicit search first, then bounded model checking of
-    what it leaves open) or ``all`` (every engine, answers compared).  Raises ``Disagreement``,
-    ``ReplayError``, and ``ModelError`` when the model itself leaves a domain.
+    what it leaves open) or ``all`` (every engine, answers compared).  With free timers in ``limits``,
+    what the system with timers that run out at will does not settle is then searched exactly.  Raises
+    ``Disagreement``, ``ReplayError``, and ``ModelError`` when the model itself leaves a domain.
     """
     if isinstance(task.properties[0].form, Unbounded):
 
@@ -94,6 +96,8 @@ def decide(
             return _answers(system, goals, engine, limits, progress, short)
 
         return [unbounded(prop, systems, ask, progress) for prop in task.properties]
+    if limits.timers is Timers.FREE:
+        return _freely_first(task, systems, engine, replace(limits, timers=Timers.EXACT), progress)
     question = reduce(lower(task.system), task.properties)
     found = _answers(question.system, [g.var for g in question.goals], engine, limits, progress)
     check_domains(question.system, found)
@@ -107,6 +111,17 @@ def decide(
         return results + not_reproducible(question, runs)
     concrete = systems[task.system.concrete]
     return results + reproduced(question, runs, concrete, engines()["bmc"], limits, progress)
+
+
+def _freely_first(
+    task: Task, systems: Mapping[str, System], engine: str, limits: Limits, progress: Progress
+) -> list[Result]:
+    def ask(system: TransitionSystem, goals: Sequence[Var]) -> Answers:
+        return _answers(system, goals, engine, limits, progress)
+
+    done, left = freely(task.system, task.properties, ask)
+    exact = Task(task.system, tuple(left))
+    return done + (decide(exact, systems, engine, limits, progress) if left else [])
 
 
 def _answers(
@@ -137,6 +152,8 @@ def _answers(
         left = [g for g in goals if g.name not in found or isinstance(found[g.name][0], Open)]
         if not left or (found and limits.depth is not None):
             break
+        if short and found and all(isinstance(found[g.name][0], Reached) for g in wanted):
+            break  # whether other runs leave a domain does not matter to a run that is replayed
         for goal, answer in _ask(engines()[name], system, left, granted, progress).items():
             found[goal] = _better(found[goal], answer) if goal in found else answer
     return found

@@ -22,6 +22,9 @@ from spec_model.lang.time import Span
 
 Systems = Mapping[str, System]
 
+NO_LOOP = "each with every saved one: no loop closes"
+"""What an exhausted search for loops has shown."""
+
 
 def unbounded(prop: Property, systems: Systems, ask: Ask, progress: Progress) -> Result:
     """The result of one property about infinite runs.
@@ -106,6 +109,6 @@ def _result(hunted: Hunt, answer: Answer, by: str) -> Result:
         case Reached(run):
             return Result(prop, Violated(looped(hunted, run), by), name)
         case Unreachable(because):
-            return Result(prop, Proved(because, by), name)
+            return Result(prop, Proved(because, by, NO_LOOP), name)
         case Open(reason, depth):
             return Result(prop, Unknown(reason, depth, by), name)

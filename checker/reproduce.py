@@ -28,11 +28,12 @@ def reproduced(
     found: list[Result] = []
     left: list[tuple[Goal, Goal]] = []
     for goal, same in zip(reached, there.goals, strict=True):
-        moved = _moved(question, goal, runs[goal.var.name][0], there, same)
-        if moved is None:
+        answer, by = runs[goal.var.name]
+        run = moved(question, goal, answer, there, same)
+        if run is None:
             left.append((goal, same))
         else:
-            found.append(result(there.system, same, moved, runs[goal.var.name][1]))
+            found.append(result(there.system, same, run, by))
     return found + (_searched(question, runs, there, left, engine, limits, progress) if left else [])
 
 
@@ -54,7 +55,8 @@ def _only_there(name: str, ticks: int) -> str:
     )
 
 
-def _moved(question: Question, goal: Goal, answer: Reached, there: Question, same: Goal) -> Reached | None:
+def moved(question: Question, goal: Goal, answer: Reached, there: Question, same: Goal) -> Reached | None:
+    """The run with the same inputs on the system of ``there``, if it reaches the same goal."""
     for run in (answer.run, calmed(question.system, goal.var, answer.run)):
         moved = transferred(run, there.system, same.var)
         if moved is not None:

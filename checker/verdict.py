@@ -70,12 +70,12 @@ Answer = Union[Reached, Unreachable, Open]
 class Proved:
     """The property holds: because the search was exhausted, or (reachability) because of a witness.
 
-    ``stronger`` says what was proved instead, when that is more than the property demands.
+    ``claim`` says what was shown of those valuations when that is not the property itself but implies it.
     """
 
     because: Exhausted | Trace
     engine: str
-    stronger: str = ""
+    claim: str = ""
     word: str = field(default="proved", init=False)
 
 

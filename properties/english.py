@@ -26,18 +26,17 @@ from properties.forms import (
 from properties.phrases import Voice, as_implication, begins, clause, ends, final, part, quoted, term
 from spec_model.lang.domain import Bool
 from spec_model.lang.expr import Apply, Expr, Named, Op
-from spec_model.lang.system import TICK_MS
 from spec_model.lang.time import Span
 from spec_model.lang.walk import nodes
 
 HOW_TO_READ = (
-    "A step is one execution of the charts; formulas are read at its end. Milliseconds run from the end "
-    "of the first step that is meant to the end of the last. What is true in the first step becomes true "
+    "A step is one tick of the system; formulas are read at its end. Milliseconds run from the end of "
+    "the first step that is meant to the end of the last. What is true in the first step becomes true "
     "in it. “...” names a formula, spelled out below the sentence."
 )
 
 
-def sentence(prop: Property, tick_ms: int = TICK_MS) -> str:
+def sentence(prop: Property, tick_ms: int) -> str:
     """What is checked, in one sentence; ``tick_ms`` is the length of a step of the system.
 
     Raises ``ModelError`` for a time that is no whole number of steps.
@@ -48,7 +47,7 @@ def sentence(prop: Property, tick_ms: int = TICK_MS) -> str:
     return f"{said[0].upper()}{said[1:]}."
 
 
-def definitions(prop: Property, tick_ms: int = TICK_MS) -> tuple[str, ...]:
+def definitions(prop: Property, tick_ms: int) -> tuple[str, ...]:
     """One sentence for each name that the sentence, or a definition before, quotes."""
     voice, said = Voice(tick_ms), sentence(prop, tick_ms)
     found: dict[str, str] = {}

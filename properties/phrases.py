@@ -285,11 +285,29 @@ def _computed(op: Op, args: Sequence[Expr], voice: Voice) -> str:
         case Op.ITE:
             test, then, otherwise = args
             return f"({term(then, voice)} if {part(test, voice)}, otherwise {term(otherwise, voice)})"
+        case Op.ADD if counted := _counted(args):
+            return f"the number of true ones among ({'; '.join(clause(c, voice) for c in counted)})"
         case Op.ADD | Op.SUB | Op.MUL | Op.DIV | Op.MOD:
             first = term(args[0], voice) if op in _SUMS and _is_sum(args[0]) else _operand(args[0], voice)
             return _SIGN[op].join((first, *(_operand(a, voice) for a in args[1:])))
         case _:
             return f"({_connected(op, args, voice, True)})"
+
+
+def _counted(summands: Sequence[Expr]) -> list[Expr]:
+    """The conditions of a sum that adds 1 for each that is true; none of any other sum."""
+    conditions: list[Expr] = []
+    for summand in summands:
+        match summand:
+            case Const(0, _):
+                continue
+            case Apply(Op.ITE, (condition, Const(1, Num(1, _)), Const(0, _)), _):
+                conditions.append(condition)
+            case Apply(Op.ADD, inner, _) if counted := _counted(inner):
+                conditions += counted
+            case _:
+                return []
+    return conditions
 
 
 def _is_sum(expr: Expr) -> bool:

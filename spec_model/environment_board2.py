@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from spec_model.environment import clock
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block
-from spec_model.lang.expr import Var, all_of, implies
+from spec_model.lang.expr import Var, implies
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
 from spec_model.signals.board2 import SONARS
@@ -41,12 +41,6 @@ masks_of_board1 = snapshot("Board1_Data.masks", b2.RX.update, (b2.crit_mask_b1, 
 wheels_of_board1 = snapshot("Board1_Data.wheels", b2.RX.update, tuple(b2.wheel_speed_rpm.values()))
 sonars = snapshot("Sonars", b2.sonar_update, SONARS)
 sonar_clock = clock("Sonars.age", b2.sonar_update, b2.sonar_age)
-
-check_stop = Block(
-    "checkStop_2",
-    [assign(motion.wheels_below_2_5, all_of(*(speed < 2.5 for speed in b2.wheel_speed_rpm.values())))],
-    text="All four wheels, as last received, slower than 2.5 rpm.",
-)
 
 SNAPSHOTS = (joystick, inertial, masks_of_board1, wheels_of_board1, sonars)
 """Everything that reaches Board 2 by a snapshot."""

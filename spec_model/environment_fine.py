@@ -5,20 +5,21 @@ update and grows by 20 ms in every other step.  Time 0 is power-up with all stam
 step is at 20 ms.
 """
 
-from spec_model.intervals import Arrivals, any_mean, interval_record
+from dataclasses import replace
+
+from spec_model.intervals import Arrivals, any_mean
 from spec_model.lang.action import Action, assign, when
 from spec_model.lang.chart import Block
 from spec_model.lang.expr import Var, const
 from spec_model.lang.words import minimum
 from spec_model.readings import under
+from spec_model.records import window_of
 from spec_model.signals import board1 as b1
 from spec_model.signals import board1_fine as fine
 
 rx = Arrivals("rx", b1.rx_update, fine.rx_lag, fine.rx_first_lag)
 heartbeat = Arrivals("heartbeat", b1.heartbeat_update, fine.heartbeat_lag, fine.heartbeat_first_lag)
-heartbeat_moving = Arrivals(
-    "heartbeat", b1.heartbeat_update, fine.heartbeat_lag, fine.heartbeat_first_lag, b1.heartbeat_moves
-)
+counted_heartbeat = replace(heartbeat, moves=b1.heartbeat_moves)
 
 
 def clock(name: str, update: Var, lag: Var, age: Var) -> Block:
@@ -33,28 +34,22 @@ reception_clock = clock("Board2_Data.age", b1.rx_update, fine.rx_lag, fine.rx_ag
 heartbeat_clock = clock("Heartbeat.age", b1.heartbeat_update, fine.heartbeat_lag, fine.heartbeat_age_ms)
 
 
-def _record(name: str, do: list[Action]) -> Block:
-    return Block(name, do, text="Mean of the last ten update intervals in ms [seed Table 2].")
+reception_record = window_of(rx)
+heartbeat_record = window_of(counted_heartbeat)
 
 
-def _any(name: str, do: list[Action]) -> Block:
-    return Block(name, do, text="Over-approximation: the mean is arbitrary, but for ten alike intervals.")
+def _any(arrivals: Arrivals, do: list[Action]) -> Block:
+    text = "Over-approximation: the mean is arbitrary unless all ten intervals lie on one side of 40 ms."
+    return Block(f"{arrivals.name}.any_intervals", do, text=text)
 
 
-by_counts = under("S40", "COUNT-DELTA")
-
-reception_record = _record("rx.intervals", interval_record(rx))
-reception_any_mean = _any("rx.any_intervals", any_mean(rx, b1.rx_mean_slow))
-heartbeat_record = _record(
-    "heartbeat.intervals",
-    [when(by_counts, interval_record(heartbeat_moving), interval_record(heartbeat))],
-)
+reception_any_mean = _any(rx, any_mean(rx, b1.rx_mean_slow))
 heartbeat_any_mean = _any(
-    "heartbeat.any_intervals",
+    heartbeat,
     [
         when(
-            by_counts,
-            any_mean(heartbeat_moving, b1.heartbeat_mean_slow),
+            under("S40", "COUNT-DELTA"),
+            any_mean(counted_heartbeat, b1.heartbeat_mean_slow),
             any_mean(heartbeat, b1.heartbeat_mean_slow),
         )
     ],

@@ -30,9 +30,6 @@ MOST_LAG = TICK_MS - 1
 MOST_MOVES = 3
 """By how much a heartbeat may move between two steps (S40)."""
 
-AT_THE_STEP = const(0, "ms")
-"""The lag of an arrival on the grid of the steps."""
-
 Close = Callable[[Expr], Sequence[Action]]
 """What to do with an interval, in ms, that an update closes."""
 
@@ -41,14 +38,15 @@ Close = Callable[[Expr], Sequence[Action]]
 class Arrivals:
     """The updates of one time stamp, as one step sees them.
 
-    ``first_lag`` is the lag of another update before the latest within the same tick, which is there iff
-    it is greater than ``lag`` (S36).  ``moves`` is by how much the counter moved (S40).
+    Without a ``lag`` they come at the instants of the steps.  ``first_lag`` is the lag of another update
+    before the latest within the same tick, which is there iff it is greater than ``lag`` (S36).  ``moves``
+    is by how much the counter moved (S40).
     """
 
     name: str
     update: Var
-    lag: Expr = AT_THE_STEP
-    first_lag: Expr = AT_THE_STEP
+    lag: Var | None = None
+    first_lag: Var | None = None
     moves: Var | None = None
 
     @property
@@ -158,11 +156,13 @@ def _grow(gap: Var) -> list[Action]:
 
 def _closing(arrivals: Arrivals, gap: Var, close: Close) -> list[Action]:
     """The intervals that the updates of a tick close, the earlier one first where each counts (S36)."""
-    earlier = under("S36", "ARRIVAL") & (arrivals.first_lag > arrivals.lag)
-    return [
-        when(earlier, _received(arrivals, gap, arrivals.first_lag, close)),
-        *_received(arrivals, gap, arrivals.lag, close),
-    ]
+    if arrivals.lag is None:
+        return _received(arrivals, gap, const(0, "ms"), close)
+    latest = _received(arrivals, gap, arrivals.lag, close)
+    if arrivals.first_lag is None:
+        return latest
+    another = under("S36", "ARRIVAL") & (arrivals.first_lag > arrivals.lag)
+    return [when(another, _received(arrivals, gap, arrivals.first_lag, close)), *latest]
 
 
 def _received(arrivals: Arrivals, gap: Var, lag: Expr, close: Close) -> list[Action]:

@@ -1,6 +1,7 @@
-"""The ten-interval records of the links of Board 1, with updates on the grid of the steps."""
+"""The ten-interval records of the links of Board 1: forgotten, one by one, or as a window of arrivals."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 from spec_model.intervals import INTERVALS, Arrivals, from_power_up, interval_record
 from spec_model.lang.action import Action, assign, when
@@ -48,18 +49,25 @@ def _record_forgotten(arrivals: Arrivals) -> list[Action]:
 
 
 def arrival_window(name: str, update: Var, *, moves: Var | None = None) -> Block:
-    """The same ``<name>_slow`` from the arrivals of the last 400 ms, exact and with fewer valuations.
+    """The same ``<name>_slow`` from the arrivals of the last 400 ms, exact and with fewer valuations."""
+    return window_of(Arrivals(name, update, moves=moves))
+
+
+def window_of(arrivals: Arrivals) -> Block:
+    """``<name>_slow`` from the arrivals of the last 400 ms.
 
     The sum of ten successive intervals is the time from the eleventh last update to the last one.
-    So the mean exceeds 40 ms iff fewer than ten earlier updates lie within the last 400 ms.  Where a
-    heartbeat that moved by more closed more intervals (S40), they are recorded one by one.
+    So the mean exceeds 40 ms iff fewer than ten earlier updates lie within the last 400 ms.  Where an
+    update may close several intervals (S36, S40), they are recorded one by one.
     """
-    do = _window(Arrivals(name, update))
-    if moves is not None:
-        shares = interval_record(Arrivals(name, update, moves=moves))
-        do = [when(under("S40", "COUNT-DELTA"), shares, do)]
+    plain = replace(arrivals, moves=None)
+    do = _window(plain)
+    if arrivals.first_lag is not None:
+        do = [when(under("S36", "ARRIVAL"), interval_record(plain), do)]
+    if arrivals.moves is not None:
+        do = [when(under("S40", "COUNT-DELTA"), interval_record(arrivals), do)]
     return Block(
-        f"{name}.arrivals",
+        f"{arrivals.name}.arrivals",
         do,
         text="Fewer than eleven updates within 400 ms: the mean interval exceeds 40 ms [seed Table 2].",
     )
@@ -70,22 +78,53 @@ def _window(arrivals: Arrivals) -> list[Action]:
     window = Var(f"{name}_arrivals", integer(0, 2**20 - 1), 0, "bit i: an update i+1 ticks ago", hidden=True)
     one_more = assign(updates, minimum(updates + 1, INTERVALS + 1))
     arrived = ite(update, const(1), const(0))
-    mean = assign(arrivals.slow, _mean_over(updates, window))
+    lags = _latest_lags(arrivals)
+    at_update = [assign(arrivals.slow, _mean_over(updates, window, lags.in_time)), one_more, *lags.shift]
     # As many intervals end now as there were updates before: the open one counts between updates (S35).
-    between = when(under("S35", "OPEN"), [mean])
+    between = assign(arrivals.slow, _mean_over(updates, window, lags.in_time_now))
     return [
         from_power_up(updates, assign(window, const(1))),
-        when(update, [mean, one_more], [between]),
+        when(update, at_update, [when(under("S35", "OPEN"), [between])]),
         assign(window, modulo(window * 2 + arrived, 2**20)),
     ]
 
 
-def _mean_over(updates: Expr, window: Expr) -> Expr:
+InTime = Callable[[int], Expr]
+"""Whether the n-th last update, if it was seen n times 40 ms ago, came no earlier than that."""
+
+
+@dataclass(frozen=True)
+class _Lags:
+    """What the lags of the ten latest updates decide, at an update and between two."""
+
+    in_time: InTime
+    in_time_now: InTime
+    shift: Sequence[Action]
+
+
+def _latest_lags(arrivals: Arrivals) -> _Lags:
+    if arrivals.lag is None:
+        on_the_limit = choose("S37", {"GT": True, "GE": False})
+        return _Lags(lambda _: on_the_limit, lambda _: on_the_limit, [])
+    domain, lag, now = arrivals.lag.domain, arrivals.lag, const(0, "ms")
+    last = [
+        Var(f"{arrivals.name}_lag{n}", domain, 0, f"lag of update {n}, the latest first", hidden=True)
+        for n in range(1, INTERVALS + 1)
+    ]
+    shift = [assign(older, newer) for newer, older in zip(last[-2::-1], last[:0:-1], strict=True)]
+
+    def within(end: Expr) -> InTime:
+        return lambda n: choose("S37", {"GT": last[n - 1] <= end, "GE": last[n - 1] < end})
+
+    return _Lags(within(lag), within(now), [*shift, assign(last[0], lag)])
+
+
+def _mean_over(updates: Expr, window: Expr, in_time: InTime) -> Expr:
     """Fewer than n updates in n times 40 ms, for n the number of updates before, ten or more as ten (S34)."""
 
     def fewer(n: int) -> Expr:
         recent = [bit(window, i) for i in range(2 * n)]
-        return choose("S37", {"GT": _count(recent) < n, "GE": _count(recent[:-1]) < n})
+        return _count([*recent[:-1], recent[-1] & in_time(n)]) < n
 
     ten = (updates >= INTERVALS) & fewer(INTERVALS)
     fewer_yet = [(updates == n) & fewer(n) for n in range(1, INTERVALS)]

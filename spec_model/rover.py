@@ -21,6 +21,7 @@ BOARDS = (
     "spec_model.board2.systems",
     "spec_model.board2.motion_systems",
     "spec_model.board2.supervisor_systems",
+    "spec_model.composition.systems",
     "spec_model.composition.fine_systems",
 )
 """Modules with a tuple SYSTEMS, in the order in which the systems are listed."""

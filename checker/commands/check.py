@@ -142,15 +142,20 @@ def in_short(result: Result) -> str:
     match verdict:
         case Unknown(reason, depth):
             return f"after {depth} ticks of {system}: {reason}"
-        case Proved(Exhausted() as all_, _, stronger):
-            return f"all {all_.states:,} valuations of {system}" + (f", {stronger}" if stronger else "")
+        case Proved(Exhausted() as all_, _, claim):
+            return f"all {counted(all_)} of {system}" + (f", {claim}" if claim else "")
         case Violated(Exhausted() as all_):
-            return f"in none of {all_.states:,} valuations of {system}"
+            return f"in none of {counted(all_)} of {system}"
         case Proved(Trace() as trace):
             return f"reached in {ticks(trace)} of {system}"
         case Violated(Trace() as trace):
             return f"{ticks(trace)} of {system}"
     raise AssertionError(verdict)
+
+
+def counted(all_: Exhausted) -> str:
+    """``154 valuations``, and whether these are only the stored ones of those visited."""
+    return f"{all_.states:,} {'stored valuations (quiet ticks skipped)' if all_.skipped else 'valuations'}"
 
 
 def recorded(entry: Expected) -> str:
@@ -164,11 +169,11 @@ def evidence(result: Result) -> str:
     match verdict:
         case Unknown(reason, depth, engine):
             return f"{engine} on {result.system}, no counterexample within {depth} ticks: {reason}"
-        case Proved(Exhausted() as all_, engine, stronger):
-            claim = f", {stronger}" if stronger else ""
-            return f"{engine}: all {all_.states:,} valuations of {result.system}, depth {all_.depth}{claim}"
+        case Proved(Exhausted() as all_, engine, claim):
+            whole = f"{engine}: all {counted(all_)} of {result.system}, depth {all_.depth}"
+            return f"{whole}, {claim}" if claim else whole
         case Violated(Exhausted() as all_, engine):
-            return f"{engine}: in none of all {all_.states:,} valuations of {result.system}"
+            return f"{engine}: in none of all {counted(all_)} of {result.system}"
         case Proved(Trace() as trace, engine):
             return f"{engine}: witness of {ticks(trace)} on {result.system}"
         case Violated(Trace() as trace, engine):

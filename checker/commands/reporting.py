@@ -83,6 +83,16 @@ def _put(folder: Path, name: str, made: Pages) -> None:
 
 def pages(found: Sequence[Compared]) -> Pages:
     """Every file of the report, from the verdicts."""
+    made = pages_of_verdicts(found)
+    draw = renderers("statechart")["svg"].render
+    for chart in charts().values():
+        made[f"charts/{chart.name}.svg"] = _text(draw(chart))
+    made["charts/README.md"] = _gallery()
+    return made
+
+
+def pages_of_verdicts(found: Sequence[Compared]) -> Pages:
+    """The files on properties, requirements and systems, without the charts."""
     ordered = sorted(found, key=lambda c: (c.result.property.area, c.result.property.id))
     made = {
         "README.md": _index(ordered),
@@ -92,10 +102,6 @@ def pages(found: Sequence[Compared]) -> Pages:
     for compared in ordered:
         if compared.verdict.word == "violated":
             made[_page(compared)] = _finding(compared)
-    draw = renderers("statechart")["svg"].render
-    for chart in charts().values():
-        made[f"charts/{chart.name}.svg"] = _text(draw(chart))
-    made["charts/README.md"] = _gallery()
     return made
 
 
@@ -152,7 +158,7 @@ def _finding(compared: Compared) -> str:
     assert not isinstance(verdict, Unknown)
     known = requirements()
     lines = [f"# {prop.id}: violated", "", prop.text, ""]
-    lines += ["\n>\n".join(f"> {line}" for line in formally(prop)), ""]
+    lines += ["\n>\n".join(f"> {escape(line, quote=False)}" for line in formally(prop)), ""]
     lines += [f"- {known[id].id} [{known[id].source}]: {known[id].text}" for id in prop.covers]
     if prop.readings:
         lines.append(f"- readings: {', '.join(prop.readings)}")
@@ -183,4 +189,4 @@ def _gallery() -> str:
     return HEADER + "\n".join(lines).rstrip() + "\n"
 
 
-__all__ = ["differences", "pages", "reports"]
+__all__ = ["differences", "pages", "pages_of_verdicts", "reports"]

@@ -144,7 +144,9 @@ def _row(row: Coverage, verdicts: Verdicts) -> dict[str, object]:
 def page(found: Sequence[Compared]) -> str:
     """The matrix in Markdown, from the verdicts found."""
     rows, verdicts = matrix(c.result.property for c in found), words(found)
-    lines = ["# Requirements", "", *counts(rows, verdicts), "", REACHED, ""]
+    lines = ["# Requirements", ""]
+    for said in (*counts(rows, verdicts), REACHED):
+        lines += [said, ""]
     lines += ["| requirement | source | text | state | properties, or the reason why none covers it |"]
     lines += ["|---|---|---|---|---|"]
     for row in rows:

@@ -98,11 +98,12 @@ PB1_32b_ms = always(
 )  # fmt: skip
 
 REACH_RX_DEG_MS = reachable(
-    "REACH-RX-DEG-MS", "Frames that are never seen more than 40 ms old can make the reception degraded.",
-    that=reception.active("Rx_DEG") & (rx_age_ms <= 19) & (previous(rx_age_ms) <= 40),
-    covers=["B1-RX-02"], on="reception_ms_exact", readings=["S36"],
+    "REACH-RX-DEG-MS", "A mean above 40 ms of unlike intervals can make the reception degraded.",
+    that=reception.active("Rx_DEG") & rx_update & (rx_interval <= 40),
+    covers=["B1-RX-02"], on="reception_ms", readings=["S36"],
 )  # fmt: skip
 REACH_SUP_DEG_MS = reachable(
-    "REACH-SUP-DEG-MS", "Heartbeats at any ms can make the supervisor degraded.",
-    that=heartbeat.active("Sup_DEG"), covers=["B1-SUP-02"], on="heartbeat_ms_exact", readings=["S36"],
+    "REACH-SUP-DEG-MS", "A mean above 40 ms of unlike intervals can make the supervisor degraded.",
+    that=heartbeat.active("Sup_DEG") & heartbeat_update & (heartbeat_interval <= 40),
+    covers=["B1-SUP-02"], on="heartbeat_ms", readings=["S36"],
 )  # fmt: skip

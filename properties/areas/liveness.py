@@ -1,43 +1,61 @@
 """What happens sooner or later, without a bound: a deviation ends, the stop is released, waiting returns."""
 
-from properties.forms import leads_to, recoverable
+from properties.areas.motion import calm, resumed
+from properties.forms import leads_to, recoverable, settles
 from spec_model.board2.obstacles import obstacles_n
 from spec_model.lang.expr import all_of
 from spec_model.lang.time import ticks
+from spec_model.signals.board1 import is_rotating180
 from spec_model.signals.board2 import SONARS, B2Decision, prevDEG_B1
 
 chart = obstacles_n()
+
+# --- the stop of Board 1 is released [seed §2.3]; steps are those in which Board 1 actuates ----------
+
+RESUMES = ("B1-EST-01", "B1-ACT-01")
+
+PB1_25 = settles(
+    "PB1-25", "With no critical cause, CMD_NORMAL and wheels at rest for good, Board 1 resumes for good.",
+    premise=calm, then=resumed,
+    covers=RESUMES, on="references_executed", readings=["S62"],
+)  # fmt: skip
+
+PB1_25_turned = settles(
+    "PB1-25-turned", "The same if every 180° rotation ends.",
+    premise=calm, then=resumed, fair=[~is_rotating180],
+    covers=RESUMES, on="references_executed", readings=["S62"],
+)  # fmt: skip
 
 # --- every deviation ends [seed §3.4.1 (1), Fig 25] ------------------------------------------------
 
 PB2_09_left = leads_to(
     "PB2-09-left", "Moving toward sonar 1 ends.",
     trigger=B2Decision == 2, response=B2Decision != 2,
-    covers=["B2-OBS-09"], on="obstacles_heading_free", readings=["E08"],
+    covers=["B2-OBS-09"], on="obstacles_heading", readings=["E08"],
 )  # fmt: skip
 
 PB2_09_straight = leads_to(
     "PB2-09-straight", "Moving toward sonar 2 ends.",
-    trigger=B2Decision == 3, response=B2Decision != 3, bound=25 * ticks,
-    covers=["B2-OBS-08"], on="obstacles_n_straight", readings=["E05"],
+    trigger=B2Decision == 3, response=B2Decision != 3,
+    covers=["B2-OBS-08"], on="obstacles_n_sides", readings=("E05", "E08"),
 )  # fmt: skip
 
 PB2_09_right = leads_to(
     "PB2-09-right", "Moving toward sonar 3 ends.",
     trigger=B2Decision == 4, response=B2Decision != 4,
-    covers=["B2-OBS-09"], on="obstacles_heading_free", readings=["E08"],
+    covers=["B2-OBS-09"], on="obstacles_heading", readings=["E08"],
 )  # fmt: skip
 
 PB2_09c_ends_left = leads_to(
     "PB2-09c-ends-left", "If the rover turns as told, moving toward sonar 1 ends.",
-    trigger=B2Decision == 2, response=B2Decision != 2,
+    trigger=B2Decision == 2, response=B2Decision != 2, bound=3 * ticks,
     covers=["B2-OBS-09"], on="obstacles_turning_free", readings=("E06", "E08"),
 )  # fmt: skip
 
 PB2_09c_ends_right = leads_to(
     "PB2-09c-ends-right", "If the rover turns as told, moving toward sonar 3 ends.",
     trigger=B2Decision == 4, response=B2Decision != 4,
-    covers=["B2-OBS-09"], on="obstacles_turning_free", readings=("E06", "E08"),
+    covers=["B2-OBS-09"], on="obstacles_turning", readings=("E06", "E08"),
 )  # fmt: skip
 
 # --- waiting returns [seed §3.4.1, Fig 25] ---------------------------------------------------------

@@ -1,6 +1,6 @@
 """What must be true of the stop, the 180° rotation and backward mode of Board 1 [seed §2.2, §2.3, Fig 19]."""
 
-from properties.areas.references import critical_cause, drives, running
+from properties.areas.references import drives, running
 from properties.forms import (
     Property,
     always,
@@ -80,10 +80,10 @@ PB1_25b = holds_after(
     premise=calm & ~is_rotating180, for_=52 * ticks, then=resumed,
     covers=["B1-EST-01", "B1-ACT-01"], on=EXECUTED, from_tick=2, readings=["S62"],
 )  # fmt: skip
-PB1_25c = holds_after(
-    "PB1-25c", "The same within 52 executed steps: the bound of PB1-25b is the least.",
-    premise=calm & ~is_rotating180, for_=51 * ticks, then=resumed,
-    covers=["B1-EST-01", "B1-ACT-01"], on=EXECUTED, from_tick=2, readings=["S62"],
+RESUME_BOUND = reachable(
+    "REACH1-RESUME-BOUND", "Board 1 may need 53 such steps to resume: the bound of PB1-25b is the least.",
+    that=held(calm & ~is_rotating180, for_=51 * ticks) & ~resumed,
+    covers=["B1-EST-01", "B1-ACT-01"], on=EXECUTED, readings=["S62"],
 )  # fmt: skip
 
 # --- 180° rotation [seed Fig 12] -------------------------------------------------------------------
@@ -98,7 +98,7 @@ PB1_26b = always(
     that=implies(rotating, v_ref == previous(v_ref)),
     covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
 )  # fmt: skip
-ROTATE_OPPOSITE = always(
+PB1_26c = always(
     "PB1-26c", "The rotation begins with the opposite heading as its target: an error of -180°.",
     that=implies(rotating & ~previous(rotating), angle_err == -180),
     covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
@@ -159,11 +159,8 @@ PB1_26k = leaves_only_if(
     covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
 )  # fmt: skip
 PB1_26l = always(
-    "PB1-26l", "With the stick still pulled back after the rotation the healthy rover moves forward.",
-    that=implies(
-        drives & previous(invert_y & normal) & invert_y & normal & (rover_safety_state == "SAFETY_OK"),
-        v_ref == -y_norm,
-    ),
+    "PB1-26l", "Outside backward mode normal running never moves the rover with the stick pulled back.",
+    that=implies(drives & normal & previous(normal) & (y_norm < 0) & ~backward_enabled, v_ref == 0),
     covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
 )  # fmt: skip
 
@@ -231,33 +228,34 @@ PB1_27h = always(
 # --- every state and every arrow ---------------------------------------------------------------------
 
 
-def _move(id: str, text: str, source: str, target: str, why: Expr, on: str = ON) -> Property:
+def _move(id: str, text: str, source: str, target: str, why: Expr = TRUE) -> Property:
     """A companion: one arrow of the motion chart can be taken."""
     that = previous(motion_supervision.active(source)) & motion_supervision.active(target) & why
-    return reachable(f"REACH1-{id}", text, that=that, covers=["B1-ACT-01"], on=on, readings=["S60"])
+    return reachable(f"REACH1-{id}", text, that=that, covers=["B1-ACT-01"], on=EXECUTED, readings=["S60"])
 
 
 REACH_ROTATION = reachable(
     "REACH1-RETROMARCIA", "The rover can rotate by 180°, and is then told to turn to the left.",
     that=rotating & (current_action == "CMD_ROTATE_180") & (omega_ref == 1) & (v_ref == 0),
-    covers=["B1-ACT-01"], on=ON, readings=["S60"],
+    covers=["B1-ACT-01"], on=EXECUTED, readings=["S60"],
 )  # fmt: skip
 REACH_SLOW = reachable(
     "REACH1-ROTATION-SLOW", "Near its target the rover turns slowly, to the right too.",
-    that=rotating & (omega_ref == -0.075), covers=["B1-ACT-01"], on=ON, readings=["S60", "S64"],
+    that=rotating & (omega_ref == -0.075), covers=["B1-ACT-01"], on=EXECUTED, readings=["S60", "S64"],
 )  # fmt: skip
 REACH_AT_45 = reachable(
     "REACH1-ROTATION-45", "At 45° the rover turns with 0.225.",
-    that=rotating & (angle_err == 45) & (omega_ref == -0.225), covers=["B1-ACT-01"], on=ON, readings=["S60"],
+    that=rotating & (angle_err == 45) & (omega_ref == -0.225),
+    covers=["B1-ACT-01"], on=EXECUTED, readings=["S60"],
 )  # fmt: skip
 REACH_FORWARD = reachable(
     "REACH1-INVERTED", "After a rotation a stick pulled back can count as forward.",
-    that=invert_y & (v_user == 1) & (y_norm == -1), covers=["B1-REF-02"], on=ON, readings=["S59"],
+    that=invert_y & (v_user == 1) & (y_norm == -1), covers=["B1-REF-02"], on=EXECUTED, readings=["S59"],
 )  # fmt: skip
 REACH_ESTOP_IN_ROTATION = reachable(
     "REACH1-ESTOP-IGNORED", "A rotation can go on under CMD_ESTOP with the stick pushed forward.",
-    that=rotating & previous(rotating & (v_user > 0)) & (cmd == "CMD_ESTOP") & drives,
-    covers=["B1-EST-01"], on=ON, readings=["S63"],
+    that=rotating & previous(rotating & (v_user > 0)) & (cmd == "CMD_ESTOP"),
+    covers=["B1-EST-01"], on=EXECUTED, readings=["S63"],
 )  # fmt: skip
 
 N, SL, SR, EL, ER, R, F, M = (
@@ -271,19 +269,19 @@ REACH_N_EL = _move("NORMAL-AVOID-LEFT", "Arrow 2 of Normale_marcia.", N, EL, cmd
 REACH_N_ER = _move("NORMAL-AVOID-RIGHT", "Arrow 3 of Normale_marcia.", N, ER, cmd == "CMD_AVOID_RIGHT")
 REACH_N_SR = _move("NORMAL-RIGHT", "Arrow 4 of Normale_marcia.", N, SR, cmd == "CMD_GO_RIGHT")
 REACH_N_R = _move("NORMAL-ROTATE", "Arrow 5 of Normale_marcia.", N, R, y_norm == -1)
-REACH_SL_N = _move("LEFT-NORMAL", "The arrow of Schivata_a_sinistra.", SL, N, drives)
-REACH_SR_N = _move("RIGHT-NORMAL", "The arrow of Schivata_a_destra.", SR, N, drives)
-REACH_EL_N = _move("AVOID-LEFT-NORMAL", "The arrow of Evita_sinistra.", EL, N, drives)
-REACH_ER_N = _move("AVOID-RIGHT-NORMAL", "The arrow of Evita_destra.", ER, N, drives)
+REACH_SL_N = _move("LEFT-NORMAL", "The arrow of Schivata_a_sinistra.", SL, N)
+REACH_SR_N = _move("RIGHT-NORMAL", "The arrow of Schivata_a_destra.", SR, N)
+REACH_EL_N = _move("AVOID-LEFT-NORMAL", "The arrow of Evita_sinistra.", EL, N)
+REACH_ER_N = _move("AVOID-RIGHT-NORMAL", "The arrow of Evita_destra.", ER, N)
 REACH_R_N_INV = _move("ROTATED-INVERTED", "The rotation ends, stick pulled back.", R, N, invert_y)
 REACH_R_N = _move("ROTATED", "The rotation ends, stick not pulled back.", R, N, ~invert_y)
 REACH_N_F = _move("NORMAL-STOP", "Normale_marcia is left by CMD_ESTOP.", N, F, COMMANDED)
 REACH_SL_F = _move("LEFT-STOP", "Schivata_a_sinistra is left by CMD_ESTOP.", SL, F, COMMANDED)
 REACH_EL_F = _move("AVOID-LEFT-STOP", "Evita_sinistra is left by CMD_ESTOP.", EL, F, COMMANDED)
 REACH_CRIT_F = _move("CRITICAL-STOP", "Running ends by a critical state.", N, F, cmd == "CMD_NORMAL")
-REACH_R_F = _move("ROTATION-STOP", "A rotation ends by a critical state.", R, F, critical_cause)
-REACH_F_M = _move("STOP-REST", "The rover comes to rest after a stop.", F, M, TRUE, EXECUTED)
-REACH_M_N = _move("REST-NORMAL", "The stop is released.", M, N, TRUE, EXECUTED)
+REACH_R_F = _move("ROTATION-STOP", "A rotation ends by a critical state.", R, F, critical)
+REACH_F_M = _move("STOP-REST", "The rover comes to rest after a stop.", F, M)
+REACH_M_N = _move("REST-NORMAL", "The stop is released.", M, N)
 
 
 def _press(id: str, text: str, source: str, target: str, why: Expr) -> Property:

@@ -33,16 +33,24 @@ MONITORS: tuple[Component, ...] = (
 computed = ~give_b2_actuation | under("S48", "STILL-COMPUTED")
 safety_computed = computed | under("S49", "STOP-AND-GIVE")
 
-REFERENCES = Enabled(
-    safety_computed,
-    safety_state,
-    Enabled(computed, update_safety_limits, toggle, motion_supervision),
-    Enabled(
-        give_b2_actuation & under("S48", "ZERO"),
-        Block("No_references", [assign(v_ref, 0), assign(omega_ref, 0)], text="None while Board 2 drives."),
-    ),
-)
-"""Calculation of the references, executed only while Board 1 actuates [seed §2.1] (S48, S49)."""
+
+def references(*charts: Component) -> Enabled:
+    """Calculation of the references, executed only while Board 1 actuates [seed §2.1] (S48, S49)."""
+    return Enabled(
+        safety_computed,
+        safety_state,
+        Enabled(computed, update_safety_limits, *charts),
+        Enabled(
+            give_b2_actuation & under("S48", "ZERO"),
+            Block(
+                "No_references", [assign(v_ref, 0), assign(omega_ref, 0)], text="None while Board 2 drives."
+            ),
+        ),
+    )
+
+
+REFERENCES = references(toggle, motion_supervision)
+"""The references by the two regions of their chart, as drawn."""
 
 SUPERVISOR: tuple[Component, ...] = (
     *MONITORS,

@@ -37,11 +37,9 @@ def for_5_s(condition: Expr) -> Expr:
 
 
 from_0 = choose("S20", {"LITERAL": b >= 0, "CLAMP": True})
-to_15 = choose("S19", {"AS-WRITTEN": b <= 15, "UNIFORM-CLOSED": b <= 15, "UNIFORM-OPEN": b < 15})
-critical_range = choose(
-    "S15",
-    {"PCT": named("b in [0;15]", from_0 & to_15), "TEMP": named("T in [0;15]", (T >= 0) & (T <= 15))},
-)
+closed, open_ = named("b in [0;15]", from_0 & (b <= 15)), named("b in [0;15[", from_0 & (b < 15))
+percent_range = choose("S19", {"AS-WRITTEN": closed, "UNIFORM-CLOSED": closed, "UNIFORM-OPEN": open_})
+critical_range = choose("S15", {"PCT": percent_range, "TEMP": named("T in [0;15]", (T >= 0) & (T <= 15))})
 
 FALL = const(Fraction("0.42") / 1000, "%/ms")
 """The assumed fall without readings, 0.42 %/s."""
@@ -58,10 +56,15 @@ assumed_b = named(
         },
     ),
 )
-below = choose(
-    "S19", {"AS-WRITTEN": assumed_b < 15, "UNIFORM-CLOSED": assumed_b <= 15, "UNIFORM-OPEN": assumed_b < 15}
+strictly = named("stale_below_15", absent & (assumed_b < 15))
+stale_below_15 = choose(
+    "S19",
+    {
+        "AS-WRITTEN": strictly,
+        "UNIFORM-CLOSED": named("stale_to_15", absent & (assumed_b <= 15)),
+        "UNIFORM-OPEN": strictly,
+    },
 )
-stale_below_15 = named("stale_below_15", absent & below)  # strict, as printed (S19)
 estimated = choose(
     "S24",
     {

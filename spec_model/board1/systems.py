@@ -5,7 +5,7 @@ of it holds in the board too, and a counterexample counts when the board has one
 """
 
 from spec_model import environment as env
-from spec_model.board1 import SUPERVISOR
+from spec_model.board1 import SUPERVISOR, references
 from spec_model.board1.backward import toggle
 from spec_model.board1.battery import monitor_battery
 from spec_model.board1.classify import process_b2_masks
@@ -155,10 +155,11 @@ safety = in_order(
 )
 
 references_parts = (safety_state, update_safety_limits, motion_with_free_error)
+"""Calculation of the references in executed steps, for any backward mode and heading."""
 
-references = in_order(
+references_for_any_yaw = in_order(
     "references",
-    Enabled(~b1.give_b2_actuation, *references_parts),
+    references(motion_with_free_error),
     text="Safety state, limits and references, for any relay decision, faults, commands and wheel speeds.",
     notes=[FREE_STATUSES, FREE_CAUSES, FREE_BACKWARD, FREE_ERROR],
     over=True,
@@ -185,11 +186,10 @@ backward = in_order(
 
 backward_frozen = in_order(
     "backward_frozen",
+    relay,
     Enabled(~b1.give_b2_actuation, toggle),
-    text="The toggle of backward mode for any buttons, stick and relay decision.",
-    notes=["The relay decision is free in every step."],
-    over=True,
-    concrete="board1",
+    text="The relay decision and the toggle of backward mode, for any buttons, stick and statuses.",
+    notes=["The statuses of reception and Board 2 supervisor are free in every step."],
 )
 
 board1 = in_order(
@@ -222,7 +222,7 @@ SYSTEMS: tuple[System, ...] = (
     relay_links,
     safety,
     board1,
-    references,
+    references_for_any_yaw,
     references_executed,
     backward,
     backward_frozen,

@@ -16,7 +16,7 @@ from spec_model.board1.temperature_ranges import (
 )
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import const
+from spec_model.lang.expr import Expr
 from spec_model.lang.time import sec
 from spec_model.lang.words import held, named
 from spec_model.readings import choose, under
@@ -31,13 +31,22 @@ degraded_range = named(
 to_be_degraded = degraded_range | (under("S01", "DEG-WHILE-PENDING") & critical_range)
 to_be_ok = ok_range | (under("S01", "OK-DEFAULT") & critical_range)
 
-old = choose("S08", {"EQ": temp_age == 500, "GE": temp_age >= 500, "GT": temp_age > 500})
-limit = choose("S06", {"AS-WRITTEN": const(65, "°C"), "ALL-60": const(60, "°C")})
-above = choose("S14", {"GT": assumed_T > limit, "GE": assumed_T >= limit})
-stale_above_65 = named(
-    "stale_above_65",
-    choose("S07", {"TEMP": old & above, "RATE": False}),  # the assumed 1 °C/s is never above 65 °C/s
+
+def stale_above(limit: int) -> Expr:
+    """Readings are absent and the assumed temperature is above the limit."""
+    old = choose("S08", {"EQ": temp_age == 500, "GE": temp_age >= 500, "GT": temp_age > 500})
+    above = choose("S14", {"GT": assumed_T > limit, "GE": assumed_T >= limit})
+    return choose("S07", {"TEMP": old & above, "RATE": False})  # 1 °C/s is never above 65 °C/s
+
+
+stale_above_65 = choose(
+    "S06",
+    {
+        "AS-WRITTEN": named("stale_above_65", stale_above(65)),
+        "ALL-60": named("stale_above_60", stale_above(60)),
+    },
 )
+estimated = choose("S10", {"INSTANT": stale_above_65, "SUSTAINED": for_4_s(stale_above_65)})
 
 sustained = choose(
     "S01",
@@ -48,8 +57,6 @@ sustained = choose(
         "CRIT-AT-ONCE": critical_range,
     },
 )
-estimated = choose("S10", {"INSTANT": stale_above_65, "SUSTAINED": for_4_s(stale_above_65)})
-
 released = choose(
     "S05",
     {"IMMEDIATE": True, "SYMMETRIC": held(~critical_range & ~stale_above_65, for_=4 * sec), "LATCH": False},

@@ -20,7 +20,13 @@ from spec_model.board2.safety import safety_state_2
 from spec_model.board2.selection import selection
 from spec_model.board2.slow2 import Record, exact
 from spec_model.lang.chart import Component, Enabled
-from spec_model.signals.board2_supervisor import autorized_to_send_command, crit_mask_b1, degr_mask_b1
+from spec_model.signals.board2_supervisor import (
+    autorized_to_send_command,
+    crit_mask_b1,
+    critical_mask,
+    degr_mask_b1,
+    degraded_mask,
+)
 
 
 def obstacle_decision(heading: Heading = FREE) -> tuple[Component, ...]:
@@ -31,6 +37,8 @@ def obstacle_decision(heading: Heading = FREE) -> tuple[Component, ...]:
         deg_mask_b1=degr_mask_b1 != 0,
         crit_mask_b1=crit_mask_b1 != 0,
         autorized=autorized_to_send_command,
+        deg_mask_b2=degraded_mask != 0,
+        crit_mask_b2=critical_mask != 0,
     )
 
 

@@ -41,7 +41,8 @@ started = flag("coherence_started", "the initial step is over")
 wheel_gap = var(
     "coherence_wheel_gap", integer(0, USABLE), doc="ticks since last_valid_b1_ms, less one usable"
 )
-imu_gap = var("coherence_imu_gap", integer(0, LONG), doc="ticks since IMU.data_last_valid_ms")
+imu_gap = var("coherence_imu_gap", integer(0, SHORT), doc="ticks since IMU.data_last_valid_ms, a few")
+long_gap = var("coherence_long_gap", integer(0, LONG), doc="ticks since IMU.data_last_valid_ms, many")
 short_open = var("fast_open", integer(0, SHORT), doc="ticks from fast_start to the IMU stamp")
 long_open = var("long_open", integer(0, LONG), doc="ticks from long_start to the IMU stamp")
 ring = var("coherence_hits", integer(0, 2**10 - 1), doc="bit i: the short window i windows ago was a hit")
@@ -84,9 +85,9 @@ accumulate = Block("Coherence.rotation", [
 ], text="Rotation by IMU and by wheels in the open windows.")  # fmt: skip
 
 
-def _ends(window: Var, length: int, ends: Var) -> list[Action]:
+def _ends(window: Var, length: int, ends: Var, gap: Var) -> list[Action]:
     """The window grows to the IMU stamp of the step, if there is a new one, and ends when long enough."""
-    grown = minimum(window + imu_gap + 1, length)
+    grown = minimum(window + gap + 1, length)
     return [
         when(started & IMU.update, [assign(window, grown)]),
         assign(ends, window >= length),
@@ -101,13 +102,13 @@ hits = _hits
 """Hits among the last ten short windows."""
 
 short_windows = Block("Coherence.short", [
-    *_ends(short_open, SHORT, short_ends),
+    *_ends(short_open, SHORT, short_ends, imu_gap),
     when(short_ends, [assign(ring, modulo(ring * 2 + ite(hit, const(1), const(0)), 2**10))]),
     assign(short_result, ~(short_ends & (hits >= 8))),
 ], text="Short windows: eight hits in ten.")  # fmt: skip
 
 long_windows = Block("Coherence.long", [
-    *_ends(long_open, LONG, long_ends),
+    *_ends(long_open, LONG, long_ends, long_gap),
     assign(long_result, ~(long_ends & differs)),
 ], text="Long windows: 5° of difference.")  # fmt: skip
 
@@ -129,7 +130,12 @@ def _follow(update: Var, gap: Var) -> Action:
 
 stamps = Block(
     "Coherence.stamps",
-    [_follow(SUP.update, wheel_gap), _follow(IMU.update, imu_gap), assign(started, True)],
+    [
+        _follow(SUP.update, wheel_gap),
+        _follow(IMU.update, imu_gap),
+        _follow(IMU.update, long_gap),
+        assign(started, True),
+    ],
     text="The stamps that the next step compares with.",
 )
 

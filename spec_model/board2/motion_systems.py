@@ -33,7 +33,7 @@ SYSTEMS: tuple[System, ...] = (
         text="As references_2_drawn, with less to remember.",
         notes=(FREE_CAUSES, FREE_BACKWARD, FREE_ERROR),
         over=True,
-        concrete="references_2_drawn",
+        concrete="board2",
     ),
     in_order(
         "references_2_executed",

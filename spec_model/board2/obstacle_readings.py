@@ -39,14 +39,17 @@ def suspends(d: Var) -> Expr:
     return choose("E02", {"B70-STOP": touching(d), "B70-BOTH": d < 70, "B70-LT": touching(d)})
 
 
+edges = tuple(flag(f"edge{i}", f"S{i} begins to hold a detection in this step (E15 EDGE)") for i in (1, 2, 3))
+
 look_further: Sequence[Action] = (
+    when(under("E15", "EDGE"), [assign(edge, False) for edge in edges]),
     when(under("E02", "B70-BOTH"), [assign(block, any_of(*(suspends(d) for d in (d1, d2, d3))))]),
     when(under("E27", "PAIR"), [
         assign(near_12, suspends(d1) | suspends(d2)),
         assign(near_23, suspends(d2) | suspends(d3)),
     ]),
 )  # fmt: skip
-"""Computed together with ``stop``."""
+"""Computed together with ``stop``, before the detections."""
 
 _any = choose("E02", {"B70-STOP": stop, "B70-BOTH": block, "B70-LT": stop})
 _of_a_sonar = {1: near_12, 2: near_12 & near_23, 3: near_23}
@@ -80,7 +83,17 @@ may_move_again = choose("E10", {
 })  # fmt: skip
 """What lifts the stop beside the distances (E10)."""
 
-# --- how an object is lost (E17) --------------------------------------------------------------------
+# --- how an object is found and lost (E15, E17) ----------------------------------------------------------
+
+
+def note_edge(i: int, detected: Var) -> Action:
+    """Si is about to hold a detection."""
+    return when(under("E15", "EDGE"), [assign(edges[i - 1], ~detected)])
+
+
+def confirms(i: int, detected: Var) -> Expr:
+    """Si confirms that the object has moved to it: it holds a detection, or begins to (E15)."""
+    return choose("E15", {"LEVEL": detected, "EDGE": edges[i - 1]})
 
 
 def beyond(i: int) -> Var:

@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from spec_model.board2.heading import FREE, Heading
 from spec_model.board2.obstacle_readings import (
     another_signal,
+    confirms,
     drop_side,
     empty_the_queue,
     forget_during_a_stop,
@@ -20,6 +21,7 @@ from spec_model.board2.obstacle_readings import (
     looks,
     may_move_again,
     measure_further,
+    note_edge,
     note_side,
     opposite,
     pair_looks,
@@ -33,7 +35,7 @@ from spec_model.lang.action import Action, assign, send
 from spec_model.lang.chart import Chart, Junction, State, to
 from spec_model.lang.expr import FALSE, TRUE, Var, any_of
 from spec_model.lang.time import sec
-from spec_model.lang.words import after, named, rising
+from spec_model.lang.words import after, named
 from spec_model.readings import choose, under
 from spec_model.signals.board2 import (
     SONARS,
@@ -41,9 +43,6 @@ from spec_model.signals.board2 import (
     in_range,
     isClose,
     number,
-    obj1Detected,
-    obj2Detected,
-    obj3Detected,
     objDetected,
     prevDEG_B1,
     stop,
@@ -90,13 +89,14 @@ def _waiting(i: int, d: Var, is_close: Var, detected: Var, heading: Heading) -> 
     """
     WS = f"WS{i}"
     measure = [assign(is_close, in_range(d)), measure_further(i, d)]
+    detect = [*heading.at_detection(i, detected), note_edge(i, detected), assign(detected, True)]
     return State(f"Waiting_S{i}", default=WS, states=[
         State(WS, entry=measure, during=[*measure, forget_during_a_stop(i, detected)], transitions=[
             to("J0", when=looks(i)),
         ]),
     ], junctions=[
         Junction("J0", [to("J1", when=is_close), to("J3", when=~is_close & detected & left(i))]),
-        Junction("J1", [to("J2", do=[*heading.at_detection(i, detected), assign(detected, True)])]),
+        Junction("J1", [to("J2", do=detect)]),
         Junction("J2", [to(WS)]),
         Junction("J3", [to("J4", do=[assign(detected, False), send(f"Fall{i}", "timers")])]),
         Junction("J4", [to(WS)]),
@@ -110,7 +110,7 @@ def _distance_gt70(heading: Heading) -> State:
     ])  # fmt: skip
 
 
-def _timer(pair: str, second: Var, signal: str, do: Sequence[Action], heading: Heading) -> State:
+def _timer(pair: str, signal: str, do: Sequence[Action], heading: Heading) -> State:
     """A window of 3 s that opens when the first sonar loses the obstacle and waits for the second.
 
     At 3 s the end of the window comes first (E14); the level of the second flag suffices (E15); a
@@ -119,7 +119,7 @@ def _timer(pair: str, second: Var, signal: str, do: Sequence[Action], heading: H
     i, looking = int(pair[0]), pair_looks(pair)
     fall, opening = f"Fall{i}", heading.at_fall(i, pair)
     over = after(3 * sec)
-    confirmed = choose("E15", {"LEVEL": second, "EDGE": rising(second)})
+    confirmed = confirms(int(pair[1]), objDetected[int(pair[1]) - 1])
     return State(f"timerSonar{pair}", default="Waiting", states=[
         State("Waiting", transitions=[to("Fall1Detected", on=fall, when=looking, do=opening)]),
         State("Fall1Detected", transitions=[
@@ -139,10 +139,10 @@ def _timers(heading: Heading) -> State:
     """The four windows in the order of the figure, so that the leftmost signal comes first (E20)."""
     to_S1, to_S2, to_S3 = (send(f"moveToS{i}", "B2Decisions") for i in (1, 2, 3))
     return State("timers", parallel=True, states=[
-        _timer("12", obj2Detected, "moveToS1", [to_S1], heading),
-        _timer("21", obj1Detected, "moveToS2", [*say_left, to_S2, *said_left], heading),
-        _timer("23", obj3Detected, "moveToS2", [to_S2], heading),
-        _timer("32", obj2Detected, "moveToS3", [to_S3], heading),
+        _timer("12", "moveToS1", [to_S1], heading),
+        _timer("21", "moveToS2", [*say_left, to_S2, *said_left], heading),
+        _timer("23", "moveToS2", [to_S2], heading),
+        _timer("32", "moveToS3", [to_S3], heading),
     ])  # fmt: skip
 
 

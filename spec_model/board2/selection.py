@@ -3,7 +3,7 @@
 from spec_model.board2.obstacle_readings import moved_left
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block, Chart, Component, Enabled
-from spec_model.lang.expr import TRUE, Expr, any_of, flag, ite, member
+from spec_model.lang.expr import TRUE, Expr, any_of, ite, member
 from spec_model.readings import choose, under
 from spec_model.signals.board2 import (
     DEG_B1,
@@ -18,9 +18,6 @@ from spec_model.signals.board2 import (
 from spec_model.signals.board2_motion import bx_norm
 from spec_model.signals.common import COMMAND
 
-own_deg_mask = flag("own_deg_mask", "the degraded mask of Board 2 was not zero in the step before")
-own_crit_mask = flag("own_crit_mask", "the critical mask of Board 2 was not zero in the step before")
-
 
 def selection(
     normal: Chart,
@@ -29,14 +26,14 @@ def selection(
     deg_mask_b1: Expr,
     crit_mask_b1: Expr,
     autorized: Expr,
-    deg_mask_b2: Expr = own_deg_mask,
-    crit_mask_b2: Expr = own_crit_mask,
+    deg_mask_b2: Expr,
+    crit_mask_b2: Expr,
 ) -> tuple[Component, ...]:
     """Both charts, executed in every step (E32), between the blocks that select and translate.
 
     ``deg_mask_b1`` and ``crit_mask_b1``: the mask last received from Board 1 is not zero;
     ``autorized``: Board 2 was authorised to move the rover at the end of the step before (E09);
-    ``deg_mask_b2`` and ``crit_mask_b2``: its own mask was not zero then, by default a free input.
+    ``deg_mask_b2`` and ``crit_mask_b2``: its own mask was not zero then.
     """
     board1 = any_of(deg_mask_b1, crit_mask_b1, autorized)
     select = Block("SelectState", [

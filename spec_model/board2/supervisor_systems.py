@@ -16,13 +16,17 @@ from spec_model.board2.obstacles import obstacles_n
 from spec_model.board2.obstacles_degraded import obstacles_degraded
 from spec_model.board2.safety import safety_state_2
 from spec_model.board2.selection import selection
-from spec_model.board2.slow2 import forgotten, runs
-from spec_model.lang.action import assign
+from spec_model.board2.slow2 import Record, exact, forgotten, runs
+from spec_model.environment2 import scanned
+from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block, Component, Enabled
 from spec_model.lang.domain import enumeration
-from spec_model.lang.expr import Var, all_of, flag, implies, ite, var
+from spec_model.lang.expiry import free_timers
+from spec_model.lang.expr import Expr, Var, all_of, any_of, flag, ite, var
 from spec_model.lang.system import System, in_order
+from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
+from spec_model.signals.board2 import SONARS
 
 GRID = (
     "Time stamps lie on the 20 ms grid: an update carries the time of the step that sees it. "
@@ -166,19 +170,52 @@ check_alone = in_order(
     concrete="board2",
 )
 
-_links = (b2.SUP, b2.RX)
-_link_notes, _link_chart = monitors(forgotten, _links)
-check_links = in_order(
+LINKS = (b2.SUP, b2.RX)
+
+
+def _links(record: Record) -> tuple[Component, ...]:
+    notes, chart = monitors(record, LINKS)
+    clocks = (c for c, s in zip(env.clocks, b2.SOURCES, strict=True) if s in LINKS)
+    return (*clocks, *notes, chart)
+
+
+check_links_exact = in_order(
     "check_board1_links",
-    *(c for c, s in zip(env.clocks, b2.SOURCES, strict=True) if s in _links),
-    *_link_notes,
-    _link_chart,
+    env.masks_of_board1,
+    *_links(exact),
+    fault_masks_2,
+    process_masks,
     check_board1,
-    text="The authorisation of Board 2 behind the two monitors of Board 1; requests to switch are free.",
+    text="The authorisation of Board 2 behind the masks of Board 1 and the two monitors of Board 1.",
     assume=env.heartbeat_travels_in_frames,
-    notes=[GRID, WITH_FRAMES, FORGOTTEN],
-    over=True,
-    concrete="board2",
+    notes=[GRID, WITH_FRAMES, "The joystick and IMU monitors are left out: the authorisation reads neither."],
+)
+
+check_links = free_timers(
+    in_order(
+        "check_board1_links_free",
+        *_links(forgotten),
+        check_board1,
+        assume=env.heartbeat_travels_in_frames,
+        notes=[GRID, WITH_FRAMES, FORGOTTEN, "Requests to switch are free in every step."],
+        over=True,
+        concrete="check_board1_links",
+    ),
+    ["Check_Board1"],
+    name="check_board1_links_free",
+    text="As check_board1_links; the monitors return at will.",
+)
+check_links = replace(check_links, concrete="check_board1_links")
+
+check_requests = in_order(
+    "check_board1_requests",
+    env.masks_of_board1,
+    process_masks,
+    check_board1,
+    text="The authorisation of Board 2 while its links are in order, for any masks of Board 1.",
+    assume=(b2.rx_status == "RX_OK") & (b2.b1_sup_status == "SUP_OK"),
+    notes=["Both links of Board 1 are OK in every step."],
+    under=True,
 )
 
 safety = in_order(
@@ -218,16 +255,22 @@ coherence_short = in_order(
     concrete="coherence",
 )
 
-coherence_blocked = in_order(
-    "coherence_blocked",
-    *coherence.COHERENCE,
-    text="Coherence of a rover that the IMU sees turn while its wheels stand still.",
-    assume=all_of(
-        b2.IMU.update, b2.gz_dps == 2, ~b2.SUP.update, *(w == 0 for w in b2.wheel_speed_rpm.values())
-    ),
-    notes=[GRID, "2° each second, an IMU sample in every step."],
-    under=True,
-)
+
+def _blocked(name: str, rate: int) -> System:
+    """The coherence as a whole where the rover turns at ``rate`` degrees per second on resting wheels."""
+    wheels_rest = (speed == 0 for speed in b2.wheel_speed_rpm.values())
+    return in_order(
+        name,
+        *coherence.COHERENCE,
+        text="Coherence of a rover that the IMU sees turn while its wheels stand still.",
+        assume=all_of(b2.IMU.update, b2.gz_dps == rate, ~b2.SUP.update, *wheels_rest),
+        notes=[GRID, f"{rate}° each second, an IMU sample in every step."],
+        under=True,
+    )
+
+
+coherence_blocked = _blocked("coherence_blocked", 2)
+coherence_spinning = _blocked("coherence_spinning", 10)
 
 actuation = in_order(
     "actuation_2",
@@ -250,6 +293,7 @@ sonar_task = System(
         FEW_VALUES,
     ),
     tick_ms=1,
+    step_ms=1,
 )
 
 joystick_task = in_order(
@@ -264,6 +308,9 @@ joystick_task = in_order(
 FREE_HEADING = "The 45 degree test of the heading is a free input, false in the step of entry."
 
 
+BOARD2: tuple[Component, ...] = (*env.SNAPSHOTS, *env.clocks, env.sonar_clock, *SUPERVISOR, ACTUATION)
+
+
 def _obstacles_and_monitors() -> tuple[Component, ...]:
     charts = selection(
         obstacles_n(),
@@ -271,35 +318,77 @@ def _obstacles_and_monitors() -> tuple[Component, ...]:
         deg_mask_b1=b2.degr_mask_b1 != 0,
         crit_mask_b1=b2.crit_mask_b1 != 0,
         autorized=b2.autorized_to_send_command,
+        deg_mask_b2=b2.degraded_mask != 0,
+        crit_mask_b2=b2.critical_mask != 0,
     )
     return (*charts, *RECORDS, monitor_sources, fault_masks_2, process_masks, check_board1)
 
 
-sonar_silence = in_order(
+one_scan = Block("OneScan", [when(b2.sonar_update, [assign(scanned, True)])])
+
+
+def _all_is_well(name: str, text: str, scans: Expr, note: str) -> System:
+    """Obstacle charts and monitors, with sound Board 1 and sources, and sonar data as told."""
+    return in_order(
+        name,
+        env.sonars,
+        env.sonar_clock,
+        one_scan,
+        env.masks_of_board1,
+        *env.clocks,
+        *_obstacles_and_monitors(),
+        text=text,
+        assume=all_of(
+            *(s.update for s in b2.SOURCES),
+            *(env.arriving(mask) == 0 for mask in (b2.crit_mask_b1, b2.degr_mask_b1)),
+            scans,
+        ),
+        notes=[FEW_VALUES, FREE_HEADING, "All four monitored sources deliver in every step.", note],
+        under=True,
+    )
+
+
+sonar_silence = _all_is_well(
     "sonar_silence",
-    env.sonars,
-    env.sonar_clock,
-    env.masks_of_board1,
-    *env.clocks,
-    *_obstacles_and_monitors(),
-    text="Board 2 with sonar data that stop changing, all four monitored sources delivering in every step.",
+    "Board 2 with sonar data that stop changing.",
+    b2.sonar_update == ~scanned,
+    "One scan in the first step, and none after it.",
+)
+
+sonar_without_echo = _all_is_well(
+    "sonar_without_echo",
+    "Board 2 with sonars of which none hears an echo.",
+    all_of(b2.sonar_update, *(env.arriving(d) == 301 for d in SONARS)),
+    "A scan without echo in every step.",
+)
+
+ON_ITS_OWN = (
+    "No frame of Board 1 ever arrives; joystick and IMU deliver in every step, no sonar hears an echo, the "
+    "rover keeps its heading, the stick is pushed forward or not, to the left or not."
+)
+on_its_own = in_order(
+    "board2_on_its_own",
+    *BOARD2,
+    text="Board 2 with a Board 1 that never sends.",
     assume=all_of(
-        *(s.update for s in b2.SOURCES),
-        *(mask == 0 for mask in map(env.arriving, (b2.crit_mask_b1, b2.degr_mask_b1))),
-        implies(b2.sonar_age > 0, ~b2.sonar_update),
+        ~b2.SUP.update,
+        ~b2.RX.update,
+        b2.BLE.update,
+        b2.IMU.update,
+        b2.sonar_update,
+        *(env.arriving(d) == 301 for d in SONARS),
+        *(env.arriving(still) == 0 for still in (motion.yaw, b2.gz_dps)),
+        *(~env.arriving(button) for button in (motion.btn1, motion.btn2)),
+        any_of(*(env.arriving(motion.ay_norm) == y for y in (0, 1))),
+        any_of(*(env.arriving(motion.bx_norm) == x for x in (0, 1))),
     ),
-    notes=[FEW_VALUES, FREE_HEADING, "One scan in the first step at the earliest, and none after it."],
+    notes=[GRID, ON_ITS_OWN],
     under=True,
 )
 
 board2 = in_order(
     "board2",
-    *env.SNAPSHOTS,
-    *env.clocks,
-    env.sonar_clock,
-    env.check_stop,
-    *SUPERVISOR,
-    ACTUATION,
+    *BOARD2,
     text="The whole supervisor of Board 2 and its motor commands, with exact records of ten gaps.",
     assume=env.heartbeat_travels_in_frames,
     notes=[GRID, WITH_FRAMES, FEW_VALUES, "The heading is a multiple of 2.5 degrees."],
@@ -313,15 +402,20 @@ SYSTEMS: tuple[System, ...] = (
     monitors_twice_exact,
     masks,
     check_alone,
+    check_links_exact,
     check_links,
+    check_requests,
     safety,
     coherence_exact,
     coherence_long,
     coherence_short,
     coherence_blocked,
+    coherence_spinning,
     actuation,
     sonar_task,
     joystick_task,
     sonar_silence,
+    sonar_without_echo,
+    on_its_own,
     board2,
 )

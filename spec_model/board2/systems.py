@@ -14,6 +14,8 @@ from spec_model.signals.board2 import d1, d2, d3
 deg_mask_b1 = flag("deg_mask_b1", "the degraded mask last received from Board 1 is not zero")
 crit_mask_b1 = flag("crit_mask_b1", "the critical mask last received from Board 1 is not zero")
 autorized_prev = flag("autorized_prev", "Board 2 was authorised to move the rover in the step before")
+own_deg_mask = flag("own_deg_mask", "the degraded mask of Board 2 was not zero in the step before")
+own_crit_mask = flag("own_crit_mask", "the critical mask of Board 2 was not zero in the step before")
 
 ARBITRARY = "The three distances are arbitrary in every step, on both sides of 70, 100 and 300 cm."
 FREE_FLAG = "prevDEG_B1 is arbitrary in every step."
@@ -39,6 +41,8 @@ def _selected(chart: Chart) -> tuple[Component, ...]:
         deg_mask_b1=deg_mask_b1,
         crit_mask_b1=crit_mask_b1,
         autorized=autorized_prev,
+        deg_mask_b2=own_deg_mask,
+        crit_mask_b2=own_crit_mask,
     )
 
 

@@ -156,6 +156,7 @@ class Fixing:
             components=self.components(system.components),
             frozen=tuple(v for v in system.frozen if v.name not in self.values),
             assume=self.expr(system.assume),
+            assumptions=tuple(replace(a, formula=self.expr(a.formula)) for a in system.assumptions),
         )
 
     def parts_of(self, record: T) -> T:

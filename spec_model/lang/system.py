@@ -6,12 +6,12 @@ that maps the valuation before a tick and the inputs of the tick to the valuatio
 All nondeterminism is an input or a frozen variable.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 
 from spec_model.lang.action import Assign, If
 from spec_model.lang.chart import Block, Chart, Component, Enabled, parts
-from spec_model.lang.expr import TRUE, Expr, Var
+from spec_model.lang.expr import TRUE, Expr, Var, all_of
 from spec_model.lang.walk import variables
 
 Valuation = Mapping[str, int]
@@ -26,10 +26,23 @@ TICK_MS = 20
 
 
 @dataclass(frozen=True)
+class Assumption:
+    """What a system takes for granted of its environment: an id, in words, and as a formula.
+
+    The formula restricts the inputs of a tick and may read the valuation before the tick.
+    """
+
+    id: str
+    text: str
+    formula: Expr
+
+
+@dataclass(frozen=True)
 class System:
     """Components executed in order in every tick.
 
-    ``assume`` restricts the inputs of a tick (it may read the valuation before the tick); ``notes``
+    ``assume`` restricts the inputs of a tick (it may read the valuation before the tick), and so do the
+    ``assumptions``, which have names and can be dropped one by one; ``notes``
     say in words what the system abstracts and assumes; ``over`` and ``under`` say whether it has
     more or fewer behaviours than the specification.  ``concrete`` names the system that a violation
     found on an over-approximation must be reproduced on.  A tick is ``tick_ms`` long; the temporal words
@@ -47,6 +60,16 @@ class System:
     over: bool = False
     under: bool = False
     concrete: str = ""
+    assumptions: tuple[Assumption, ...] = ()
+
+    @property
+    def assumed(self) -> Expr:
+        """Everything that restricts the inputs of a tick."""
+        return all_of(self.assume, *(a.formula for a in self.assumptions))
+
+    def without(self, dropped: Collection[str]) -> "System":
+        """The system without the assumptions of these ids: it has more runs."""
+        return replace(self, assumptions=tuple(a for a in self.assumptions if a.id not in dropped))
 
     @property
     def charts(self) -> tuple[Chart, ...]:
@@ -67,7 +90,7 @@ class System:
     @property
     def inputs(self) -> dict[str, Var]:
         """Data read by some component and written by none, except frozen data, by name."""
-        found = variables(self.assume)
+        found = variables(self.assumed)
         for part in parts(self.components):
             found |= part.read
         for enabled in _enabled(self.components):
@@ -95,6 +118,7 @@ def in_order(
     under: bool = False,
     concrete: str = "",
     tick_ms: int = TICK_MS,
+    assumptions: Sequence[Assumption] = (),
 ) -> System:
     """A system whose components run in the order given, once per tick, by default of 20 ms."""
     return System(
@@ -109,6 +133,7 @@ def in_order(
         over,
         under,
         concrete,
+        tuple(assumptions),
     )
 
 

@@ -17,10 +17,10 @@ btn2 = flag("B2.btn2", "joystick button 2 is pressed")
 yaw = var("yaw", HEADING, 0, "heading, clockwise positive")
 wheels_below_2_5 = flag("B2.wheels_below_2_5", "checkStop: all four wheels are slower than 2.5 rpm")
 
-# --- references: [-0.5;0.5] of full speed (E25) -----------------------------------------------------
+# --- references, normalised; the charts keep them in [-0.5;0.5] (E25) --------------------------------
 
-V_REFERENCE = fixed(-0.5, 0.5, "0.05")
-OMEGA_REFERENCE = fixed(-0.5, 0.5, "0.5")
+V_REFERENCE = fixed(-1, 1, "0.05")
+OMEGA_REFERENCE = fixed(-1, 1, "0.5")
 
 v_ref_actuation = var("v_ref_actuation", V_REFERENCE, doc="linear reference while Board 2 drives")
 omega_ref_actuation = var(

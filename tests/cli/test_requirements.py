@@ -9,7 +9,7 @@ import pytest
 from checker.cli import run
 from checker.commands.check import Compared, results
 from checker.commands.codes import Exit
-from checker.commands.reporting import pages
+from checker.commands.reporting import pages_of_verdicts
 from checker.commands.requirements import DECIDED, ON_RECORD, because, counts, page, show, words
 from checker.decide import AUTO
 from checker.engine import Limits
@@ -125,13 +125,13 @@ def test_the_json_says_of_each_property_what_is_on_record(capfd: pytest.CaptureF
 def test_verdicts_can_be_decided_now(
     monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    some = {id: catalogue()[id] for id in ("PB1-11", "PB1-15")}
+    some = {id: catalogue()[id] for id in ("PB1-11", "PB2-12-first")}
     monkeypatch.setattr("checker.commands.requirements.catalogue", lambda: some)
     code = run(["requirements", "--check", "--json"])
     found = json.loads(capfd.readouterr().out)
     assert (code, found["verdicts"]) == (Exit.CHANGED, DECIDED)
-    [row] = [row for row in found["requirements"] if row["id"] == "B1-REL-04"]
-    assert row["properties"] == [{"id": "PB1-15", "verdict": "violated", "covers": True}]
+    [row] = [row for row in found["requirements"] if row["id"] == "B2-OBS-04"]
+    assert row["properties"] == [{"id": "PB2-12-first", "verdict": "violated", "covers": True}]
 
 
 # --- the reasons ---------------------------------------------------------------------------------
@@ -161,22 +161,23 @@ def test_a_reason_says_which_kind_it_is_and_names_what_exists(id: str) -> None:
 
 @pytest.fixture(scope="module")
 def found() -> list[Compared]:
-    some = [catalogue()[id] for id in ("PB1-11", "PB1-15", "PB1-06a-FL", "REACH-RELAY-B2")]
+    some = [catalogue()[id] for id in ("PB1-11", "PB2-12-first", "REACH-WHEEL-DEG")]
     return [Compared(r, expected(r.property.id)) for r in results(some, systems(), AUTO, Limits())]
 
 
 def test_the_page_links_a_violation_to_its_finding(found: list[Compared]) -> None:
     rows = {line.split(" | ")[0].strip("| "): line for line in page(found).splitlines() if " | " in line}
-    assert rows["B1-REL-04"].endswith("| violated | [PB1-15](findings/PB1-15.md) |")
-    assert rows["B1-REL-02"].endswith("| proved | PB1-11; reached by REACH-RELAY-B2 |")
-    assert rows["B1-REL-01"].endswith("| reached | reached by REACH-RELAY-B2 |")
-    assert "by construction: " in rows["B1-GEN-01"]
-    assert words(found)["PB1-15"] == "violated"
+    assert rows["B2-OBS-04"].endswith("| violated | [PB2-12-first](findings/PB2-12-first.md) |")
+    assert rows["B1-REL-02"].endswith("| proved | PB1-11 |")
+    assert rows["B1-WHL-01"].endswith("| reached | reached by REACH-WHEEL-DEG |")
+    assert "| reason | by construction: " in rows["B1-GEN-01"]
+    assert words(found)["PB2-12-first"] == "violated"
 
 
 def test_the_reports_say_what_is_checked(found: list[Compared]) -> None:
-    made = pages(found)
-    said = "Formally: From step 2 on, in every step in which rx_status is RX_OK and b2_sup_status is SUP_OK, "
-    assert f"<br>{said}" not in made["README.md"] and f"</summary>{said}" in made["README.md"]
-    assert f"\n> {said}give_b2_actuation is false.\n" in made["findings/PB1-15.md"]
+    made = pages_of_verdicts(found)
+    said = "Formally: In every step in which “nearest &lt;= 300” holds, B2DecDegraded is 6."
+    meant = "“nearest &lt;= 300” means: d1 is at most 300 cm or d2 is at most 300 cm or d3 is at most 300 cm."
+    assert f"</summary>{said}<br>{meant}</details>" in made["README.md"]
+    assert f"\n> {said}\n>\n> {meant}\n" in made["findings/PB2-12-first.md"]
     assert "“a link is critical” means: rx_status is RX_CRITICAL or" in made["README.md"]

@@ -4,25 +4,42 @@ import pytest
 
 from spec_model.board1.battery import stale_below_15
 from spec_model.board1.temperature import stale_above_65
-from spec_model.environment import heartbeat_clock, reception_clock, temperature_readings
+from spec_model.environment import (
+    battery_readings,
+    heartbeat_clock,
+    reception_clock,
+    temperature_readings,
+)
+from spec_model.lang.chart import Block
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.interpret import Interpreter
 from spec_model.lang.system import in_order
+from spec_model.readings import fixed
 from spec_model.signals.board1 import batt_age, battery_pct, heartbeat_age, rx_age, temp_age, temperature_degC
 
 
 @pytest.mark.parametrize(
-    ("estimate", "value", "age", "slowest"),
-    [(stale_above_65, temperature_degC, temp_age, -16), (stale_below_15, battery_pct, batt_age, 80)],
-    ids=["temperature", "battery"],
+    ("block", "estimate", "value", "age", "last_ms", "slowest", "choices"),
+    [
+        (temperature_readings, stale_above_65, temperature_degC, temp_age, 81_020, -16, {}),
+        (temperature_readings, stale_above_65, temperature_degC, temp_age, 81_520, -16, {"S09": "FROM-0.5"}),
+        (battery_readings, stale_below_15, battery_pct, batt_age, 154_780, 80, {}),
+        (battery_readings, stale_below_15, battery_pct, batt_age, 155_280, 80, {"S24": "FROM-0.5-INSTANT"}),
+    ],
+    ids=["temperature", "temperature from 0.5 s", "battery", "battery from 0.5 s"],
 )
 def test_an_age_stops_where_every_estimate_is_past_its_limit(
-    estimate: Expr, value: Var, age: Var, slowest: int
+    block: Block, estimate: Expr, value: Var, age: Var, last_ms: int, slowest: int, choices: dict[str, str]
 ) -> None:
-    last = age.domain.high
-    assert all(evaluate(estimate, {value.name: raw, age.name: last}) for raw in value.domain.values)
-    assert not evaluate(estimate, {value.name: value.domain.raw(slowest), age.name: last - 1})
+    reading, last = fixed(choices), age.domain.raw(last_ms)
+    past = reading.expr(estimate)
+    assert all(evaluate(past, {value.name: raw, age.name: last}) for raw in value.domain.values)
+    assert not evaluate(past, {value.name: value.domain.raw(slowest), age.name: last - 1})
+    board = Interpreter(in_order("board", *reading.components([block])))
+    for _ in range(last + 2):
+        board.step({name: 0 for name in board.system.inputs})
+    assert board.data[age.name] == last
 
 
 @pytest.mark.parametrize("age", [rx_age, heartbeat_age], ids=lambda age: age.name)
@@ -38,7 +55,7 @@ def test_before_the_first_update_the_age_counts_from_power_up() -> None:
 
 
 def test_a_reading_is_kept_until_the_next() -> None:
-    board = Interpreter(in_order("board", temperature_readings))
+    board = Interpreter(in_order("board", *fixed({}).components([temperature_readings])))
     warm, cold = (temperature_degC.domain.raw(t) for t in (57, -6))
     for update, reading in [(1, warm), (0, cold), (0, cold)]:
         board.step({"temp_update": update, "temp_reading": reading})

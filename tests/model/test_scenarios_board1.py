@@ -87,6 +87,14 @@ def steps(system: System, blocks: Sequence[Block], watched: set[str]) -> Iterato
             yield {n: system.written[n].domain.show(rover.data[n]) for n in watched}
 
 
+HANDS_OFF: Given = {"frame_y_norm": 0}
+BACKWARD_MODE: list[Block] = [
+    block
+    for button in ("frame_btn1", "frame_btn1", "frame_btn2", "frame_btn2")
+    for block in ((TICK_MS, HANDS_OFF), (TICK_MS, {**HANDS_OFF, button: True}))
+]
+"""The four presses that switch backward mode on, 160 ms."""
+
 SCENARIOS: dict[str, tuple[list[Block], list[Expected]]] = {
     "S01 degraded while the 4 s run": (
         [(3000, temp(66)), (1000, temp(25))],
@@ -202,7 +210,7 @@ SCENARIOS: dict[str, tuple[list[Block], list[Expected]]] = {
         [(60, {"frame_crit_mask_b2": 4, "frame_y_norm": 0.4})], [(40, "v_ref", "0.2")]),
     "S59 no reverse outside backward mode": ([(60, {"frame_y_norm": -0.4})], [(40, "v_ref", "0")]),
     "S59 reverse in backward mode": (
-        [(60, {"frame_y_norm": -0.4, "backward_enabled": True})], [(40, "v_ref", "-0.4")]),
+        [*BACKWARD_MODE, (60, {"frame_y_norm": -0.4})], [(200, "v_ref", "-0.4")]),
     "S60 dodging to the left": (
         [(60, {"frame_cmd": "CMD_GO_LEFT"})],
         [(40, "v_ref", "0.8"), (40, "omega_ref", "0.4"), (40, "current_action", "CMD_GO_LEFT")]),

@@ -13,10 +13,10 @@ from properties.english import definitions, sentence
 from properties.forms import Property
 from properties.phrases import Voice, clause, term
 from spec_model.lang.domain import enumeration, fixed, integer
-from spec_model.lang.expr import FALSE, TRUE, Expr, Op, any_of, const, flag, implies, ite, var
+from spec_model.lang.expr import FALSE, TRUE, Expr, Named, Op, any_of, const, flag, implies, ite, var
 from spec_model.lang.label import text
 from spec_model.lang.time import ms, sec, ticks
-from spec_model.lang.walk import nodes
+from spec_model.lang.walk import nodes, structure
 from spec_model.lang.words import (
     absolute,
     after,
@@ -110,7 +110,7 @@ FORMS = [
 
 @pytest.mark.parametrize(("form", "said"), FORMS, ids=[said for _, said in FORMS])
 def test_a_form_in_words(form: forms.Form, said: str) -> None:
-    assert sentence(prop(form)) == said
+    assert sentence(prop(form), 20) == said
 
 
 def test_every_form_has_a_golden_sentence() -> None:
@@ -118,7 +118,7 @@ def test_every_form_has_a_golden_sentence() -> None:
 
 
 def test_the_first_step_that_counts_is_said() -> None:
-    assert sentence(prop(forms.Never(a), 2)) == "From step 2 on, there is no step in which a is true."
+    assert sentence(prop(forms.Never(a), 2), 20) == "From step 2 on, there is no step in which a is true."
 
 
 def test_a_step_may_have_another_length() -> None:
@@ -199,6 +199,15 @@ TERMS = [
     (ite(a, n, m), "(n if a is true, otherwise m)"),
     (age + const("0.5", "ms"), "age + 0.5 ms"),
     (named("half", m * 2), "“half”"),
+    (
+        ite(a, const(1), const(0)) + ite(~b, const(1), const(0)),
+        "the number of true ones among (a is true; b is false)",
+    ),
+    (n + ite(b, const(1), const(0)), "n + (1 if b is true, otherwise 0)"),
+    (
+        ite(a, const(1), const(0)) + ite(b, const(2), const(0)),
+        "(1 if a is true, otherwise 0) + (2 if b is true, otherwise 0)",
+    ),
 ]
 
 
@@ -232,8 +241,8 @@ def test_a_named_formula_is_spelled_out_once_below_and_so_are_those_in_it() -> N
     assumed = named("assumed", n * 2)
     stale = named("stale", silent & (assumed > 6))
     told = prop(forms.Always(implies(stale, a & ~silent)))
-    assert sentence(told) == "In every step in which “stale” holds, a is true and “silent” does not hold."
-    assert definitions(told) == (
+    assert sentence(told, 20) == "In every step in which “stale” holds, a is true and “silent” does not hold."
+    assert definitions(told, 20) == (
         "“stale” means: “silent” holds and “assumed” is above 6.",
         "“silent” means: age is above 120 ms.",
         "“assumed” is n × 2.",
@@ -241,7 +250,7 @@ def test_a_named_formula_is_spelled_out_once_below_and_so_are_those_in_it() -> N
 
 
 def test_a_name_that_is_not_quoted_is_not_spelled_out() -> None:
-    assert definitions(prop(forms.Recoverable(a, by=silent, within=1 * sec))) == ()
+    assert definitions(prop(forms.Recoverable(a, by=silent, within=1 * sec)), 20) == ()
 
 
 # --- no change goes unsaid -----------------------------------------------------------------------
@@ -273,7 +282,7 @@ CHANGES = [
 
 @pytest.mark.parametrize(("one", "other"), CHANGES, ids=[f"{i}" for i in range(len(CHANGES))])
 def test_another_property_has_another_sentence(one: forms.Form, other: forms.Form) -> None:
-    assert sentence(prop(one)) != sentence(prop(other))
+    assert sentence(prop(one), 20) != sentence(prop(other), 20)
 
 
 # --- the catalogue -------------------------------------------------------------------------------
@@ -293,10 +302,19 @@ def _bare(line: str) -> str:
     return "".join(part.rpartition("”")[2] for part in line.split("“"))
 
 
+def test_in_a_property_a_name_means_one_formula() -> None:
+    by: dict[tuple[str, str], set[object]] = {}
+    for known in catalogue().values():
+        for formula in nodes(*forms.formulas(known.form)):
+            if isinstance(formula, Named):
+                by.setdefault((known.id, formula.name), set()).add(structure(formula.body))
+    assert [where for where, meanings in by.items() if len(meanings) > 1] == []
+
+
 def test_properties_with_one_sentence_are_one_property() -> None:
     by: dict[tuple[str, ...], set[str]] = {}
     for known in catalogue().values():
-        said = (known.on, sentence(known), *definitions(known))
+        said = (known.on, *formally(known))
         by.setdefault(said, set()).add(" ".join(text(f) for f in forms.formulas(known.form)))
     assert [said for said, written in by.items() if len(written) > 1] == []
 

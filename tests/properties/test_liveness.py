@@ -9,6 +9,7 @@ from hypothesis import strategies as st
 
 from checker.decide import AUTO, Task, decide, tasks
 from checker.engine import Limits, engines, quiet
+from checker.liveness import NO_LOOP
 from checker.loops import hunt, looped
 from checker.recover import Trap, trapped
 from checker.render.trace_json import SCHEMA, document
@@ -174,14 +175,14 @@ def test_a_loop_is_shown_with_its_start_and_its_timers() -> None:
 
 def test_a_bound_proves_more_than_was_asked() -> None:
     verdict = _decided(LeadsTo(busy, ~busy, bound=60 * ms), "ready").verdict
-    assert isinstance(verdict, Proved) and verdict.stronger == "even within 60 ms"
+    assert isinstance(verdict, Proved) and verdict.claim == "even within 60 ms"
 
 
 @pytest.mark.parametrize("bound", [None, 20 * ms])
 def test_without_a_bound_that_holds_all_loops_are_excluded(bound: object) -> None:
     form = LeadsTo(busy, ~busy, bound=None if bound is None else 1 * ticks)
     verdict = _decided(form, "ready").verdict
-    assert isinstance(verdict, Proved) and isinstance(verdict.because, Exhausted) and not verdict.stronger
+    assert isinstance(verdict, Proved) and isinstance(verdict.because, Exhausted) and verdict.claim == NO_LOOP
 
 
 def test_fairness_leaves_out_runs_that_are_stuck_by_choice() -> None:
@@ -202,7 +203,7 @@ def test_a_trap_is_a_run_into_it_and_what_it_leads_to() -> None:
 def test_inputs_that_lead_back_prove_the_way_back() -> None:
     back = Recoverable(PLANT.active("Idle"), by=~stay & ~go, within=80 * ms)
     verdict = _decided(back, "calm").verdict
-    assert isinstance(verdict, Proved) and verdict.stronger == "even within 80 ms"
+    assert isinstance(verdict, Proved) and verdict.claim == "even within 80 ms"
 
 
 @pytest.mark.parametrize("by", [jam, busy, go & ~go])

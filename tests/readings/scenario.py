@@ -47,7 +47,7 @@ def histories(
     warm_up: int = WARM_UP,
 ) -> list[str]:
     """All values of each watched signal from time 0 on, with the ms at which each begins: ``0 500 1``."""
-    before = [(warm_up, {})] if warm_up else []
+    before: Blocks = [(warm_up, {})] if warm_up else []
     steps = list(shown(system, [*before, *blocks], watched, nominal))[warm_up // TICK_MS :]
     return [_history([step[name] for step in steps]) for name in watched]
 

@@ -24,29 +24,31 @@ BOARD = ["masks", "board1"]
 """All of them show on the board, that of S33 in the masks."""
 
 CASES = [
-    (id, choice, name)
+    (id, choice, (*names, *BOARD))
     for first, last, names in OWN
     for id, reading in readings().items()
     if first <= id <= last
     for choice in reading.choices
-    if choice not in reading.not_modelled
-    for name in (*names, *BOARD)
+    if choice not in reading.not_modelled and choice != reading.default
 ]
 
 
 @cache
-def _system(id: str, choice: str, name: str) -> System:
-    return systems({id: choice})[name]
+def _systems(id: str, choice: str) -> dict[str, System]:
+    return systems({id: choice})
 
 
-@pytest.mark.parametrize(("id", "choice", "name"), CASES)
-def test_the_system_can_be_lowered(id: str, choice: str, name: str) -> None:
-    assert lower(_system(id, choice, name)).step
+@pytest.mark.parametrize(("id", "choice", "names"), CASES)
+def test_the_systems_can_be_lowered(id: str, choice: str, names: tuple[str, ...]) -> None:
+    for name in names:
+        assert lower(_systems(id, choice)[name]).step
 
 
-@pytest.mark.parametrize(("id", "choice", "name"), [case for case in CASES if case[2] not in BOARD])
+@pytest.mark.parametrize(("id", "choice", "names"), CASES)
 @settings(max_examples=2, suppress_health_check=list(HealthCheck))
 @given(data=st.data())
-def test_interpreter_and_lowering_agree(id: str, choice: str, name: str, data: st.DataObject) -> None:
-    system = _system(id, choice, name)
+def test_interpreter_and_lowering_agree(
+    id: str, choice: str, names: tuple[str, ...], data: st.DataObject
+) -> None:
+    system = _systems(id, choice)[names[0]]
     compare(system, [inputs for inputs in data.draw(input_blocks(system)) for _ in range(20)])

@@ -25,7 +25,7 @@ def lower(system: System) -> TransitionSystem:
         variables=(*made.locations, *data.values(), *made.timers, *checks),
         temps=tuple(made.flags),
         step=(*(Assign(check, FALSE) for check in checks), *body),
-        assume=system.assume,
+        assume=system.assumed,
         checks=tuple((check, check.doc) for check in checks),
         tick_ms=system.tick_ms,
         notes=system.notes,

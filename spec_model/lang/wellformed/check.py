@@ -44,7 +44,7 @@ def _system_faults(system: System) -> Iterator[str]:
     yield from _name_faults(system)
     for by in enables(system.components):
         yield from _condition_faults(f"the enable `{by}`", by)
-    yield from _condition_faults(f"the assumption `{system.assume}`", system.assume)
+    yield from _condition_faults(f"the assumption `{system.assumed}`", system.assumed)
     yield from system_data_faults(system)
 
 

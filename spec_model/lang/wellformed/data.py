@@ -95,7 +95,7 @@ def _writers(system: System, name: str) -> list[str]:
 def _readers(system: System) -> Iterator[tuple[str, dict[str, Var]]]:
     for part in parts(system.components):
         yield part.name, part.read
-    yield "the assumption", variables(system.assume)
+    yield "the assumption", variables(system.assumed)
     for by in enables(system.components):
         yield f"the enable `{by}`", variables(by)
 
@@ -131,7 +131,7 @@ def _occurrences(system: System) -> Iterator[Var]:
         yield from _vars(chart.expressions, chart.all_actions)
     for block in system.blocks:
         yield from _vars([], block.do)
-    yield from (*system.frozen, *_vars([system.assume, *enables(system.components)], ()))
+    yield from (*system.frozen, *_vars([system.assumed, *enables(system.components)], ()))
 
 
 def _vars(exprs: Sequence[Expr], actions: Sequence[Action]) -> Iterator[Var]:

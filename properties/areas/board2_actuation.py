@@ -1,0 +1,70 @@
+"""What must be true of the wheel speeds that Board 2 commands [seed §3.1] (E25)."""
+
+from properties.forms import always, holds_after, reachable
+from spec_model.board2.actuation import LIMIT, RAMP
+from spec_model.lang.expr import all_of, implies
+from spec_model.lang.time import ticks
+from spec_model.lang.words import absolute, named, previous
+from spec_model.signals.board2_motion import actuate_emergency_stop, omega_ref_actuation, v_ref_actuation
+from spec_model.signals.board2_supervisor import (
+    autorized_to_send_command,
+    driver_initialised,
+    left_rpm,
+    right_rpm,
+    sends_speeds,
+    stop_pin,
+)
+
+ON, ALONE = "actuation_2", "board2_on_its_own"
+autorized = autorized_to_send_command
+at_rest = named("wheel speeds of 0 commanded", (left_rpm == 0) & (right_rpm == 0))
+no_motion = named("zero references", (v_ref_actuation == 0) & (omega_ref_actuation == 0))
+
+PB2_16m = always(
+    "PB2-16m", "Board 2 sends motor commands only in steps in which it is authorised.",
+    that=implies(sends_speeds, autorized), covers=["B2-ACT-01"], on=ON, readings=["E22"],
+)  # fmt: skip
+PB2_16n = always(
+    "PB2-16n", "The commanded wheel speeds are at most 80 rpm in magnitude.",
+    that=(absolute(left_rpm) <= LIMIT) & (absolute(right_rpm) <= LIMIT),
+    covers=["B2-ACT-01", "B1-REF-05"], on=ON, readings=["E25"],
+)  # fmt: skip
+PB2_16o = always(
+    "PB2-16o", "A commanded wheel speed changes by at most 4 rpm from one command to the next.",
+    that=implies(
+        autorized & previous(autorized),
+        all_of(*(absolute(side - previous(side)) <= RAMP for side in (left_rpm, right_rpm))),
+    ),
+    covers=["B2-ACT-01"], on=ON,
+)  # fmt: skip
+PB2_16p = always(
+    "PB2-16p", "The first step of an authorisation commands at most 4 rpm, the very first nothing.",
+    that=implies(
+        autorized & ~previous(autorized),
+        (absolute(left_rpm) <= RAMP) & (absolute(right_rpm) <= RAMP)
+        & (sends_speeds == previous(driver_initialised)),
+    ),
+    covers=["B2-ACT-01"], on=ON, from_tick=2,
+)  # fmt: skip
+PB2_18m = holds_after(
+    "PB2-18m", "Twenty executions with zero references bring the commanded wheel speeds to 0.",
+    premise=autorized & no_motion, for_=19 * ticks, then=at_rest,
+    covers=["B2-REF-01", "B1-REF-06"], on=ON, from_tick=2,
+)  # fmt: skip
+PB2_16q = always(
+    "PB2-16q", "In a step with motor commands the stop pin follows the emergency stop.",
+    that=implies(sends_speeds, stop_pin == actuate_emergency_stop), covers=["B2-ACT-01"], on=ON,
+)  # fmt: skip
+
+REACH_B2_FULL_SPEED = reachable(
+    "REACH-B2-FULL-SPEED", "Board 2 can command 80 rpm on both sides.",
+    that=(left_rpm == LIMIT) & (right_rpm == LIMIT), covers=["B2-ACT-01"], on=ALONE,
+)  # fmt: skip
+REACH_B2_TURN = reachable(
+    "REACH-B2-TURN", "Board 2 can turn the sides against one another.",
+    that=(left_rpm == -LIMIT) & (right_rpm == LIMIT), covers=["B2-ACT-01"], on=ALONE,
+)  # fmt: skip
+REACH_B2_INITIALISES = reachable(
+    "REACH-B2-INITIALISES", "The first authorised step sends no wheel speeds.",
+    that=autorized & ~sends_speeds, covers=["B2-ACT-01"], on=ALONE,
+)  # fmt: skip

@@ -1,0 +1,61 @@
+"""What must be true of the coherence of IMU and odometry on Board 2 [seed §2.2 for the purpose]."""
+
+from properties.forms import always, reachable, until
+from spec_model.board2.coherence import (
+    differs,
+    hits,
+    long_ends,
+    long_result,
+    short_ends,
+    short_result,
+)
+from spec_model.lang.expr import implies
+from spec_model.lang.words import previous
+from spec_model.signals.board2_supervisor import is_motion_consistent
+
+LONG, SHORT = "coherence_long", "coherence_short"
+BLOCKED, SPINNING = "coherence_blocked", "coherence_spinning"
+incoherent = ~is_motion_consistent
+
+PB2_28a = always(
+    "PB2-28a", "A long window that ends with a difference of 5° or more makes the motion inconsistent.",
+    that=implies(long_ends & differs, incoherent),
+    covers=["B1-IN-03"], on=LONG, from_tick=2,
+)  # fmt: skip
+PB2_28b = until(
+    "PB2-28b", "After such a window the motion is inconsistent until the end of one that differs by less.",
+    start=long_ends & differs, holds=incoherent, release=long_ends & ~differs,
+    covers=["B1-IN-03"], on=BLOCKED, from_tick=2,
+)  # fmt: skip
+PB2_28c = always(
+    "PB2-28c", "Of the long windows only one that ends with such a difference makes the motion inconsistent.",
+    that=implies(incoherent, (long_ends & differs) | ~short_result),
+    covers=["B1-IN-03"], on=LONG, from_tick=2,
+)  # fmt: skip
+PB2_28d = always(
+    "PB2-28d", "A short window makes the motion inconsistent only with eight hits in ten.",
+    that=implies(incoherent, (short_ends & (hits >= 8)) | ~long_result),
+    covers=["B1-IN-03"], on=SHORT, from_tick=2,
+)  # fmt: skip
+PB2_28e = always(
+    "PB2-28e", "A short window that ends with eight hits in ten makes the motion inconsistent.",
+    that=implies(short_ends & (hits >= 8), incoherent),
+    covers=["B1-IN-03"], on=SHORT, from_tick=2,
+)  # fmt: skip
+PB2_28f = always(
+    "PB2-28f", "The motion is inconsistent in a step only if a window ends in it.",
+    that=implies(incoherent, long_ends | ~short_result), covers=["B1-IN-03"], on=LONG, from_tick=2,
+)  # fmt: skip
+
+REACH_COH_LONG = reachable(
+    "REACH-COH-LONG", "A rover that turns while its wheels stand still is found inconsistent after 3 s.",
+    that=incoherent & long_ends & differs, covers=["B1-IN-03"], on=BLOCKED,
+)  # fmt: skip
+REACH_COH_SHORT = reachable(
+    "REACH-COH-SHORT", "Eight hits can make the motion inconsistent.",
+    that=incoherent & short_ends, covers=["B1-IN-03"], on=SPINNING,
+)  # fmt: skip
+REACH_COH_AGAIN = reachable(
+    "REACH-COH-AGAIN", "The motion can be consistent again in the step after.",
+    that=is_motion_consistent & previous(incoherent & short_ends), covers=["B1-IN-03"], on=SPINNING,
+)  # fmt: skip

@@ -1,0 +1,116 @@
+"""What must be true of both boards together, step by step: relay, authorisation, stops across the link."""
+
+from properties.forms import always, holds_after, leaves_only_if, never
+from spec_model.board1.motion import motion_supervision
+from spec_model.composition.motors import board1_powered, connected, followed, motors_zero, runs_1
+from spec_model.lang.expr import implies
+from spec_model.lang.time import ms, ticks
+from spec_model.lang.words import absolute, held, named, once, previous
+from spec_model.signals import board1 as b1
+from spec_model.signals import board2 as obstacles
+from spec_model.signals import board2_motion as motion
+from spec_model.signals import board2_supervisor as b2
+
+drive1 = named("Board 1 actuates", ~b1.give_b2_actuation)
+drive2 = named("Board 2 is authorised", b2.autorized_to_send_command)
+near_70, near_300 = obstacles.within(70), obstacles.within(300)
+zero_1 = named("zero references of Board 1", (b1.v_ref == 0) & (b1.omega_ref == 0))
+stop_commanded = b1.cmd == "CMD_ESTOP"
+
+# --- relay and actuation -------------------------------------------------------------------------
+
+PSY_01a = always(
+    "PSY-01a", "The motor line is on Board 1 exactly while it has power and keeps the relay closed.",
+    that=(connected == "Board1") == (board1_powered & ~b1.give_b2_actuation),
+    covers=["B1-REL-01", "B1-REL-03", "B1-REL-05"], on="motors", readings=["S47"],
+)  # fmt: skip
+PSY_01c = always(
+    "PSY-01c", "Only commands of the connected board are followed.",
+    that=(followed == "nobody") | (followed == connected),
+    covers=["B1-REL-01", "B1-REL-03", "B1-REL-05"], on="motors", readings=["S47"],
+)  # fmt: skip
+PSY_02a = never(
+    "PSY-02a", "Board 1 actuates and Board 2 is authorised in one step.",
+    that=drive1 & drive2,
+    covers=["B1-REL-03", "B2-ACT-01"], on="rover_plain_no_loss", from_tick=2, readings=["E22"],
+)  # fmt: skip
+PSY_02b = never(
+    "PSY-02b", "Board 1 actuates and Board 2 is authorised in four successive steps without a lost frame.",
+    that=drive1 & drive2 & held(drive1 & drive2, for_=3 * ticks),
+    covers=["B1-REL-03", "B2-ACT-01"], on="rover_plain_no_loss", from_tick=2, readings=["E22"],
+)  # fmt: skip
+PSY_07a = always(
+    "PSY-07a", "Without power on Board 1 the motor line is on Board 2.",
+    that=implies(~board1_powered, connected == "Board2"),
+    covers=["B1-REL-05", "B2-ACT-01"], on="motors", readings=["S47"],
+)  # fmt: skip
+PSY_08 = holds_after(
+    "PSY-08", "500 ms after the supervisor of Board 1 has stopped under power, the motors are at rest.",
+    premise=~runs_1 & board1_powered, for_=500 * ms, then=motors_zero,
+    covers=["B2-ACT-01", "B1-REL-05"], on="rover_plain_failing", readings=["E22"],
+)  # fmt: skip
+PSY_19 = leaves_only_if(
+    "PSY-19", "Board 2 becomes authorised only if Board 1 gave it the actuation in the last four steps.",
+    leaving=~drive2,
+    only_if=b1.give_b2_actuation
+    | previous(b1.give_b2_actuation)
+    | previous(previous(b1.give_b2_actuation))
+    | previous(previous(previous(b1.give_b2_actuation))),
+    covers=["B1-OUT-02", "B2-ACT-01"], on="rover_plain", from_tick=2, readings=["E22"],
+)  # fmt: skip
+
+# --- stops across the link -----------------------------------------------------------------------
+
+forward = motion.ay_norm > 0
+in_time = near_70 & drive1 & ~obstacles.DEG_B1
+
+PSY_10a = holds_after(
+    "PSY-10a",
+    "Five steps after an obstacle at 70 cm or less, constant, with the user driving forward, Board 1's "
+    "linear reference is not positive.",
+    premise=in_time & forward, for_=5 * ticks, then=b1.v_ref <= 0,
+    covers=["B2-OBS-01", "B1-EST-01"], on="rover_no_loss", from_tick=2, readings=["E12"],
+)  # fmt: skip
+PSY_11 = holds_after(
+    "PSY-11",
+    "Five steps after an obstacle at 70 cm or less, constant, whatever the user does, Board 1's references "
+    "are zero.",
+    premise=in_time, for_=5 * ticks, then=zero_1,
+    covers=["B2-OBS-01"], on="rover_plain_no_loss", from_tick=2, readings=["E11", "S63"],
+)  # fmt: skip
+PSY_13a = holds_after(
+    "PSY-13a",
+    "142 ms after the rover is degraded with an obstacle at 300 cm or less, Board 1 driving, its linear "
+    "reference is not positive.",
+    premise=near_300 & drive1 & (b1.rover_safety_state == "SAFETY_DEGRADED"), for_=8 * ticks,
+    then=b1.v_ref <= 0,
+    covers=["B2-OBS-04", "B2-OBS-22"], on="rover_plain", from_tick=2, readings=["E09"],
+)  # fmt: skip
+PSY_15 = holds_after(
+    "PSY-15",
+    "200 ms after Board 2 has received its last frame, Board 1 driving and receiving, both references are "
+    "at most 0.5.",
+    premise=~b2.RX.update & b1.rx_update & drive1, for_=9 * ticks,
+    then=(absolute(b1.v_ref) <= 0.5) & (absolute(b1.omega_ref) <= 0.5),
+    covers=["B1-REF-05", "B1-REF-07"], on="rover_plain", from_tick=2, readings=["S55"],
+)  # fmt: skip
+PSY_17a = never(
+    "PSY-17a", "A non-zero speed reaches the motors before Board 2 has read the IMU once.",
+    that=~motors_zero & ~once(b2.IMU.update),
+    covers=["B2-FLT-01"], on="rover_no_loss", readings=[],
+)  # fmt: skip
+PSY_17b = never(
+    "PSY-17b", "A non-zero speed reaches the motors before Board 2 has read the joystick once.",
+    that=~motors_zero & ~once(b2.BLE.update),
+    covers=["B1-REF-02"], on="rover_no_loss", readings=[],
+)  # fmt: skip
+PSY_20a = always(
+    "PSY-20a", "The command that Board 1 receives is NORMAL, GO_LEFT, GO_RIGHT or ESTOP.",
+    that=(b1.cmd == "CMD_NORMAL") | (b1.cmd == "CMD_GO_LEFT") | (b1.cmd == "CMD_GO_RIGHT") | stop_commanded,
+    covers=["B1-IN-01"], on="commands", readings=["E04", "E31"],
+)  # fmt: skip
+PSY_20b = never(
+    "PSY-20b", "Board 1 avoids: Evita_sinistra or Evita_destra is active.",
+    that=motion_supervision.active("Evita_sinistra", "Evita_destra"),
+    covers=["B1-IN-01"], on="references_commanded", readings=["E04", "E31"],
+)  # fmt: skip

@@ -1,0 +1,195 @@
+"""The whole rover, step by step: both supervisors, both directions of the link, relay, motors, faults."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from spec_model import environment as env1
+from spec_model import environment_board2 as env2
+from spec_model.board1 import SUPERVISOR as SUPERVISOR_1
+from spec_model.board1 import references
+from spec_model.board1.motion import motion_with_free_error
+from spec_model.board2 import ACTUATION, obstacle_decision
+from spec_model.board2 import SUPERVISOR as SUPERVISOR_2
+from spec_model.board2.heading import turned_45
+from spec_model.composition.link import all_frames_arrive, link
+from spec_model.composition.motors import (
+    board1_powered,
+    faults,
+    power_lost,
+    relay_and_driver,
+    runs_1,
+    runs_2,
+    stop_1,
+    stop_2,
+)
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Block, Component, Enabled
+from spec_model.lang.expiry import free_timers
+from spec_model.lang.expr import Const, Var, all_of, any_of, flag, implies
+from spec_model.lang.specialise import Fixing
+from spec_model.lang.system import Assumption, System, in_order
+from spec_model.records import arrival_window
+from spec_model.signals import board1 as b1
+from spec_model.signals import board2 as obstacles
+from spec_model.signals import board2_motion as motion
+from spec_model.signals import board2_supervisor as b2
+
+SYNCHRONOUS = (
+    "Both supervisors execute once per tick of 20 ms; what one writes is seen by the other one or two ticks "
+    "later, chosen for each frame, in order (phases and latencies of the tasks in between)."
+)
+ENVIRONMENT = (
+    "Sonars, joystick, IMU, temperature, battery, wheels and encoder flags are arbitrary, on both sides of "
+    "every limit; a datum changes only with its time stamp."
+)
+
+link12 = link(
+    "B1-B2",
+    [
+        *((b1.wheel_speed_rpm[w], b2.wheel_speed_rpm[w]) for w in b1.WHEELS),
+        (b1.critical_mask, b2.crit_mask_b1),
+        (b1.degraded_mask, b2.degr_mask_b1),
+    ],
+    accepted=b2.RX.update,
+    counter_changed=b2.SUP.update,
+    executes=runs_1,
+    transmits=board1_powered,
+)
+
+link21 = link(
+    "B2-B1",
+    [
+        (obstacles.command, b1.cmd),
+        (b2.critical_mask, b1.crit_mask_b2),
+        (b2.degraded_mask, b1.degr_mask_b2),
+        (b2.is_motion_consistent, b1.is_motion_consistent),
+        (motion.yaw, b1.current_yaw),
+        (motion.bx_norm, b1.x_norm),
+        (motion.ay_norm, b1.y_norm),
+        (motion.btn1, b1.btn1),
+        (motion.btn2, b1.btn2),
+    ],
+    accepted=b1.rx_update,
+    counter_changed=b1.heartbeat_update,
+    executes=runs_2,
+)
+
+started = flag("rover.started", "the boards have executed before")
+start = Block("Start", [assign(started, True)], text="Both boards are powered up in the first step.")
+
+SENSORS = (b1.temp_update, b1.batt_update, b2.IMU.update, b2.BLE.update, b2.sonar_update)
+
+A01 = Assumption(
+    "A01",
+    "The first valid temperature, battery, IMU and joystick data and the first scan are there in step 1.",
+    implies(~started, all_of(*SENSORS)),
+)
+A02 = Assumption("A02", "No frame is lost or corrupted.", all_frames_arrive(link12, link21))
+A03 = Assumption(
+    "A03",
+    "At most two frames in a row are lost or corrupted, in each direction.",
+    link12.lost_at_most(2) & link21.lost_at_most(2),
+)
+A04 = Assumption(
+    "A04", "Both supervisors execute in every step and Board 1 has power.", ~(stop_1 | stop_2 | power_lost)
+)
+FRESH = Assumption("FRESH", "Every sensor delivers a valid reading in every step.", all_of(*SENSORS))
+
+PARTS: tuple[Component, ...] = (
+    faults,
+    link12.receive,
+    link21.receive,
+    env1.temperature_readings,
+    env1.battery_readings,
+    env1.reception_clock,
+    env1.heartbeat_clock,
+    arrival_window("rx", b1.rx_update),
+    arrival_window("heartbeat", b1.heartbeat_update, moves=b1.heartbeat_moves),
+    env1.check_stop,
+    Enabled(runs_1, *SUPERVISOR_1),
+    env2.joystick,
+    env2.inertial,
+    env2.sonars,
+    *env2.clocks,
+    Enabled(runs_2, *SUPERVISOR_2, ACTUATION),
+    relay_and_driver,
+    link12.send,
+    link21.send,
+    start,
+)
+"""In the order of one instant: receive, sensors, supervisors, motor commands, transmit."""
+
+
+PLAIN: Mapping[Var, bool | int] = {
+    **dict.fromkeys(SENSORS, True),
+    b1.temp_reading: 25,
+    b1.batt_reading: 80,
+    **dict.fromkeys(b1.has_no_feedback.values(), False),
+    **dict.fromkeys(b1.wheel_speed_rpm.values(), 60),
+    **dict.fromkeys(map(env2.arriving, (motion.yaw, b2.gz_dps, motion.btn1, motion.btn2)), 0),
+    turned_45: False,
+}
+"""A scene with few runs: sensors that always deliver, nothing out of range, straight on, no buttons."""
+
+SCENE = (
+    "Temperature 25 °C, battery 80 %, wheels turning at 60 rpm with feedback, heading constant, no buttons, "
+    "every sensor delivers in every step; links, joystick axes and distances are free."
+)
+
+
+def _rover(name: str, text: str, *assumptions: Assumption) -> System:
+    notes = (SYNCHRONOUS, ENVIRONMENT)
+    return in_order(name, *PARTS, text=text, notes=notes, assumptions=assumptions)
+
+
+def _plain(name: str, text: str, *assumptions: Assumption) -> System:
+    """The rover in one scene: what is violated there is violated."""
+    scene = Fixing({v.name: Const(v.domain.raw(value), v.sort) for v, value in PLAIN.items()})
+    made = scene.system(in_order(name, *PARTS, text=text, assumptions=assumptions))
+    return replace(made, notes=(SYNCHRONOUS, SCENE), under=True)
+
+
+motors = in_order(
+    "motors",
+    faults,
+    relay_and_driver,
+    text="Relay and motor driver for any outputs of both boards.",
+    notes=("What both boards command is arbitrary in every step (more runs).",),
+    over=True,
+    concrete="rover_failing",
+)
+
+commands = in_order(
+    "commands",
+    link21.receive,
+    *obstacle_decision(),
+    link21.send,
+    text="The decision of Board 2 about obstacles, its translation, and the link to Board 1.",
+    notes=(SYNCHRONOUS, "Distances and masks of Board 1 are arbitrary in every step (more runs)."),
+    over=True,
+    concrete="rover",
+)
+
+references_commanded = in_order(
+    "references_commanded",
+    references(motion_with_free_error),
+    text="The references of Board 1 for the commands that Board 2 can give.",
+    assume=any_of(*(b1.cmd == known for known in ("CMD_NORMAL", "CMD_GO_LEFT", "CMD_GO_RIGHT", "CMD_ESTOP"))),
+    notes=("The received command is one of four (PSY-20a); all else is free in every step (more runs).",),
+    over=True,
+    concrete="rover",
+)
+
+SYSTEMS: tuple[System, ...] = (
+    _rover("rover", "Both boards with the link, whose frames may be lost, corrupted or late.", A04),
+    _rover("rover_no_loss", "Both boards with a link that loses nothing.", A02, A04),
+    _rover("rover_few_losses", "Both boards with a link that loses at most two frames in a row.", A03, A04),
+    _rover("rover_healthy", "Both boards, sensors and link without any fault.", A01, FRESH, A02, A04),
+    _rover("rover_failing", "Both boards, each of which may fail, and a link that may fail."),
+    _plain("rover_plain", "The rover in a plain scene; frames may be lost, corrupted or late.", A04),
+    _plain("rover_plain_no_loss", "The rover in a plain scene with a link that loses nothing.", A02, A04),
+    _plain("rover_plain_failing", "The rover in a plain scene; boards and link may fail."),
+    motors,
+    references_commanded,
+    free_timers(commands, name="commands", text=commands.text),
+)

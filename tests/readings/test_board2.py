@@ -1,0 +1,179 @@
+"""The scenarios that tell the readings of the obstacle sentences apart (E01 to E32, Board 2), for every choice.
+
+A case lists what is given in blocks of ms, and what a choice shows: the values of a signal from time 0
+on, each with the ms at which it begins.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+
+import pytest
+
+from spec_model.board2.heading import headings, measured
+from spec_model.board2.obstacles import obstacles_n
+from spec_model.lang.interpret import Interpreter
+from spec_model.lang.system import System, in_order
+from spec_model.readings import fixed, readings
+from spec_model.rover import systems
+from tests.readings.scenario import Blocks, Given, histories
+
+NOMINAL: Given = {"d1": 301, "d2": 301, "d3": 301, "echo1": 301, "echo2": 301, "echo3": 301, "ay_norm": 1}
+NEAR, GAP, SEEN = 70, 71, 200
+"""One of the distances of the model for 60, 85 and 200 cm."""
+
+FIVE_DEGREES = in_order("heading_in_5_degrees", obstacles_n(measured(*headings(5))))
+"""The chart with its heading, on the grid that shows a turn of 40 degrees."""
+
+
+@dataclass(frozen=True)
+class Scenario:
+    """A scenario of a reading, and what each of its choices shows."""
+
+    reading: str
+    number: int
+    given: Blocks
+    watched: str
+    shows: Mapping[str, str]
+    on: str = "obstacles_n"
+
+
+def S1(cm: int) -> Given:
+    return {"d1": cm}
+
+
+def S2(cm: int) -> Given:
+    return {"d2": cm}
+
+
+def both(first: int, second: int) -> Given:
+    return {"d1": first, "d2": second}
+
+
+LEFT_THEN_CENTRE: Blocks = [(200, both(SEEN, SEEN))]
+"""S2 sees the object before S1 loses it: one step after this, pair 12 sends its signal."""
+
+
+def turning(*yaws: int) -> Blocks:
+    """A deviation to the left during which the heading takes these values, the last one for long."""
+    steps = [(100, {**S2(SEEN), "yaw": yaw % 360}) for yaw in yaws]
+    return [*LEFT_THEN_CENTRE, *steps, (2000, {**S2(SEEN), "yaw": yaws[-1] % 360})]
+
+
+DEC, B2DEC = "B2Decision", "B2Dec"
+
+# fmt: off
+SCENARIOS: list[Scenario] = [
+    *(Scenario("E01", n, [(1000, S1(gap)), (100, {}), (1000, S2(gap))], DEC, {
+        "GAP-NONE": "0", "GAP-STOP": "0 20 1 1020 0 1120 1", "GAP-MOVING": "0 1120 2"})
+      for n, gap in ((1, GAP), (2, 100))),
+    Scenario("E02", 1, [(200, {**S1(SEEN), "d3": NEAR}), (200, {"d3": NEAR}), (200, {**S2(SEEN), "d3": NEAR})], DEC, {
+        "B70-STOP": "0 20 1", "B70-BOTH": "0 20 1", "B70-LT": "0 420 2"}),
+    Scenario("E02", 2, [(200, {**S1(SEEN), "d3": NEAR}), (200, {"d3": NEAR}), (200, {**S2(SEEN), "d3": NEAR})],
+        "obj2Detected", {"B70-STOP": "false", "B70-BOTH": "false 420 true", "B70-LT": "false 420 true"}),
+    Scenario("E03", 1, [(500, S1(300)), (500, S2(SEEN))], DEC, {
+        "OPEN": "0", "CLOSED": "0 520 2", "HALF": "0 520 2", "UNBOUNDED": "0"}),
+    Scenario("E03", 2, [(500, S1(100)), (100, {}), (500, S2(SEEN))], DEC, {
+        "OPEN": "0", "CLOSED": "0 620 2", "HALF": "0", "UNBOUNDED": "0"}),
+    Scenario("E04", 1, [(200, {}), (200, S2(NEAR))], B2DEC, {
+        "INDEX5-MAPPED": "0 220 1", "INDEX5-RAW": "0 220 1", "ENUM8": "0 220 7"}, "obstacles"),
+    Scenario("E04", 2, [(200, {}), (200, S2(NEAR))], "command", {
+        "INDEX5-MAPPED": "CMD_NORMAL 220 CMD_ESTOP", "INDEX5-RAW": "CMD_NORMAL 220 CMD_ROTATE_180",
+        "ENUM8": "CMD_NORMAL 220 CMD_ESTOP"}, "obstacles"),
+    Scenario("E05", 1, [(200, S2(SEEN)), (1000, S1(SEEN))], B2DEC, {
+        "CENTRE-STRAIGHT": "0 220 3 720 0", "CENTRE-HOLD": "0 220 3 720 0", "LITERAL-45": "0",
+        "OPPOSITE": "0 220 4"}, "obstacles"),
+    Scenario("E05", 2, [(200, S2(SEEN)), (1000, S1(SEEN))], "command", {
+        "CENTRE-STRAIGHT": "CMD_NORMAL", "CENTRE-HOLD": "CMD_NORMAL 220 CMD_AVOID_LEFT 720 CMD_NORMAL",
+        "LITERAL-45": "CMD_NORMAL", "OPPOSITE": "CMD_NORMAL 220 CMD_GO_RIGHT"}, "obstacles"),
+    Scenario("E05", 3, [(200, S2(SEEN)), *((200, {**S1(SEEN), "yaw": yaw}) for yaw in (0, 30, 40, 45, 90))], DEC, {
+        "CENTRE-STRAIGHT": "0 220 3 720 0", "CENTRE-HOLD": "0 220 3 720 0", "LITERAL-45": "0",
+        "OPPOSITE": "0 220 4 800 0"}, "five degrees"),
+    Scenario("E06", 1, turning(0, -15, -30, -40), DEC, {
+        "EXACT": "0 220 2", "TOL-12": "0 220 2 500 0", "PASS": "0 220 2"}, "five degrees"),
+    Scenario("E06", 2, turning(*range(0, 141, 20)), DEC, {
+        "EXACT": "0 220 2 900 0", "TOL-12": "0 220 2", "PASS": "0 220 2"}, "five degrees"),
+    Scenario("E06", 3, turning(0, -15, -30, -45), DEC, {
+        "EXACT": "0 220 2 500 0", "TOL-12": "0 220 2 500 0", "PASS": "0 220 2 500 0"}, "five degrees"),
+    Scenario("E07", 1, [(200, S1(SEEN)), (200, {}), (100, {"yaw": 20}), (100, {**S2(SEEN), "yaw": 20})], "targetAngle", {
+        "AT-DECISION": "0 520 335", "AT-FALL": "0 520 315", "AT-FIRST-DETECTION": "0 520 315"}, "five degrees"),
+    Scenario("E07", 2, [(200, {**S1(SEEN), "yaw": 340}), (200, {}), (100, {"yaw": 20}), (100, {**S2(SEEN), "yaw": 20})],
+        "targetAngle", {
+        "AT-DECISION": "0 520 335", "AT-FALL": "0 520 315", "AT-FIRST-DETECTION": "0 520 295"}, "five degrees"),
+    Scenario("E08", 1, [*LEFT_THEN_CENTRE, (20_000, S2(SEEN))], DEC, {
+        "NO-TIMEOUT": "0 220 2", "BOUNDED": "0 220 2 10220 0"}),
+    Scenario("E09", 1, [(200, {}), (200, {**S2(SEEN), "deg_mask_b1": True})], B2DEC, {
+        "SEL-B1FLAG": "0 200 6", "SEL-ACTUATOR": "0", "SEL-SAFETY": "0 200 6", "SEL-MASK": "0"}, "obstacles"),
+    Scenario("E09", 2, [(200, {}), (200, {**S2(SEEN), "own_deg_mask": True})], B2DEC, {
+        "SEL-B1FLAG": "0", "SEL-ACTUATOR": "0", "SEL-SAFETY": "0 200 6", "SEL-MASK": "0 200 6"}, "obstacles"),
+    Scenario("E10", 1, [(200, {}), (200, S2(NEAR)), (400, {}), (200, {"ay_norm": 0})], DEC, {
+        "AUTO": "0 220 1 420 0", "LATCH-NEUTRAL": "0 220 1 800 0", "LATCH-STANDSTILL": "0 220 1"}),
+    Scenario("E10", 2, [(200, {}), (200, S2(NEAR)), (400, {}), (200, {"B2.wheels_below_2_5": True})], DEC, {
+        "AUTO": "0 220 1 420 0", "LATCH-NEUTRAL": "0 220 1", "LATCH-STANDSTILL": "0 220 1 800 0"}),
+    *(Scenario("E13", n, [(120, {}), (120, {"echo2": NEAR}), (1000, {"echo2": 301, "missing2": True})], DEC, {
+        "FAR": far, "HOLD": hold, "NEAR": near, "FAULT": far}, "obstacles_scan")
+      for n, far, hold, near in ((1, "0 160 1 280 0", "0 160 1", "0 160 1"),)),
+    Scenario("E14", 1, [(200, S1(SEEN)), (3000, {}), (100, S2(SEEN))], DEC, {"EXCL": "0", "INCL": "0 3220 2"}),
+    Scenario("E14", 2, [(200, S1(SEEN)), (3020, {}), (100, S2(SEEN))], DEC, {"EXCL": "0", "INCL": "0"}),
+    Scenario("E15", 1, [*LEFT_THEN_CENTRE, (200, S2(SEEN))], DEC, {"LEVEL": "0 220 2", "EDGE": "0"}),
+    Scenario("E15", 2, [(200, S1(SEEN)), (200, {}), (200, S2(SEEN))], DEC, {
+        "LEVEL": "0 420 2", "EDGE": "0 420 2"}),
+    Scenario("E16", 1, [(200, S1(SEEN)), (2400, {}), (200, S1(SEEN)), (1400, {}), (200, S2(SEEN))], DEC, {
+        "NO-RESTART": "0", "RESTART": "0 4220 2"}),
+    Scenario("E17", 1, [*LEFT_THEN_CENTRE, (200, both(GAP, SEEN))], DEC, {
+        "ANY-EXIT": "0 220 2", "LATERAL-ONLY": "0"}),
+    Scenario("E17", 2, [*LEFT_THEN_CENTRE, (200, both(301, SEEN))], DEC, {
+        "ANY-EXIT": "0 220 2", "LATERAL-ONLY": "0 220 2"}),
+    Scenario("E18", 1, [(200, S1(SEEN)), (200, S1(NEAR)), (400, {}), (100, S2(SEEN))], DEC, {
+        "FREEZE": "0 220 1 420 0 820 2", "RESET": "0 220 1 420 0", "CONTINUE": "0 220 1 420 0 820 2"}),
+    Scenario("E18", 2, [(200, S1(SEEN)), (200, S1(NEAR)), (2900, {}), (100, S2(SEEN))], DEC, {
+        "FREEZE": "0 220 1 420 0 3320 2", "RESET": "0 220 1 420 0", "CONTINUE": "0 220 1 420 0"}),
+    Scenario("E19", 1, [*LEFT_THEN_CENTRE, (200, {**S2(SEEN), "d3": SEEN}), (200, S2(SEEN)),
+        (20, {**S2(SEEN), "turned_45": True}), (200, S2(SEEN))], DEC, {
+        "IGNORE": "0 220 2 600 0", "PREEMPT": "0 220 2 420 4 600 0", "QUEUE": "0 220 2 600 0 620 4"}),
+    Scenario("E20", 1, [(200, {**both(SEEN, SEEN), "d3": SEEN}), (200, S2(SEEN))], DEC, {
+        "LEFT-FIRST": "0 220 2", "RIGHT-FIRST": "0 220 4", "STOP": "0 220 1"}),
+    Scenario("E20", 2, [(200, {**both(SEEN, SEEN), "d3": SEEN}), (200, S2(SEEN)), (200, {})], DEC, {
+        "LEFT-FIRST": "0 220 2", "RIGHT-FIRST": "0 220 4", "STOP": "0 220 1 420 0"}),
+    Scenario("E27", 1, [(200, S1(SEEN)), (60, {**S1(SEEN), "d3": NEAR}), (140, {"d3": NEAR}), (2900, {}),
+        (200, S2(SEEN))], DEC, {
+        "ANY": "0 220 1 420 0 3320 2", "PAIR": "0 220 1 420 0"}),
+    Scenario("E31", 1, [(200, S2(SEEN)), (1000, S1(SEEN))], "command", {
+        "NORMAL": "CMD_NORMAL", "AVOID-BY-PAIR": "CMD_NORMAL 220 CMD_AVOID_LEFT 720 CMD_NORMAL",
+        "ZERO-TURN": "CMD_NORMAL"}, "obstacles"),
+    Scenario("E31", 2, [(200, S2(SEEN)), (1000, {"d3": SEEN})], "command", {
+        "NORMAL": "CMD_NORMAL", "AVOID-BY-PAIR": "CMD_NORMAL 220 CMD_AVOID_RIGHT 720 CMD_NORMAL",
+        "ZERO-TURN": "CMD_NORMAL"}, "obstacles"),
+    Scenario("E32", 1, [(100, {}), (1000, {**S2(NEAR), "deg_mask_b1": True}), (100, S2(NEAR))], B2DEC, {
+        "RUN-ALWAYS": "0 100 6 1100 1", "FREEZE": "0 100 5 120 6 1100 0 1120 1"}, "obstacles"),
+]
+# fmt: on
+
+CASES = [(scenario, choice) for scenario in SCENARIOS for choice in scenario.shows]
+
+
+@pytest.mark.parametrize(
+    ("scenario", "choice"), CASES, ids=[f"{s.reading}-{choice}-{s.number}" for s, choice in CASES]
+)
+def test_a_choice_shows_what_tells_it_apart(scenario: Scenario, choice: str) -> None:
+    system = _system(scenario.on, scenario.reading, choice)
+    found = histories(system, scenario.given, [scenario.watched], nominal=NOMINAL, warm_up=0)
+    assert found == [scenario.shows[choice]]
+
+
+@cache
+def _system(name: str, reading: str, choice: str) -> System:
+    if name == "five degrees":
+        return fixed({reading: choice}).system(FIVE_DEGREES)
+    return systems({reading: choice})[name]
+
+
+@pytest.mark.parametrize(("choice", "sent"), [("B70-STOP", False), ("B70-BOTH", True), ("B70-LT", True)])
+def test_E02_whether_a_moving_object_is_signalled_beside_one_at_70(choice: str, sent: bool) -> None:
+    system = _system("obstacles_n", "E02", choice)
+    rover, labels = Interpreter(system), []
+    for cm1, cm2 in [(SEEN, 301)] * 10 + [(301, 301)] * 10 + [(301, SEEN)] * 5:
+        given = {**NOMINAL, "d1": cm1, "d2": cm2, "d3": NEAR}
+        inputs = {n: v.domain.raw(given.get(n, 0)) for n, v in system.inputs.items()}
+        labels += [fired.label for fired in rover.step(inputs)]
+    assert any("send(moveToS1, B2Decisions)" in label for label in labels) is sent

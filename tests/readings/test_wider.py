@@ -1,0 +1,34 @@
+"""A wider domain adds values and changes nothing for the others."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from spec_model.lang.domain import Domain, fixed
+from spec_model.rover import systems
+from spec_model.signals.board1 import DEGREES_C, PERCENT
+from tests.readings.scenario import shown
+from tests.readings.wider import widened
+
+TENTHS, HUNDREDTHS = fixed(-20, 70, "0.1", "°C"), fixed(-1, 100, "0.01", "%")
+
+
+@pytest.mark.parametrize(
+    ("name", "update", "reading", "value", "few", "many"),
+    [
+        ("temperature", "temp_update", "temp_reading", "temperature_degC", DEGREES_C, TENTHS),
+        ("battery", "batt_update", "batt_reading", "battery_pct", PERCENT, HUNDREDTHS),
+    ],
+    ids=["temperature", "battery"],
+)
+@given(data=st.data())
+def test_the_values_of_the_model_show_the_same(
+    name: str, update: str, reading: str, value: str, few: Domain, many: Domain, data: st.DataObject
+) -> None:
+    system = systems()[name]
+    values = st.sampled_from([few.show(raw) for raw in few.values])
+    given_ = st.fixed_dictionaries({update: st.booleans(), reading: values})
+    blocks = data.draw(st.lists(st.tuples(st.sampled_from([20, 500, 6000]), given_), max_size=5))
+    watched = [value, *system.written]
+    wide = widened(system, {reading: many, value: many})
+    assert list(shown(wide, blocks, watched)) == list(shown(system, blocks, watched))
