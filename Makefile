@@ -57,6 +57,7 @@ reports: $(STAMP)
 
 bench: $(STAMP)
 	@$(RUN) -m benchmarks.explicit $(ARGS)
+	@$(RUN) -m benchmarks.timers $(ARGS)
 
 setup: $(STAMP)
 

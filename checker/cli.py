@@ -19,7 +19,7 @@ CODES = (
     "2 inconclusive; 3 internal error or engines disagree; 4 usage or model error; "
     "5 nothing to check; 130 interrupted."
 )
-LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs", "engines")
+LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs", "assumptions", "engines")
 
 
 class Verbs(click.Group):
@@ -68,6 +68,13 @@ def varying(command: Callable[..., Exit]) -> Callable[..., Exit]:
             help="Read a sentence otherwise: S43=AND; S43=any leaves it open.",
         ),
         click.option("--repair", metavar="NAME", help="With a proposed repair; see list repairs."),
+        click.option(
+            "--without",
+            "dropped",
+            multiple=True,
+            metavar="ID",
+            help="Drop an assumption about the environment; see list assumptions.",
+        ),
     ]
     for option in reversed(options):
         command = option(command)
@@ -83,15 +90,18 @@ def writing(command: Callable[..., Exit]) -> Callable[..., Exit]:
 @app.command()
 @click.argument("ids", nargs=-1, metavar="[ID]...")
 @click.option("--system", help="Only properties about this system.")
+@click.option("--full", is_flag=True, help="Also the properties that take long.")
 @click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
 @varying
 @searching
 def check(
     ids: tuple[str, ...],
     system: str | None,
+    full: bool,
     as_json: bool,
     chosen: tuple[str, ...],
     repair: str | None,
+    dropped: tuple[str, ...],
     engine: str,
     depth: int | None,
     timeout: float | None,
@@ -102,8 +112,8 @@ def check(
     from checker.commands.select import pick_engine, pick_properties
     from checker.commands.variant import pick_variant
 
-    variant = pick_variant(chosen, repair)
-    properties = pick_properties(ids, system, variant.properties())
+    variant = pick_variant(chosen, repair, dropped)
+    properties = pick_properties(ids, system, variant.properties(), full)
     if variant.name and not ids:
         properties = list(filter(variant.concerns(), properties))
     limits = Limits(depth, timeout, timers=Timers(timers))
@@ -117,7 +127,7 @@ def check(
 @click.argument("ids", nargs=-1, metavar="[ID]...")
 @click.option("--english", is_flag=True, help="What is checked of each property, in words.")
 def list_(what: str, ids: tuple[str, ...], english: bool) -> Exit:
-    """List properties, systems, charts, requirements, readings, repairs or engines."""
+    """List properties, systems, charts, requirements, readings, repairs, assumptions or engines."""
     from checker.commands.listing import listing
 
     return listing(what, ids, english)
@@ -146,6 +156,7 @@ def trace(
     everything: bool,
     chosen: tuple[str, ...],
     repair: str | None,
+    dropped: tuple[str, ...],
     engine: str,
     depth: int | None,
     timeout: float | None,
@@ -157,7 +168,7 @@ def trace(
     from checker.commands.tracing import trace as run
     from checker.commands.variant import pick_variant
 
-    variant = pick_variant(chosen, repair)
+    variant = pick_variant(chosen, repair, dropped)
     prop = pick("property", id, variant.properties())
     limits = Limits(depth, timeout, timers=Timers(timers))
     return run(prop, variant.systems(), pick_engine(engine), limits, format, everything, output)
@@ -175,13 +186,14 @@ def graph(
     format: str,
     chosen: tuple[str, ...],
     repair: str | None,
+    dropped: tuple[str, ...],
     output: Path | None,
 ) -> Exit:
     """Draw a chart, or the reachable graph of a system projected on some variables."""
     from checker.commands.graphing import graph as run
     from checker.commands.variant import pick_variant
 
-    return run(name, project, format, pick_variant(chosen, repair).systems(), output)
+    return run(name, project, format, pick_variant(chosen, repair, dropped).systems(), output)
 
 
 @app.command()

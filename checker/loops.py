@@ -3,11 +3,11 @@
 from dataclasses import dataclass, replace
 
 from checker.calm import calmed
+from checker.lasso import Lasso, lasso
 from checker.replay import ReplayError, replay
 from checker.slice import sliced
 from checker.trace import Trace
 from checker.verdict import Run
-from properties.lasso import Lasso, lasso
 from properties.reduce import Goal, Question
 from spec_model.lang.expr import Var
 from spec_model.lang.walk import variables

@@ -6,7 +6,7 @@ of k" is some tick of k..k+n.  ``from_tick`` is the first tick at which a proper
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from typing import Union
 
 from spec_model.lang.errors import ModelError
@@ -159,7 +159,8 @@ def formulas(form: Form) -> list[Expr]:
 class Property:
     """A requirement made precise: id, sentence, form, the requirements it covers, the system it is about.
 
-    ``readings`` names the readings of ambiguous sentences under which it is stated.
+    ``readings`` names the readings of ambiguous sentences under which it is stated.  ``costly``: it is
+    decided only on request and in the full profile, not in the default one.
     """
 
     id: str
@@ -169,7 +170,13 @@ class Property:
     on: str
     from_tick: int = 1
     readings: tuple[str, ...] = ()
+    costly: bool = False
     area: str = field(default="", compare=False)
+
+
+def costly(prop: Property) -> Property:
+    """The same property, for the full profile only: it takes more than half a minute."""
+    return replace(prop, costly=True)
 
 
 def _property(

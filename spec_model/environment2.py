@@ -13,7 +13,7 @@ from spec_model.lang.chart import Block
 from spec_model.lang.domain import chosen, integer
 from spec_model.lang.expr import TRUE, Expr, Var, all_of, any_of, flag, implies, ite, var
 from spec_model.lang.words import maximum, wrap
-from spec_model.readings import choose
+from spec_model.readings import choose, under
 from spec_model.signals.board2 import SONARS, B2Decision, number
 
 # One distance for each set that no limit of the charts divides: ..70, 71..100, 101..300, 301..
@@ -28,6 +28,8 @@ other = tuple(flag(f"other{i}", f"echo{i} stands for its part beyond a limit of 
 missing = tuple(
     flag(f"missing{i}", f"S{i} hears no echo at all, cable cut for instance (E13)") for i in (1, 2, 3)
 )
+
+sonar_fault = flag("sonar_fault", "a bit of the fault masks beyond the four modelled: no echo (E13 FAULT)")
 
 
 def _measured(i: int) -> Expr:
@@ -57,6 +59,7 @@ def _replaced(d: Var, i: int) -> Expr:
 sonar_scan = Block("SonarScan", [
     when(until_scan == 0, [
         *(assign(d, _replaced(d, i)) for i, d in enumerate(SONARS)),
+        when(under("E13", "FAULT"), [assign(sonar_fault, any_of(*missing))]),
         assign(until_scan, ite(scanned, 2, scan_phase)),
         assign(scanned, TRUE),
     ], [

@@ -7,9 +7,10 @@ power-up with all stamps 0, and the first step is at 20 ms.  A datum changes onl
 from collections.abc import Sequence
 
 from spec_model.environment import clock
-from spec_model.lang.action import assign, when
+from spec_model.lang.action import Action, assign, when
 from spec_model.lang.chart import Block
-from spec_model.lang.expr import Var, implies
+from spec_model.lang.expr import Const, Var, implies
+from spec_model.readings import under
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
 from spec_model.signals.board2 import SONARS
@@ -26,16 +27,18 @@ def arriving(published: Var) -> Var:
     return Var(f"new_{published.name}", published.domain, published.init, f"{published.name} of the update")
 
 
-def snapshot(name: str, update: Var, data: Sequence[Var]) -> Block:
+def snapshot(name: str, update: Var, data: Sequence[Var], otherwise: Sequence[Action] = ()) -> Block:
     """Data of a snapshot: an update replaces them, all together."""
     return Block(
         name,
-        [when(update, [assign(datum, arriving(datum)) for datum in data])],
+        [when(update, [assign(datum, arriving(datum)) for datum in data], otherwise)],
         text=f"Data of {name}, kept until {update.name}.",
     )
 
 
-joystick = snapshot("BLE", b2.BLE.update, (motion.ay_norm, motion.bx_norm, motion.btn1, motion.btn2))
+_stick = (motion.ay_norm, motion.bx_norm, motion.btn1, motion.btn2)
+_let_go = when(under("E28", "NEUTRAL"), [assign(datum, Const(0, datum.sort)) for datum in _stick])
+joystick = snapshot("BLE", b2.BLE.update, _stick, [_let_go])
 inertial = snapshot("IMU", b2.IMU.update, (motion.yaw, b2.gz_dps))
 masks_of_board1 = snapshot("Board1_Data.masks", b2.RX.update, (b2.crit_mask_b1, b2.degr_mask_b1))
 wheels_of_board1 = snapshot("Board1_Data.wheels", b2.RX.update, tuple(b2.wheel_speed_rpm.values()))

@@ -1,6 +1,6 @@
 """The systems that are checked, by name: every chart with its environment, and each board as a whole."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache
 from importlib import import_module
@@ -23,6 +23,8 @@ BOARDS = (
     "spec_model.board2.supervisor_systems",
     "spec_model.composition.systems",
     "spec_model.composition.fine_systems",
+    "spec_model.composition.receiver",
+    "spec_model.composition.counters",
 )
 """Modules with a tuple SYSTEMS, in the order in which the systems are listed."""
 
@@ -33,8 +35,14 @@ def systems(choices: Mapping[str, str] = AS_READ) -> dict[str, System]:
     A reading chosen as ``any`` is a frozen variable of every system.  Raises ``ModelError`` for a name
     used twice, an unknown reading or choice.
     """
+    return dict(_systems(tuple(sorted(choices.items()))))
+
+
+@cache
+def _systems(chosen: tuple[tuple[str, str], ...]) -> dict[str, System]:
+    choices = dict(chosen)
     fixing, open_, modelled = fixed(choices), left_open(choices), modelled_only(choices)
-    found = merged(fixing.system(system) for module in BOARDS for system in _systems_of(module))
+    found = merged(map(fixing.system, as_written()))
     if not open_:
         return found
     return {
@@ -43,11 +51,15 @@ def systems(choices: Mapping[str, str] = AS_READ) -> dict[str, System]:
     }
 
 
+def as_written() -> Iterator[System]:
+    """Every system with its readings open, as its module declares it."""
+    return (system for module in BOARDS for system in _systems_of(module))
+
+
 @cache
 def readings_of(name: str) -> frozenset[str]:
     """The readings on which the behaviour of a system depends.  Raises ``KeyError`` for an unknown one."""
-    written = merged(system for module in BOARDS for system in _systems_of(module))
-    return frozenset(written[name].inputs.keys() & readings().keys())
+    return frozenset(merged(as_written())[name].inputs.keys() & readings().keys())
 
 
 def _systems_of(module: str) -> tuple[System, ...]:

@@ -99,6 +99,17 @@ def list_repairs() -> None:
     )
 
 
+def list_assumptions() -> None:
+    holders: dict[tuple[str, str], list[str]] = {}
+    for system in systems().values():
+        for one in system.assumptions:
+            holders.setdefault((one.id, one.text), []).append(system.name)
+    _print(
+        ("id", "what is assumed", "of"),
+        ((id, text, ", ".join(names)) for (id, text), names in holders.items()),
+    )
+
+
 def list_engines() -> None:
     rows = [(e.NAME, e.SUMMARY) for e in engines().values()]
     rows.append((AUTO, "Explicit search first, then bounded model checking of what it leaves open."))
@@ -112,6 +123,7 @@ LISTS: dict[str, Callable[[], None]] = {
     "requirements": list_requirements,
     "readings": list_readings,
     "repairs": list_repairs,
+    "assumptions": list_assumptions,
     "engines": list_engines,
 }
 

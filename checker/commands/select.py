@@ -27,12 +27,19 @@ def pick_engine(name: str) -> str:
     return name
 
 
-def pick_properties(ids: Sequence[str], system: str | None, known: Mapping[str, Property]) -> list[Property]:
+def pick_properties(
+    ids: Sequence[str], system: str | None, known: Mapping[str, Property], full: bool = False
+) -> list[Property]:
     """Properties by id, or by the beginning that its forms share (PB1-16 is PB1-16a, PB1-16b...).
 
-    All of them when no id is given; only those about ``system`` when one is.
+    All of them when no id is given, the costly ones only in ``full``; only those about ``system`` when
+    one is named.
     """
-    chosen = _distinct(p for id in ids for p in _matching(id, known)) if ids else list(known.values())
+    chosen = (
+        _distinct(p for id in ids for p in _matching(id, known))
+        if ids
+        else [p for p in known.values() if full or not p.costly]
+    )
     if system is None:
         return chosen
     pick("system", system, systems())

@@ -1,4 +1,4 @@
-"""What is checked instead of the charts as specified: other readings of the text, or a proposed repair."""
+"""What is checked instead of the charts as specified: other readings, a repair, fewer assumptions."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -15,23 +15,23 @@ from spec_model.rover import systems
 
 @dataclass(frozen=True)
 class Variant:
-    """Chosen readings and at most one repair; neither means the charts as specified."""
+    """Chosen readings, at most one repair, dropped assumptions; none means the charts as specified."""
 
     choices: Mapping[str, str]
     repair: Repair | None = None
+    without: frozenset[str] = frozenset()
 
     @property
     def name(self) -> str:
         """``under S43=AND with safety-critical-first``; empty for the charts as specified."""
         chosen = ", ".join(f"{id}={choice}" for id, choice in self.choices.items())
-        parts = ([f"under {chosen}"] if chosen else []) + (
-            [f"with {self.repair.name}"] if self.repair else []
-        )
-        return " ".join(parts)
+        repair = f"with {self.repair.name}" if self.repair else ""
+        dropped = f"without {', '.join(sorted(self.without))}" if self.without else ""
+        return " ".join(part for part in (chosen and f"under {chosen}", repair, dropped) if part)
 
     def systems(self) -> dict[str, System]:
         """Every system by name, changed."""
-        found = systems(self.choices)
+        found = {name: system.without(self.without) for name, system in systems(self.choices).items()}
         if self.repair is None:
             return found
         return {name: repaired(system, self.repair) for name, system in found.items()}
@@ -45,8 +45,10 @@ class Variant:
         by_name = systems(self.choices)
 
         def concerned(prop: Property) -> bool:
-            edited = self.repair is not None and touches(by_name[prop.on], self.repair)
-            return edited or not self.choices.keys().isdisjoint(read_by(prop))
+            system = by_name[prop.on]
+            edited = self.repair is not None and touches(system, self.repair)
+            freed = not self.without.isdisjoint(a.id for a in system.assumptions)
+            return edited or freed or not self.choices.keys().isdisjoint(read_by(prop))
 
         return concerned
 
@@ -59,13 +61,15 @@ class Variant:
         return expected(id)
 
 
-def pick_variant(chosen: Sequence[str], repair: str | None) -> Variant:
+def pick_variant(chosen: Sequence[str], repair: str | None, dropped: Sequence[str]) -> Variant:
     """The variant that the command line asks for.  Raises ``UsageError`` or ``ModelError``."""
     choices = _choices(chosen)
+    known = {a.id: a for system in systems(choices).values() for a in system.assumptions}
+    without = frozenset(pick("assumption", id, known).id for id in dropped)
     if repair is None:
-        return Variant(choices)
+        return Variant(choices, None, without)
     found = pick("repair", repair, repairs())
-    return Variant({**found.readings, **choices}, found)
+    return Variant({**found.readings, **choices}, found, without)
 
 
 def _choices(chosen: Sequence[str]) -> dict[str, str]:

@@ -44,7 +44,7 @@ PB2_14b = enters_only_if(
 PB2_14c = always(
     "PB2-14c", "Board 2 is authorised in every step in which Board 1 is silent.",
     that=implies(silent(RX) | silent(SUP), autorized),
-    covers=["B2-ACT-01"], on=LINKS, from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on="check_board1_fading", from_tick=2, readings=["E22"],
 )  # fmt: skip
 PB2_14d = holds_after(
     "PB2-14d", "Board 2 is authorised when the reception from Board 1 is silent for two steps.",
@@ -67,8 +67,8 @@ PB2_15c = holds_for(
     covers=["B2-ACT-01"], on=ON, from_tick=2, readings=["E22"],
 )  # fmt: skip
 PB2_15d = leaves_only_if(
-    "PB2-15d", "Board 2 loses the authorisation only in a step in which Board 1 is not silent.",
-    leaving=autorized, only_if=~silent(RX) & ~silent(SUP),
+    "PB2-15d", "Board 2 does not lose the authorisation where Board 1 has been silent for two steps.",
+    leaving=autorized, only_if=~held(silent(RX), for_=1 * tick) & ~held(silent(SUP), for_=1 * tick),
     covers=["B2-ACT-01"], on=LINKS, from_tick=2, readings=["E22", "E29"],
 )  # fmt: skip
 

@@ -92,10 +92,6 @@ PB2_13d1 = _stops(
     "d-1", "Stick forward and no 180° rotation: both references are zero in the second of two steps.",
     obstacle & forward & ~is_rotating180, 1 * tick, zero,
 )  # fmt: skip
-PB2_13e2 = _stops(
-    "e-2", "No 180° rotation: the rover does not move forward in the third step, whatever the user wants.",
-    obstacle & ~is_rotating180, 2 * ticks, v_ref <= 0,
-)  # fmt: skip
 
 # --- limits and authority ----------------------------------------------------------------------------
 

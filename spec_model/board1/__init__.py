@@ -16,7 +16,7 @@ from spec_model.board1.relay import relay
 from spec_model.board1.safety import safety_state
 from spec_model.board1.temperature import monitor_temperature
 from spec_model.board1.wheels import monitor_wheels
-from spec_model.lang.action import assign
+from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block, Component, Enabled
 from spec_model.readings import under
 from spec_model.signals.board1 import give_b2_actuation, omega_ref, v_ref
@@ -35,22 +35,20 @@ safety_computed = computed | under("S49", "STOP-AND-GIVE")
 
 
 def references(*charts: Component) -> Enabled:
-    """Calculation of the references, executed only while Board 1 actuates [seed §2.1] (S48, S49)."""
-    return Enabled(
-        safety_computed,
-        safety_state,
-        Enabled(computed, update_safety_limits, *charts),
-        Enabled(
-            give_b2_actuation & under("S48", "ZERO"),
-            Block(
-                "No_references", [assign(v_ref, 0), assign(omega_ref, 0)], text="None while Board 2 drives."
-            ),
-        ),
-    )
+    """Calculation of the references by these charts, executed only while Board 1 actuates [seed §2.1].
+
+    What is not executed keeps its state and its outputs (S48), and the safety state too (S49).
+    """
+    return Enabled(safety_computed, safety_state, Enabled(computed, update_safety_limits, *charts))
 
 
 REFERENCES = references(toggle, motion_supervision)
-"""The references by the two regions of their chart, as drawn."""
+
+no_references = Block(
+    "No_references",
+    [when(give_b2_actuation & under("S48", "ZERO"), [assign(v_ref, 0), assign(omega_ref, 0)])],
+    text="References that are not computed are 0.",
+)
 
 SUPERVISOR: tuple[Component, ...] = (
     *MONITORS,
@@ -58,6 +56,7 @@ SUPERVISOR: tuple[Component, ...] = (
     own_causes,
     process_b2_masks,
     relay,
+    no_references,
     REFERENCES,
 )
 """The whole supervisor of Board 1."""

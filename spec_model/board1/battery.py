@@ -107,7 +107,7 @@ monitor_battery = Chart(
             ],
         ),
     ],
-    default=[to("decide"), to("Batt_OK")],  # S65
+    default=[to("decide", when=under("S65", "CLASSIFY")), to("Batt_OK")],
     junctions=[
         Junction(
             "decide",

@@ -7,12 +7,14 @@ It is the second region of the reference chart, executed after the toggle of bac
 
 from fractions import Fraction
 
+from spec_model.board1.motion_readings import follow_user, limited, manoeuvre, may_go_on, must_stop
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Chart, Junction, State, to
 from spec_model.lang.expr import const
 from spec_model.lang.time import sec
 from spec_model.lang.words import absolute, duration, maximum, minimum, named
 from spec_model.manoeuvres.rotation import Rotation, free, measured, toward_target, turned_around
+from spec_model.readings import under
 from spec_model.signals.board1 import (
     OMEGA_GO_LEFT,
     OMEGA_GO_RIGHT,
@@ -42,13 +44,11 @@ from spec_model.signals.board1 import (
     y_norm,
 )
 
-may_move = backward_enabled | (y_norm > 0)
-critical = rover_safety_state == "SAFETY_CRITICAL"
 back_to_normal = to("Normale_marcia", when=cmd == "CMD_NORMAL")
 
-update_user_command = [  # UPD: SCALE (S57)
-    assign(v_user, y_norm * V_MAX),
-    assign(omega_user, x_norm * OMEGA_MAX),
+update_user_command = [  # UPD
+    assign(v_user, limited(y_norm, V_MAX)),
+    assign(omega_user, limited(x_norm, OMEGA_MAX)),
     turned_around(v_user, invert_y),
 ]
 
@@ -76,7 +76,7 @@ def motion(rotation: Rotation) -> Chart:
                 transitions=[
                     to(
                         "In_frenata_di_emergenza",
-                        when=((cmd == "CMD_ESTOP") & (v_user > 0) & ~is_rotating180) | critical,  # S61, S63
+                        when=must_stop,  # S61, S63
                         do=[assign(estop_recover_enabled, False)],
                     ),
                 ],
@@ -85,46 +85,48 @@ def motion(rotation: Rotation) -> Chart:
                     State(
                         "Normale_marcia",
                         entry=[assign(current_action, "CMD_NORMAL")],
-                        during=[
-                            when(may_move, [assign(v_ref, v_user)], [assign(v_ref, 0)]),  # S59
-                            assign(omega_ref, omega_user),
-                        ],
+                        during=follow_user(omega_user),  # S59
                         transitions=[
                             to("Schivata_a_sinistra", when=(v_user > 0) & (cmd == "CMD_GO_LEFT")),
                             to("Evita_sinistra", when=(v_user > 0) & (cmd == "CMD_AVOID_LEFT")),
                             to("Evita_destra", when=(v_user > 0) & (cmd == "CMD_AVOID_RIGHT")),
                             to("Schivata_a_destra", when=(v_user > 0) & (cmd == "CMD_GO_RIGHT")),
-                            to("Retromarcia_180", when=(y_norm < -0.5) & ~backward_enabled),
+                            to(
+                                "Retromarcia_180",
+                                when=(y_norm < -0.5) & ~backward_enabled & under("S59", "MOTION-CHART"),
+                            ),
                         ],
                     ),
                     State(
                         "Schivata_a_sinistra",
                         entry=[assign(current_action, "CMD_GO_LEFT")],
-                        during=[
-                            assign(v_ref, minimum(v_user, V_MAX_MANEUVER)),  # S60
-                            assign(omega_ref, maximum(omega_user, OMEGA_GO_LEFT)),
-                        ],
+                        during=manoeuvre(  # S60
+                            v=minimum(v_user, V_MAX_MANEUVER),
+                            omega=maximum(omega_user, OMEGA_GO_LEFT),
+                            named_turn=OMEGA_GO_LEFT,
+                        ),
                         transitions=[back_to_normal],
                     ),
                     State(
                         "Schivata_a_destra",
                         entry=[assign(current_action, "CMD_GO_RIGHT")],
-                        during=[
-                            assign(v_ref, minimum(v_user, V_MAX_MANEUVER)),
-                            assign(omega_ref, minimum(omega_user, OMEGA_GO_RIGHT)),
-                        ],
+                        during=manoeuvre(
+                            v=minimum(v_user, V_MAX_MANEUVER),
+                            omega=minimum(omega_user, OMEGA_GO_RIGHT),
+                            named_turn=OMEGA_GO_RIGHT,
+                        ),
                         transitions=[back_to_normal],
                     ),
                     State(
                         "Evita_sinistra",
                         entry=[assign(current_action, "CMD_AVOID_LEFT")],
-                        during=[assign(v_ref, v_user), assign(omega_ref, minimum(omega_user, 0))],
+                        during=manoeuvre(v=v_user, omega=minimum(omega_user, 0)),
                         transitions=[back_to_normal],
                     ),
                     State(
                         "Evita_destra",
                         entry=[assign(current_action, "CMD_AVOID_RIGHT")],
-                        during=[assign(v_ref, v_user), assign(omega_ref, maximum(omega_user, 0))],
+                        during=manoeuvre(v=v_user, omega=maximum(omega_user, 0)),
                         transitions=[back_to_normal],
                     ),
                     State(
@@ -154,7 +156,7 @@ def motion(rotation: Rotation) -> Chart:
                 transitions=[
                     to(
                         "Stato_marcia_rover",
-                        when=~critical & estop_recover_enabled,
+                        when=may_go_on,
                         do=[assign(actuate_emergency_stop, False)],  # latched until at rest (S62)
                     ),
                 ],

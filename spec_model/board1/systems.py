@@ -5,7 +5,7 @@ of it holds in the board too, and a counterexample counts when the board has one
 """
 
 from spec_model import environment as env
-from spec_model.board1 import SUPERVISOR, references
+from spec_model.board1 import SUPERVISOR, computed, no_references, references, safety_computed
 from spec_model.board1.backward import toggle
 from spec_model.board1.battery import monitor_battery
 from spec_model.board1.classify import process_b2_masks
@@ -147,7 +147,7 @@ relay_links = in_order(
 safety = in_order(
     "safety",
     process_b2_masks,
-    Enabled(~b1.give_b2_actuation, safety_state),
+    Enabled(safety_computed, safety_state),
     text="The safety state for any masks of Board 2, any causes in Board 1 and any relay decision.",
     notes=[FREE_STATUSES],
     over=True,
@@ -159,6 +159,7 @@ references_parts = (safety_state, update_safety_limits, motion_with_free_error)
 
 references_for_any_yaw = in_order(
     "references",
+    no_references,
     references(motion_with_free_error),
     text="Safety state, limits and references, for any relay decision, faults, commands and wheel speeds.",
     notes=[FREE_STATUSES, FREE_CAUSES, FREE_BACKWARD, FREE_ERROR],
@@ -187,7 +188,7 @@ backward = in_order(
 backward_frozen = in_order(
     "backward_frozen",
     relay,
-    Enabled(~b1.give_b2_actuation, toggle),
+    Enabled(computed, toggle),
     text="The relay decision and the toggle of backward mode, for any buttons, stick and statuses.",
     notes=["The statuses of reception and Board 2 supervisor are free in every step."],
 )

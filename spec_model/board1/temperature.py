@@ -81,7 +81,10 @@ monitor_temperature = Chart(
             transitions=[to("decide", when=released, do=[count_steps])],
         ),
     ],
-    default=[to("decide", do=[count_steps]), to("Temp_OK")],  # classified in the very first step (S65)
+    default=[  # classified in the very first step (S65)
+        to("decide", when=under("S65", "CLASSIFY"), do=[count_steps]),
+        to("Temp_OK"),
+    ],
     junctions=[
         Junction(
             "decide",

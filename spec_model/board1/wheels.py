@@ -42,8 +42,8 @@ def monitor_of_wheel(wheel: str) -> Chart:
             ),
         ],
         default=[
-            to("Wheel_DEG", when=under("S28", "SEQ") & lost & ~consistent),
-            to("decide"),  # S65
+            to("Wheel_DEG", when=under("S28", "SEQ") & under("S65", "CLASSIFY") & lost & ~consistent),
+            to("decide", when=under("S65", "CLASSIFY")),
             to("Wheel_OK"),
         ],
         junctions=[

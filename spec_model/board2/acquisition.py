@@ -14,6 +14,7 @@ from spec_model.lang.domain import boolean, chosen, fixed, integer
 from spec_model.lang.expr import FALSE, TRUE, Expr, Var, any_of, const, flag, ite, var
 from spec_model.lang.time import ms
 from spec_model.lang.words import absolute, after, maximum, minimum, modulo, named, quotient
+from spec_model.readings import under
 
 # --- sonar ---------------------------------------------------------------------------------------
 
@@ -101,6 +102,8 @@ def axis(raw: Var) -> Expr:
     return ite(absolute(scaled) < const(Fraction(1, 10)), 0, maximum(minimum(scaled, 1), -1))
 
 
+neutral = [assign(axis_x, 0), assign(axis_y, 0), assign(button1, FALSE), assign(button2, FALSE)]
+
 ble_task = Block("BleTask", [
     assign(ticks, modulo(ticks + 1, CLOCK)),
     when(complete, [
@@ -109,6 +112,6 @@ ble_task = Block("BleTask", [
         assign(axis_y, axis(raw_y)),
         assign(button1, raw_btn1),
         assign(button2, raw_btn2),
-    ]),
+    ], [when(under("E28", "NEUTRAL"), neutral)]),
     assign(last_run, ticks),
 ], text="An incomplete read keeps the old data (E28)")  # fmt: skip

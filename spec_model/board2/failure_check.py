@@ -1,12 +1,15 @@
 """Check for a failure of Board 1: decides whether Board 2 may send motor commands (E21, E22).
 
-The counterpart of the relay decision of Board 1; the two are not synchronised.
+The counterpart of the relay decision of Board 1; the two are not synchronised.  Under B1-ONLY only
+Board 1 authorises, by its request; under B2-ONLY the decision needs no relay (``composition.motors``).
 """
 
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, State, to
+from spec_model.lang.expr import FALSE, any_of
 from spec_model.lang.time import sec
 from spec_model.lang.words import duration, named
+from spec_model.readings import choose
 from spec_model.signals.board2_supervisor import (
     autorized_to_send_command,
     b1_requests_switch,
@@ -14,7 +17,9 @@ from spec_model.signals.board2_supervisor import (
     rx_status,
 )
 
-q = named("q", b1_requests_switch | (rx_status == "RX_CRITICAL") | (b1_sup_status == "SUP_CRITICAL"))
+silent = (rx_status == "RX_CRITICAL") | (b1_sup_status == "SUP_CRITICAL")
+own_view = choose("E22", {"RELAY-AND-FLAG": silent, "B2-ONLY": silent, "B1-ONLY": FALSE})
+q = named("q", any_of(b1_requests_switch, own_view))
 
 check_board1 = Chart(
     "Check_Board1",

@@ -12,6 +12,7 @@ from spec_model.lang.chart import Block, Chart, State, to
 from spec_model.lang.expr import Expr
 from spec_model.lang.time import Span, sec
 from spec_model.lang.words import duration, named
+from spec_model.readings import choose
 from spec_model.signals.board2_supervisor import SOURCES, SUP, Source
 
 
@@ -20,9 +21,9 @@ def silent(source: Source) -> Expr:
     return named(f"now_ms - ts > {source.limit} ms", source.age > source.limit)
 
 
-def recovered(source: Source, rest: Span) -> Expr:
-    """The gaps have been short enough for longer than ``rest`` (E29 HYST)."""
-    return duration(~source.deg) > rest
+def recovered(source: Source, rest: Span, at_once: Expr) -> Expr:
+    """The gaps have been short enough for longer than ``rest``, or ``at_once`` (E29)."""
+    return choose("E29", {"HYST": duration(~source.deg) > rest, "INSTANT": at_once})
 
 
 def from_critical(source: Source) -> Span:
@@ -38,11 +39,11 @@ def _region(source: Source, slow2: Slow2) -> State:
             to("CRIT", when=silent(source)),
         ]),
         State("DEG", entry=[assign(source.status, degraded)], during=slow2.ask, transitions=[
-            to("OK", when=recovered(source, 1 * sec)),
+            to("OK", when=recovered(source, 1 * sec, ~source.deg)),
             to("CRIT", when=silent(source)),
         ]),
         State("CRIT", entry=[assign(source.status, critical)], during=slow2.ask, transitions=[
-            to("OK", when=recovered(source, from_critical(source))),
+            to("OK", when=recovered(source, from_critical(source), ~silent(source))),
         ]),
     ])  # fmt: skip
 

@@ -1,7 +1,11 @@
 """The systems in which the reference charts of Board 2 are checked, alone and behind what they follow."""
 
+from spec_model.board2 import DRIVING
 from spec_model.board2.backward import toggle_2
-from spec_model.board2.motion import REFERENCES2_PARTS, motion_2_with_free_error
+from spec_model.board2.classify import process_masks
+from spec_model.board2.failure_check import check_board1
+from spec_model.board2.masks import fault_masks_2
+from spec_model.board2.motion import motion_2_with_free_error
 from spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
 from spec_model.board2.safety import safety_state_2
 from spec_model.lang.chart import Enabled
@@ -22,18 +26,24 @@ COMES_BEFORE = (safety_state_2, obstacles_driving, obstacle_command)
 
 SYSTEMS: tuple[System, ...] = (
     in_order(
-        "references_2_drawn",
-        Enabled(autorized_to_send_command, *COMES_BEFORE, *REFERENCES2_PARTS),
-        text="Safety state, obstacle command and references of Board 2 as drawn, for any authorisation.",
-        notes=(FREE_CAUSES, "Headings are multiples of 2.5 degrees, arbitrary in every step."),
+        "driving_2",
+        fault_masks_2,
+        process_masks,
+        check_board1,
+        DRIVING,
+        text="Board 2 from its statuses on: masks, classes, authorisation, and the references as drawn.",
+        notes=(
+            "Statuses, masks of Board 1, distances, stick and wheels are free in every step.",
+            "Headings are multiples of 2.5 degrees, arbitrary in every step.",
+        ),
     ),
     in_order(
         "references_2",
         Enabled(autorized_to_send_command, *COMES_BEFORE, motion_2_with_free_error),
-        text="As references_2_drawn, with less to remember.",
+        text="Safety state, obstacle command and references of Board 2, for any authorisation.",
         notes=(FREE_CAUSES, FREE_BACKWARD, FREE_ERROR),
         over=True,
-        concrete="board2",
+        concrete="driving_2",
     ),
     in_order(
         "references_2_executed",

@@ -18,6 +18,7 @@ from spec_model.lang.domain import integer
 from spec_model.lang.expr import Expr, Var, flag, ite, var
 from spec_model.lang.system import TICK_MS
 from spec_model.lang.words import maximum, minimum
+from spec_model.readings import choose
 from spec_model.signals.board2_supervisor import COUNT, Source
 
 GAPS = 10
@@ -36,8 +37,8 @@ Record = Callable[[Source], Slow2]
 
 
 def enough(gaps: Expr) -> Expr:
-    """Whether so many gaps have a mean: one does (E26 FILL)."""
-    return gaps >= 1
+    """Whether so many gaps have a mean: one does (E26)."""
+    return choose("E26", {"FILL": gaps >= 1, "WAIT-10": gaps >= GAPS})
 
 
 def exact(source: Source) -> Slow2:
@@ -114,8 +115,13 @@ def _pending(source: Source, longest: int) -> tuple[Var, Block]:
     return pending, note
 
 
+def gaps_of(source: Source) -> Var:
+    """How many gaps the record holds."""
+    return var(f"{source.name}_gaps", COUNT, doc="gaps in the record")
+
+
 def _count(source: Source) -> tuple[Var, Action]:
-    gaps = var(f"{source.name}_gaps", COUNT, doc="gaps in the record")
+    gaps = gaps_of(source)
     return gaps, assign(gaps, minimum(gaps + 1, GAPS))
 
 

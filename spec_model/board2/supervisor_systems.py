@@ -16,13 +16,13 @@ from spec_model.board2.obstacles import obstacles_n
 from spec_model.board2.obstacles_degraded import obstacles_degraded
 from spec_model.board2.safety import safety_state_2
 from spec_model.board2.selection import selection
-from spec_model.board2.slow2 import Record, exact, forgotten, runs
+from spec_model.board2.slow2 import Record, exact, forgotten, gaps_of, runs
 from spec_model.environment2 import scanned
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block, Component, Enabled
 from spec_model.lang.domain import enumeration
 from spec_model.lang.expiry import free_timers
-from spec_model.lang.expr import Expr, Var, all_of, any_of, flag, ite, var
+from spec_model.lang.expr import Expr, Var, all_of, any_of, flag, implies, ite, var
 from spec_model.lang.system import System, in_order
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
@@ -206,6 +206,24 @@ check_links = free_timers(
     text="As check_board1_links; the monitors return at will.",
 )
 check_links = replace(check_links, concrete="check_board1_links")
+
+FADING = (
+    "The first frame comes at 60 ms, then one in every step, each with a new alive counter, until they stop "
+    "for good; no mask bit of Board 1 is set."
+)
+check_fading = replace(
+    check_links_exact,
+    name="check_board1_fading",
+    text="As check_board1_links, with frames that come slowly, then quickly, and then stop.",
+    assume=all_of(
+        b2.SUP.update == b2.RX.update,
+        env.arriving(b2.crit_mask_b1) == 0,
+        implies(gaps_of(b2.RX) == 0, b2.RX.update == (b2.RX.age >= 40)),
+        implies((gaps_of(b2.RX) > 0) & (b2.RX.age > 0), ~b2.RX.update),
+    ),
+    notes=(GRID, FADING),
+    under=True,
+)
 
 check_requests = in_order(
     "check_board1_requests",
@@ -404,6 +422,7 @@ SYSTEMS: tuple[System, ...] = (
     check_alone,
     check_links_exact,
     check_links,
+    check_fading,
     check_requests,
     safety,
     coherence_exact,

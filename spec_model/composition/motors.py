@@ -3,7 +3,7 @@
 The relay connects the motor line and the stop pin of one board to the driver [seed §2.5, Fig 17].  Its
 coil holds Board 1 while that board has power and keeps ``give_b2_actuation`` false; without power the
 line is on Board 2 (S47).  The driver keeps the last command, and stops the motors when none came for
-300 ms.  Speeds are only told zero or not.
+300 ms.  Speeds are only told zero or not.  Under B2-ONLY both boards may command it in one step (E22).
 """
 
 from spec_model.lang.action import assign, when
@@ -11,6 +11,7 @@ from spec_model.lang.chart import Block
 from spec_model.lang.domain import boolean, enumeration, integer
 from spec_model.lang.expr import flag, ite, member, var
 from spec_model.lang.words import minimum, named
+from spec_model.readings import under
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2_supervisor as b2
 
@@ -35,7 +36,10 @@ relay_and_driver = Block(
         assign(connected, ite(coil, member(BOARD, "Board1"), member(BOARD, "Board2"))),
         assign(followed, "nobody"),
         when(coil, [assign(followed, "Board1"), assign(commanded_zero, zero_1)]),
-        when(~coil & b2.sends_speeds, [assign(followed, "Board2"), assign(commanded_zero, zero_2)]),
+        when(
+            (~coil | under("E22", "B2-ONLY")) & b2.sends_speeds,
+            [assign(followed, "Board2"), assign(commanded_zero, zero_2)],
+        ),
         assign(silence, ite(followed == "nobody", minimum(silence + 1, TIME_OUT), 0)),
         assign(
             motors_zero,

@@ -25,8 +25,7 @@ from spec_model.composition.motors import (
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block, Component, Enabled
 from spec_model.lang.expiry import free_timers
-from spec_model.lang.expr import Const, Var, all_of, any_of, flag, implies
-from spec_model.lang.specialise import Fixing
+from spec_model.lang.expr import Var, all_of, any_of, flag, implies
 from spec_model.lang.system import Assumption, System, in_order
 from spec_model.records import arrival_window
 from spec_model.signals import board1 as b1
@@ -126,7 +125,8 @@ PLAIN: Mapping[Var, bool | int] = {
     b1.batt_reading: 80,
     **dict.fromkeys(b1.has_no_feedback.values(), False),
     **dict.fromkeys(b1.wheel_speed_rpm.values(), 60),
-    **dict.fromkeys(map(env2.arriving, (motion.yaw, b2.gz_dps, motion.btn1, motion.btn2)), 0),
+    **dict.fromkeys(map(env2.arriving, (motion.yaw, b2.gz_dps)), 0),
+    **dict.fromkeys(map(env2.arriving, (motion.btn1, motion.btn2)), False),
     turned_45: False,
 }
 """A scene with few runs: sensors that always deliver, nothing out of range, straight on, no buttons."""
@@ -144,9 +144,8 @@ def _rover(name: str, text: str, *assumptions: Assumption) -> System:
 
 def _plain(name: str, text: str, *assumptions: Assumption) -> System:
     """The rover in one scene: what is violated there is violated."""
-    scene = Fixing({v.name: Const(v.domain.raw(value), v.sort) for v, value in PLAIN.items()})
-    made = scene.system(in_order(name, *PARTS, text=text, assumptions=assumptions))
-    return replace(made, notes=(SYNCHRONOUS, SCENE), under=True)
+    scene = all_of(*(v == value for v, value in PLAIN.items()))
+    return replace(_rover(name, text, *assumptions), assume=scene, notes=(SYNCHRONOUS, SCENE), under=True)
 
 
 motors = in_order(

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
+import jsonschema
 import networkx as nx
 import pytest
 from hypothesis import given, settings
@@ -12,6 +13,7 @@ from checker.engine import Limits, engines, quiet
 from checker.liveness import NO_LOOP
 from checker.loops import hunt, looped
 from checker.recover import Trap, trapped
+from checker.render import renderers
 from checker.render.trace_json import SCHEMA, document
 from checker.render.trace_table import render
 from checker.result import Result
@@ -170,7 +172,9 @@ def test_a_loop_is_shown_with_its_start_and_its_timers() -> None:
     assert trace.loop == len(trace) - 1, "the timer of Busy stands still at its bound"
     text = render(trace)
     assert "↻" in text and "this tick repeats for ever" in text and f"Loop: back to tick {trace.loop}" in text
-    assert document(trace)["loop"] == trace.loop and "loop" in SCHEMA["properties"]
+    assert "repeats for ever" in renderers("trace")["markdown"].render(trace)
+    jsonschema.validate(document(trace), SCHEMA)
+    assert document(trace)["loop"] == trace.loop
 
 
 def test_a_bound_proves_more_than_was_asked() -> None:
@@ -197,6 +201,7 @@ def test_a_trap_is_a_run_into_it_and_what_it_leads_to() -> None:
     assert isinstance(verdict, Violated) and isinstance(verdict.because, Trace)
     assert verdict.because.trapped == 1 and verdict.because.ticks[-1].arrows[-1].target == "Broken"
     assert "No way back" in render(verdict.because)
+    jsonschema.validate(document(verdict.because), SCHEMA)
     assert isinstance(_decided(Recoverable(PLANT.active("Idle")), "calm").verdict, Proved)
 
 

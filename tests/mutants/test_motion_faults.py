@@ -1,0 +1,97 @@
+"""Faults put by hand into the reference charts of both boards; each changes the verdict of a property."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import pytest
+
+from spec_model.lang.action import Action
+from spec_model.lang.expr import Apply, Expr, Op, all_of
+from spec_model.lang.time import sec
+from tests.mutants.edit import (
+    arrow,
+    constant,
+    drop,
+    edit_state,
+    entry,
+    guard,
+    in_expressions,
+    operator,
+    swap,
+    timer,
+)
+from tests.mutants.test_faults import ChartEdit, Fault, _in_chart, _notices
+
+
+def _without(position: int) -> Callable[[Expr], Expr]:
+    """A conjunction without one of its parts, counted from 0."""
+
+    def change(expr: Expr) -> Expr:
+        assert isinstance(expr, Apply) and expr.op is Op.AND
+        return all_of(*(part for i, part in enumerate(expr.args) if i != position))
+
+    return change
+
+
+def _no_exit(name: str) -> ChartEdit:
+    return lambda c: edit_state(c, name, lambda s: replace(s, exit=()))
+
+
+def _no_turning_stop(actions: tuple[Action, ...]) -> tuple[Action, ...]:
+    """The entry of the brake without ``omega_ref := 0``."""
+    return (*actions[:2], *actions[3:])
+
+
+def _toggle(board: int, too_long: str) -> list[tuple[str, str, ChartEdit]]:
+    reach = f"REACH{board}-COMBO"
+    return [
+        ("1 s becomes 1.02 s", too_long, lambda c: guard(c, "Step3", 2, timer(1.02 * sec))),
+        (
+            "one press less",
+            f"{reach}-2",
+            lambda c: arrow(c, "Step2", 1, lambda t: replace(t, target="Step4")),
+        ),
+        ("the stick does not end it", f"{reach}-TOUCHED", lambda c: drop(c, "Combo_toggle_backward", 1)),
+        ("nothing is toggled", f"{reach}-ON", lambda c: arrow(c, "Step4", 1, lambda t: replace(t, do=()))),
+        ("no limit for the last press", f"{reach}-LATE-4", lambda c: drop(c, "Step4", 2)),
+    ]
+
+
+FAULTS: dict[str, list[tuple[str, str, ChartEdit]]] = {
+    "Backward_mode_toggle": [
+        *_toggle(1, "PB1-27f"),
+        ("a press less", "PB1-27e", lambda c: arrow(c, "Step2", 1, lambda t: replace(t, target="Step4"))),
+        ("the stick does not end it", "PB1-27h", lambda c: drop(c, "Combo_toggle_backward", 1)),
+    ],
+    "Backward_mode_toggle_2": _toggle(2, "PB2-16k"),
+    "Motion_Supervision": [
+        ("7.5 becomes 10", "PB1-26g", lambda c: in_expressions(c, constant(7.5, 10))),
+        ("45 becomes 30", "PB1-26e", lambda c: in_expressions(c, constant(45, 30))),
+        ("the flag outlives the rotation", "PB1-26h", _no_exit("Retromarcia_180")),
+        ("a rotation in backward mode too", "PB1-26i", lambda c: guard(c, "Normale_marcia", 5, _without(1))),
+        ("the junction tested the other way round", "REACH1-ROTATED-INVERTED", lambda c: swap(c, "turned")),
+        ("a released stop without rest", "PB1-24a",
+         lambda c: guard(c, "Procedura_emergency_stop", 1, operator(Op.AND, Op.OR))),
+    ],
+    "Motion_Supervision_2": [
+        ("full speed", "PB2-16a", lambda c: in_expressions(c, constant(0.5, 1))),
+        ("2 s become 2.02 s", "PB2-16i", lambda c: guard(c, "In_frenata_di_emergenza", 1, timer(2.02 * sec))),
+        ("turning kept in the brake", "PB2-16c",
+         lambda c: entry(c, "In_frenata_di_emergenza", _no_turning_stop)),
+        ("a released stop without rest", "PB2-16h",
+         lambda c: guard(c, "Procedura_emergency_stop", 1, operator(Op.AND, Op.OR))),
+        ("an obstacle and a critical cause", "PB2-18a",
+         lambda c: guard(c, "Stato_marcia_rover", 1, operator(Op.OR, Op.AND))),
+    ],
+}  # fmt: skip
+
+CHART_FAULTS = [Fault(text, chart, killer, edit) for chart in FAULTS for text, killer, edit in FAULTS[chart]]
+
+
+@pytest.mark.parametrize("fault", CHART_FAULTS, ids=lambda f: f"{f.chart}: {f.text}")
+def test_a_fault_changes_a_verdict(fault: Fault) -> None:
+    assert _notices(fault.killer, _in_chart(fault))
+
+
+def test_every_reference_chart_has_at_least_three_faults() -> None:
+    assert all(len(faults) >= 3 for faults in FAULTS.values())
