@@ -9,6 +9,7 @@ from checker.freely import freely
 from checker.liveness import unbounded
 from checker.reproduce import not_reproducible, reproduced
 from checker.result import Answers, Result, check_domains, result
+from checker.slice import sliced
 from checker.verdict import Answer, Open, Reached, Unreachable
 from properties.forms import Property, Unbounded
 from properties.reduce import Question, reduce
@@ -24,6 +25,8 @@ SHORT = 12
 """Ticks in which ``auto`` looks for a loop before it enumerates pairs of valuations."""
 LITTLE = 64 << 20
 """Bytes that it grants to that enumeration."""
+WIDE = 160
+"""Bits of a valuation, of what the goals depend on, above which it unrolls before it enumerates."""
 
 AUTO = "auto"
 ALL = "all"
@@ -141,14 +144,9 @@ def _answers(
         return _compared(system, goals, engines(), limits, progress)
     if engine != AUTO:
         return _ask(engines()[engine], system, goals, limits, progress)
-    whole = ("explicit", limits), ("bmc", limits)
-    near = (
-        ("bmc", replace(limits, depth=min(SHORT, limits.depth or SHORT))),
-        ("explicit", replace(limits, memory=LITTLE)),
-        whole[1],
-    )
+    plan = _plan(limits, short, _width(sliced(system, goals)) > WIDE)
     found: dict[str, tuple[Answer, str]] = {}
-    for name, granted in near if short else whole:
+    for name, granted in plan:
         left = [g for g in goals if g.name not in found or isinstance(found[g.name][0], Open)]
         if not left or (found and limits.depth is not None):
             break
@@ -157,6 +155,22 @@ def _answers(
         for goal, answer in _ask(engines()[name], system, left, granted, progress).items():
             found[goal] = _better(found[goal], answer) if goal in found else answer
     return found
+
+
+def _plan(limits: Limits, short: bool, wide: bool) -> tuple[tuple[str, Limits], ...]:
+    """Which engine ``auto`` asks, and what it grants to each, until all is decided."""
+    explicit, unrolling = ("explicit", limits), ("bmc", limits)
+    little = ("explicit", replace(limits, memory=min(LITTLE, limits.memory)))
+    if wide:
+        return unrolling, little
+    if short:
+        return ("bmc", replace(limits, depth=min(SHORT, limits.depth or SHORT))), little, unrolling
+    return explicit, unrolling
+
+
+def _width(system: TransitionSystem) -> int:
+    """The bits of a valuation."""
+    return sum((len(v.domain) - 1).bit_length() for v in system.variables)
 
 
 def _ask(

@@ -22,7 +22,7 @@ from spec_model.lang.time import Span
 
 Systems = Mapping[str, System]
 
-NO_LOOP = "each with every saved one: no loop closes"
+NO_LOOP = "no loop closes"
 """What an exhausted search for loops has shown."""
 
 

@@ -27,11 +27,16 @@ class Ask(Protocol):
 
 @dataclass(frozen=True)
 class Result:
-    """A property, its verdict, and the name of the system the verdict is about."""
+    """A property, its verdict, and the name of the system the verdict is about.
+
+    ``in_part``: the verdict rests on having searched a system that has only some of the runs of the
+    rover, so it is none about the rover.
+    """
 
     property: Property
     verdict: Verdict
     system: str
+    in_part: bool = False
 
 
 def result(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Result:

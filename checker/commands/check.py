@@ -3,7 +3,7 @@
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from checker.commands.codes import Exit
 from checker.commands.output import err, out
@@ -18,6 +18,7 @@ from properties.forms import Property
 from spec_model.lang.system import System
 
 SCHEMA = 1
+SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
 WORKERS = 2
 
 
@@ -32,6 +33,11 @@ class Compared:
     @property
     def verdict(self) -> Verdict:
         return self.result.verdict
+
+    @property
+    def word(self) -> str:
+        """The verdict for people; ``proved in part`` where only some of the runs were searched."""
+        return f"{self.verdict.word} in part" if self.result.in_part else self.verdict.word
 
     @property
     def as_expected(self) -> bool:
@@ -76,9 +82,16 @@ def _one(
     task: Task, systems: Mapping[str, System], engine: str, limits: Limits, watch: Watch
 ) -> list[Result]:
     try:
-        return decide(task, systems, engine, limits, lambda line: watch.say(task.title, line))
+        found = decide(task, systems, engine, limits, lambda line: watch.say(task.title, line))
+        return [replace(one, in_part=_in_part(one, systems[one.system])) for one in found]
     finally:
         watch.finished(task.title)
+
+
+def _in_part(result: Result, system: System) -> bool:
+    """Whether a search of too few runs was exhausted; a run found in it is a run of the rover."""
+    verdict = result.verdict
+    return system.under and not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace)
 
 
 def check(
@@ -124,8 +137,9 @@ def worst(found: Sequence[Compared]) -> Exit:
 def line(compared: Compared) -> str:
     """One verdict in one line of 80 columns: sign, id, verdict, evidence."""
     verdict = compared.verdict
-    sign = {"proved": "✓", "violated": "✗", "unknown": "?"}[verdict.word]
-    text = f"{sign} {compared.result.property.id:<21} {verdict.word:<8} {in_short(compared.result)}"
+    sign = "≈" if compared.result.in_part else SIGNS[verdict.word]
+    word = "in part" if compared.result.in_part else verdict.word
+    text = f"{sign} {compared.result.property.id:<21} {word:<8} {in_short(compared.result)}"
     if compared.as_expected:
         return text + (", as on record" if verdict.word != "proved" else "")
     return text + f"\n    {_other(compared)} is {recorded(compared.expected)}"
@@ -193,6 +207,9 @@ def summary(found: Sequence[Compared]) -> None:
     counts = ", ".join(f"{words.count(w)} {w}" for w in ("proved", "violated", "unknown") if w in words)
     changed = [c for c in found if not c.as_expected]
     out.print(f"\n{len(found)} properties: {counts}.", markup=False)
+    parts = sum(c.result.in_part for c in found)
+    if parts:
+        out.print(f"≈ {parts} of them for some runs only: see the notes of their systems.", markup=False)
     if not changed:
         out.print("Every verdict is as on record in the baseline.")
         return
@@ -233,6 +250,7 @@ def _row(compared: Compared) -> dict[str, object]:
         "requirements": list(prop.covers),
         "system": compared.result.system,
         "verdict": verdict.word,
+        "in_part": compared.result.in_part,
         "engine": verdict.engine,
         "evidence": evidence(compared.result),
         "ticks": length(verdict),

@@ -16,9 +16,17 @@ from spec_model.lang.interpret import Interpreter
 from spec_model.lang.system import System, in_order
 from spec_model.readings import fixed, readings
 from spec_model.rover import systems
-from tests.readings.scenario import Blocks, Given, histories
+from tests.readings.scenario import BOARD1, WARM_UP, Blocks, Given, histories
 
-NOMINAL: Given = {"d1": 301, "d2": 301, "d3": 301, "echo1": 301, "echo2": 301, "echo3": 301, "ay_norm": 1}
+NOMINAL: Given = {
+    **BOARD1, "Board1.powered": True, "B1-B2.arrives": "newest", "B2-B1.arrives": "newest",
+    "d1": 301, "d2": 301, "d3": 301, "echo1": 301, "echo2": 301, "echo3": 301, "ay_norm": 1,
+    "new_d1": 301, "new_d2": 301, "new_d3": 301, "new_ay_norm": 1, "sonar_update": True,
+    "b1_sup_update": True, "B2.rx_update": True, "esp_update": True, "imu_update": True,
+    "ble_complete": True, "raw_x": 255, "raw_y": 510, "autorized_to_send_command": True,
+}  # fmt: skip
+"""Nothing in the way, the stick forward, every source delivering: of this a system takes its own inputs."""
+
 NEAR, GAP, SEEN = 70, 71, 200
 """One of the distances of the model for 60, 85 and 200 cm."""
 
@@ -36,6 +44,7 @@ class Scenario:
     watched: str
     shows: Mapping[str, str]
     on: str = "obstacles_n"
+    warm_up: int = 0
 
 
 def S1(cm: int) -> Given:
@@ -60,7 +69,14 @@ def turning(*yaws: int) -> Blocks:
     return [*LEFT_THEN_CENTRE, *steps, (2000, {**S2(SEEN), "yaw": yaws[-1] % 360})]
 
 
+def slow(source: str, period: int, times: int) -> Blocks:
+    """A source that delivers at the end of each period."""
+    return [block for _ in range(times) for block in ((period - 20, {source: False}), (20, {}))]
+
+
 DEC, B2DEC = "B2Decision", "B2Dec"
+CRITICAL, AUTHORISED = "B2.critical_mask", "autorized_to_send_command"
+CUT: Blocks = [(400, {"B1-B2.arrives": "nothing"})]
 
 # fmt: off
 SCENARIOS: list[Scenario] = [
@@ -106,13 +122,21 @@ SCENARIOS: list[Scenario] = [
         "SEL-B1FLAG": "0 200 6", "SEL-ACTUATOR": "0", "SEL-SAFETY": "0 200 6", "SEL-MASK": "0"}, "obstacles"),
     Scenario("E09", 2, [(200, {}), (200, {**S2(SEEN), "own_deg_mask": True})], B2DEC, {
         "SEL-B1FLAG": "0", "SEL-ACTUATOR": "0", "SEL-SAFETY": "0 200 6", "SEL-MASK": "0 200 6"}, "obstacles"),
+    Scenario("E09", 3, [(200, {"new_d2": SEEN, "new_B2.degr_mask_b1": 2})], B2DEC, {
+        "SEL-B1FLAG": "6", "SEL-ACTUATOR": "0", "SEL-SAFETY": "6", "SEL-MASK": "0"}, "board2", WARM_UP),
+    Scenario("E09", 4, [(100, {"new_d2": SEEN}), *((120 * n, {"new_d2": SEEN, **given})
+        for n, given in ((1, {"imu_update": False}), (0, {})))], B2DEC, {
+        "SEL-B1FLAG": "0", "SEL-ACTUATOR": "0"}, "board2", WARM_UP),
     Scenario("E10", 1, [(200, {}), (200, S2(NEAR)), (400, {}), (200, {"ay_norm": 0})], DEC, {
         "AUTO": "0 220 1 420 0", "LATCH-NEUTRAL": "0 220 1 800 0", "LATCH-STANDSTILL": "0 220 1"}),
     Scenario("E10", 2, [(200, {}), (200, S2(NEAR)), (400, {}), (200, {"B2.wheels_below_2_5": True})], DEC, {
         "AUTO": "0 220 1 420 0", "LATCH-NEUTRAL": "0 220 1", "LATCH-STANDSTILL": "0 220 1 800 0"}),
-    *(Scenario("E13", n, [(120, {}), (120, {"echo2": NEAR}), (1000, {"echo2": 301, "missing2": True})], DEC, {
-        "FAR": far, "HOLD": hold, "NEAR": near, "FAULT": far}, "obstacles_scan")
-      for n, far, hold, near in ((1, "0 160 1 280 0", "0 160 1", "0 160 1"),)),
+    Scenario("E13", 1, [(120, {}), (120, {"echo2": NEAR}), (1000, {"echo2": 301, "missing2": True})], DEC, {
+        "FAR": "0 160 1 280 0", "HOLD": "0 160 1", "NEAR": "0 160 1", "FAULT": "0 160 1 280 0"}, "obstacles_scan"),
+    Scenario("E13", 2, [(120, {}), (1000, {"echo2": 301, "missing2": True})], DEC, {
+        "FAR": "0", "HOLD": "0", "NEAR": "0 160 1", "FAULT": "0"}, "obstacles_scan"),
+    Scenario("E13", 3, [(120, {}), (1000, {"echo2": 301, "missing2": True})], "sonar_fault", {
+        "FAULT": "false 140 true"}, "obstacles_scan"),
     Scenario("E14", 1, [(200, S1(SEEN)), (3000, {}), (100, S2(SEEN))], DEC, {"EXCL": "0", "INCL": "0 3220 2"}),
     Scenario("E14", 2, [(200, S1(SEEN)), (3020, {}), (100, S2(SEEN))], DEC, {"EXCL": "0", "INCL": "0"}),
     Scenario("E15", 1, [*LEFT_THEN_CENTRE, (200, S2(SEEN))], DEC, {"LEVEL": "0 220 2", "EDGE": "0"}),
@@ -135,6 +159,40 @@ SCENARIOS: list[Scenario] = [
         "LEFT-FIRST": "0 220 2", "RIGHT-FIRST": "0 220 4", "STOP": "0 220 1"}),
     Scenario("E20", 2, [(200, {**both(SEEN, SEEN), "d3": SEEN}), (200, S2(SEEN)), (200, {})], DEC, {
         "LEFT-FIRST": "0 220 2", "RIGHT-FIRST": "0 220 4", "STOP": "0 220 1 420 0"}),
+    Scenario("E21", 1, [(200, {}), (1000, {"b1_sup_status": "SUP_CRITICAL"}), (4000, {})], AUTHORISED, {
+        "AS-S43-S45": "false 200 true 4220 false"}, "check_board1"),
+    Scenario("S43", 1, [(200, {}), (1000, {"b1_sup_status": "SUP_CRITICAL"}), (4000, {})], AUTHORISED, {
+        "OR": "false 200 true 4220 false", "AND": "false"}, "check_board1"),
+    Scenario("S44", 1, [(200, {"B2.rx_status": "RX_DEGRADED"})], AUTHORISED, {
+        "NOT-CRIT": "false", "STRICT-OK-KEPT": "false", "STRICT-OK-1": "false 20 true"}, "check_board1"),
+    Scenario("S44", 2, [(200, {}), (200, {"B2.rx_status": "RX_CRITICAL"}), (4000, {"B2.rx_status": "RX_DEGRADED"})],
+        AUTHORISED, {"NOT-CRIT": "false 200 true 3420 false", "STRICT-OK-KEPT": "false 200 true",
+        "STRICT-OK-1": "false 200 true"}, "check_board1"),
+    Scenario("S45", 1, [(200, {}), (1000, {"B2.rx_status": "RX_CRITICAL"}), (4000, {})], AUTHORISED, {
+        "IMMEDIATE": "false 200 true 1200 false", "3-S": "false 200 true 4220 false"}, "check_board1"),
+    Scenario("E22", 1, CUT, AUTHORISED, {
+        "B1-ONLY": "false", "B2-ONLY": "false 160 true", "RELAY-AND-FLAG": "false 160 true"}, "rover_failing", WARM_UP),
+    Scenario("E22", 2, CUT, "motors.followed", {
+        "B1-ONLY": "Board1", "B2-ONLY": "Board1 180 Board2", "RELAY-AND-FLAG": "Board1"}, "rover_failing", WARM_UP),
+    Scenario("E22", 3, CUT, "give_b2_actuation", {
+        "B1-ONLY": "false", "B2-ONLY": "false", "RELAY-AND-FLAG": "false"}, "rover_failing", WARM_UP),
+    Scenario("E23", 1, [(200, {"B2.crit_mask_b1": 1})], CRITICAL, {"COPY-ERROR": "0", "REMOTE": "8"}, "masks_2"),
+    Scenario("E24", 1, [(200, {"imu_status": "CRITICAL"})], CRITICAL, {"B2BITS": "2", "SAME-AS-B1": "0"}, "masks_2"),
+    Scenario("E24", 2, [(200, {"B2.rx_status": "RX_CRITICAL"})], CRITICAL, {
+        "B2BITS": "4", "SAME-AS-B1": "4"}, "masks_2"),
+    Scenario("E25", 1, [(200, {})], "v_ref_actuation", {"NORMALISED": "0 20 0.5"}, "references_2_drawn"),
+    Scenario("E26", 1, [*slow("esp_update", 100, 2), (200, {})], "esp_status", {
+        "FILL": "OK", "WAIT-10": "OK"}, "monitors_2"),
+    Scenario("E28", 1, [(200, {}), (200, {"ble_complete": False})], "ble_y", {
+        "HOLD": "1", "NEUTRAL": "1 200 0"}, "acquisition_joystick"),
+    Scenario("E28", 2, [(200, {}), (200, {"esp_update": False})], "ay_norm", {
+        "HOLD": "1", "NEUTRAL": "1 200 0"}, "board2", WARM_UP),
+    *(Scenario("E29", n, [(140, {update: False}), (2000, {})], status, {
+        "INSTANT": f"{ok} 120 {crit} 140 {ok}", "HYST": f"{ok} 120 {crit} 1140 {ok}"}, "monitors_2", WARM_UP)
+      for n, update, status, ok, crit in (
+        (1, "esp_update", "esp_status", "OK", "CRITICAL"),
+        (2, "B2.rx_update", "B2.rx_status", "RX_OK", "RX_CRITICAL"))),
+    Scenario("E30", 1, [(200, {"esp_status": "CRITICAL"})], CRITICAL, {"AS-S51": "1"}, "masks_2"),
     Scenario("E27", 1, [(200, S1(SEEN)), (60, {**S1(SEEN), "d3": NEAR}), (140, {"d3": NEAR}), (2900, {}),
         (200, S2(SEEN))], DEC, {
         "ANY": "0 220 1 420 0 3320 2", "PAIR": "0 220 1 420 0"}),
@@ -157,7 +215,7 @@ CASES = [(scenario, choice) for scenario in SCENARIOS for choice in scenario.sho
 )
 def test_a_choice_shows_what_tells_it_apart(scenario: Scenario, choice: str) -> None:
     system = _system(scenario.on, scenario.reading, choice)
-    found = histories(system, scenario.given, [scenario.watched], nominal=NOMINAL, warm_up=0)
+    found = histories(system, scenario.given, [scenario.watched], nominal=NOMINAL, warm_up=scenario.warm_up)
     assert found == [scenario.shows[choice]]
 
 
