@@ -33,7 +33,7 @@ CASES = (
 )
 """A system and a property that is decided on it; the last is both obstacle charts and the selection."""
 
-LIMITS = Limits(seconds=20, memory=2 << 30)
+LIMITS = Limits(seconds=10, memory=2 << 30)
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ BOARDS = (
     "spec_model.board1.fine_systems",
     "spec_model.board2.systems",
     "spec_model.board2.motion_systems",
+    "spec_model.board2.monitor_systems",
     "spec_model.board2.supervisor_systems",
     "spec_model.composition.systems",
     "spec_model.composition.fine_systems",

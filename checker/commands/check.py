@@ -10,6 +10,7 @@ from checker.commands.output import err, out
 from checker.commands.progress import Watch
 from checker.decide import Task, decide, tasks
 from checker.engine import Limits
+from checker.render.story import repeating
 from checker.result import Result
 from checker.trace import Trace
 from checker.verdict import Exhausted, Proved, Unknown, Verdict, Violated
@@ -197,8 +198,8 @@ def evidence(result: Result) -> str:
 
 def ticks(trace: Trace) -> str:
     """``155 ticks = 3.1 s``, and how many of them repeat for ever."""
-    ending = f", the last {len(trace) - trace.loop} for ever" if trace.loop is not None else ""
-    return f"{len(trace)} tick{'s' * (len(trace) != 1)} = {len(trace) * trace.tick_ms / 1000:g} s{ending}"
+    seconds = len(trace) * trace.tick_ms / 1000
+    return f"{len(trace)} tick{'s' * (len(trace) != 1)} = {seconds:g} s{repeating(trace)}"
 
 
 def summary(found: Sequence[Compared]) -> None:

@@ -8,7 +8,7 @@ from checker.commands.select import pick
 from properties.catalogue import Expected, expected, read_by, under
 from properties.forms import Property
 from spec_model.lang.system import System
-from spec_model.readings import ANY, readings
+from spec_model.readings import ANY, fixed, readings
 from spec_model.repairs import Repair, repaired, repairs, touches
 from spec_model.rover import systems
 
@@ -34,7 +34,8 @@ class Variant:
         found = {name: system.without(self.without) for name, system in systems(self.choices).items()}
         if self.repair is None:
             return found
-        return {name: repaired(system, self.repair) for name, system in found.items()}
+        fixing = fixed(self.choices)
+        return {name: fixing.system(repaired(system, self.repair)) for name, system in found.items()}
 
     def properties(self) -> dict[str, Property]:
         """Every property by id, under the chosen readings."""

@@ -211,8 +211,15 @@ def heading(trace: Trace) -> str:
     """One line about the whole run."""
     count = len(trace)
     ticks = f"{count} tick{'s' if count != 1 else ''} of {trace.tick_ms} ms"
-    ending = f", the last {count - trace.loop} of them for ever" if trace.loop is not None else ""
-    return f"{trace.system}: {ticks}, {count * trace.tick_ms} ms{ending}"
+    return f"{trace.system}: {ticks}, {count * trace.tick_ms} ms{repeating(trace)}"
+
+
+def repeating(trace: Trace) -> str:
+    """Which ticks at the end repeat for ever, after a comma; empty if none does."""
+    if trace.loop is None:
+        return ""
+    again = len(trace) - trace.loop
+    return f", the last {again} ticks for ever" if again > 1 else ", the last tick for ever"
 
 
 def ending(trace: Trace) -> str:

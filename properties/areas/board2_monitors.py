@@ -15,15 +15,19 @@ from properties.forms import (
     reachable,
     until,
 )
+from spec_model.board2.monitor_systems import twin
 from spec_model.board2.monitors import monitor_sources, silent
-from spec_model.board2.supervisor_systems import TWINS, shared
 from spec_model.lang.expr import Expr, all_of, any_of, implies
 from spec_model.lang.time import ticks
 from spec_model.lang.words import held, previous
 from spec_model.signals.board2_supervisor import BLE, IMU, RX, SUP, Source
 
-FREE, ROWS, EXACT, TWICE = "monitors_2_free", "monitors_2_rows", "monitors_2", "monitors_2_twice"
 TICK = 20
+
+
+def alone(source: Source) -> str:
+    """The system with the monitor of the source alone."""
+    return f"monitors_2_{source.region}"
 
 
 def ok(source: Source) -> Expr:
@@ -63,7 +67,7 @@ def _noticed(id: str, source: Source, what: str) -> Property:
     return holds_after(
         id, f"{what} silent in three successive steps is critical in one of them.",
         premise=silent(source), for_=2 * ticks, then=any_of(critical(source), *_before(critical(source), 2)),
-        covers=["B2-FLT-01"], on=FREE, from_tick=2, readings=["E29"],
+        covers=["B2-FLT-01"], on=alone(source), from_tick=2, readings=["E29"],
     )  # fmt: skip
 
 
@@ -74,17 +78,17 @@ PB2_19d = _noticed("PB2-19d", RX, "The reception from Board 1,")
 PB2_19e = always(
     "PB2-19e", "The reception from Board 1 becomes critical only in a step in which it is silent.",
     that=implies(critical(RX) & ~previous(critical(RX)), silent(RX)),
-    covers=["B2-FLT-01"], on=FREE, from_tick=2,
+    covers=["B2-FLT-01"], on=alone(RX), from_tick=2,
 )  # fmt: skip
 PB2_19f = leaves_only_if(
     "PB2-19f", "The reception leaves critical only after its mean gap was short enough for 1.00 s.",
     leaving=critical(RX), only_if=held(previous(critical(RX) & ~RX.deg), for_=50 * ticks),
-    covers=["B2-FLT-01"], on=FREE, from_tick=2, readings=["E29"],
+    covers=["B2-FLT-01"], on=alone(RX), from_tick=2, readings=["E29"],
 )  # fmt: skip
 PB2_19g = holds_for(
     "PB2-19g", "The supervisor of Board 1, once critical, is so for at least 2.02 s.",
     start=critical(SUP), that=critical(SUP), for_=100 * ticks,
-    covers=["B2-FLT-01"], on=FREE, from_tick=2, readings=["E29"],
+    covers=["B2-FLT-01"], on=alone(SUP), from_tick=2, readings=["E29"],
 )  # fmt: skip
 
 # --- PB2-20: while the silence lasts the source stays critical -----------------------------------------
@@ -94,7 +98,7 @@ def _stays(id: str, source: Source, what: str) -> Property:
     return until(
         id, f"{what}, critical and silent, stays critical until a stamp arrives.",
         start=critical(source) & silent(source), holds=critical(source), release=~silent(source),
-        covers=["B2-FLT-01", "B2-FLT-02"], on=FREE, from_tick=2, readings=["E29"],
+        covers=["B2-FLT-01", "B2-FLT-02"], on=alone(source), from_tick=2, readings=["E29"],
     )  # fmt: skip
 
 
@@ -105,7 +109,7 @@ PB2_20d = _stays("PB2-20d", RX, "The reception from Board 1")
 PB2_20e = holds_after(
     "PB2-20e", "A joystick link silent in four successive steps is critical in the last or the one before.",
     premise=silent(BLE), for_=3 * ticks, then=critical(BLE) | previous(critical(BLE)),
-    covers=["B2-FLT-01", "B2-FLT-02"], on=FREE, from_tick=2, readings=["E29"],
+    covers=["B2-FLT-01", "B2-FLT-02"], on=alone(BLE), from_tick=2, readings=["E29"],
 )  # fmt: skip
 
 # --- PB2-21: a slow source is noticed, and only the source itself ---------------------------------------
@@ -116,7 +120,7 @@ def _slow(id: str, source: Source, what: str) -> Property:
     return holds_after(
         id, f"{what} updated every {period} ms for eleven periods is degraded.",
         premise=periodic(source), for_=eleven(source) * ticks, then=degraded(source),
-        covers=["B2-FLT-01"], on=ROWS, from_tick=2, readings=["E26"],
+        covers=["B2-FLT-01"], on=alone(source), from_tick=2, readings=["E26"],
     )  # fmt: skip
 
 
@@ -125,7 +129,7 @@ def _slow_not_critical(id: str, source: Source, what: str) -> Property:
     return holds_after(
         id, f"{what} updated every {period} ms for eleven periods, not critical meanwhile, is degraded.",
         premise=periodic(source) & ~critical(source), for_=eleven(source) * ticks, then=degraded(source),
-        covers=["B2-FLT-01"], on=ROWS, from_tick=2, readings=["E26"],
+        covers=["B2-FLT-01"], on=alone(source), from_tick=2, readings=["E26"],
     )  # fmt: skip
 
 
@@ -140,20 +144,20 @@ PB2_21h = _slow_not_critical("PB2-21h", RX, "The reception from Board 1")
 PB2_21i = holds_after(
     "PB2-21i", "A joystick link updated every 60 ms for eleven periods is not OK.",
     premise=periodic(BLE), for_=eleven(BLE) * ticks, then=~ok(BLE),
-    covers=["B2-FLT-01"], on=ROWS, from_tick=2, readings=["E26"],
+    covers=["B2-FLT-01"], on=alone(BLE), from_tick=2, readings=["E26"],
 )  # fmt: skip
 PB2_21j = precedes(
     "PB2-21j", "The joystick link is not OK only if there was a gap of more than 40 ms.",
     first=BLE.age > 40 - TICK, then=~ok(BLE),
-    covers=["B2-FLT-01"], on=ROWS, readings=["E26"],
+    covers=["B2-FLT-01"], on=alone(BLE), readings=["E26"],
 )  # fmt: skip
 
 
 def _alone(id: str, source: Source, what: str) -> Property:
     return always(
         id, f"Two boards that see the same stamps of {what} give it the same status, whatever else they see.",
-        that=implies(shared == source.region, source.status == TWINS[source.region].status),
-        covers=["B2-FLT-01"], on=TWICE,
+        that=source.status == twin(source).status,
+        covers=["B2-FLT-01"], on=f"monitors_2_twice_{source.region}",
     )  # fmt: skip
 
 
@@ -170,7 +174,7 @@ def _arrow(id: str, source: Source, came: str, went: str, text: str) -> Property
     return reachable(
         id, text,
         that=active(f"{region}.{went}") & previous(active(f"{region}.{came}")),
-        covers=["B2-FLT-01"], on=EXACT,
+        covers=["B2-FLT-01"], on=alone(source),
     )  # fmt: skip
 
 
@@ -185,13 +189,11 @@ REACH_B2_IMU_CRIT = _arrow("REACH-B2-IMU-CRIT", IMU, "OK", "CRIT", "The IMU can 
 REACH_B2_RX_CRIT = _arrow("REACH-B2-RX-CRIT", RX, "OK", "CRIT", "The reception can fall silent.")
 REACH_B2_TWICE = reachable(
     "REACH-B2-TWICE", "With the same joystick stamps the two boards can differ in everything else.",
-    that=all_of(
-        shared == BLE.region,
-        *(ok(s) & critical(TWINS[s.region]) for s in (SUP, IMU, RX)),
-    ),
-    covers=["B2-FLT-01"], on=TWICE,
+    that=all_of(ok(BLE), *(ok(s) & critical(twin(s)) for s in (SUP, IMU, RX))),
+    covers=["B2-FLT-01"], on="monitors_2_apart_BLE",
 )  # fmt: skip
-PB2_21_WITNESS = reachable(
+REACH_B2_BLE_PERIODIC = reachable(
     "REACH-B2-BLE-PERIODIC", "The joystick link can be updated every 60 ms for eleven periods.",
-    that=held(periodic(BLE), for_=eleven(BLE) * ticks) & degraded(BLE), covers=["B2-FLT-01"], on=EXACT,
+    that=held(periodic(BLE), for_=eleven(BLE) * ticks) & degraded(BLE),
+    covers=["B2-FLT-01"], on=alone(BLE),
 )  # fmt: skip

@@ -1,6 +1,6 @@
 """What must be true of the references with which Board 2 moves the rover [seed §3.1, §3.4.2, Fig 20]."""
 
-from properties.forms import Property, always, holds_after, leaves_only_if, never, reachable
+from properties.forms import Property, always, enters_only_if, holds_after, leaves_only_if, never, reachable
 from spec_model.board2.backward import toggle_2
 from spec_model.board2.motion import motion_supervision_2
 from spec_model.board2.safety import emergency
@@ -114,9 +114,9 @@ PB2_16c = always(
     that=implies(actuate_emergency_stop, zero),
     covers=["B2-REF-01"], on=ON,
 )  # fmt: skip
-PB2_16d = always(
-    "PB2-16d", "The linear reference of Board 2 is negative only in backward mode.",
-    that=implies(drives & (v_ref < 0), backward_enabled),
+PB2_16d = enters_only_if(
+    "PB2-16d", "The linear reference of Board 2 becomes negative only in backward mode.",
+    entering=v_ref < 0, only_if=backward_enabled & (ay_norm < 0) & drives,
     covers=["B2-REF-01"], on=ON, readings=["S59"],
 )  # fmt: skip
 PB2_16e = always(

@@ -45,7 +45,7 @@ PSY_07a = always(
     covers=["B1-REL-05", "B2-ACT-01"], on="motors", readings=["S47"],
 )  # fmt: skip
 PSY_08 = holds_after(
-    "PSY-08", "500 ms after the supervisor of Board 1 has stopped under power, the motors are at rest.",
+    "PSY-08", "With the supervisor of Board 1 stopped under power for 500 ms, the motors are at rest.",
     premise=~runs_1 & board1_powered, for_=500 * ms, then=motors_zero,
     covers=["B2-ACT-01", "B1-REL-05"], on="rover_plain_failing", readings=["E22"],
 )  # fmt: skip
@@ -80,16 +80,16 @@ PSY_11 = holds_after(
 )  # fmt: skip
 PSY_13a = holds_after(
     "PSY-13a",
-    "142 ms after the rover is degraded with an obstacle at 300 cm or less, Board 1 driving, its linear "
-    "reference is not positive.",
+    "Degraded for 160 ms with an obstacle at 300 cm or less, Board 1 driving, its linear reference is not "
+    "positive.",
     premise=near_300 & drive1 & (b1.rover_safety_state == "SAFETY_DEGRADED"), for_=8 * ticks,
     then=b1.v_ref <= 0,
     covers=["B2-OBS-04", "B2-OBS-22"], on="rover_plain", from_tick=2, readings=["E09"],
 )  # fmt: skip
 PSY_15 = holds_after(
     "PSY-15",
-    "200 ms after Board 2 has received its last frame, Board 1 driving and receiving, both references are "
-    "at most 0.5.",
+    "When Board 2 has received no frame for 200 ms, Board 1 driving and receiving, both references are at "
+    "most 0.5.",
     premise=~b2.RX.update & b1.rx_update & drive1, for_=9 * ticks,
     then=(absolute(b1.v_ref) <= 0.5) & (absolute(b1.omega_ref) <= 0.5),
     covers=["B1-REF-05", "B1-REF-07"], on="rover_plain", from_tick=2, readings=["S55"],

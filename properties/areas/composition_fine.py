@@ -67,8 +67,8 @@ PSY_06 = holds_after(
 )  # fmt: skip
 PSY_10e = holds_after(
     "PSY-10e",
-    "101 ms after a sonar snapshot with an obstacle at 70 cm or less, constant, the linear reference is "
-    "not positive, if the user drives forward meanwhile and no rotation is active.",
+    "Within 101 ms of a sonar snapshot with an obstacle at 70 cm or less, constant, the linear reference "
+    "is not positive, if the user drives forward meanwhile and no rotation is active.",
     premise=near & forward, for_=101 * ms, then=~v_positive,
     covers=["B2-OBS-01", "B1-EST-01"], on="stop_fine", readings=["E12"],
 )  # fmt: skip

@@ -7,14 +7,20 @@ It is the second region of the reference chart, executed after the toggle of bac
 
 from fractions import Fraction
 
-from spec_model.board1.motion_readings import follow_user, limited, manoeuvre, may_go_on, must_stop
+from spec_model.board1.motion_readings import (
+    follow_user,
+    limited,
+    manoeuvre,
+    may_go_on,
+    must_rotate,
+    must_stop,
+)
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Chart, Junction, State, to
 from spec_model.lang.expr import const
 from spec_model.lang.time import sec
 from spec_model.lang.words import absolute, duration, maximum, minimum, named
 from spec_model.manoeuvres.rotation import Rotation, free, measured, toward_target, turned_around
-from spec_model.readings import under
 from spec_model.signals.board1 import (
     OMEGA_GO_LEFT,
     OMEGA_GO_RIGHT,
@@ -23,7 +29,6 @@ from spec_model.signals.board1 import (
     V_MAX_MANEUVER,
     actuate_emergency_stop,
     angle_err,
-    backward_enabled,
     cmd,
     current_action,
     current_yaw,
@@ -91,10 +96,7 @@ def motion(rotation: Rotation) -> Chart:
                             to("Evita_sinistra", when=(v_user > 0) & (cmd == "CMD_AVOID_LEFT")),
                             to("Evita_destra", when=(v_user > 0) & (cmd == "CMD_AVOID_RIGHT")),
                             to("Schivata_a_destra", when=(v_user > 0) & (cmd == "CMD_GO_RIGHT")),
-                            to(
-                                "Retromarcia_180",
-                                when=(y_norm < -0.5) & ~backward_enabled & under("S59", "MOTION-CHART"),
-                            ),
+                            to("Retromarcia_180", when=must_rotate),
                         ],
                     ),
                     State(

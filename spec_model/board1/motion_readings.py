@@ -62,6 +62,11 @@ def manoeuvre(v: Expr, omega: Expr, *, named_turn: Operand | None = None) -> Seq
     ]
 
 
+turn_back = (y_norm < -0.5) & ~backward_enabled
+by_command = cmd == "CMD_ROTATE_180"
+# Where a stick pulled back is no request to rotate, the command of that name is one (S59).
+must_rotate = choose("S59", {"MOTION-CHART": turn_back, "SIGNED": by_command, "FORWARD-ONLY": by_command})
+
 stop_commanded = choose(
     "S63",
     {

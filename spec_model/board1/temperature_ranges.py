@@ -5,9 +5,9 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from spec_model.lang.action import assign, when
+from spec_model.lang.action import Action, assign, when
 from spec_model.lang.domain import Number, integer
-from spec_model.lang.expr import Expr, const, ite, var
+from spec_model.lang.expr import Expr, Var, const, ite, var
 from spec_model.lang.time import sec, ticks
 from spec_model.lang.words import held, minimum, named
 from spec_model.readings import choose, under
@@ -75,14 +75,23 @@ def for_4_s(condition: Expr) -> Expr:
 ENOUGH = choose("S02", {"GE": 201, "GT-STEP": 202, "COUNT": 200})
 """Samples in the critical range that make 4 s, the first one included."""
 
+range_steps = var("range_steps", integer(0, 202), doc="steps so far with T in the critical range")
 hot_steps = var("hot_steps", integer(0, 202), doc="steps so far with T in [60;+inf[")
 cold_steps = var("cold_steps", integer(0, 202), doc="steps so far with T in ]-inf;-15]")
+
+
+def _counted(steps: Var, condition: Expr) -> Action:
+    return when(condition, [assign(steps, minimum(steps + 1, 202))])
+
 
 count_steps = when(
     under("S04", "CUMULATIVE"),
     [
-        when(too_hot, [assign(hot_steps, minimum(hot_steps + 1, 202))]),
-        when(too_cold, [assign(cold_steps, minimum(cold_steps + 1, 202))]),
+        when(
+            under("S03", "UNION"),
+            [_counted(range_steps, critical_range)],
+            [_counted(hot_steps, too_hot), _counted(cold_steps, too_cold)],
+        )
     ],
 )
 
@@ -92,7 +101,7 @@ _continuous = choose(
 _cumulative = choose(
     "S03",
     {
-        "UNION": critical_range & (hot_steps + cold_steps >= ENOUGH),
+        "UNION": critical_range & (range_steps >= ENOUGH),
         "PER-SIDE": (too_hot & (hot_steps >= ENOUGH)) | (too_cold & (cold_steps >= ENOUGH)),
     },
 )

@@ -2,9 +2,6 @@
 
 from spec_model.board2 import DRIVING
 from spec_model.board2.backward import toggle_2
-from spec_model.board2.classify import process_masks
-from spec_model.board2.failure_check import check_board1
-from spec_model.board2.masks import fault_masks_2
 from spec_model.board2.motion import motion_2_with_free_error
 from spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
 from spec_model.board2.safety import safety_state_2
@@ -26,24 +23,18 @@ COMES_BEFORE = (safety_state_2, obstacles_driving, obstacle_command)
 
 SYSTEMS: tuple[System, ...] = (
     in_order(
-        "driving_2",
-        fault_masks_2,
-        process_masks,
-        check_board1,
+        "references_2_drawn",
         DRIVING,
-        text="Board 2 from its statuses on: masks, classes, authorisation, and the references as drawn.",
-        notes=(
-            "Statuses, masks of Board 1, distances, stick and wheels are free in every step.",
-            "Headings are multiples of 2.5 degrees, arbitrary in every step.",
-        ),
+        text="Safety state, obstacle command and references of Board 2 as drawn, for any authorisation.",
+        notes=(FREE_CAUSES, "Headings are multiples of 2.5 degrees, arbitrary in every step."),
     ),
     in_order(
         "references_2",
         Enabled(autorized_to_send_command, *COMES_BEFORE, motion_2_with_free_error),
-        text="Safety state, obstacle command and references of Board 2, for any authorisation.",
+        text="As references_2_drawn, with less to remember.",
         notes=(FREE_CAUSES, FREE_BACKWARD, FREE_ERROR),
         over=True,
-        concrete="driving_2",
+        concrete="references_2_drawn",
     ),
     in_order(
         "references_2_executed",

@@ -10,143 +10,29 @@ from spec_model.board2 import ACTUATION, SUPERVISOR, acquisition, coherence
 from spec_model.board2.classify import process_masks
 from spec_model.board2.failure_check import check_board1
 from spec_model.board2.masks import fault_masks_2
-from spec_model.board2.monitors import RECORDS, monitor_sources, monitors
+from spec_model.board2.monitor_systems import FORGOTTEN, GRID, WITH_FRAMES, watching
+from spec_model.board2.monitors import RECORDS, monitor_sources
 from spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
 from spec_model.board2.obstacles import obstacles_n
 from spec_model.board2.obstacles_degraded import obstacles_degraded
 from spec_model.board2.safety import safety_state_2
 from spec_model.board2.selection import selection
-from spec_model.board2.slow2 import Record, exact, forgotten, gaps_of, runs
+from spec_model.board2.slow2 import exact, forgotten, gaps_of
 from spec_model.environment2 import scanned
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block, Component, Enabled
-from spec_model.lang.domain import enumeration
 from spec_model.lang.expiry import free_timers
-from spec_model.lang.expr import Expr, Var, all_of, any_of, flag, implies, ite, var
+from spec_model.lang.expr import Expr, all_of, any_of, implies
 from spec_model.lang.system import System, in_order
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
 from spec_model.signals.board2 import SONARS
 
-GRID = (
-    "Time stamps lie on the 20 ms grid: an update carries the time of the step that sees it. "
-    "A stamp between two steps lets an age pass a strict limit one step earlier."
-)
-LONG_OR_SHORT = (
-    "Of the gaps only a row of long or of short ones is remembered; a mean of both kinds is free at each "
-    "new gap (more runs than the specification)."
-)
-FORGOTTEN = "The gaps are forgotten: the mean is free at each new gap (more runs than the specification)."
 FREE_STATUSES = (
     "What other blocks compute is free in every step, which allows every run of the board and more: what "
     "is proved here holds for the whole board."
 )
 FEW_VALUES = "Measurements take representative values on each side of every limit."
-WITH_FRAMES = "A new alive counter of Board 1 comes with an accepted frame only."
-
-# --- monitors -------------------------------------------------------------------------------------
-
-monitors_exact = in_order(
-    "monitors_2",
-    *env.clocks,
-    *RECORDS,
-    monitor_sources,
-    text="The monitors of Board 2 with stamps that change at will and the exact mean of ten gaps.",
-    assume=env.heartbeat_travels_in_frames,
-    notes=[GRID, WITH_FRAMES],
-)
-
-_notes, _chart = monitors(runs)
-monitors_runs = in_order(
-    "monitors_2_rows",
-    *env.clocks,
-    *_notes,
-    _chart,
-    text="The monitors of Board 2 with stamps that change at will; means of long and short gaps are open.",
-    assume=env.heartbeat_travels_in_frames,
-    notes=[GRID, WITH_FRAMES, LONG_OR_SHORT],
-    over=True,
-    concrete="monitors_2",
-)
-
-_free_notes, _free_chart = monitors(forgotten)
-monitors_free = in_order(
-    "monitors_2_free",
-    *env.clocks,
-    *_free_notes,
-    _free_chart,
-    text="The monitors of Board 2 with stamps that change at will, every mean of gaps left open.",
-    assume=env.heartbeat_travels_in_frames,
-    notes=[GRID, WITH_FRAMES, FORGOTTEN],
-    over=True,
-    concrete="monitors_2",
-)
-
-# --- two boards that share the stamps of one source --------------------------------------------------
-
-
-def _twin(source: b2.Source) -> b2.Source:
-    """The same source of a second Board 2."""
-
-    def renamed(v: Var) -> Var:
-        return Var(f"twin.{v.name}", v.domain, v.init, f"{v.doc}, second board")
-
-    return replace(
-        source,
-        name=f"twin.{source.name}",
-        update=renamed(source.update),
-        age=renamed(source.age),
-        status=renamed(source.status),
-        deg=renamed(source.deg),
-    )
-
-
-TWINS = {source.region: _twin(source) for source in b2.SOURCES}
-"""The sources of the second board, by region."""
-
-shared = var("shared", enumeration("Shared", list(TWINS)), doc="the source whose stamps both boards see")
-_share = Block("Share", [
-    assign(TWINS[s.region].update, ite(shared == s.region, s.update, flag(f"other.{s.update.name}")))
-    for s in b2.SOURCES
-], text="Stamps of one source are the same, those of the others are not")  # fmt: skip
-_twin_notes, _twin_chart = monitors(forgotten, tuple(TWINS.values()), "Twin_monitors_2")
-_same_answers = Block("ShareMeans", [
-    assign(flag(f"twin.{s.name}_mean_slow"), ite(shared == s.region, flag(f"{s.name}_mean_slow"),
-                                                flag(f"other.{s.name}_mean_slow")))
-    for s in b2.SOURCES
-], text="Equal stamps have equal means")  # fmt: skip
-
-monitors_twice = in_order(
-    "monitors_2_twice",
-    _share,
-    _same_answers,
-    *env.clocks,
-    *_free_notes,
-    _free_chart,
-    *(env.clock(f"twin.{s.region}.age", s.update, s.age) for s in TWINS.values()),
-    *_twin_notes,
-    _twin_chart,
-    text="The monitors of two Boards 2 that see the same stamps of one source, any of the others.",
-    frozen=[shared],
-    notes=[GRID, FORGOTTEN, "Equal stamps have equal means; alive counters may change without a frame."],
-    over=True,
-    concrete="monitors_2_twice_exact",
-)
-
-_exact_notes, _exact_chart = monitors(sources=tuple(TWINS.values()), name="Twin_monitors_2")
-monitors_twice_exact = in_order(
-    "monitors_2_twice_exact",
-    _share,
-    *env.clocks,
-    *RECORDS,
-    monitor_sources,
-    *(env.clock(f"twin.{s.region}.age", s.update, s.age) for s in TWINS.values()),
-    *_exact_notes,
-    _exact_chart,
-    text="As monitors_2_twice, with the exact means.",
-    frozen=[shared],
-    notes=[GRID, "Alive counters may change without a frame."],
-)
 
 # --- masks, authorisation, safety state, obstacle command ---------------------------------------------
 
@@ -172,17 +58,10 @@ check_alone = in_order(
 
 LINKS = (b2.SUP, b2.RX)
 
-
-def _links(record: Record) -> tuple[Component, ...]:
-    notes, chart = monitors(record, LINKS)
-    clocks = (c for c, s in zip(env.clocks, b2.SOURCES, strict=True) if s in LINKS)
-    return (*clocks, *notes, chart)
-
-
 check_links_exact = in_order(
     "check_board1_links",
     env.masks_of_board1,
-    *_links(exact),
+    *watching(LINKS, exact),
     fault_masks_2,
     process_masks,
     check_board1,
@@ -194,7 +73,7 @@ check_links_exact = in_order(
 check_links = free_timers(
     in_order(
         "check_board1_links_free",
-        *_links(forgotten),
+        *watching(LINKS, forgotten),
         check_board1,
         assume=env.heartbeat_travels_in_frames,
         notes=[GRID, WITH_FRAMES, FORGOTTEN, "Requests to switch are free in every step."],
@@ -413,11 +292,6 @@ board2 = in_order(
 )
 
 SYSTEMS: tuple[System, ...] = (
-    monitors_exact,
-    monitors_runs,
-    monitors_free,
-    monitors_twice,
-    monitors_twice_exact,
     masks,
     check_alone,
     check_links_exact,

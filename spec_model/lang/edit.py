@@ -1,19 +1,19 @@
 """Edits of charts: variants that say only where they differ, for repairs and for faults put in by hand."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, State, Transition
 from spec_model.lang.domain import Num, Number, exact
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Temporal, When
+from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Temporal, Var, When
 from spec_model.lang.system import System
 from spec_model.lang.time import Span
 
 __all__ = [
-    "arrow", "arrows", "constant", "drop", "edit_junction", "edit_state", "entry", "everywhere", "guard",
-    "in_block", "in_expressions", "in_system", "operator", "swap", "timer",
+    "also", "arrow", "arrows", "begin", "constant", "drop", "edit_junction", "edit_state", "entry",
+    "everywhere", "guard", "in_block", "in_expressions", "in_system", "instead", "operator", "swap", "timer",
 ]  # fmt: skip
 
 
@@ -58,6 +58,17 @@ def arrows(chart: Chart, name: str, change: Callable[[list[Transition]], list[Tr
     return edit_state(chart, name, lambda s: replace(s, transitions=tuple(change(list(s.transitions)))))
 
 
+def also(chart: Chart, name: str, *more: Transition, first: bool = False) -> Chart:
+    """More arrows of a state or junction, tested after those drawn, or before them (``first``)."""
+    return arrows(chart, name, lambda found: [*more, *found] if first else [*found, *more])
+
+
+def begin(chart: Chart, default: Sequence[Transition], junctions: Sequence[Junction] = ()) -> Chart:
+    """Other default arrows of the outermost level, with junctions that they lead to."""
+    root = chart.root
+    return _rebuilt(chart, replace(root, default=tuple(default), junctions=(*root.junctions, *junctions)))
+
+
 def swap(chart: Chart, name: str, first: int = 1, second: int = 2) -> Chart:
     """Two priorities exchanged (1 is tested first)."""
 
@@ -100,6 +111,25 @@ def everywhere(expr: Expr, change: Callable[[Expr], Expr]) -> Expr:
             return change(Temporal(word, None if arg is None else everywhere(arg, change), span, strict))
         case _:
             return change(expr)
+
+
+def instead(name: str, change: Callable[[Expr], Expr]) -> Callable[[Expr], Expr]:
+    """Every variable or named formula of that name changed."""
+
+    def walk(expr: Expr) -> Expr:
+        match expr:
+            case Named(found, body):
+                return change(expr) if found == name else Named(found, walk(body))
+            case Var(found):
+                return change(expr) if found == name else expr
+            case Apply(op, args, sort):
+                return Apply(op, tuple(walk(a) for a in args), sort)
+            case Temporal(word, arg, span, strict):
+                return Temporal(word, None if arg is None else walk(arg), span, strict)
+            case _:
+                return expr
+
+    return walk
 
 
 def constant(old: Number, new: Number) -> Callable[[Expr], Expr]:

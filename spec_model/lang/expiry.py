@@ -96,8 +96,8 @@ class Expiry:
     for the input to be true.
     """
 
-    def __init__(self, chart: Chart, tick_ms: int, keep: Collection[str]) -> None:
-        self.original, self.tick_ms = chart, tick_ms
+    def __init__(self, chart: Chart, step_ms: int, keep: Collection[str]) -> None:
+        self.original, self.step_ms = chart, step_ms
         self.exact = {p for p in chart.states if _covered(chart, p, keep)}
         self.leaving = _sources(chart)
         self.flags: dict[Counter, dict[int, Var]] = {}
@@ -123,7 +123,7 @@ class Expiry:
         owner = () if word.when is When.HELD else source
         if owner is None or owner in self.exact:
             return None
-        ticks = word.span.ticks(self.tick_ms)
+        ticks = word.span.ticks(self.step_ms)
         least = ticks + int(word.when is When.HELD or word.strict)
         counter = (owner, word.when, () if word.arg is None else structure(word.arg))
         return _Word(counter, least) if least > 1 else None

@@ -1,11 +1,30 @@
-"""Safety state: a critical cause is tested before the absence of a degraded one."""
+"""Safety state: a critical cause is tested before the absence of a degraded one, and in the first step too."""
 
-from spec_model.lang.edit import swap
+from spec_model.board1.safety import critical, degraded
+from spec_model.lang.chart import Chart, Junction, to
+from spec_model.lang.edit import begin, swap
 from spec_model.repairs import Repair
+
+
+def critical_cause_first(chart: Chart) -> Chart:
+    """A default arrow that tests nothing would let a critical cause pass for one step, as arrow 1 does."""
+    first = Junction(
+        "first",
+        [
+            to("Rover_Critical_State", when=critical),
+            to("Rover_Degraded_State", when=degraded),
+            to("Rover_Safe_State"),
+        ],
+    )
+    return begin(swap(chart, "Rover_Degraded_State", 1, 2), [to("first")], [first])
+
 
 critical_first = Repair(
     name="safety-critical-first",
-    text="Rover_Degraded_State tests its arrow to Rover_Critical_State first.",
+    text=(
+        "Rover_Degraded_State tests its arrow to Rover_Critical_State first, and the default arrow leads to "
+        "the state that the causes ask for."
+    ),
     fixes=("PB1-16a", "PB1-16b", "PB1-16d", "PB1-16e", "PB1-17a"),
-    charts={"Safety_state": lambda chart: swap(chart, "Rover_Degraded_State", 1, 2)},
+    charts={"Safety_state": critical_cause_first},
 )

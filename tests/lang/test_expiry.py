@@ -24,8 +24,8 @@ from tests.strategies import frozen_values, input_blocks, systems
 def drives(system: System, keep: Sequence[str]) -> Iterator[tuple[Var, str, int]]:
     """Each free input, its exact counter, and the value of that before a tick at which it is true."""
     for chart in system.charts:
-        exact = Timers(chart, system.tick_ms)
-        for counter, flags in Expiry(chart, system.tick_ms, keep).flags.items():
+        exact = Timers(chart, system.step_ms)
+        for counter, flags in Expiry(chart, system.step_ms, keep).flags.items():
             for least, over in flags.items():
                 early = (
                     0 if counter[1] is When.DURATION else 1
@@ -49,7 +49,7 @@ def follow(
     """Run both with the free inputs driven by the exact counters; the free inputs that were true."""
     free = free_timers(system, keep)
     exact, loose = lower(system), lower(free)
-    timers = {v.name for c in free.charts for v in Timers(c, system.tick_ms).variables}
+    timers = {v.name for c in free.charts for v in Timers(c, system.step_ms).variables}
     same = [v.name for v in loose.variables if v.name not in timers]
     assert {n for n in system.written if n not in frozen} <= {*same}
     one, other, used = {**exact.init, **frozen}, {**loose.init, **frozen}, list[str]()

@@ -46,11 +46,6 @@ def _toggle(board: int, too_long: str) -> list[tuple[str, str, ChartEdit]]:
     reach = f"REACH{board}-COMBO"
     return [
         ("1 s becomes 1.02 s", too_long, lambda c: guard(c, "Step3", 2, timer(1.02 * sec))),
-        (
-            "one press less",
-            f"{reach}-2",
-            lambda c: arrow(c, "Step2", 1, lambda t: replace(t, target="Step4")),
-        ),
         ("the stick does not end it", f"{reach}-TOUCHED", lambda c: drop(c, "Combo_toggle_backward", 1)),
         ("nothing is toggled", f"{reach}-ON", lambda c: arrow(c, "Step4", 1, lambda t: replace(t, do=()))),
         ("no limit for the last press", f"{reach}-LATE-4", lambda c: drop(c, "Step4", 2)),
@@ -60,7 +55,8 @@ def _toggle(board: int, too_long: str) -> list[tuple[str, str, ChartEdit]]:
 FAULTS: dict[str, list[tuple[str, str, ChartEdit]]] = {
     "Backward_mode_toggle": [
         *_toggle(1, "PB1-27f"),
-        ("a press less", "PB1-27e", lambda c: arrow(c, "Step2", 1, lambda t: replace(t, target="Step4"))),
+        ("too late for a press only", "PB1-27e",
+         lambda c: arrow(c, "Step4", 2, lambda t: replace(t, target="Step3"))),
         ("the stick does not end it", "PB1-27h", lambda c: drop(c, "Combo_toggle_backward", 1)),
     ],
     "Backward_mode_toggle_2": _toggle(2, "PB2-16k"),

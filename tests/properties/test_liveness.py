@@ -228,3 +228,19 @@ def test_an_over_approximation_has_ways_back_that_the_charts_lack() -> None:
     prop = Property("P-1", "sentence", Recoverable(PLANT.active("Idle")), ("R",), "plant")
     [result] = decide(Task(over["plant"], (prop,)), over, AUTO, Limits(), quiet)
     assert isinstance(result.verdict, Unknown) and "over-approximation" in result.verdict.reason
+
+
+@pytest.mark.parametrize(("concrete", "word"), [("calm", "violated"), ("ready", "proved")])
+def test_a_loop_of_an_over_approximation_must_exist_in_the_system_it_stands_for(
+    concrete: str, word: str
+) -> None:
+    known = {**SYSTEMS, "loose": System("loose", (PLANT,), over=True, concrete=concrete)}
+    prop = Property("P-1", "sentence", LeadsTo(busy, ~busy), ("R",), "loose")
+    [result] = decide(Task(known["loose"], (prop,)), known, AUTO, Limits(), quiet)
+    assert result.system == concrete and result.verdict.word == word
+
+
+def test_loops_are_not_proved_absent_when_the_search_is_cut_short() -> None:
+    prop = Property("P-1", "sentence", LeadsTo(busy, ~busy, fair=(~stay,)), ("R",), "calm")
+    [result] = decide(Task(SYSTEMS["calm"], (prop,)), SYSTEMS, AUTO, Limits(depth=4), quiet)
+    assert isinstance(result.verdict, Unknown) and result.verdict.depth == 4

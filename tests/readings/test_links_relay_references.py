@@ -146,12 +146,13 @@ SCENARIOS = [
         "SIGNED": "-0.4", "FORWARD-ONLY": "0", "MOTION-CHART": "0"}),
     Scenario("S59", 2, ("references", "v_ref"), [(100, {"y_norm": -0.4, "backward_enabled": True})], {
         "SIGNED": "-0.4", "FORWARD-ONLY": "0", "MOTION-CHART": "-0.4"}),
-    Scenario("S59", 3, ("references", "current_action"), [(100, {"y_norm": -1})], {
+    Scenario("S59", 3, ("board1", "current_action"), [(100, {"frame_y_norm": -1})], {
         "SIGNED": "CMD_NORMAL", "FORWARD-ONLY": "CMD_NORMAL", "MOTION-CHART": "CMD_ROTATE_180"}),
     Scenario("S60", 1, ("board1", "v_ref", "omega_ref"), [(100, GO_LEFT)], {
         "UNDEFINED": "1 20 -0.3, 0 20 0.7", "ASSUME-NAMES": "1, 0 20 0.4",
         "MOTION-CHART": "1 20 0.8, 0 20 0.4"}),
-    Scenario("S61", 1, STOP, [(4100, COLD)], {"COLLISION-ONLY": "0", "ANY-CRITICAL": "0 4000 1"}),
+    Scenario("S61", 1, STOP, [(4100, COLD)], {  # degraded before 4000
+        "COLLISION-ONLY": "0", "ANY-CRITICAL": "0 4020 1"}),
     Scenario("S62", 1, STOP, [(100, {**ESTOP, **TURNING}), (2000, TURNING), (1500, {})], {
         "FOLLOW": "1 100 0", "LATCH-UNTIL-STOPPED": "1 3140 0", "OPERATOR": "1"}),
     Scenario("S62", 2, STOP, [(100, {**ESTOP, **TURNING}), (1500, {}), (100, RELEASED)], {

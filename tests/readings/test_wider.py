@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from spec_model.lang.domain import Domain, fixed
 from spec_model.rover import systems
 from spec_model.signals.board1 import DEGREES_C, PERCENT
-from tests.readings.scenario import shown
+from tests.readings.scenario import Blocks, shown
 from tests.readings.wider import widened
 
 TENTHS, HUNDREDTHS = fixed(-20, 70, "0.1", "°C"), fixed(-1, 100, "0.01", "%")
@@ -28,8 +28,10 @@ def test_the_values_of_the_model_show_the_same(
 ) -> None:
     system = systems()[name]
     values = st.sampled_from([few.show(raw) for raw in few.values])
-    given_ = st.fixed_dictionaries({update: st.booleans(), reading: values})
-    blocks = data.draw(st.lists(st.tuples(st.sampled_from([20, 500, 6000]), given_), max_size=5))
+    drawn = data.draw(
+        st.lists(st.tuples(st.sampled_from([20, 500, 6000]), st.booleans(), values), max_size=5)
+    )
+    blocks: Blocks = [(ms, {update: arrives, reading: at}) for ms, arrives, at in drawn]
     watched = [value, *system.written]
     wide = widened(system, {reading: many, value: many})
     assert list(shown(wide, blocks, watched)) == list(shown(system, blocks, watched))

@@ -1,0 +1,22 @@
+"""Obstacles, degraded: the first execution of the chart looks at the distances too."""
+
+from spec_model.board2.obstacles_degraded import check300
+from spec_model.lang.chart import Chart, Junction, to
+from spec_model.lang.edit import begin
+from spec_model.repairs import Repair
+
+
+def look_first(chart: Chart) -> Chart:
+    first = Junction(
+        "first",
+        [to("check_sonars_for_moving_again", when=check300), to("check_sonars_for_stopping")],
+    )
+    return begin(chart, [to("first")], [first])
+
+
+first_step = Repair(
+    name="degraded-first-step",
+    text="The default arrow of the degraded obstacle chart leads to a junction that tests the distances.",
+    fixes=("PB2-12-first",),
+    charts={"ObstaclesDegraded": look_first, "ObstaclesDriving": look_first},
+)

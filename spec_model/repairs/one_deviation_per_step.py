@@ -1,0 +1,30 @@
+"""Obstacles: a deviation that ends is not followed by another one in the same step."""
+
+from dataclasses import replace
+
+from spec_model.lang.chart import Chart, Transition
+from spec_model.lang.edit import arrows
+from spec_model.lang.expr import all_of
+from spec_model.lang.time import tick
+from spec_model.lang.words import after
+from spec_model.repairs import Repair
+
+
+def from_the_next_step_on(chart: Chart) -> Chart:
+    """Two signals in one step execute B2Decisions twice: the second finds the Waiting of the first."""
+
+    def wait(arrow: Transition) -> Transition:
+        if not (arrow.event or "").startswith("moveTo"):
+            return arrow
+        later = after(1 * tick)
+        return replace(arrow, guard=later if arrow.guard is None else all_of(arrow.guard, later))
+
+    return arrows(chart, "B2Decisions.Waiting", lambda found: [wait(arrow) for arrow in found])
+
+
+one_per_step = Repair(
+    name="one-deviation-per-step",
+    text="Waiting of B2Decisions follows a signal to deviate only from the step after its entry.",
+    fixes=("PB2-09b-straight", "PB2-09c-right", "PB2-10-most"),
+    charts={"Obstacles": from_the_next_step_on},
+)

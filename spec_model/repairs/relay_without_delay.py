@@ -1,0 +1,13 @@
+"""Relay: Board 1 takes the motors back at once, as the text of §2.5 says, not after the 3 s of Fig 16."""
+
+from spec_model.repairs import Repair
+
+_EXCLUDES = "It states the delay of Fig 16, which PB1-15 and the text of §2.5 exclude."
+
+relay_without_delay = Repair(
+    name="relay-without-delay",
+    text="The arrow B2_actuating -> B1_actuating of Fig 16 waits for no time (S45).",
+    fixes=("PB1-15",),
+    readings={"S45": "IMMEDIATE"},
+    gives_up=dict.fromkeys(("PB1-13a", "PB1-13b", "PB1-13c", "REACH-RELAY-LAST-STEP"), _EXCLUDES),
+)
