@@ -18,11 +18,16 @@ from spec_model.rover import readings_of
 
 @dataclass(frozen=True)
 class Expected:
-    """A verdict on record: ``depth`` is the length in ticks of the shortest counterexample."""
+    """A verdict on record: ``depth`` is the length in ticks of the shortest counterexample.
+
+    ``because`` names the arrow or sentence that causes it; ``no_repair`` says why no change of a chart is
+    proposed, where none is.
+    """
 
     verdict: str = "proved"
     depth: int | None = None
     because: str = ""
+    no_repair: str = ""
 
 
 @cache

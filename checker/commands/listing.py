@@ -15,7 +15,7 @@ from properties.catalogue import catalogue, expected
 from properties.forms import Property
 from properties.requirements import requirements
 from spec_model.readings import readings
-from spec_model.repairs import repairs
+from spec_model.repairs import proposals
 from spec_model.rover import charts, systems
 
 
@@ -95,7 +95,7 @@ def _hanging(text: str, indent: int = 5) -> None:
 def list_repairs() -> None:
     _print(
         ("name", "repairs", "what changes"),
-        ((r.name, ", ".join(r.fixes), r.text) for r in repairs().values()),
+        ((r.name, ", ".join(r.fixes), r.text) for r in proposals().values()),
     )
 
 

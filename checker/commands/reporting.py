@@ -7,6 +7,7 @@ from pathlib import Path
 from checker.commands.check import Compared, evidence, results
 from checker.commands.codes import Exit, UsageError
 from checker.commands.output import err, out, write
+from checker.commands.repairing import Proof, proofs, repair_pages, sections
 from checker.commands.requirements import page as matrix_page
 from checker.commands.wording import formally
 from checker.decide import AUTO
@@ -82,8 +83,9 @@ def _put(folder: Path, name: str, made: Pages) -> None:
 
 
 def pages(found: Sequence[Compared]) -> Pages:
-    """Every file of the report, from the verdicts."""
-    made = pages_of_verdicts(found)
+    """Every file of the report, from the verdicts; the repairs are decided here."""
+    proved = proofs()
+    made = pages_of_verdicts(found, proved) | repair_pages(proved)
     draw = renderers("statechart")["svg"].render
     for chart in charts().values():
         made[f"charts/{chart.name}.svg"] = _text(draw(chart))
@@ -91,8 +93,8 @@ def pages(found: Sequence[Compared]) -> Pages:
     return made
 
 
-def pages_of_verdicts(found: Sequence[Compared]) -> Pages:
-    """The files on properties, requirements and systems, without the charts."""
+def pages_of_verdicts(found: Sequence[Compared], proved: Sequence[Proof] = ()) -> Pages:
+    """The files on properties, requirements and systems, without the charts; ``proved``: the repairs."""
     ordered = sorted(found, key=lambda c: (c.result.property.area, c.result.property.id))
     made = {
         "README.md": _index(ordered),
@@ -101,7 +103,7 @@ def pages_of_verdicts(found: Sequence[Compared]) -> Pages:
     }
     for compared in ordered:
         if compared.verdict.word == "violated":
-            made[_page(compared)] = _finding(compared)
+            made[_page(compared)] = _finding(compared, proved)
     return made
 
 
@@ -118,7 +120,13 @@ def _index(found: Sequence[Compared]) -> str:
     counts = ", ".join(f"{words.count(w)} {w}" for w in ("proved", "violated", "unknown"))
     lines = ["# Verdicts", "", f"{len(found)} properties: {counts}.", ""]
     lines += ["- [Charts](charts/README.md)", "- [Requirements](requirements.md)"]
-    lines += ["- [Systems](systems.md)", "", f"Each property opens to what is checked. {HOW_TO_READ}", ""]
+    lines += [
+        "- [Systems](systems.md)",
+        "- [Proposed repairs](repairs/README.md)",
+        "",
+        f"Each property opens to what is checked. {HOW_TO_READ}",
+        "",
+    ]
     lines += ["## Findings", "", "Properties that fail on the charts as specified.", ""]
     for compared in found:
         if compared.verdict.word == "violated":
@@ -153,7 +161,7 @@ def _cell(text: str) -> str:
     return text.replace("|", "\\|")
 
 
-def _finding(compared: Compared) -> str:
+def _finding(compared: Compared, proved: Sequence[Proof]) -> str:
     prop, verdict = compared.result.property, compared.verdict
     assert not isinstance(verdict, Unknown)
     known = requirements()
@@ -163,6 +171,7 @@ def _finding(compared: Compared) -> str:
     if prop.readings:
         lines.append(f"- readings: {', '.join(prop.readings)}")
     lines += [f"- {evidence(compared.result)}", "", "## Why", "", compared.expected.because, ""]
+    lines += sections(prop.id, compared.expected, proved)
     if isinstance(verdict.because, Trace):
         lines += [RUN, ""]
         lines.append(_text(renderers("trace")["markdown"].render(verdict.because.focused())))

@@ -9,7 +9,7 @@ from properties.catalogue import Expected, expected, read_by, under
 from properties.forms import Property
 from spec_model.lang.system import System
 from spec_model.readings import ANY, fixed, readings
-from spec_model.repairs import Repair, repaired, repairs, touches
+from spec_model.repairs import Repair, proposals, repaired, touches
 from spec_model.rover import systems
 
 
@@ -69,7 +69,7 @@ def pick_variant(chosen: Sequence[str], repair: str | None, dropped: Sequence[st
     without = frozenset(pick("assumption", id, known).id for id in dropped)
     if repair is None:
         return Variant(choices, None, without)
-    found = pick("repair", repair, repairs())
+    found = pick("repair", repair, proposals())
     return Variant({**found.readings, **choices}, found, without)
 
 

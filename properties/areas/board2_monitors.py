@@ -183,7 +183,11 @@ REACH_B2_SUP_OK_CRIT = _arrow("REACH-B2-SUP-OK-CRIT", SUP, "OK", "CRIT", "Board 
 REACH_B2_SUP_DEG_CRIT = _arrow("REACH-B2-SUP-DEG-CRIT", SUP, "DEG", "CRIT", "A slow Board 1 can fall silent.")
 REACH_B2_SUP_RETURN = _arrow("REACH-B2-SUP-RETURN", SUP, "CRIT", "OK", "Board 1 can recover.")
 REACH_B2_BLE_OK_DEG = _arrow("REACH-B2-BLE-OK-DEG", BLE, "OK", "DEG", "The joystick link can become slow.")
-REACH_B2_BLE_DEG_OK = _arrow("REACH-B2-BLE-DEG-OK", BLE, "DEG", "OK", "A slow joystick link can recover.")
+REACH_B2_RX_DEG_OK = reachable(
+    "REACH-B2-RX-DEG-OK", "A slow reception can recover.",
+    that=monitor_sources.active("Rx.OK") & previous(monitor_sources.active("Rx.DEG")),
+    covers=["B2-FLT-01"], on="check_board1_fading",
+)  # fmt: skip
 REACH_B2_BLE_CRIT = _arrow("REACH-B2-BLE-CRIT", BLE, "OK", "CRIT", "The joystick link can fall silent.")
 REACH_B2_IMU_CRIT = _arrow("REACH-B2-IMU-CRIT", IMU, "OK", "CRIT", "The IMU can fall silent.")
 REACH_B2_RX_CRIT = _arrow("REACH-B2-RX-CRIT", RX, "OK", "CRIT", "The reception can fall silent.")

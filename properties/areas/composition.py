@@ -1,10 +1,10 @@
 """What must be true of both boards together, step by step: relay, authorisation, stops across the link."""
 
-from properties.forms import always, holds_after, leaves_only_if, never
+from properties.forms import always, costly, holds_after, leaves_only_if, never, responds, settles, until
 from spec_model.board1.motion import motion_supervision
 from spec_model.composition.motors import board1_powered, connected, followed, motors_zero, runs_1
 from spec_model.lang.expr import implies
-from spec_model.lang.time import ms, ticks
+from spec_model.lang.time import ms, tick, ticks
 from spec_model.lang.words import absolute, held, named, once, previous
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2 as obstacles
@@ -114,3 +114,42 @@ PSY_20b = never(
     that=motion_supervision.active("Evita_sinistra", "Evita_destra"),
     covers=["B1-IN-01"], on="references_commanded", readings=["E04", "E31"],
 )  # fmt: skip
+
+# --- long runs, and what one board decides alone ---------------------------------------------------------
+
+PSY_05c = always(
+    "PSY-05c", "Once no frame of Board 2 comes any more, an open relay stays open.",
+    that=implies(previous(b1.give_b2_actuation & ~b1.rx_update) & ~b1.rx_update, b1.give_b2_actuation),
+    covers=["B1-RX-03", "B1-REL-02"], on="relay_links", from_tick=2, readings=["S38"],
+)  # fmt: skip
+PSY_07b = always(
+    "PSY-07b", "Board 2 is authorised in the first step with a last frame of Board 1 over 120 ms old.",
+    that=implies(b2.RX.age > 120, drive2),
+    covers=["B1-REL-05", "B2-ACT-01"], on="check_board1_fading", from_tick=2, readings=["S47"],
+)  # fmt: skip
+PSY_07c = holds_after(
+    "PSY-07c", "Board 2 is authorised in the second step with a last frame of Board 1 over 120 ms old.",
+    premise=b2.RX.age > 120, for_=1 * tick, then=drive2,
+    covers=["B1-REL-05", "B2-ACT-01"], on="check_board1_links_free", from_tick=2, readings=["S47"],
+)  # fmt: skip
+PSY_09 = costly(responds(
+    "PSY-09",
+    "Within 100 ms of Board 1 taking the motors back, both links without loss for 3.02 s, Board 2 is no "
+    "longer authorised.",
+    trigger=drive1 & previous(~drive1) & held(b1.rx_update & b2.RX.update, for_=151 * ticks),
+    response=~drive2, within=5 * ticks,
+    covers=["B1-REL-03", "B2-ACT-01"], on="rover_plain", from_tick=2, readings=["S45", "E22"],
+))  # fmt: skip
+PSY_12 = until(
+    "PSY-12", "Stopped by CMD_ESTOP, Board 1's linear reference is not positive until another command comes.",
+    start=b1.actuate_emergency_stop & stop_commanded, holds=b1.v_ref <= 0, release=~stop_commanded,
+    covers=["B2-OBS-01", "B1-EST-01"], on="references_executed", from_tick=2, readings=["E10", "S62"],
+)  # fmt: skip
+PSY_18 = costly(settles(
+    "PSY-18",
+    "Without any fault and without an obstacle within 300 cm, wheels at rest whenever the references are "
+    "zero, Board 1 drives for ever, safe and under CMD_NORMAL, and Board 2 is not authorised.",
+    premise=~near_300 & (b1.wheels_below_2_5 | ~zero_1),
+    then=drive1 & ~drive2 & (b1.rover_safety_state == "SAFETY_OK") & (b1.cmd == "CMD_NORMAL"),
+    covers=["B1-REL-04", "B1-REF-02", "B2-OBS-12"], on="rover_healthy", readings=["S45"],
+))  # fmt: skip

@@ -2,20 +2,27 @@
 
 from properties.forms import always, holds_after, reachable, responds, until
 from spec_model.composition.fine_systems import (
+    critical_sent,
     forward,
     frame_accepted,
     near,
+    nonzero,
     rx_age_ms,
     sends,
     sup2_executes,
     v_positive,
 )
 from spec_model.lang.expr import implies
-from spec_model.lang.time import ms
+from spec_model.lang.time import ms, tick
 from spec_model.lang.words import named, previous
-from spec_model.signals.board1 import give_b2_actuation, rx_status
+from spec_model.signals.board1 import cmd, give_b2_actuation, is_rotating180, rx_status, v_ref, y_norm
+from spec_model.signals.board2 import command, within
 from spec_model.signals.board2_supervisor import autorized_to_send_command, sends_speeds
 
+driven_forward = named(
+    "Board 1 actuates, the user drives forward, no rotation",
+    ~give_b2_actuation & (y_norm > 0) & ~is_rotating180,
+)
 opens = named("Board 1 opens the relay", give_b2_actuation & ~previous(give_b2_actuation))
 
 PSY_01b = always(
@@ -76,6 +83,36 @@ PSY_10f = holds_after(
     "PSY-10f", "The same within 81 ms.",
     premise=near & forward, for_=81 * ms, then=~v_positive,
     covers=["B2-OBS-01", "B1-EST-01"], on="stop_fine", readings=["E12"],
+)  # fmt: skip
+
+PSY_14a = holds_after(
+    "PSY-14a",
+    "Within 61 ms of the step in which joystick link or IMU becomes critical, Board 1 driving, its "
+    "references are zero, for as long as that lasts.",
+    premise=critical_sent, for_=61 * ms, then=~nonzero,
+    covers=["B2-FLT-02", "B1-REF-06", "B1-REF-07"], on="critical_2_to_1", readings=["S55", "E29"],
+)  # fmt: skip
+PSY_14b = holds_after(
+    "PSY-14b",
+    "Within 61 ms of the step in which a critical component of Board 1 stops the rover, Board 2 driving, "
+    "its references are zero, for as long as that lasts.",
+    premise=critical_sent, for_=61 * ms, then=~nonzero,
+    covers=["B2-FLT-02", "B2-REF-01"], on="critical_1_to_2", readings=["S55", "E29"],
+)  # fmt: skip
+
+# --- what the contracts rest on ----------------------------------------------------------------------
+
+PSY_10m = always(
+    "PSY-10m",
+    "With the user driving forward in two successive steps of actuation and no rotation, CMD_ESTOP in the "
+    "second leaves no positive linear reference.",
+    that=implies(previous(driven_forward) & driven_forward & (cmd == "CMD_ESTOP"), v_ref <= 0),
+    covers=["B1-EST-01"], on="references", from_tick=2, readings=["S63"],
+)  # fmt: skip
+PSY_10s = holds_after(
+    "PSY-10s", "An obstacle at 70 cm or less in two successive steps makes Board 2 command CMD_ESTOP.",
+    premise=within(70), for_=1 * tick, then=command == "CMD_ESTOP",
+    covers=["B2-OBS-01"], on="obstacles_free", readings=["E04", "E12"],
 )  # fmt: skip
 
 REACH_HANDOVER_FINE = reachable(

@@ -128,7 +128,7 @@ def _turning(yaw: Var) -> tuple[Var, Var]:
     return Var("yaw_before", yaw.domain, yaw.init, "yaw in the step before, during a turn (E06 PASS)"), turn
 
 
-def angleCalculator(yaw: Var, decision: Expr) -> Expr:
+def angleCalculator(yaw: Expr, decision: Expr) -> Expr:
     """The heading 45 degrees toward the first sonar: left of now for decision 2, else right (E07)."""
     left, right = yaw - 45, yaw + 45
     return named(

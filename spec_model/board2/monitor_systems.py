@@ -6,6 +6,7 @@ from dataclasses import replace
 from spec_model import environment_board2 as env
 from spec_model.board2.monitors import RECORDS, monitor_sources, monitors
 from spec_model.board2.slow2 import Record, exact, forgotten, mean_slow, runs
+from spec_model.environment import clock
 from spec_model.lang.chart import Component
 from spec_model.lang.expr import Var, all_of
 from spec_model.lang.system import System, in_order
@@ -27,7 +28,7 @@ ANY_STAMPS = "Alive counters may change without a frame."
 def watching(sources: Sequence[Source], record: Record, name: str = "Monitors_2") -> tuple[Component, ...]:
     """Clocks, records and regions of some sources."""
     notes, chart = monitors(record, sources, name)
-    return (*(env.clock(f"{s.region}.age of {name}", s.update, s.age) for s in sources), *notes, chart)
+    return (*(clock(f"{s.region}.age of {name}", s.update, s.age) for s in sources), *notes, chart)
 
 
 all_sources = in_order(

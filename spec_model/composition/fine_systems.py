@@ -223,4 +223,68 @@ stop_fine = _chain(
     notes=[NO_LOSS],
 )
 
-SYSTEMS: tuple[System, ...] = (handover_fine, silence_fine, heartbeat_fine, stop_fine)
+# --- a critical fault of one board stops the other -------------------------------------------------
+
+
+def _critical(name: str, text: str, sender: Task, transmit: Task, receiver: Task, proved: str) -> System:
+    """From a critical cause in a step of the sender to the references of the receiver."""
+    link = line(f"{name}.line", [(critical_sent, critical_received)], transmit.due, critical_frame)
+    say = Block(
+        "Sender.contract",
+        [assign(critical_sent, critical)],
+        text="The bits of a critical component are set in the step in which it is critical (PB1-10).",
+    )
+    obey = Block(
+        "Receiver.contract",
+        [
+            assign(nonzero, ~(critical_received & was_critical) & any_nonzero),
+            assign(was_critical, critical_received),
+        ],
+        text=f"Contract: a critical cause in two successive steps gives zero references ({proved}).",
+    )
+    return _chain(
+        name,
+        text,
+        link.receive,
+        Enabled(receiver.due, obey),
+        Enabled(sender.due, say),
+        link.send,
+        tasks=(sender, transmit, receiver),
+        assume=implies(link.busy, link.intact),
+        notes=[NO_LOSS],
+    )
+
+
+critical = flag("critical", "a component of the sending board that stops the rover is critical")
+critical_sent = flag("critical_sent", "so says the mask in the snapshot of the sender")
+critical_received = flag("critical_received", "so says the mask last received")
+critical_frame = flag("critical_frame", "a frame came")
+was_critical = flag("was_critical", "so it said in the step before")
+any_nonzero = flag("any_nonzero", "free: whether the references are not zero otherwise")
+nonzero = flag("references_nonzero", "a reference of the receiving board is not zero")
+
+critical_2_to_1 = _critical(
+    "critical_2_to_1",
+    "From a critical joystick link or IMU of Board 2 to the references of Board 1, which drives.",
+    sup2,
+    tx2,
+    sup1,
+    "PB1-18a",
+)
+critical_1_to_2 = _critical(
+    "critical_1_to_2",
+    "From a critical component of Board 1 to the references of Board 2, which drives.",
+    sup1,
+    tx1,
+    sup2,
+    "PB2-18",
+)
+
+SYSTEMS: tuple[System, ...] = (
+    handover_fine,
+    silence_fine,
+    heartbeat_fine,
+    stop_fine,
+    critical_2_to_1,
+    critical_1_to_2,
+)

@@ -134,7 +134,7 @@ receiver = in_order(
     assume=implies(hits, ~drops),
     tick_ms=1,
     notes=(
-        f"A frame of {LENGTH} bytes; one byte per tick, whatever a tick lasts; the checksum detects every error.",
+        f"A frame of {LENGTH} bytes; one byte per tick, whatever its length; the checksum finds every error.",
         "Frames may follow each other without a pause, or with any pause.",
     ),
 )

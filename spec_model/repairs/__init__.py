@@ -2,19 +2,26 @@
 
 A repair lies in a file of its own beside the specified charts, which it does not change: it names the
 findings it repairs, the charts or function blocks it edits and how, or the readings it takes.
-``repaired`` applies it to systems.  Whatever lies in this folder is found.
+``repaired`` applies it to systems, ``in_force`` makes one of several.  Whatever lies in this folder
+is found.
 """
 
 import importlib
 import pkgutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, reduce
+from typing import TypeVar
 
 from spec_model.lang.chart import Block, Chart, parts
 from spec_model.lang.edit import in_system
-from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.lang.errors import ModelError
 from spec_model.lang.system import System
+
+ALL = "all"
+"""The name of all repairs that edit charts, together."""
+
+Part = TypeVar("Part", Chart, Block)
 
 
 @dataclass(frozen=True)
@@ -47,17 +54,48 @@ def repairs() -> dict[str, Repair]:
         module = importlib.import_module(f"{__name__}.{entry.name}")
         for thing in vars(module).values():
             if isinstance(thing, Repair):
-                if thing.name in found:
+                if thing.name in (*found, ALL):
                     raise ModelError(f"Two repairs are named {thing.name!r}; rename one of them.")
                 found[thing.name] = thing
     return found
 
 
-def repair(name: str) -> Repair:
-    """The repair of that name.  Raises ``ModelError`` offering near names."""
-    if name not in repairs():
-        raise ModelError(f"There is no repair {name!r}. {did_you_mean(name, repairs())}")
-    return repairs()[name]
+def in_force(chosen: Iterable[Repair], name: str = ALL) -> Repair:
+    """One repair of several: their edits in the order given.
+
+    Repairs that take another reading are left out: of the readings of one sentence only one can hold.
+    """
+    edits = [one for one in chosen if not one.readings]
+    fixes = dict.fromkeys(id for one in edits for id in one.fixes)
+    given_up = {id: why for one in edits for id, why in one.gives_up.items() if id not in fixes}
+    return Repair(
+        name,
+        f"All that edit charts: {', '.join(one.name for one in edits)}.",
+        tuple(fixes),
+        charts=_together([one.charts for one in edits]),
+        blocks=_together([one.blocks for one in edits]),
+        gives_up=given_up,
+    )
+
+
+def _together(
+    edits: Iterable[Mapping[str, Callable[[Part], Part]]],
+) -> dict[str, Callable[[Part], Part]]:
+    """The edits of each chart or block, one after the other."""
+    by_part: dict[str, list[Callable[[Part], Part]]] = {}
+    for one in edits:
+        for name, edit in one.items():
+            by_part.setdefault(name, []).append(edit)
+    return {name: _in_turn(found) for name, found in by_part.items()}
+
+
+def _in_turn(edits: list[Callable[[Part], Part]]) -> Callable[[Part], Part]:
+    return lambda part: reduce(lambda changed, edit: edit(changed), edits, part)
+
+
+def proposals() -> dict[str, Repair]:
+    """Every repair by name, and all that edit charts as one."""
+    return {**repairs(), ALL: in_force(repairs().values())}
 
 
 def repaired(system: System, repair: Repair) -> System:

@@ -23,9 +23,7 @@ def write_on_entry(state: State) -> State:
 def rotate_on_the_spot(state: State) -> State:
     """The rotation stops the rover, turns from its first step on, and slows down in every safety state."""
     full = assign(omega_ref, toward_target(angle_err, OMEGA_MAX))
-    law = when(
-        absolute(angle_err) > 45, [full], [assign(omega_ref, toward_target(angle_err, slowing_down))]
-    )
+    law = when(absolute(angle_err) > 45, [full], [assign(omega_ref, toward_target(angle_err, slowing_down))])
     measure = state.during[:-1]
     return replace(state, entry=(*state.entry, assign(v_ref, 0), full), during=(*measure, law))
 

@@ -1,4 +1,4 @@
-"""Safety state: a critical cause is tested before the absence of a degraded one, and in the first step too."""
+"""Safety state: a critical cause is tested before the absence of a degraded one, in the first step too."""
 
 from spec_model.board1.safety import critical, degraded
 from spec_model.lang.chart import Chart, Junction, to

@@ -7,5 +7,5 @@ absent_stops = Repair(
     text="Half a second without a reading makes the temperature critical (S13).",
     fixes=("PB1-33b", "PB1-33c"),
     readings={"S13": "TABLE1-CRIT"},
-    gives_up={"PB1-03": "It allows a critical temperature for the causes of Table 2 only, absence is not one."},
+    gives_up={"PB1-03": "It allows a critical temperature for the causes of Table 2 only, without absence."},
 )

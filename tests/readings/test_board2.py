@@ -10,13 +10,18 @@ from functools import cache
 
 import pytest
 
+from properties.catalogue import under
+from properties.reduce import reduce
 from spec_model.board2.heading import headings, measured
 from spec_model.board2.obstacles import obstacles_n
+from spec_model.lang.errors import ModelError
+from spec_model.lang.evaluate import step
 from spec_model.lang.interpret import Interpreter
-from spec_model.lang.system import System, in_order
-from spec_model.readings import fixed
+from spec_model.lang.lower import lower
+from spec_model.lang.system import TICK_MS, System, in_order
+from spec_model.readings import fixed, readings
 from spec_model.rover import systems
-from tests.readings.scenario import BOARD1, WARM_UP, Blocks, Given, histories
+from tests.readings.scenario import BOARD1, WARM_UP, Blocks, Given, histories, shown
 
 NOMINAL: Given = {
     **BOARD1, "Board1.powered": True, "B1-B2.arrives": "newest", "B2-B1.arrives": "newest",
@@ -135,7 +140,7 @@ SCENARIOS: list[Scenario] = [
     Scenario("E09", 3, [(200, {"new_d2": SEEN, "new_B2.degr_mask_b1": 2})], B2DEC, {
         "SEL-B1FLAG": "6", "SEL-ACTUATOR": "0", "SEL-SAFETY": "6", "SEL-MASK": "0"}, "board2", WARM_UP),
     Scenario("E09", 4, IMU_SLOW, B2DEC, {
-        "SEL-B1FLAG": "0", "SEL-ACTUATOR": "0", "SEL-SAFETY": "0 180 6", "SEL-MASK": "0 180 6"}, "board2"),
+        "SEL-B1FLAG": "0", "SEL-ACTUATOR": "0", "SEL-SAFETY": "0 140 6", "SEL-MASK": "0 140 6"}, "board2"),
     Scenario("E10", 1, [(200, {}), (200, S2(NEAR)), (400, {}), (200, {"ay_norm": 0})], DEC, {
         "AUTO": "0 220 1 420 0", "LATCH-NEUTRAL": "0 220 1 800 0", "LATCH-STANDSTILL": "0 220 1"}),
     Scenario("E10", 2, [(200, {}), (200, S2(NEAR)), (400, {}), (200, {"B2.wheels_below_2_5": True})], DEC, {
@@ -250,3 +255,96 @@ def test_E02_whether_a_moving_object_is_signalled_beside_one_at_70(choice: str, 
         inputs = {n: v.domain.raw(given.get(n, 0)) for n, v in system.inputs.items()}
         labels += [fired.label for fired in rover.step(inputs)]
     assert any("send(moveToS1, B2Decisions)" in label for label in labels) is sent
+
+
+# --- readings that change what a requirement asks, not the model (E11, E12) -------------------------
+
+
+def broken(property_id: str, choice: Mapping[str, str], given: Blocks) -> bool:
+    """Whether a run of the property's system breaks the property."""
+    wanted = under(choice)[property_id]
+    system = systems(choice)[wanted.on]
+    question = reduce(lower(system), [wanted])
+    at: dict[str, int] = dict(question.system.init)
+    seen = []
+    for length, values in given:
+        told = {**NOMINAL, **values}
+        inputs = {n: v.domain.raw(told[n]) if n in told else v.init for n, v in system.inputs.items()}
+        for _ in range(length // TICK_MS):
+            at = step(question.system, at, inputs)
+            seen.append(bool(at[question.goals[0].var.name]))
+    return any(seen)
+
+
+NOT_FORWARD: Given = {"give_b2_actuation": False, "cmd": "CMD_NORMAL", "x_norm": 1, "y_norm": 0}
+
+
+@pytest.mark.parametrize(
+    ("choice", "property_id", "is_broken"),
+    [("STOP-ALL", "PB1-23b", True), ("STOP-FORWARD", "PB1-23d", False)],
+)
+def test_E11_the_rover_turns_on_beside_an_obstacle(choice: str, property_id: str, is_broken: bool) -> None:
+    """A stop of all motion is not what the motion chart does; a stop of forward motion is."""
+    given = [(200, NOT_FORWARD), (200, {**NOT_FORWARD, "cmd": "CMD_ESTOP"})]
+    assert broken(property_id, {"E11": choice}, given) is is_broken
+    moving = systems({"E11": choice})["references"]
+    assert histories(moving, given, ["omega_ref"], nominal=NOMINAL, warm_up=0) == ["0 20 1"]
+
+
+@pytest.mark.parametrize(
+    ("choice", "property_id", "is_broken"),
+    [
+        ("SAME-STEP", "PB2-01", True),
+        ("NEXT-STEP", "PB2-02b", False),
+        ("BOUNDED", "PB2-02-n1", False),
+        ("BOUNDED", "PB2-02-n2", False),
+        ("BOUNDED", "PB2-02-n3", False),
+    ],
+)
+def test_E12_the_stop_comes_in_the_next_step(choice: str, property_id: str, is_broken: bool) -> None:
+    assert broken(property_id, {"E12": choice}, [(200, {}), (200, S2(NEAR))]) is is_broken
+
+
+# --- what Board 1 makes of it (E31) -----------------------------------------------------------------
+
+
+@pytest.mark.parametrize(("choice", "turn"), [("NORMAL", "1"), ("AVOID-BY-PAIR", "0"), ("ZERO-TURN", "0")])
+def test_E31_the_turn_while_the_rover_moves_toward_the_centre_sonar(choice: str, turn: str) -> None:
+    """The stick is held to the left, the side to which the object goes."""
+    left = {"bx_norm": 1}
+    outputs = ["command", *(["x_sent"] if choice == "ZERO-TURN" else [])]
+    decided = list(
+        shown(
+            _system("obstacles", "E31", choice),
+            [(200, {**left, **S2(SEEN)}), (200, {**left, **S1(SEEN)})],
+            outputs,
+            NOMINAL,
+        )
+    )
+    received = [
+        {**NOT_FORWARD, "y_norm": 1, "cmd": d["command"], "x_norm": int(d.get("x_sent", 1))} for d in decided
+    ]
+    system = systems({"E31": choice})["references"]
+    moved = [s["omega_ref"] for s in shown(system, [(TICK_MS, r) for r in received], ["omega_ref"], NOMINAL)]
+    assert (moved[9], moved[-1]) == ("1", turn)
+
+
+# --- completeness -----------------------------------------------------------------------------------
+
+
+def test_every_choice_is_shown() -> None:
+    seen = {(s.reading, choice) for s, choice in CASES} | {("E11", c) for c in readings()["E11"].choices}
+    seen |= {("E12", c) for c in readings()["E12"].choices}
+    modelled = {
+        (id, choice)
+        for id, reading in readings().items()
+        if id.startswith("E")
+        for choice in reading.choices
+        if choice not in reading.not_modelled
+    }
+    assert modelled <= seen
+
+
+def test_metres_per_second_are_not_modelled() -> None:
+    with pytest.raises(ModelError, match="no whole number of rpm"):
+        systems({"E25": "SI"})

@@ -1,4 +1,4 @@
-"""Every system that changes with a reading of Board 2 can be checked under every choice of it (E01 to E32)."""
+"""Every system that changes with a reading of Board 2 (E01 to E32) can be checked under each choice of it."""
 
 from functools import cache
 

@@ -1,0 +1,150 @@
+"""The pages on proposed repairs: what each changes in the charts, and the proof that it repairs."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from html import escape
+
+from checker.commands.check import evidence, results
+from checker.commands.variant import Variant
+from checker.decide import AUTO
+from checker.engine import Limits, Timers
+from checker.render import renderers
+from checker.render.drawing.changes import changes
+from checker.result import Result
+from properties.catalogue import Expected
+from spec_model.lang.chart import Block, Chart, parts
+from spec_model.lang.system import System
+from spec_model.repairs import Repair, repairs
+from spec_model.rover import systems
+
+LIMITS = Limits(timers=Timers.FREE)
+"""Timers that run out at will prove most repairs with far fewer valuations."""
+
+
+@dataclass(frozen=True)
+class Proof:
+    """A repair with the verdicts, under it, on the properties that it repairs."""
+
+    repair: Repair
+    results: tuple[Result, ...]
+
+    @property
+    def variant(self) -> Variant:
+        return Variant(self.repair.readings, self.repair)
+
+    @cached_property
+    def changed(self) -> Sequence[tuple[Chart | Block, Chart | Block]]:
+        """The charts and blocks that differ from those specified, with their repaired form."""
+        before, after = _parts(systems()), _parts(self.variant.systems())
+        pairs = ((before[name], after[name]) for name in before if name in after)
+        return [pair for pair in pairs if changes(*pair)]
+
+    @cached_property
+    def others(self) -> int:
+        """How many other properties are about a system that the repair changes."""
+        return sum(map(self.variant.concerns(), self.variant.properties().values())) - len(self.results)
+
+
+def proofs() -> tuple[Proof, ...]:
+    """Every repair, its properties decided now."""
+    return tuple(Proof(repair, tuple(_decided(repair))) for repair in repairs().values())
+
+
+def _decided(repair: Repair) -> Iterator[Result]:
+    variant = Variant(repair.readings, repair)
+    wanted = [variant.properties()[id] for id in repair.fixes]
+    found = {r.property.id: r for r in results(wanted, variant.systems(), AUTO, LIMITS)}
+    yield from (found[id] for id in repair.fixes)
+
+
+def _parts(by_name: Mapping[str, System]) -> dict[str, Chart | Block]:
+    """Of parts with one name in several systems, the first listed."""
+    found: dict[str, Chart | Block] = {}
+    for system in by_name.values():
+        for part in parts(system.components):
+            found.setdefault(part.name, part)
+    return found
+
+
+def sections(id: str, expected: Expected, proved: Sequence[Proof]) -> list[str]:
+    """What a finding page says of its repair: the change and the proof, or why there is none."""
+    mine = [proof for proof in proved if id in proof.repair.fixes]
+    lines = ["## Proposed repair", ""]
+    if not mine:
+        return [*lines, f"None. {expected.no_repair}".rstrip(), ""]
+    for proof in mine:
+        lines += [f"**{proof.repair.name}**: {proof.repair.text}", "", *_change(proof, "../repairs/")]
+    lines += ["## Proof of the repair", ""]
+    for proof in mine:
+        lines += [*_verdicts(proof), ""]
+    return lines
+
+
+def _change(proof: Proof, folder: str) -> list[str]:
+    """The changed places side by side, and a picture of each repaired chart."""
+    lines: list[str] = []
+    for before, after in proof.changed:
+        lines += [_title(proof, after, folder), "", "| where | as specified | repaired |", "|---|---|---|"]
+        for change in changes(before, after):
+            lines.append(f"| {_cell(change.place)} | {_code(change.before)} | {_code(change.after)} |")
+        lines.append("")
+    if proof.repair.gives_up:
+        lines += ["It gives up:", "", *(f"- {id}: {why}" for id, why in proof.repair.gives_up.items()), ""]
+    return lines
+
+
+def _title(proof: Proof, part: Chart | Block, folder: str) -> str:
+    picture = f"{folder}{proof.repair.name}/{part.name}.svg"
+    return f"[{part.name}, repaired]({picture})" if isinstance(part, Chart) else part.name
+
+
+def _code(lines: Sequence[str]) -> str:
+    return "<br>".join(f"<code>{_cell(line)}</code>" for line in lines) or "—"
+
+
+def _cell(text: str) -> str:
+    return escape(text, quote=False).replace("|", "\\|")
+
+
+def _verdicts(proof: Proof) -> list[str]:
+    name, count = proof.repair.name, proof.others
+    lines = [f"With {name}:", ""]
+    lines += [f"- {r.property.id}: {r.verdict.word}, {evidence(r)}" for r in proof.results]
+    others = (
+        f"`rovercheck check --repair {name}` decides these and {count} other properties that it concerns."
+    )
+    return [*lines, "", others]
+
+
+def repair_pages(proved: Sequence[Proof]) -> dict[str, str]:
+    """The page that lists the repairs, and a picture of each repaired chart, by relative path."""
+    made = {"repairs/README.md": _index(proved)}
+    draw = renderers("statechart")["svg"].render
+    for proof in proved:
+        for _, part in proof.changed:
+            if isinstance(part, Chart):
+                drawn = draw(part)
+                assert isinstance(drawn, str)
+                made[f"repairs/{proof.repair.name}/{part.name}.svg"] = drawn
+    return made
+
+
+INTRODUCTION = (
+    "Each repair is a variant of the charts kept beside the original, in a file of `spec_model/repairs/`; "
+    "the specified charts stay as they are. `rovercheck check --repair NAME` decides every property that it "
+    "concerns, `--repair all` those under all repairs that edit charts, together."
+)
+
+
+def _index(proved: Sequence[Proof]) -> str:
+    lines = ["<!-- generated by `rovercheck reports`; do not edit -->", ""]
+    lines += ["# Proposed repairs", "", INTRODUCTION, ""]
+    for proof in proved:
+        fixed = ", ".join(f"[{id}](../findings/{id}.md)" for id in proof.repair.fixes)
+        lines += [f"## {proof.repair.name}", "", proof.repair.text, "", f"Repairs {fixed}.", ""]
+        lines += [*_change(proof, ""), *_verdicts(proof), ""]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+__all__ = ["Proof", "proofs", "repair_pages", "sections"]

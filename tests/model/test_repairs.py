@@ -1,0 +1,90 @@
+"""Every finding has a proposed repair or a reason why none is proposed, and repairs repair."""
+
+import pytest
+
+from checker.commands.check import results
+from checker.commands.variant import Variant
+from checker.decide import AUTO
+from checker.engine import Limits, Timers
+from checker.render.drawing.changes import changes
+from properties.catalogue import baseline, catalogue
+from spec_model.lang.chart import Chart, parts, to
+from spec_model.lang.edit import also, begin
+from spec_model.repairs import ALL, Repair, in_force, proposals, repairs
+from spec_model.rover import charts, systems
+
+EVERY = list(repairs().values())
+CHEAP = ("battery-gap-releases", "degraded-first-step", "relay-without-delay", "wheel-by-feedback")
+
+
+def variant(repair: Repair) -> Variant:
+    return Variant(repair.readings, repair)
+
+
+def test_every_violation_on_record_has_a_repair_or_a_reason_why_none_is_proposed() -> None:
+    repaired = {id for repair in EVERY for id in repair.fixes}
+    violated = {id: entry for id, entry in baseline().items() if entry.verdict == "violated"}
+    assert [id for id, entry in violated.items() if id not in repaired and not entry.no_repair] == []
+    assert [id for id, entry in violated.items() if id in repaired and entry.no_repair] == []
+    assert all(entry.no_repair.endswith(".") for entry in violated.values() if entry.no_repair)
+
+
+@pytest.mark.parametrize("repair", EVERY, ids=lambda r: r.name)
+def test_a_repair_is_about_violations_on_record_and_what_it_gives_up_holds_without_it(repair: Repair) -> None:
+    assert repair.fixes and repair.text.endswith(".")
+    assert [id for id in repair.fixes if baseline().get(id) is None] == []
+    assert [id for id in repair.gives_up if id not in catalogue() or id in baseline()] == []
+    assert all(why.endswith(".") for why in repair.gives_up.values())
+
+
+@pytest.mark.parametrize("repair", proposals().values(), ids=lambda r: r.name)
+def test_a_repair_edits_parts_of_the_rover_and_leaves_their_states(repair: Repair) -> None:
+    known = {part.name for system in systems().values() for part in parts(system.components)}
+    assert {*repair.charts, *repair.blocks} <= known
+    edited = variant(repair).systems()
+    for name, system in systems().items():
+        for before, after in zip(system.charts, edited[name].charts, strict=True):
+            assert list(before.states) == list(after.states)
+            assert before.name not in repair.charts or changes(before, after)
+
+
+@pytest.mark.parametrize("repair", [r for r in EVERY if r.readings], ids=lambda r: r.name)
+def test_a_reading_taken_as_a_repair_changes_the_rover(repair: Repair) -> None:
+    assert any(map(variant(repair).concerns(), catalogue().values()))
+    assert any(
+        changes(before, after)
+        for name, system in systems().items()
+        for before, after in zip(system.charts, variant(repair).systems()[name].charts, strict=True)
+    )
+
+
+@pytest.mark.parametrize("name", CHEAP)
+def test_what_a_repair_promises_is_proved(name: str) -> None:
+    changed = variant(repairs()[name])
+    wanted = [changed.properties()[id] for id in repairs()[name].fixes]
+    found = results(wanted, changed.systems(), AUTO, Limits(timers=Timers.FREE))
+    assert {r.property.id: r.verdict.word for r in found} == {p.id: "proved" for p in wanted}
+
+
+def test_all_repairs_together_are_those_that_edit_charts_in_the_order_of_their_names() -> None:
+    first = Repair("first", "A.", ("P",), {"Relay": lambda c: also(c, "B1_actuating", to("B2_actuating"))})
+    second = Repair(
+        "second", "B.", ("Q",), {"Relay": lambda c: begin(c, [to("B2_actuating")])}, gives_up={"P": "C."}
+    )
+    other = Repair("other", "D.", ("R",), readings={"S45": "IMMEDIATE"})
+    both = in_force([first, other, second])
+    assert both.name == ALL and both.fixes == ("P", "Q") and not both.readings and not both.gives_up
+    drawn = both.charts["Relay"](charts()["Relay"])
+    assert isinstance(drawn, Chart)
+    assert [c.place for c in changes(charts()["Relay"], drawn)] == [
+        "default arrow of Relay",
+        "arrows of B1_actuating",
+    ]
+    assert len(drawn.states[("B1_actuating",)].transitions) == 2
+
+
+def test_a_change_shows_both_versions_of_a_place() -> None:
+    relay = charts()["Relay"]
+    (change,) = changes(relay, also(relay, "B1_actuating", to("B2_actuating")))
+    assert change.place == "arrows of B1_actuating"
+    assert change.after == (*change.before, "2: → B2_actuating")
