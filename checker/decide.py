@@ -26,7 +26,7 @@ SHORT = 12
 LITTLE = 64 << 20
 """Bytes that it grants to that enumeration."""
 WIDE = 160
-"""Bits of a valuation, of what the goals depend on, above which it unrolls before it enumerates."""
+"""Bits of a valuation, of what the goals depend on, above which it unrolls and does not enumerate."""
 
 AUTO = "auto"
 ALL = "all"
@@ -162,7 +162,7 @@ def _plan(limits: Limits, short: bool, wide: bool) -> tuple[tuple[str, Limits], 
     explicit, unrolling = ("explicit", limits), ("bmc", limits)
     little = ("explicit", replace(limits, memory=min(LITTLE, limits.memory)))
     if wide:
-        return unrolling, little
+        return (unrolling,)
     if short:
         return ("bmc", replace(limits, depth=min(SHORT, limits.depth or SHORT))), little, unrolling
     return explicit, unrolling

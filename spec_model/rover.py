@@ -22,6 +22,7 @@ BOARDS = (
     "spec_model.board2.motion_systems",
     "spec_model.board2.monitor_systems",
     "spec_model.board2.supervisor_systems",
+    "spec_model.plain_systems",
     "spec_model.composition.systems",
     "spec_model.composition.fine_systems",
     "spec_model.composition.receiver",

@@ -84,7 +84,7 @@ def _one(
 ) -> list[Result]:
     try:
         found = decide(task, systems, engine, limits, lambda line: watch.say(task.title, line))
-        return [replace(one, in_part=_in_part(one, systems[one.system])) for one in found]
+        return [replace(one, in_part=_in_part(one, systems.get(one.system, task.system))) for one in found]
     finally:
         watch.finished(task.title)
 

@@ -32,12 +32,12 @@ PSY_01c = always(
 PSY_02a = never(
     "PSY-02a", "Board 1 actuates and Board 2 is authorised in one step.",
     that=drive1 & drive2,
-    covers=["B1-REL-03", "B2-ACT-01"], on="rover_plain_no_loss", from_tick=2, readings=["E22"],
+    covers=["B1-REL-03", "B2-ACT-01"], on="rover_plain", from_tick=2, readings=["E22"],
 )  # fmt: skip
 PSY_02b = never(
-    "PSY-02b", "Board 1 actuates and Board 2 is authorised in four successive steps without a lost frame.",
-    that=drive1 & drive2 & held(drive1 & drive2, for_=3 * ticks),
-    covers=["B1-REL-03", "B2-ACT-01"], on="rover_plain_no_loss", from_tick=2, readings=["E22"],
+    "PSY-02b", "Board 1 actuates and Board 2 is authorised in four steps in a row in which no frame is lost.",
+    that=held(drive1 & drive2 & b1.rx_update & b2.RX.update, for_=3 * ticks),
+    covers=["B1-REL-03", "B2-ACT-01"], on="rover_plain", from_tick=2, readings=["E22"],
 )  # fmt: skip
 PSY_07a = always(
     "PSY-07a", "Without power on Board 1 the motor line is on Board 2.",
@@ -69,7 +69,7 @@ PSY_10a = holds_after(
     "Five steps after an obstacle at 70 cm or less, constant, with the user driving forward, Board 1's "
     "linear reference is not positive.",
     premise=in_time & forward, for_=5 * ticks, then=b1.v_ref <= 0,
-    covers=["B2-OBS-01", "B1-EST-01"], on="rover_no_loss", from_tick=2, readings=["E12"],
+    covers=["B2-OBS-01", "B1-EST-01"], on="rover_plain_no_loss", from_tick=2, readings=["E12"],
 )  # fmt: skip
 PSY_11 = holds_after(
     "PSY-11",
@@ -99,11 +99,11 @@ PSY_17a = never(
     that=~motors_zero & ~once(b2.IMU.update),
     covers=["B2-FLT-01"], on="rover_no_loss", readings=[],
 )  # fmt: skip
-PSY_17b = never(
+PSY_17b = costly(never(
     "PSY-17b", "A non-zero speed reaches the motors before Board 2 has read the joystick once.",
     that=~motors_zero & ~once(b2.BLE.update),
     covers=["B1-REF-02"], on="rover_no_loss", readings=[],
-)  # fmt: skip
+))  # fmt: skip
 PSY_20a = always(
     "PSY-20a", "The command that Board 1 receives is NORMAL, GO_LEFT, GO_RIGHT or ESTOP.",
     that=(b1.cmd == "CMD_NORMAL") | (b1.cmd == "CMD_GO_LEFT") | (b1.cmd == "CMD_GO_RIGHT") | stop_commanded,

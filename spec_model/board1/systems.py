@@ -164,7 +164,7 @@ references_for_any_yaw = in_order(
     text="Safety state, limits and references, for any relay decision, faults, commands and wheel speeds.",
     notes=[FREE_STATUSES, FREE_CAUSES, FREE_BACKWARD, FREE_ERROR],
     over=True,
-    concrete="board1",
+    concrete="board1_plain",
 )
 
 references_executed = in_order(

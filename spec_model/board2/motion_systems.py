@@ -27,6 +27,8 @@ SYSTEMS: tuple[System, ...] = (
         DRIVING,
         text="Safety state, obstacle command and references of Board 2 as drawn, for any authorisation.",
         notes=(FREE_CAUSES, "Headings are multiples of 2.5 degrees, arbitrary in every step."),
+        over=True,
+        concrete="board2_plain",
     ),
     in_order(
         "references_2",
@@ -34,7 +36,7 @@ SYSTEMS: tuple[System, ...] = (
         text="As references_2_drawn, with less to remember.",
         notes=(FREE_CAUSES, FREE_BACKWARD, FREE_ERROR),
         over=True,
-        concrete="references_2_drawn",
+        concrete="board2_plain",
     ),
     in_order(
         "references_2_executed",

@@ -1,14 +1,22 @@
 """The catalogue is well formed: known systems, known requirements, one sentence each."""
 
+from functools import cache
+
 import pytest
 
 from properties.catalogue import baseline, catalogue
 from properties.forms import Property
 from properties.reduce import reduce
 from spec_model.lang.lower import lower
+from spec_model.lang.system import TransitionSystem
 from spec_model.rover import charts, systems
 
 ALL = list(catalogue().values())
+
+
+@cache
+def lowered(name: str) -> TransitionSystem:
+    return lower(systems()[name])
 
 
 @pytest.mark.parametrize("prop", ALL, ids=lambda p: p.id)
@@ -16,7 +24,7 @@ def test_a_property_is_one_sentence_about_a_known_system(prop: Property) -> None
     first = prop.text.split()[0]
     assert prop.text.endswith(".") and (first[0].isupper() or "_" in first or "." in first)
     assert prop.on in systems()
-    assert reduce(lower(systems()[prop.on]), [prop]).goals[0].property is prop
+    assert reduce(lowered(prop.on), [prop]).goals[0].property is prop
 
 
 def test_every_chart_is_spoken_of() -> None:

@@ -14,6 +14,10 @@ def _initialised() -> None:
     binding.initialize_native_asmprinter()
 
 
+# llvmlite fills a table of escapes when it first prints a string, and not safely for two threads.
+str(ir.Constant(ir.ArrayType(ir.IntType(8), 1), bytearray(b"x")))
+
+
 def _machine() -> Any:
     """A description of this processor; the engine that is made with it owns it."""
     _initialised()

@@ -1,0 +1,121 @@
+"""The records of ten intervals with updates at any ms: against the time stamps, and the over-approximation."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from fractions import Fraction
+from itertools import accumulate, pairwise
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from spec_model.environment_fine import heartbeat_record, reception_any_mean, reception_record
+from spec_model.lang.chart import Block
+from spec_model.lang.interpret import Interpreter
+from spec_model.lang.system import TICK_MS, in_order
+from spec_model.readings import fixed
+from tests.readings.arrivals import at
+
+intervals = st.lists(
+    st.tuples(st.sampled_from([20, 21, 38, 39, 40, 41, 50, 130, 421, *range(1, 20)]), st.integers(1, 12)),
+    min_size=1,
+    max_size=6,
+)
+"""Intervals in ms, and how often each is repeated; the first is the silence after power-up."""
+
+AS_READ: Mapping[str, str] = {}
+READINGS: list[Mapping[str, str]] = [
+    AS_READ,
+    {"S34": "PARTIAL"},
+    {"S35": "OPEN"},
+    {"S36": "ARRIVAL"},
+    {"S37": "GE"},
+    {"S66": "COUNT"},
+    {"S34": "PARTIAL", "S35": "OPEN", "S37": "GE", "S66": "COUNT"},
+    {"S34": "PARTIAL", "S35": "OPEN", "S36": "ARRIVAL", "S37": "GE", "S66": "COUNT"},
+]
+BY_NAME = {"ids": lambda choices: "-".join(choices.values()) or "as read"}
+
+
+def stamps(sequence: Sequence[tuple[int, int]]) -> list[int]:
+    """The instants of the updates, at most two in a tick."""
+    found: list[int] = []
+    for stamp in accumulate(gap for gap, times in sequence for _ in range(times)):
+        if sum(_tick(stamp) == _tick(other) for other in found) < 2:
+            found.append(stamp)
+    return found
+
+
+def _tick(stamp: int) -> int:
+    return -(-stamp // TICK_MS)
+
+
+def answers(
+    record: Block, times: Sequence[int], choices: Mapping[str, str], guesses: Sequence[bool] = ()
+) -> Iterator[bool]:
+    """``rx_slow`` after each tick, until 10 ticks after the last update."""
+    machine = Interpreter(fixed(choices).system(in_order("record", record)))
+    for tick, (_, given_) in enumerate(at(times, first_step=20, last_step=_last_step(times))):
+        inputs = {name: int(value) for name, value in given_.items()}
+        if guesses:
+            inputs["rx_mean_slow"] = int(guesses[tick])
+        machine.step({"rx_update": 0, "rx_lag": 0, "rx_first_lag": 0, **inputs})
+        yield bool(machine.data["rx_slow"])
+
+
+def _last_step(times: Sequence[int]) -> int:
+    return TICK_MS * (_tick(times[-1]) + 10)
+
+
+def by_time_stamps(times: Sequence[int], choices: Mapping[str, str]) -> Iterator[bool]:
+    """The definition: the mean of the last ten differences of stamps as a fraction."""
+    known = [0] if choices.get("S66") == "COUNT" else []
+    slow = False
+    for now in range(TICK_MS, _last_step(times) + 1, TICK_MS):
+        arrived = [stamp for stamp in times if now - TICK_MS < stamp <= now]
+        known += arrived if choices.get("S36") == "ARRIVAL" else arrived[-1:]
+        if arrived or choices.get("S35") == "OPEN":
+            ends = known if arrived or not known else [*known, now]
+            last = [later - earlier for earlier, later in pairwise(ends)][-10:]
+            mean = Fraction(sum(last), max(len(last), 1))
+            needed = 1 if choices.get("S34") == "PARTIAL" else 10
+            slow = len(last) >= needed and (mean > 40 or (mean == 40 and choices.get("S37") == "GE"))
+        yield slow
+
+
+@pytest.mark.parametrize("choices", READINGS, **BY_NAME)
+@settings(max_examples=25)
+@given(sequence=intervals)
+def test_the_record_computes_the_mean_of_the_time_stamps(
+    choices: Mapping[str, str], sequence: list[tuple[int, int]]
+) -> None:
+    times = stamps(sequence)
+    assert list(answers(reception_record, times, choices)) == list(by_time_stamps(times, choices))
+
+
+@pytest.mark.parametrize("choices", READINGS, **BY_NAME)
+@settings(max_examples=25)
+@given(sequence=intervals)
+def test_every_run_of_the_record_is_a_run_of_the_over_approximation(
+    choices: Mapping[str, str], sequence: list[tuple[int, int]]
+) -> None:
+    times = stamps(sequence)
+    exact = list(by_time_stamps(times, choices))
+    assert list(answers(reception_any_mean, times, choices, guesses=exact)) == exact
+
+
+@pytest.mark.parametrize(("limit", "slow"), [("GT", False), ("GE", True)])
+@pytest.mark.parametrize("phase", [0, 7, 19])
+def test_a_mean_of_exactly_40_ms_at_any_phase(phase: int, limit: str, slow: bool) -> None:
+    times = [100 + phase + 40 * n for n in range(11)]
+    assert list(answers(reception_record, times, {"S37": limit}))[-1] is slow
+
+
+@pytest.mark.parametrize(("gap", "slow"), [(120, False), (123, True)])
+def test_a_counter_that_moves_by_three_closes_three_intervals(gap: int, slow: bool) -> None:
+    machine = Interpreter(fixed({"S40": "COUNT-DELTA"}).system(in_order("record", heartbeat_record)))
+    times = [100 + gap * n for n in range(5)]
+    for _, given_ in at(times, first_step=20, last_step=_last_step(times), link="heartbeat"):
+        inputs = {name: int(value) for name, value in given_.items()}
+        nothing = {"heartbeat_update": 0, "heartbeat_lag": 0, "heartbeat_first_lag": 0}
+        machine.step({**nothing, "heartbeat_moves": 3, **inputs})
+    assert bool(machine.data["heartbeat_slow"]) is slow
