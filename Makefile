@@ -21,11 +21,12 @@ VERSION := $(shell "$(PYTHON)" -c 'import sys; print("%d.%d.%d" % sys.version_in
 STAMP   := $(VENV)/installed-for-$(VERSION)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup check test lint types reports bench format lock clean
+.PHONY: help setup check check-full test lint types reports bench format lock clean
 .DELETE_ON_ERROR:
 
 help:
 	@echo "make check     check every property of the rover on the charts; exit code 0: all as expected"
+	@echo "make check-full  also what takes long, and every proposed repair"
 	@echo "make test      lint, types, import contracts and the whole test suite"
 	@echo "make reports   write the evidence in reports/ anew"
 	@echo "make lint      ruff only            make types     mypy only"
@@ -35,6 +36,11 @@ help:
 
 check: $(STAMP)
 	@$(RUN) -m checker check $(ARGS)
+
+check-full: $(STAMP)
+	@$(RUN) -m checker check --full $(ARGS)
+	@for repair in $$($(RUN) -m checker list repairs --names); do \
+		echo; echo "With $$repair:"; $(RUN) -m checker check --repair "$$repair" $(ARGS) || exit 1; done
 
 test: lint types
 	@echo "Tests, in $(JOBS) processes ..."

@@ -28,6 +28,8 @@ def calmed(system: TransitionSystem, goal: Var, run: Run) -> Run:
     Every input is, in this order of preference, at its initial value throughout, constant, or with
     changes none of which can be left out alone.
     """
+    if not system.inputs:
+        return run
     work = _Rerun(system, goal, run)
     before = None
     while before != work.columns:  # an input may be calmed only after another it depends on

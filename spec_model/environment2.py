@@ -14,7 +14,7 @@ from spec_model.lang.domain import chosen, integer
 from spec_model.lang.expr import TRUE, Expr, Var, all_of, any_of, flag, implies, ite, var
 from spec_model.lang.words import maximum, wrap
 from spec_model.readings import choose, under
-from spec_model.signals.board2 import SONARS, B2Decision, number
+from spec_model.signals.board2 import SONARS, B2Decision, number, sonar_fault
 
 # One distance for each set that no limit of the charts divides: ..70, 71..100, 101..300, 301..
 cell = chosen([70, 100, 300, 301], "cm")
@@ -28,8 +28,6 @@ other = tuple(flag(f"other{i}", f"echo{i} stands for its part beyond a limit of 
 missing = tuple(
     flag(f"missing{i}", f"S{i} hears no echo at all, cable cut for instance (E13)") for i in (1, 2, 3)
 )
-
-sonar_fault = flag("sonar_fault", "a bit of the fault masks beyond the four modelled: no echo (E13 FAULT)")
 
 
 def _measured(i: int) -> Expr:

@@ -11,10 +11,11 @@ from fractions import Fraction
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block, Chart, State, to
 from spec_model.lang.domain import boolean, chosen, fixed, integer
-from spec_model.lang.expr import FALSE, TRUE, Expr, Var, any_of, const, flag, ite, var
+from spec_model.lang.expr import FALSE, TRUE, Expr, Var, all_of, any_of, const, flag, ite, var
 from spec_model.lang.time import ms
 from spec_model.lang.words import absolute, after, maximum, minimum, modulo, named, quotient
-from spec_model.readings import under
+from spec_model.readings import choose, under
+from spec_model.signals.board2 import sonar_fault
 
 # --- sonar ---------------------------------------------------------------------------------------
 
@@ -52,13 +53,20 @@ period = Block("SonarPeriod", [
 NO_ECHO = 301
 
 
-def _centimetres(seen: Var, pulse: Var) -> Expr:
-    """58 µs for each cm, rounded down; without an echo the sonar counts as free (E13)."""
-    return ite(seen, quotient(pulse, 58) * const(1, "cm/µs"), const(NO_ECHO, "cm"))
+def _centimetres(old: Var, seen: Var, pulse: Var) -> Expr:
+    """58 µs for each cm, rounded down; without an echo the sonar counts as free (E13).
+
+    HOLD: a scan without all three echoes leaves the old values; NEAR: as an obstacle at 70 cm.
+    """
+    measured = quotient(pulse, 58) * const(1, "cm/µs")
+    free, near = ite(seen, measured, const(NO_ECHO, "cm")), ite(seen, measured, const(70, "cm"))
+    held = ite(all_of(*flags), measured, old)
+    return choose("E13", {"FAR": free, "HOLD": held, "NEAR": near, "FAULT": free})
 
 
 publish = [
-    *(assign(d, _centimetres(s, p)) for d, s, p in zip(distance, flags, captured, strict=True)),
+    *(assign(d, _centimetres(d, s, p)) for d, s, p in zip(distance, flags, captured, strict=True)),
+    when(under("E13", "FAULT"), [assign(sonar_fault, ~all_of(*flags))]),
     assign(published, TRUE),
 ]
 start = [*(assign(seen, FALSE) for seen in flags), assign(count, 0)]

@@ -95,7 +95,7 @@ def measured(yaw: Var, targetAngle: Var) -> Heading:
     initial = choose("E07", {"AT-DECISION": yaw, "AT-FALL": earlier, "AT-FIRST-DETECTION": earlier})
     before, so_far = _turning(yaw)
     by_sum = under("E06", "PASS")
-    turn = maximum(minimum(so_far + wrap(yaw - before), TWO_TURNS), -TWO_TURNS)
+    turn = maximum(minimum(so_far + wrap(yaw - before), FULL_TURN), -FULL_TURN)
     return Heading(
         turned=gyroTargetDiff(yaw, targetAngle),
         store_target=(
@@ -116,14 +116,14 @@ def headings(grid: int) -> tuple[Var, Var]:
     return yaw, target
 
 
-TWO_TURNS = 720
+FULL_TURN = 360
 """A sum that stands for every larger one, in degrees (E06 PASS)."""
 
 
 def _turning(yaw: Var) -> tuple[Var, Var]:
     """What E06 PASS adds up: yaw in the step before, and the turn so far."""
     assert isinstance(yaw.domain.sort, Num)
-    sums = fixed(-TWO_TURNS, TWO_TURNS, yaw.domain.sort.resolution, "°")
+    sums = fixed(-FULL_TURN, FULL_TURN, yaw.domain.sort.resolution, "°")
     turn = var("turn_so_far", sums, 0, "sum of the changes of yaw in this turn (E06 PASS)")
     return Var("yaw_before", yaw.domain, yaw.init, "yaw in the step before, during a turn (E06 PASS)"), turn
 

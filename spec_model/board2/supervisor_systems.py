@@ -6,9 +6,10 @@ The obstacle charts and the motion charts have systems of their own.
 from dataclasses import replace
 
 from spec_model import environment_board2 as env
-from spec_model.board2 import ACTUATION, SUPERVISOR, acquisition, coherence
+from spec_model.board2 import ACTUATION, acquisition, coherence, supervisor
 from spec_model.board2.classify import process_masks
 from spec_model.board2.failure_check import check_board1
+from spec_model.board2.heading import measured
 from spec_model.board2.masks import fault_masks_2
 from spec_model.board2.monitor_systems import FORGOTTEN, GRID, WITH_FRAMES, watching
 from spec_model.board2.monitors import RECORDS, monitor_sources
@@ -22,11 +23,12 @@ from spec_model.environment2 import scanned
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block, Component, Enabled
 from spec_model.lang.expiry import free_timers
-from spec_model.lang.expr import Expr, all_of, any_of, implies
+from spec_model.lang.expr import Expr, all_of, any_of, implies, var
 from spec_model.lang.system import System, in_order
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
 from spec_model.signals.board2 import SONARS
+from spec_model.signals.rotation import TARGET
 
 FREE_STATUSES = (
     "What other blocks compute is free in every step, which allows every run of the board and more: what "
@@ -205,7 +207,15 @@ joystick_task = in_order(
 FREE_HEADING = "The 45 degree test of the heading is a free input, false in the step of entry."
 
 
-BOARD2: tuple[Component, ...] = (*env.SNAPSHOTS, *env.clocks, env.sonar_clock, *SUPERVISOR, ACTUATION)
+targetAngle = var("B2.targetAngle", TARGET, 0, "heading at which a deviation from an obstacle ends")
+BOARD2: tuple[Component, ...] = (
+    *env.SNAPSHOTS,
+    *env.clocks,
+    env.sonar_clock,
+    *supervisor(heading=measured(motion.yaw, targetAngle)),
+    ACTUATION,
+)
+"""Both the obstacle chart and the motion chart read the one heading."""
 
 
 def _obstacles_and_monitors() -> tuple[Component, ...]:

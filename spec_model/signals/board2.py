@@ -13,6 +13,7 @@ d1 = var("d1", distance, doc="distance on the left sonar S1 [seed §1.3.1]")
 d2 = var("d2", distance, doc="distance on the centre sonar S2 [seed §1.3.1]")
 d3 = var("d3", distance, doc="distance on the right sonar S3 [seed §1.3.1]")
 SONARS = (d1, d2, d3)
+sonar_fault = flag("sonar_fault", "a bit of the fault masks beyond the four modelled: no echo (E13 FAULT)")
 
 decision = integer(0, 7)
 """0 execute the user command, 1 stop, 2 3 4 move toward sonar 1 2 3, 5 move degraded, 6 stop degraded."""

@@ -20,7 +20,7 @@ from spec_model.lang.interpret import Interpreter
 from spec_model.lang.lower import lower
 from spec_model.lang.system import TICK_MS, System, in_order
 from spec_model.readings import fixed, readings
-from spec_model.rover import systems
+from spec_model.rover import as_written, systems
 from tests.readings.scenario import BOARD1, WARM_UP, Blocks, Given, histories, shown
 
 NOMINAL: Given = {
@@ -35,7 +35,7 @@ NOMINAL: Given = {
 NEAR, GAP, SEEN = 70, 71, 200
 """One of the distances of the model for 60, 85 and 200 cm."""
 
-FIVE_DEGREES = in_order("heading_in_5_degrees", obstacles_n(measured(*headings(5))))
+FIVE_DEGREES = in_order("five degrees", obstacles_n(measured(*headings(5))))
 """The chart with its heading, on the grid that shows a turn of 40 degrees."""
 
 
@@ -240,10 +240,14 @@ def test_a_choice_shows_what_tells_it_apart(scenario: Scenario, choice: str) -> 
 
 
 @cache
+def _written() -> dict[str, System]:
+    return {system.name: system for system in (*as_written(), FIVE_DEGREES)}
+
+
+@cache
 def _system(name: str, reading: str, choice: str) -> System:
-    if name == "five degrees":
-        return fixed({reading: choice}).system(FIVE_DEGREES)
-    return systems({reading: choice})[name]
+    """A system under a choice, made without all the others."""
+    return fixed({reading: choice}).system(_written()[name])
 
 
 @pytest.mark.parametrize(("choice", "sent"), [("B70-STOP", False), ("B70-BOTH", True), ("B70-LT", True)])
@@ -260,10 +264,10 @@ def test_E02_whether_a_moving_object_is_signalled_beside_one_at_70(choice: str, 
 # --- readings that change what a requirement asks, not the model (E11, E12) -------------------------
 
 
-def broken(property_id: str, choice: Mapping[str, str], given: Blocks) -> bool:
+def broken(property_id: str, reading: str, choice: str, given: Blocks) -> bool:
     """Whether a run of the property's system breaks the property."""
-    wanted = under(choice)[property_id]
-    system = systems(choice)[wanted.on]
+    wanted = under({reading: choice})[property_id]
+    system = _system(wanted.on, reading, choice)
     question = reduce(lower(system), [wanted])
     at: dict[str, int] = dict(question.system.init)
     seen = []
@@ -286,8 +290,8 @@ NOT_FORWARD: Given = {"give_b2_actuation": False, "cmd": "CMD_NORMAL", "x_norm":
 def test_E11_the_rover_turns_on_beside_an_obstacle(choice: str, property_id: str, is_broken: bool) -> None:
     """A stop of all motion is not what the motion chart does; a stop of forward motion is."""
     given = [(200, NOT_FORWARD), (200, {**NOT_FORWARD, "cmd": "CMD_ESTOP"})]
-    assert broken(property_id, {"E11": choice}, given) is is_broken
-    moving = systems({"E11": choice})["references"]
+    assert broken(property_id, "E11", choice, given) is is_broken
+    moving = _system("references", "E11", choice)
     assert histories(moving, given, ["omega_ref"], nominal=NOMINAL, warm_up=0) == ["0 20 1"]
 
 
@@ -302,7 +306,26 @@ def test_E11_the_rover_turns_on_beside_an_obstacle(choice: str, property_id: str
     ],
 )
 def test_E12_the_stop_comes_in_the_next_step(choice: str, property_id: str, is_broken: bool) -> None:
-    assert broken(property_id, {"E12": choice}, [(200, {}), (200, S2(NEAR))]) is is_broken
+    assert broken(property_id, "E12", choice, [(200, {}), (200, S2(NEAR))]) is is_broken
+
+
+# --- the sonar task, in ticks of 1 ms (E13) ---------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    ("choice", "after_the_cut"), [("FAR", 301), ("HOLD", 70), ("NEAR", 70), ("FAULT", 301)]
+)
+def test_E13_what_the_task_publishes_when_the_cable_of_S2_is_cut(choice: str, after_the_cut: int) -> None:
+    """The first scan hears all three echoes, 301, 70 and 301 cm; the second one not that of S2."""
+    system = _system("acquisition_sonar", "E13", choice)
+    task, published = Interpreter(system), []
+    for ms in range(120):
+        echoes = {"both_edges1": True, "both_edges2": ms < 60, "both_edges3": True} if ms % 60 == 10 else {}
+        told = {**echoes, "width1": 17458, "width2": 4117, "width3": 17458}
+        task.step({n: v.domain.raw(told.get(n, False)) for n, v in system.inputs.items()})
+        if task.data["sonar_published"]:
+            published.append((task.data["dist_cm2"], task.data.get("sonar_fault", 0)))
+    assert published == [(70, 0), (after_the_cut, int(choice == "FAULT"))]
 
 
 # --- what Board 1 makes of it (E31) -----------------------------------------------------------------
@@ -324,7 +347,7 @@ def test_E31_the_turn_while_the_rover_moves_toward_the_centre_sonar(choice: str,
     received = [
         {**NOT_FORWARD, "y_norm": 1, "cmd": d["command"], "x_norm": int(d.get("x_sent", 1))} for d in decided
     ]
-    system = systems({"E31": choice})["references"]
+    system = _system("references", "E31", choice)
     moved = [s["omega_ref"] for s in shown(system, [(TICK_MS, r) for r in received], ["omega_ref"], NOMINAL)]
     assert (moved[9], moved[-1]) == ("1", turn)
 
