@@ -8,7 +8,7 @@ every 320 ms, which no comparison of a time stamp with the present can notice.
 
 from fractions import Fraction
 
-from spec_model.lang.action import assign, when
+from spec_model.lang.action import Action, assign, when
 from spec_model.lang.chart import Block, Chart, State, to
 from spec_model.lang.domain import boolean, chosen, fixed, integer
 from spec_model.lang.expr import FALSE, TRUE, Expr, Var, all_of, any_of, const, flag, ite, var
@@ -64,7 +64,7 @@ def _centimetres(old: Var, seen: Var, pulse: Var) -> Expr:
     return choose("E13", {"FAR": free, "HOLD": held, "NEAR": near, "FAULT": free})
 
 
-publish = [
+publish: list[Action] = [
     *(assign(d, _centimetres(d, s, p)) for d, s, p in zip(distance, flags, captured, strict=True)),
     when(under("E13", "FAULT"), [assign(sonar_fault, ~all_of(*flags))]),
     assign(published, TRUE),
