@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from html import escape
 
-from checker.commands.check import evidence, results
+from checker.commands.check import Compared, evidence, results
 from checker.commands.variant import Variant
 from checker.decide import AUTO
 from checker.engine import Limits, Timers
@@ -132,8 +132,9 @@ def repair_pages(proved: Sequence[Proof]) -> dict[str, str]:
 
 INTRODUCTION = (
     "Each repair is a variant of the charts kept beside the original, in a file of `spec_model/repairs/`; "
-    "the specified charts stay as they are. `rovercheck check --repair NAME` decides every property that it "
-    "concerns, `--repair all` those under all repairs that edit charts, together."
+    f"the specified charts stay as they are. `{_recheck('NAME')}` decides every property that it concerns "
+    "(timers that run out at will only make it faster), `--repair all` does so for all repairs that edit "
+    "charts, together."
 )
 
 

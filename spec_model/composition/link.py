@@ -52,14 +52,14 @@ class Link:
 
 def link(
     name: str,
-    payload: Sequence[tuple[Var, Var]],
+    payload: Sequence[tuple[Expr, Var]],
     *,
     accepted: Var,
     counter_changed: Var,
     executes: Expr = TRUE,
     transmits: Expr = TRUE,
 ) -> Link:
-    """A link whose frames carry the first variable of each pair to the second.
+    """A link whose frames carry the first value of each pair to the variable after it.
 
     ``accepted`` and ``counter_changed`` tell the receiver that a frame was accepted since its last step
     and that its alive counter differs from the remembered one.  ``executes``: the sender's supervisor
@@ -131,7 +131,7 @@ class _Slot:
         return (*self.content, self.filled, self.taken, self.executed)
 
     @staticmethod
-    def named(link: str, age: str, payload: Sequence[tuple[Var, Var]]) -> "_Slot":
+    def named(link: str, age: str, payload: Sequence[tuple[Expr, Var]]) -> "_Slot":
         content = tuple(
             Var(f"{link}.{age}.{received.name}", received.domain, received.init, "content", hidden=True)
             for _, received in payload
@@ -147,7 +147,7 @@ class _Slot:
         return _Slot(content, filled, taken, executed)
 
 
-def _taken(slot: _Slot, payload: Sequence[tuple[Var, Var]]) -> list[Action]:
+def _taken(slot: _Slot, payload: Sequence[tuple[Expr, Var]]) -> list[Action]:
     contents = zip(payload, slot.content, strict=True)
     return [*(assign(received, content) for (_, received), content in contents), assign(slot.taken, True)]
 

@@ -30,6 +30,12 @@ coil = named("coil energised", board1_powered & ~b1.give_b2_actuation)
 zero_1 = (b1.v_ref == 0) & (b1.omega_ref == 0)
 zero_2 = (b2.left_rpm == 0) & (b2.right_rpm == 0)
 
+started = flag("rover.started", "the boards have executed before")
+runs_1 = var("SUP1.runs", boolean, True, "the supervisor of Board 1 executes")
+runs_2 = var("SUP2.runs", boolean, True, "the supervisor of Board 2 executes")
+# Board 1 has a task that goes on sending, Board 2 sends in the activation of its supervisor.
+sends_2 = named("Board 2 sends wheel speeds", runs_2 & b2.sends_speeds)
+
 relay_and_driver = Block(
     "RelayAndDriver",
     [
@@ -37,7 +43,7 @@ relay_and_driver = Block(
         assign(followed, "nobody"),
         when(coil, [assign(followed, "Board1"), assign(commanded_zero, zero_1)]),
         when(
-            (~coil | under("E22", "B2-ONLY")) & b2.sends_speeds,
+            (~coil | under("E22", "B2-ONLY")) & sends_2,
             [assign(followed, "Board2"), assign(commanded_zero, zero_2)],
         ),
         assign(silence, ite(followed == "nobody", minimum(silence + 1, TIME_OUT), 0)),
@@ -55,15 +61,14 @@ relay_and_driver = Block(
 power_lost = flag("Board1.power_lost", "Board 1 loses its power in this step, for good")
 stop_1 = flag("SUP1.stops", "from this step on the supervisor of Board 1 executes no more")
 stop_2 = flag("SUP2.stops", "from this step on the supervisor of Board 2 executes no more")
-runs_1 = var("SUP1.runs", boolean, True, "the supervisor of Board 1 executes")
-runs_2 = var("SUP2.runs", boolean, True, "the supervisor of Board 2 executes")
 
 faults = Block(
     "Faults",
     [
         when(power_lost, [assign(board1_powered, False), assign(runs_1, False)]),
-        when(stop_1, [assign(runs_1, False)]),
+        # Before its first step Board 1 would keep the relay open (S47), which give_b2_actuation does not say.
+        when(stop_1 & started, [assign(runs_1, False)]),
         when(stop_2, [assign(runs_2, False)]),
     ],
-    text="A supervisor stops, or Board 1 loses its power; neither comes back.",
+    text="A supervisor stops, that of Board 1 after its first step, or Board 1 loses its power; for good.",
 )

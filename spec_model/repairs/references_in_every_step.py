@@ -1,12 +1,12 @@
 """Motion: every state of normal running writes both references in every step, also in that of its entry."""
 
-from collections.abc import Callable
 from dataclasses import replace
 
 from spec_model.board1.motion import slowing_down
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Chart, State
 from spec_model.lang.edit import edit_state
+from spec_model.lang.expr import Expr, Var
 from spec_model.lang.words import absolute
 from spec_model.manoeuvres.rotation import toward_target
 from spec_model.repairs import Repair
@@ -20,19 +20,26 @@ def write_on_entry(state: State) -> State:
     return replace(state, entry=(*state.entry, *state.during))
 
 
-def rotate_on_the_spot(state: State) -> State:
+def rotate_on_the_spot(
+    state: State, *, v_ref: Var, omega_ref: Var, angle_err: Var, fast: Expr, slow: Expr
+) -> State:
     """The rotation stops the rover, turns from its first step on, and slows down in every safety state."""
-    full = assign(omega_ref, toward_target(angle_err, OMEGA_MAX))
-    law = when(absolute(angle_err) > 45, [full], [assign(omega_ref, toward_target(angle_err, slowing_down))])
-    measure = state.during[:-1]
-    return replace(state, entry=(*state.entry, assign(v_ref, 0), full), during=(*measure, law))
+    at_full_speed = assign(omega_ref, toward_target(angle_err, fast))
+    law = when(absolute(angle_err) > 45, [at_full_speed], [assign(omega_ref, toward_target(angle_err, slow))])
+    *measure, _ = state.during
+    return replace(state, entry=(*state.entry, assign(v_ref, 0), at_full_speed), during=(*measure, law))
 
 
 def writing_in_every_step(chart: Chart) -> Chart:
-    changes: dict[str, Callable[[State], State]] = dict.fromkeys(MANOEUVRES, write_on_entry)
-    for name, change in {**changes, "Retromarcia_180": rotate_on_the_spot}.items():
-        chart = edit_state(chart, name, change)
-    return chart
+    for name in MANOEUVRES:
+        chart = edit_state(chart, name, write_on_entry)
+    return edit_state(
+        chart,
+        "Retromarcia_180",
+        lambda state: rotate_on_the_spot(
+            state, v_ref=v_ref, omega_ref=omega_ref, angle_err=angle_err, fast=OMEGA_MAX, slow=slowing_down
+        ),
+    )
 
 
 in_every_step = Repair(
@@ -41,6 +48,7 @@ in_every_step = Repair(
         "The states of Stato_marcia_rover write v_ref and omega_ref on entry as they do during their stay; "
         "the rotation sets v_ref to 0 and slows down near its target in every safety state."
     ),
-    fixes=("PB1-20a", "PB1-20b", "PB1-20c", "PB1-20d", "PB1-20e"),
+    fixes=("PB1-20a", "PB1-20b", "PB1-20c", "PB1-20d", "PB1-20e", "PB1-26", "PB1-26f", "PB1-27a"),
     charts={"Motion_Supervision": writing_in_every_step},
+    gives_up={"PB1-26b": "It says that the rotation keeps the linear reference, which PB1-26 wants zero."},
 )

@@ -1,4 +1,4 @@
-"""The records of ten intervals with updates at any ms: against the time stamps, and the over-approximation."""
+"""Ten-interval records with updates at any ms: against the time stamps, and the over-approximation."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from fractions import Fraction
