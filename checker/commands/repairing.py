@@ -110,11 +110,13 @@ def _cell(text: str) -> str:
 def _verdicts(proof: Proof) -> list[str]:
     name, count = proof.repair.name, proof.others
     lines = [f"With {name}:", ""]
-    lines += [f"- {r.property.id}: {r.verdict.word}, {evidence(r)}" for r in proof.results]
-    others = (
-        f"`rovercheck check --repair {name}` decides these and {count} other properties that it concerns."
-    )
+    lines += [f"- {r.property.id}: {Compared(r, Expected()).word}, {evidence(r)}" for r in proof.results]
+    others = f"`{_recheck(name)}` decides these and {count} other properties that it concerns."
     return [*lines, "", others]
+
+
+def _recheck(name: str) -> str:
+    return f"rovercheck check --timers free --repair {name}"
 
 
 def repair_pages(proved: Sequence[Proof]) -> dict[str, str]:

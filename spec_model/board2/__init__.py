@@ -6,13 +6,14 @@ step what the blocks before it produced, and the decision the authorisation of t
 """
 
 from spec_model.board2.actuation import actuation
+from spec_model.board2.backward import toggle_2
 from spec_model.board2.classify import process_masks
 from spec_model.board2.coherence import COHERENCE
 from spec_model.board2.failure_check import check_board1
 from spec_model.board2.heading import FREE, Heading
 from spec_model.board2.masks import fault_masks_2
 from spec_model.board2.monitors import monitors
-from spec_model.board2.motion import REFERENCES2_PARTS
+from spec_model.board2.motion import check_stop_2, motion_supervision_2
 from spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
 from spec_model.board2.obstacles import obstacles_n
 from spec_model.board2.obstacles_degraded import obstacles_degraded
@@ -43,7 +44,12 @@ def obstacle_decision(heading: Heading = FREE) -> tuple[Component, ...]:
 
 
 DRIVING = Enabled(
-    autorized_to_send_command, safety_state_2, obstacles_driving, obstacle_command, *REFERENCES2_PARTS
+    autorized_to_send_command,
+    safety_state_2,
+    obstacles_driving,
+    obstacle_command,
+    toggle_2,
+    motion_supervision_2,
 )
 """Actuation decision and motion state, executed only while Board 2 is authorised."""
 
@@ -52,6 +58,7 @@ def supervisor(record: Record = exact, heading: Heading = FREE) -> tuple[Compone
     """The whole supervisor of Board 2, exact or with over-approximated records and heading."""
     notes, monitor_sources = monitors(record)
     return (
+        check_stop_2,  # read by the motion chart, and by the obstacle chart under E10 LATCH-STANDSTILL
         *obstacle_decision(heading),
         *notes,
         monitor_sources,

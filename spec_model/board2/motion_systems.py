@@ -2,7 +2,7 @@
 
 from spec_model.board2 import DRIVING
 from spec_model.board2.backward import toggle_2
-from spec_model.board2.motion import motion_2_with_free_error
+from spec_model.board2.motion import check_stop_2, motion_2_with_free_error
 from spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
 from spec_model.board2.safety import safety_state_2
 from spec_model.lang.chart import Enabled
@@ -24,6 +24,7 @@ COMES_BEFORE = (safety_state_2, obstacles_driving, obstacle_command)
 SYSTEMS: tuple[System, ...] = (
     in_order(
         "references_2_drawn",
+        check_stop_2,
         DRIVING,
         text="Safety state, obstacle command and references of Board 2 as drawn, for any authorisation.",
         notes=(FREE_CAUSES, "Headings are multiples of 2.5 degrees, arbitrary in every step."),

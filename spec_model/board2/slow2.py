@@ -46,7 +46,10 @@ def exact(source: Source) -> Slow2:
     most = source.mean // TICK_MS
     # With nine other positive gaps the sum exceeds ten times ``most``, with fewer gaps all the more.
     pending, note = _pending(source, (most - 1) * GAPS + 2)
-    last = [var(f"{source.name}_gap{i}", pending.domain, doc=f"gap {i}, latest first") for i in range(1, 11)]
+    last = [
+        var(f"{source.name}_gap{i}", pending.domain, doc=f"gap {i}, latest first", hidden=True)
+        for i in range(1, 11)
+    ]
     gaps, one_more = _count(source)
     total: Expr = last[0]
     for gap in last[1:]:
@@ -65,7 +68,11 @@ def runs(source: Source) -> Slow2:
     most = source.mean // TICK_MS
     pending, note = _pending(source, most + 1)
     row = var(
-        f"{source.name}_row", integer(-GAPS, GAPS), 0, "latest gaps in a row: n long ones, -n short ones"
+        f"{source.name}_row",
+        integer(-GAPS, GAPS),
+        0,
+        "latest gaps in a row: n long ones, -n short ones",
+        hidden=True,
     )
     gaps, one_more = _count(source)
     longer, shorter = minimum(maximum(row, 0) + 1, GAPS), maximum(minimum(row, 0) - 1, -GAPS)
@@ -78,7 +85,7 @@ def runs(source: Source) -> Slow2:
 
 def forgotten(source: Source) -> Slow2:
     """Over-approximation: at each new gap the free input ``<name>_mean_slow`` is the answer."""
-    pending = flag(f"{source.name}_fresh", "the stamp changed since the latest question")
+    pending = flag(f"{source.name}_fresh", "the stamp changed since the latest question", hidden=True)
     note = Block(f"{source.name}.note", [when(source.update, [assign(pending, True)])],
                  text="Over-approximation: the gaps are forgotten.")  # fmt: skip
     asked = _asked(source)
@@ -97,9 +104,12 @@ def mean_slow(source: Source) -> Var:
 def _pending(source: Source, longest: int) -> tuple[Var, Block]:
     """The ticks from ``prev`` to the stamp, 0 while they are equal, and the block that counts them."""
     ticks = integer(0, longest)
-    since = var(f"{source.name}_since", ticks, doc="ticks since the stamp")
+    since = var(f"{source.name}_since", ticks, doc="ticks since the stamp", hidden=True)
     pending = var(
-        f"{source.name}_pending", ticks, doc="ticks from the stamp at the latest question to the stamp"
+        f"{source.name}_pending",
+        ticks,
+        doc="ticks from the stamp at the latest question to the stamp",
+        hidden=True,
     )
     note = Block(
         f"{source.name}.note",
@@ -117,7 +127,7 @@ def _pending(source: Source, longest: int) -> tuple[Var, Block]:
 
 def gaps_of(source: Source) -> Var:
     """How many gaps the record holds."""
-    return var(f"{source.name}_gaps", COUNT, doc="gaps in the record")
+    return var(f"{source.name}_gaps", COUNT, doc="gaps in the record", hidden=True)
 
 
 def _count(source: Source) -> tuple[Var, Action]:
@@ -126,7 +136,7 @@ def _count(source: Source) -> tuple[Var, Action]:
 
 
 def _asked(source: Source) -> Var:
-    return flag(f"{source.name}_asked", "slow2 has been asked before, so that prev has a value")
+    return flag(f"{source.name}_asked", "slow2 has been asked before, so that prev has a value", hidden=True)
 
 
 def _question(source: Source, pending: Var, at_gap: list[Action]) -> tuple[Action, ...]:

@@ -131,6 +131,7 @@ fresh = flag("alive_received", "the received alive counter differs from the reme
 frame21 = flag("B1.frame", "a frame of Board 2 is accepted in this millisecond")
 in_frame = flag("alive_in_frame", "the counter in the arriving frame differs from that of the frame before")
 line21 = line("B2-B1", [(counted, in_frame)], tx2.due, frame21)
+some_sup_status = var("b2_sup_not_critical", SUP_STATUS, doc="free: OK or degraded, by the mean interval")
 heartbeat_age = var("heartbeat_age_ms", fixed(0, 140, 20, "ms"), 0, "now_ms - last_valid_b2_ms at the step")
 
 execute = Block(
@@ -159,7 +160,15 @@ compare = Block(
         assign(fresh, False),
         assign(
             b1.b2_sup_status,
-            ite(heartbeat_age > 120, member(SUP_STATUS, "SUP_CRITICAL"), member(SUP_STATUS, "SUP_OK")),
+            ite(
+                heartbeat_age > 120,
+                member(SUP_STATUS, "SUP_CRITICAL"),
+                ite(
+                    some_sup_status == "SUP_OK",
+                    member(SUP_STATUS, "SUP_OK"),
+                    member(SUP_STATUS, "SUP_DEGRADED"),
+                ),
+            ),
         ),
     ],
     text="Contract of the heartbeat monitor: critical iff older than 120 ms (PB1-32b).",
@@ -186,7 +195,9 @@ was_near = flag("was_near", "the snapshot held one in the step of SUP2 before")
 stop_decided = flag("estop_decided", "the command in the snapshot of Board 2 is CMD_ESTOP")
 stop_received = flag("estop_received", "the received command is CMD_ESTOP")
 other_stop = flag("other_stop", "free: whether Board 2 commands CMD_ESTOP otherwise")
-forward = flag("forward", "the received y_norm is positive and the 180 degree rotation is not active")
+forward = flag(
+    "forward", "Board 1 actuates, the received y_norm is positive and no 180 degree rotation is active"
+)
 was_forward = flag("was_forward", "the same in the step of SUP1 before")
 v_positive = flag("v_positive", "v_ref of Board 1 is positive")
 any_reference = flag("any_reference", "free: whether v_ref is positive otherwise")

@@ -19,14 +19,16 @@ from spec_model.composition.motors import (
     relay_and_driver,
     runs_1,
     runs_2,
+    started,
     stop_1,
     stop_2,
 )
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block, Component, Enabled
 from spec_model.lang.expiry import free_timers
-from spec_model.lang.expr import Var, all_of, any_of, flag, implies
+from spec_model.lang.expr import Var, all_of, any_of, implies, ite
 from spec_model.lang.system import Assumption, System, in_order
+from spec_model.readings import under
 from spec_model.records import arrival_window
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2 as obstacles
@@ -40,6 +42,10 @@ SYNCHRONOUS = (
 ENVIRONMENT = (
     "Sonars, joystick, IMU, temperature, battery, wheels and encoder flags are arbitrary, on both sides of "
     "every limit; a datum changes only with its time stamp."
+)
+FREE_HEADING = (
+    "The 45 degree test of the heading is a free input, false in the step of entry: while the IMU gives no "
+    "new yaw it may change all the same (more runs)."
 )
 
 link12 = link(
@@ -55,6 +61,8 @@ link12 = link(
     transmits=board1_powered,
 )
 
+turning_command = ite(under("E31", "ZERO-TURN"), obstacles.x_sent, motion.bx_norm)
+
 link21 = link(
     "B2-B1",
     [
@@ -63,7 +71,7 @@ link21 = link(
         (b2.degraded_mask, b1.degr_mask_b2),
         (b2.is_motion_consistent, b1.is_motion_consistent),
         (motion.yaw, b1.current_yaw),
-        (motion.bx_norm, b1.x_norm),
+        (turning_command, b1.x_norm),
         (motion.ay_norm, b1.y_norm),
         (motion.btn1, b1.btn1),
         (motion.btn2, b1.btn2),
@@ -73,7 +81,6 @@ link21 = link(
     executes=runs_2,
 )
 
-started = flag("rover.started", "the boards have executed before")
 start = Block("Start", [assign(started, True)], text="Both boards are powered up in the first step.")
 
 SENSORS = (b1.temp_update, b1.batt_update, b2.IMU.update, b2.BLE.update, b2.sonar_update)
@@ -138,7 +145,7 @@ SCENE = (
 
 
 def _rover(name: str, text: str, *assumptions: Assumption) -> System:
-    notes = (SYNCHRONOUS, ENVIRONMENT)
+    notes = (SYNCHRONOUS, ENVIRONMENT, FREE_HEADING)
     return in_order(name, *PARTS, text=text, notes=notes, assumptions=assumptions)
 
 

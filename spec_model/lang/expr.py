@@ -226,15 +226,17 @@ class Temporal(Expr):
 # --- making nodes ------------------------------------------------------------------------------
 
 
-def var(name: str, domain: Domain, init: Number | bool | None = None, doc: str = "") -> Var:
+def var(
+    name: str, domain: Domain, init: Number | bool | None = None, doc: str = "", hidden: bool = False
+) -> Var:
     """A variable; ``init`` in the domain's own terms, by default 0 or else the lowest value."""
     raw = domain.raw(init) if init is not None else (0 if 0 in domain else domain.low)
-    return Var(name, domain, raw, doc)
+    return Var(name, domain, raw, doc, hidden)
 
 
-def flag(name: str, doc: str = "") -> Var:
+def flag(name: str, doc: str = "", hidden: bool = False) -> Var:
     """A boolean variable, false before the first tick."""
-    return Var(name, boolean, 0, doc)
+    return Var(name, boolean, 0, doc, hidden)
 
 
 def member(domain: Domain, name: str) -> Const:

@@ -33,7 +33,7 @@ READINGS: list[Mapping[str, str]] = [
     {"S34": "PARTIAL", "S35": "OPEN", "S37": "GE", "S66": "COUNT"},
     {"S34": "PARTIAL", "S35": "OPEN", "S36": "ARRIVAL", "S37": "GE", "S66": "COUNT"},
 ]
-BY_NAME = {"ids": lambda choices: "-".join(choices.values()) or "as read"}
+under_each = pytest.mark.parametrize("choices", READINGS, ids=lambda c: "-".join(c.values()) or "as read")
 
 
 def stamps(sequence: Sequence[tuple[int, int]]) -> list[int]:
@@ -53,12 +53,11 @@ def answers(
     record: Block, times: Sequence[int], choices: Mapping[str, str], guesses: Sequence[bool] = ()
 ) -> Iterator[bool]:
     """``rx_slow`` after each tick, until 10 ticks after the last update."""
-    machine = Interpreter(fixed(choices).system(in_order("record", record)))
-    for tick, (_, given_) in enumerate(at(times, first_step=20, last_step=_last_step(times))):
-        inputs = {name: int(value) for name, value in given_.items()}
-        if guesses:
-            inputs["rx_mean_slow"] = int(guesses[tick])
-        machine.step({"rx_update": 0, "rx_lag": 0, "rx_first_lag": 0, **inputs})
+    system = fixed(choices).system(in_order("record", record))
+    machine = Interpreter(system)
+    for tick, (_, arrived) in enumerate(at(times, first_step=20, last_step=_last_step(times))):
+        inputs = {**arrived, "rx_mean_slow": bool(guesses) and guesses[tick]}
+        machine.step({name: int(inputs.get(name, 0)) for name in system.inputs})
         yield bool(machine.data["rx_slow"])
 
 
@@ -82,7 +81,7 @@ def by_time_stamps(times: Sequence[int], choices: Mapping[str, str]) -> Iterator
         yield slow
 
 
-@pytest.mark.parametrize("choices", READINGS, **BY_NAME)
+@under_each
 @settings(max_examples=25)
 @given(sequence=intervals)
 def test_the_record_computes_the_mean_of_the_time_stamps(
@@ -92,7 +91,7 @@ def test_the_record_computes_the_mean_of_the_time_stamps(
     assert list(answers(reception_record, times, choices)) == list(by_time_stamps(times, choices))
 
 
-@pytest.mark.parametrize("choices", READINGS, **BY_NAME)
+@under_each
 @settings(max_examples=25)
 @given(sequence=intervals)
 def test_every_run_of_the_record_is_a_run_of_the_over_approximation(
@@ -112,10 +111,10 @@ def test_a_mean_of_exactly_40_ms_at_any_phase(phase: int, limit: str, slow: bool
 
 @pytest.mark.parametrize(("gap", "slow"), [(120, False), (123, True)])
 def test_a_counter_that_moves_by_three_closes_three_intervals(gap: int, slow: bool) -> None:
-    machine = Interpreter(fixed({"S40": "COUNT-DELTA"}).system(in_order("record", heartbeat_record)))
+    system = fixed({"S40": "COUNT-DELTA"}).system(in_order("record", heartbeat_record))
+    machine = Interpreter(system)
     times = [100 + gap * n for n in range(5)]
-    for _, given_ in at(times, first_step=20, last_step=_last_step(times), link="heartbeat"):
-        inputs = {name: int(value) for name, value in given_.items()}
-        nothing = {"heartbeat_update": 0, "heartbeat_lag": 0, "heartbeat_first_lag": 0}
-        machine.step({**nothing, "heartbeat_moves": 3, **inputs})
+    for _, arrived in at(times, first_step=20, last_step=_last_step(times), link="heartbeat"):
+        inputs = {**arrived, "heartbeat_moves": 3}
+        machine.step({name: int(inputs.get(name, 0)) for name in system.inputs})
     assert bool(machine.data["heartbeat_slow"]) is slow
