@@ -45,7 +45,9 @@ imu_gap = var("coherence_imu_gap", integer(0, SHORT), doc="ticks since IMU.data_
 long_gap = var("coherence_long_gap", integer(0, LONG), doc="ticks since IMU.data_last_valid_ms, many")
 short_open = var("fast_open", integer(0, SHORT), doc="ticks from fast_start to the IMU stamp", hidden=True)
 long_open = var("long_open", integer(0, LONG), doc="ticks from long_start to the IMU stamp", hidden=True)
-ring = var("coherence_hits", integer(0, 2**10 - 1), doc="bit i: the short window i windows ago was a hit", hidden=True)
+ring = var(
+    "coherence_hits", integer(0, 2**10 - 1), doc="bit i: the window i windows ago was a hit", hidden=True
+)
 
 hit = flag("fast_hit", "the short window turned by 1° or more and differs by 1° or more", hidden=True)
 differs = flag("long_differs", "the long window differs by 5° or more", hidden=True)
