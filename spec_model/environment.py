@@ -17,7 +17,7 @@ can change beyond it:
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block
 from spec_model.lang.expr import Expr, Var, all_of, const, implies
-from spec_model.lang.words import minimum
+from spec_model.lang.words import absolute, minimum
 from spec_model.readings import choose
 from spec_model.signals import board1 as b1
 
@@ -84,6 +84,6 @@ received_payload = Block(
 
 check_stop = Block(
     "checkStop",
-    [assign(b1.wheels_below_2_5, all_of(*(speed < 2.5 for speed in b1.wheel_speed_rpm.values())))],
+    [assign(b1.wheels_below_2_5, all_of(*(absolute(speed) < 2.5 for speed in b1.wheel_speed_rpm.values())))],
     text="All four wheels slower than 2.5 rpm.",
 )

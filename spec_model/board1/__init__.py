@@ -15,6 +15,7 @@ from spec_model.board1.reception import monitor_reception
 from spec_model.board1.relay import relay
 from spec_model.board1.safety import safety_state
 from spec_model.board1.temperature import monitor_temperature
+from spec_model.board1.temperature_ranges import count_range_steps
 from spec_model.board1.wheels import monitor_wheels
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block, Component, Enabled
@@ -51,6 +52,7 @@ no_references = Block(
 )
 
 SUPERVISOR: tuple[Component, ...] = (
+    count_range_steps,
     *MONITORS,
     fault_masks,
     own_causes,

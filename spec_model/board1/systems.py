@@ -17,6 +17,7 @@ from spec_model.board1.reception import monitor_reception
 from spec_model.board1.relay import relay
 from spec_model.board1.safety import safety_state
 from spec_model.board1.temperature import monitor_temperature
+from spec_model.board1.temperature_ranges import count_range_steps
 from spec_model.board1.wheels import monitor_wheels
 from spec_model.lang.chart import Enabled
 from spec_model.lang.system import System, in_order
@@ -24,7 +25,8 @@ from spec_model.records import arrival_window, slow_record
 from spec_model.signals import board1 as b1
 
 GRID = (
-    "Time stamps lie on the 20 ms grid: an update carries the time of the step that sees it. "
+    "Time stamps lie on the 20 ms grid, the first step at 20 ms: an update carries the time of the step "
+    "that sees it. "
     "A stamp between two steps lets an age pass a strict limit one step earlier."
 )
 ANY_INTERVALS = (
@@ -49,6 +51,7 @@ FEW_VALUES = "Measurements take representative values on each side of every limi
 temperature = in_order(
     "temperature",
     env.temperature_readings,
+    count_range_steps,
     monitor_temperature,
     text="Temperature monitor with readings that arrive or stay away at will.",
     notes=[GRID, FEW_VALUES],

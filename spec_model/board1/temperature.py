@@ -9,7 +9,6 @@ from spec_model.board1.temperature_ranges import (
     T_hot,
     absent,
     assumed_T,
-    count_steps,
     critical_for_4_s,
     critical_range,
     for_4_s,
@@ -68,21 +67,21 @@ monitor_temperature = Chart(
         State(
             "Temp_OK",
             entry=[assign(temp_status, "TEMP_HEALTH_OK")],
-            transitions=[to("decide", do=[count_steps])],
+            transitions=[to("decide")],
         ),
         State(
             "Temp_DEG",
             entry=[assign(temp_status, "TEMP_HEALTH_DEGRADED")],
-            transitions=[to("decide", do=[count_steps])],
+            transitions=[to("decide")],
         ),
         State(
             "Temp_CRIT",
             entry=[assign(temp_status, "TEMP_HEALTH_CRITICAL")],
-            transitions=[to("decide", when=released, do=[count_steps])],
+            transitions=[to("decide", when=released)],
         ),
     ],
     default=[  # classified in the very first step (S65)
-        to("decide", when=under("S65", "CLASSIFY"), do=[count_steps]),
+        to("decide", when=under("S65", "CLASSIFY")),
         to("Temp_OK"),
     ],
     junctions=[

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from spec_model.lang.action import Action, assign, when
+from spec_model.lang.chart import Block
 from spec_model.lang.domain import Number, integer
 from spec_model.lang.expr import Expr, Var, const, ite, var
 from spec_model.lang.time import sec, ticks
@@ -84,15 +85,21 @@ def _counted(steps: Var, condition: Expr) -> Action:
     return when(condition, [assign(steps, minimum(steps + 1, 202))])
 
 
-count_steps = when(
-    under("S04", "CUMULATIVE"),
+count_range_steps = Block(
+    "Critical_range.steps",
     [
         when(
-            under("S03", "UNION"),
-            [_counted(range_steps, critical_range)],
-            [_counted(hot_steps, too_hot), _counted(cold_steps, too_cold)],
+            under("S04", "CUMULATIVE"),
+            [
+                when(
+                    under("S03", "UNION"),
+                    [_counted(range_steps, critical_range)],
+                    [_counted(hot_steps, too_hot), _counted(cold_steps, too_cold)],
+                )
+            ],
         )
     ],
+    text="The time in the critical range, added up in every step, whatever the monitor does with it.",
 )
 
 _continuous = choose(

@@ -29,7 +29,7 @@ q = named("q", any_of(b1_requests_switch, own_view))
 not_critical = choose("S43", {"OR": ~q, "AND": ~(b1_requests_switch | rx_critical | sup_critical)})
 all_ok = ~b1_requests_switch & both_ok
 returned = choose("S44", {"NOT-CRIT": not_critical, "STRICT-OK-KEPT": all_ok, "STRICT-OK-1": all_ok})
-back = choose("E22", {"RELAY-AND-FLAG": returned, "B2-ONLY": returned, "B1-ONLY": ~q})
+back = named("!q", choose("E22", {"RELAY-AND-FLAG": returned, "B2-ONLY": returned, "B1-ONLY": ~q}))
 
 check_board1 = Chart(
     "Check_Board1",

@@ -158,7 +158,6 @@ served: Sequence[Transition] = [
 
 empty_the_queue: Sequence[Action] = (when(_queues, [assign(queued, 0)]),)
 
-
 leave_the_queue: Sequence[Action] = (when(_queues & prevDEG_B1, [assign(queued, 0)]),)
 """A deviation ends: the signal that waits is served next, but not after a change to the degraded state."""
 

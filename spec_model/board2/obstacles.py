@@ -151,15 +151,13 @@ def _decisions(heading: Heading) -> State:
     (E08) and ignores new signals (E19, E20), a stop ends by itself (E10)."""
     too_long = choose("E08", {"NO-TIMEOUT": FALSE, "BOUNDED": after(10 * sec)})
     # LITERAL-45: toward a sonar at 0 degrees there is nothing to turn.
-    straight = choose(
-        "E05",
-        {
-            "CENTRE-STRAIGHT": after(0.5 * sec),
-            "CENTRE-HOLD": after(0.5 * sec),
-            "LITERAL-45": TRUE,
-            "OPPOSITE": after(0.5 * sec),
-        },
-    )
+    half_a_second = after(0.5 * sec)
+    straight = choose("E05", {
+        "CENTRE-STRAIGHT": half_a_second,
+        "CENTRE-HOLD": half_a_second,
+        "LITERAL-45": TRUE,
+        "OPPOSITE": half_a_second,
+    })  # fmt: skip
     turn = [*heading.store_target, *empty_the_queue]
     return State("B2Decisions", default="Waiting", states=[
         State("Waiting", entry=[assign(B2Decision, number(0))], transitions=[

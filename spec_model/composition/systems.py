@@ -8,9 +8,9 @@ from spec_model import environment_board2 as env2
 from spec_model.board1 import SUPERVISOR as SUPERVISOR_1
 from spec_model.board1 import references
 from spec_model.board1.motion import motion_with_free_error
-from spec_model.board2 import ACTUATION, obstacle_decision
-from spec_model.board2 import SUPERVISOR as SUPERVISOR_2
-from spec_model.board2.heading import turned_45
+from spec_model.board2 import ACTUATION, obstacle_decision, supervisor
+from spec_model.board2.heading import measured
+from spec_model.board2.supervisor_systems import targetAngle
 from spec_model.composition.link import all_frames_arrive, link
 from spec_model.composition.motors import (
     board1_powered,
@@ -43,10 +43,7 @@ ENVIRONMENT = (
     "Sonars, joystick, IMU, temperature, battery, wheels and encoder flags are arbitrary, on both sides of "
     "every limit; a datum changes only with its time stamp."
 )
-FREE_HEADING = (
-    "The 45 degree test of the heading is a free input, false in the step of entry: while the IMU gives no "
-    "new yaw it may change all the same (more runs)."
-)
+SUPERVISOR_2 = supervisor(heading=measured(motion.yaw, targetAngle))
 
 link12 = link(
     "B1-B2",
@@ -134,7 +131,6 @@ PLAIN: Mapping[Var, bool | int] = {
     **dict.fromkeys(b1.wheel_speed_rpm.values(), 60),
     **dict.fromkeys(map(env2.arriving, (motion.yaw, b2.gz_dps)), 0),
     **dict.fromkeys(map(env2.arriving, (motion.btn1, motion.btn2)), False),
-    turned_45: False,
 }
 """A scene with few runs: sensors that always deliver, nothing out of range, straight on, no buttons."""
 
@@ -145,7 +141,7 @@ SCENE = (
 
 
 def _rover(name: str, text: str, *assumptions: Assumption) -> System:
-    notes = (SYNCHRONOUS, ENVIRONMENT, FREE_HEADING)
+    notes = (SYNCHRONOUS, ENVIRONMENT)
     return in_order(name, *PARTS, text=text, notes=notes, assumptions=assumptions)
 
 
