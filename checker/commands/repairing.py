@@ -1,6 +1,6 @@
 """The pages on proposed repairs: what each changes in the charts, and the proof that it repairs."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from html import escape
@@ -14,7 +14,6 @@ from checker.render.drawing.changes import changes
 from checker.result import Result
 from properties.catalogue import Expected
 from spec_model.lang.chart import Block, Chart, parts
-from spec_model.lang.system import System
 from spec_model.repairs import Repair, repairs
 from spec_model.rover import systems
 
@@ -35,10 +34,18 @@ class Proof:
 
     @cached_property
     def changed(self) -> Sequence[tuple[Chart | Block, Chart | Block]]:
-        """The charts and blocks that differ from those specified, with their repaired form."""
-        before, after = _parts(systems()), _parts(self.variant.systems())
-        pairs = ((before[name], after[name]) for name in before if name in after)
-        return [pair for pair in pairs if changes(*pair)]
+        """The charts and blocks that differ from those specified, with their repaired form.
+
+        Of parts with one name in several systems, the first that differs.
+        """
+        found: dict[str, tuple[Chart | Block, Chart | Block]] = {}
+        repaired = self.variant.systems()
+        for name, system in systems().items():
+            after = {part.name: part for part in parts(repaired[name].components)}
+            for part in parts(system.components):
+                if part.name in after and part.name not in found and changes(part, after[part.name]):
+                    found[part.name] = (part, after[part.name])
+        return list(found.values())
 
     @cached_property
     def others(self) -> int:
@@ -56,15 +63,6 @@ def _decided(repair: Repair) -> Iterator[Result]:
     wanted = [variant.properties()[id] for id in repair.fixes]
     found = {r.property.id: r for r in results(wanted, variant.systems(), AUTO, LIMITS)}
     yield from (found[id] for id in repair.fixes)
-
-
-def _parts(by_name: Mapping[str, System]) -> dict[str, Chart | Block]:
-    """Of parts with one name in several systems, the first listed."""
-    found: dict[str, Chart | Block] = {}
-    for system in by_name.values():
-        for part in parts(system.components):
-            found.setdefault(part.name, part)
-    return found
 
 
 def sections(id: str, expected: Expected, proved: Sequence[Proof]) -> list[str]:

@@ -26,8 +26,7 @@ from spec_model.signals import board1 as b1
 
 GRID = (
     "Time stamps lie on the 20 ms grid, the first step at 20 ms: an update carries the time of the step "
-    "that sees it. "
-    "A stamp between two steps lets an age pass a strict limit one step earlier."
+    "that sees it. A stamp between two steps lets an age pass a strict limit one step earlier."
 )
 ANY_INTERVALS = (
     "The ten intervals are forgotten: from the eleventh update on, whether their mean exceeds 40 ms is "

@@ -205,7 +205,6 @@ joystick_task = in_order(
 # --- the whole ----------------------------------------------------------------------------------------
 
 FREE_HEADING = "The 45 degree test of the heading is a free input, false in the step of entry."
-STILL_FREE = "So it is while the IMU gives no new yaw (more runs)."
 
 
 targetAngle = var("B2.targetAngle", TARGET, 0, "heading at which a deviation from an obstacle ends")
@@ -299,14 +298,7 @@ board2 = in_order(
     *BOARD2,
     text="The whole supervisor of Board 2 and its motor commands, with exact records of ten gaps.",
     assume=env.heartbeat_travels_in_frames,
-    notes=[
-        GRID,
-        WITH_FRAMES,
-        FEW_VALUES,
-        "The heading is a multiple of 2.5 degrees.",
-        FREE_HEADING,
-        STILL_FREE,
-    ],
+    notes=[GRID, WITH_FRAMES, FEW_VALUES, "The heading is a multiple of 2.5 degrees."],
 )
 
 SYSTEMS: tuple[System, ...] = (

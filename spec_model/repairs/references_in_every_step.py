@@ -10,9 +10,9 @@ from spec_model.lang.expr import Expr, Var
 from spec_model.lang.words import absolute
 from spec_model.manoeuvres.rotation import toward_target
 from spec_model.repairs import Repair
-from spec_model.signals.board1 import OMEGA_MAX, angle_err, omega_ref, v_ref
+from spec_model.signals.board1 import OMEGA_MAX, angle_err, backward_enabled, omega_ref, v_ref
 
-MANOEUVRES = ("Normale_marcia", "Schivata_a_sinistra", "Schivata_a_destra", "Evita_sinistra", "Evita_destra")
+MANOEUVRES = ("Schivata_a_sinistra", "Schivata_a_destra", "Evita_sinistra", "Evita_destra")
 
 
 def write_on_entry(state: State) -> State:
@@ -30,8 +30,16 @@ def rotate_on_the_spot(
     return replace(state, entry=(*state.entry, assign(v_ref, 0), at_full_speed), during=(*measure, law))
 
 
+def forward_only(state: State) -> State:
+    """A manoeuvre that goes on with the stick pulled back would move the rover backwards in any mode."""
+    limit = when((v_ref < 0) & ~backward_enabled, [assign(v_ref, 0)])
+    return replace(state, during=(*state.during, limit))
+
+
 def writing_in_every_step(chart: Chart) -> Chart:
     for name in MANOEUVRES:
+        chart = edit_state(chart, name, forward_only)
+    for name in ("Normale_marcia", *MANOEUVRES):
         chart = edit_state(chart, name, write_on_entry)
     return edit_state(
         chart,
@@ -46,7 +54,8 @@ in_every_step = Repair(
     name="references-in-every-step",
     text=(
         "The states of Stato_marcia_rover write v_ref and omega_ref on entry as they do during their stay; "
-        "the rotation sets v_ref to 0 and slows down near its target in every safety state."
+        "the manoeuvres go backwards in backward mode only; the rotation sets v_ref to 0 and slows down near "
+        "its target in every safety state."
     ),
     fixes=("PB1-20a", "PB1-20b", "PB1-20c", "PB1-20d", "PB1-20e", "PB1-26", "PB1-26f", "PB1-27a"),
     charts={"Motion_Supervision": writing_in_every_step},

@@ -33,7 +33,7 @@ B2_FAULT_MASK = integer(0, 15)
 """A fault mask of Board 2, of whose 8 bits the lowest four are used (S54, E24)."""
 
 USER_X = chosen([-1, 0, 1])
-"""The user's turning command: left, none, right; it is only scaled and compared with 0."""
+"""The user's turning command: beyond each limit of a turn, and 0; it is scaled and compared with these."""
 
 USER_Y = chosen([-1, "-0.5", "-0.4", 0, "0.4", 1])
 """The user's speed command; -0.5 is the limit of the 180° rotation, 0.4 a part of full speed."""

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 
+from checker.slice import sliced
 from spec_model.board1 import MONITORS, REFERENCES, SUPERVISOR
 from spec_model.board1.masks import COMPONENTS
 from spec_model.board2.acquisition import axis_x, axis_y, ble_task, button1, button2
@@ -18,6 +19,7 @@ from spec_model.lang.chart import State, Transition, parts
 from spec_model.lang.domain import Num
 from spec_model.lang.expr import Var
 from spec_model.lang.interpret import Interpreter
+from spec_model.lang.lower import lower
 from spec_model.lang.system import in_order
 from spec_model.rover import systems
 from spec_model.signals import board1 as b1
@@ -145,3 +147,24 @@ def test_B2_OBS_13_there_is_a_timer_for_each_ordered_pair() -> None:
 def test_B2_OBS_14_distance_gt70_has_a_parallel_state_for_each_sonar() -> None:
     assert below("Sonars", "distance_gt70").parallel
     assert len(names(below("Sonars", "distance_gt70"))) == len(SONARS) == 3
+
+
+def _depends_on(system: str, name: str) -> set[str]:
+    """What the value of a variable can depend on, inputs included."""
+    whole = lower(systems()[system])
+    part = sliced(whole, [whole.var(name)])
+    return {v.name for v in (*part.variables, *part.inputs)}
+
+
+@pytest.mark.parametrize(("status", "foreign"), [("rx_status", "heartbeat"), ("b2_sup_status", "rx")])
+def test_PB1_09_each_link_status_depends_on_its_own_stamps_only(status: str, foreign: str) -> None:
+    found = _depends_on("relay_links", status)
+    assert f"{'rx' if foreign == 'heartbeat' else 'heartbeat'}_age" in found
+    assert {n for n in found if n.startswith(f"{foreign}_")} <= {"rx_update"}, "a heartbeat needs a frame"
+
+
+@pytest.mark.parametrize("wheel", b1.WHEELS)
+def test_PB1_31b_the_status_of_a_wheel_depends_on_no_other_wheel(wheel: str) -> None:
+    found = _depends_on("board1", f"wheel_status_{wheel}")
+    assert f"hasNoFeedback_{wheel}" in found
+    assert not {f"hasNoFeedback_{other}" for other in b1.WHEELS if other != wheel} & found

@@ -87,6 +87,7 @@ IMU_SLOW: Blocks = [
     block for _ in range(4)
     for block in ((100, {"imu_update": False, "new_d2": SEEN}), (20, {"new_d2": SEEN}))
 ]  # fmt: skip
+TURNING_WHEELS: Given = {f"new_B2.wheel_speed_rpm_{wheel}": 60 for wheel in ("FL", "FR", "RL", "RR")}
 RX = "B2.rx_status"
 DEC, B2DEC = "B2Decision", "B2Dec"
 CRITICAL, AUTHORISED = "B2.critical_mask", "autorized_to_send_command"
@@ -145,6 +146,10 @@ SCENARIOS: list[Scenario] = [
         "AUTO": "0 220 1 420 0", "LATCH-NEUTRAL": "0 220 1 800 0", "LATCH-STANDSTILL": "0 220 1"}),
     Scenario("E10", 2, [(200, {}), (200, S2(NEAR)), (400, {}), (200, {"B2.wheels_below_2_5": True})], DEC, {
         "AUTO": "0 220 1 420 0", "LATCH-NEUTRAL": "0 220 1", "LATCH-STANDSTILL": "0 220 1 800 0"}),
+    Scenario("E10", 3, [(200, TURNING_WHEELS), (200, {**TURNING_WHEELS, "new_d2": NEAR}),
+        (400, TURNING_WHEELS), (200, {})], B2DEC, {
+        "AUTO": "0 220 1 420 0", "LATCH-NEUTRAL": "0 220 1", "LATCH-STANDSTILL": "0 220 1 800 0"},
+        "board2", WARM_UP),
     Scenario("E13", 1, [(120, {}), (120, {"echo2": NEAR}), (1000, {"echo2": 301, "missing2": True})], DEC, {
         "FAR": "0 160 1 280 0", "HOLD": "0 160 1", "NEAR": "0 160 1", "FAULT": "0 160 1 280 0"},
         "obstacles_scan"),
@@ -222,6 +227,8 @@ SCENARIOS: list[Scenario] = [
     Scenario("E31", 2, [(200, S2(SEEN)), (1000, {"d3": SEEN})], "command", {
         "NORMAL": "CMD_NORMAL", "AVOID-BY-PAIR": "CMD_NORMAL 220 CMD_AVOID_RIGHT 720 CMD_NORMAL",
         "ZERO-TURN": "CMD_NORMAL"}, "obstacles"),
+    Scenario("E31", 3, [(200, {"new_d2": SEEN, "new_bx_norm": 1}), (800, {"new_d1": SEEN, "new_bx_norm": 1})],
+        "x_norm", {"NORMAL": "0 20 1", "AVOID-BY-PAIR": "0 20 1", "ZERO-TURN": "0 20 1 240 0 740 1"}, "rover", WARM_UP),
     Scenario("E32", 1, [(100, {}), (1000, {**S2(NEAR), "deg_mask_b1": True}), (100, S2(NEAR))], B2DEC, {
         "RUN-ALWAYS": "0 100 6 1100 1", "FREEZE": "0 100 5 120 6 1100 0 1120 1"}, "obstacles"),
 ]

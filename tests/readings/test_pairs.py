@@ -1,4 +1,4 @@
-"""Two readings at once: the time in the critical range adds up whatever the temperature monitor does (S04)."""
+"""Two readings at once: the time in the critical range adds up whatever the temperature monitor does."""
 
 import pytest
 

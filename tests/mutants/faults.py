@@ -1,0 +1,160 @@
+"""Faults put in by hand into charts and blocks, and whether a property of the catalogue notices them."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache
+
+from checker.commands.check import length
+from checker.decide import Task, decide
+from checker.engine import Limits, quiet
+from checker.verdict import Verdict
+from properties.catalogue import catalogue
+from spec_model.lang.action import Action, Assign, If
+from spec_model.lang.chart import Block, Chart
+from spec_model.lang.edit import edit_state, entry, everywhere, in_block, in_system, instead
+from spec_model.lang.expr import Const, Expr, Var
+from spec_model.lang.system import System
+from spec_model.rover import systems
+
+ChartEdit = Callable[[Chart], Chart]
+BlockEdit = Callable[[Block], Block]
+Change = Callable[[Expr], Expr]
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A slip in one chart or block, and the property that must notice it."""
+
+    text: str
+    part: str
+    killer: str
+    edit: Callable[[Chart | Block], Chart | Block]
+
+    def __str__(self) -> str:
+        return f"{self.part}: {self.text}"
+
+
+def in_charts(table: Mapping[str, Sequence[tuple[str, str, ChartEdit]]]) -> list[Fault]:
+    """The faults of a table: for each chart what is wrong, who notices, and the edit."""
+
+    def of_chart(edit: ChartEdit) -> Callable[[Chart | Block], Chart]:
+        def change(part: Chart | Block) -> Chart:
+            assert isinstance(part, Chart)
+            return edit(part)
+
+        return change
+
+    return [Fault(text, part, killer, of_chart(e)) for part in table for text, killer, e in table[part]]
+
+
+def in_blocks(table: Mapping[str, Sequence[tuple[str, str, BlockEdit]]]) -> list[Fault]:
+    """The same for function blocks."""
+
+    def of_block(edit: BlockEdit) -> Callable[[Chart | Block], Block]:
+        def change(part: Chart | Block) -> Block:
+            assert isinstance(part, Block)
+            return edit(part)
+
+        return change
+
+    return [Fault(text, part, killer, of_block(e)) for part in table for text, killer, e in table[part]]
+
+
+# --- who notices ----------------------------------------------------------------------------------
+
+
+def decided(killer: str, edit: Callable[[System], System]) -> Verdict:
+    """The killer's verdict on its own system after the edit; an over-approximation is taken as it is."""
+    prop = catalogue()[killer]
+    changed = replace(edit(systems()[prop.on]), over=False)
+    [result] = decide(Task(changed, (prop,)), systems(), "explicit", Limits(), quiet)
+    return result.verdict
+
+
+@cache
+def _as_specified(killer: str) -> tuple[str, int | None]:
+    verdict = decided(killer, lambda system: system)
+    return verdict.word, length(verdict)
+
+
+def with_fault(fault: Fault) -> Verdict:
+    """The verdict of the fault's killer on the system with the fault."""
+    return decided(fault.killer, lambda system: in_system(system, fault.part, fault.edit))
+
+
+def noticed(fault: Fault) -> bool:
+    """Whether the verdict, or the length of the counterexample, is another than without the fault."""
+    verdict = with_fault(fault)
+    assert verdict.word != "unknown"
+    return (verdict.word, length(verdict)) != _as_specified(fault.killer)
+
+
+# --- slips in charts ------------------------------------------------------------------------------
+
+
+def no_entry(name: str, position: int = 0) -> ChartEdit:
+    """One entry action of a state forgotten, counted from 0."""
+    return lambda c: entry(c, name, lambda acts: (*acts[:position], *acts[position + 1 :]))
+
+
+def no_during(name: str) -> ChartEdit:
+    """The during actions of a state forgotten."""
+    return lambda c: edit_state(c, name, lambda s: replace(s, during=()))
+
+
+# --- slips in expressions and blocks -----------------------------------------------------------------
+
+
+def reads(wrong: Var, *, for_: Var) -> Change:
+    """Another variable is read."""
+    return instead(for_.name, lambda _: wrong)
+
+
+def mistaken(wrong: Const, *, for_: Const) -> Change:
+    """One member of an enumeration is taken for another."""
+
+    def change(node: Expr) -> Expr:
+        same = isinstance(node, Const) and node.sort == for_.sort and node.value == for_.value
+        return wrong if same else node
+
+    return lambda expr: everywhere(expr, change)
+
+
+def expressions(change: Change) -> BlockEdit:
+    """A change in every expression of a block."""
+    return lambda block: in_block(block, change)
+
+
+def value(of: Var, change: Change) -> BlockEdit:
+    """Another value is assigned to a variable, wherever the block assigns one."""
+    return _assignments(of, lambda found: [Assign(found.var, change(found.value))])
+
+
+def forgotten(of: Var) -> BlockEdit:
+    """The block assigns nothing to a variable."""
+    return _assignments(of, lambda _: [])
+
+
+def goes_to(wrong: Var, *, for_: Var) -> BlockEdit:
+    """What is meant for one variable is assigned to another."""
+    return _assignments(for_, lambda found: [Assign(wrong, found.value)])
+
+
+def _assignments(of: Var, change: Callable[[Assign], Sequence[Action]]) -> BlockEdit:
+    def walk(actions: Sequence[Action]) -> list[Action]:
+        out: list[Action] = []
+        for action in actions:
+            if isinstance(action, If):
+                out.append(If(action.condition, tuple(walk(action.then)), tuple(walk(action.otherwise))))
+            elif isinstance(action, Assign) and action.var.name == of.name:
+                out.extend(change(action))
+            else:
+                out.append(action)
+        return out
+
+    def edit(block: Block) -> Block:
+        changed = walk(block.do)
+        assert changed != list(block.do), f"{block.name} does not assign {of.name}"
+        return Block(block.name, changed, text=block.text)
+
+    return edit
