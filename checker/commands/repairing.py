@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from html import escape
 
 from checker.commands.check import Compared, evidence, results
@@ -14,6 +14,7 @@ from checker.render.drawing.changes import changes
 from checker.result import Result
 from properties.catalogue import Expected
 from spec_model.lang.chart import Block, Chart, parts
+from spec_model.lang.system import System
 from spec_model.repairs import Repair, repairs
 from spec_model.rover import systems
 
@@ -28,7 +29,7 @@ class Proof:
     repair: Repair
     results: tuple[Result, ...]
 
-    @property
+    @cached_property
     def variant(self) -> Variant:
         return Variant(self.repair.readings, self.repair)
 
@@ -40,7 +41,7 @@ class Proof:
         """
         found: dict[str, tuple[Chart | Block, Chart | Block]] = {}
         repaired = self.variant.systems()
-        for name, system in systems().items():
+        for name, system in _specified().items():
             after = {part.name: part for part in parts(repaired[name].components)}
             for part in parts(system.components):
                 if part.name in after and part.name not in found and changes(part, after[part.name]):
@@ -56,6 +57,11 @@ class Proof:
 def proofs() -> tuple[Proof, ...]:
     """Every repair, its properties decided now."""
     return tuple(Proof(repair, tuple(_decided(repair))) for repair in repairs().values())
+
+
+@cache
+def _specified() -> dict[str, System]:
+    return systems()
 
 
 def _decided(repair: Repair) -> Iterator[Result]:
