@@ -3,7 +3,7 @@
 from properties.forms import always, costly, holds_after, leaves_only_if, never, responds, settles, until
 from spec_model.board1.motion import motion_supervision
 from spec_model.composition.motors import board1_powered, connected, followed, motors_zero, runs_1
-from spec_model.lang.expr import implies
+from spec_model.lang.expr import any_of, implies
 from spec_model.lang.time import ms, tick, ticks
 from spec_model.lang.words import absolute, held, named, once, previous
 from spec_model.signals import board1 as b1
@@ -15,6 +15,7 @@ drive1 = named("Board 1 actuates", ~b1.give_b2_actuation)
 drive2 = named("Board 2 is authorised", b2.autorized_to_send_command)
 near_70, near_300 = obstacles.within(70), obstacles.within(300)
 zero_1 = named("zero references of Board 1", (b1.v_ref == 0) & (b1.omega_ref == 0))
+COMMANDS = ("CMD_NORMAL", "CMD_GO_LEFT", "CMD_GO_RIGHT", "CMD_ESTOP")
 stop_commanded = b1.cmd == "CMD_ESTOP"
 
 # --- relay and actuation -------------------------------------------------------------------------
@@ -105,9 +106,9 @@ PSY_17b = costly(never(
     covers=["B1-REF-02"], on="rover_no_loss", readings=[],
 ))  # fmt: skip
 PSY_20a = always(
-    "PSY-20a", "The command that Board 1 receives is NORMAL, GO_LEFT, GO_RIGHT or ESTOP.",
-    that=(b1.cmd == "CMD_NORMAL") | (b1.cmd == "CMD_GO_LEFT") | (b1.cmd == "CMD_GO_RIGHT") | stop_commanded,
-    covers=["B1-IN-01"], on="commands", readings=["E04", "E31"],
+    "PSY-20a", "The command that Board 2 sends is NORMAL, GO_LEFT, GO_RIGHT or ESTOP.",
+    that=any_of(*(obstacles.command == known for known in COMMANDS)),
+    covers=["B1-IN-01"], on="obstacles_free", readings=["E04", "E31"],
 )  # fmt: skip
 PSY_20b = never(
     "PSY-20b", "Board 1 avoids: Evita_sinistra or Evita_destra is active.",

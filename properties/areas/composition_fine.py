@@ -1,6 +1,6 @@
 """Latencies through both boards in milliseconds, for arbitrary phases [system: chains of hops]."""
 
-from properties.forms import always, holds_after, reachable, responds, until
+from properties.forms import always, holds_after, responds, until
 from spec_model.composition.fine_systems import (
     critical_sent,
     forward,
@@ -113,9 +113,4 @@ PSY_10s = holds_after(
     "PSY-10s", "An obstacle at 70 cm or less in two successive steps makes Board 2 command CMD_ESTOP.",
     premise=within(70), for_=1 * tick, then=command == "CMD_ESTOP",
     covers=["B2-OBS-01"], on="obstacles_free", readings=["E04", "E12"],
-)  # fmt: skip
-
-REACH_HANDOVER_FINE = reachable(
-    "REACH-HANDOVER-FINE", "Board 2 can send wheel speeds after Board 1 has opened the relay.",
-    that=sends_speeds & give_b2_actuation, covers=["B1-REL-01", "B2-ACT-01"], on="handover_fine",
 )  # fmt: skip

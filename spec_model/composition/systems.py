@@ -8,7 +8,7 @@ from spec_model import environment_board2 as env2
 from spec_model.board1 import SUPERVISOR as SUPERVISOR_1
 from spec_model.board1 import references
 from spec_model.board1.motion import motion_with_free_error
-from spec_model.board2 import ACTUATION, obstacle_decision, supervisor
+from spec_model.board2 import ACTUATION, supervisor
 from spec_model.board2.heading import measured
 from spec_model.board2.supervisor_systems import targetAngle
 from spec_model.composition.link import all_frames_arrive, link
@@ -25,7 +25,6 @@ from spec_model.composition.motors import (
 )
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block, Component, Enabled
-from spec_model.lang.expiry import free_timers
 from spec_model.lang.expr import Var, all_of, any_of, implies, ite
 from spec_model.lang.system import Assumption, System, in_order
 from spec_model.readings import under
@@ -161,17 +160,6 @@ motors = in_order(
     concrete="rover_failing",
 )
 
-commands = in_order(
-    "commands",
-    link21.receive,
-    *obstacle_decision(),
-    link21.send,
-    text="The decision of Board 2 about obstacles, its translation, and the link to Board 1.",
-    notes=(SYNCHRONOUS, "Distances and masks of Board 1 are arbitrary in every step (more runs)."),
-    over=True,
-    concrete="rover",
-)
-
 references_commanded = in_order(
     "references_commanded",
     references(motion_with_free_error),
@@ -193,5 +181,4 @@ SYSTEMS: tuple[System, ...] = (
     _plain("rover_plain_failing", "The rover in a plain scene; boards and link may fail."),
     motors,
     references_commanded,
-    free_timers(commands, name="commands", text=commands.text),
 )
