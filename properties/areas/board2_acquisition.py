@@ -1,6 +1,6 @@
 """What must be true of the sonar and joystick tasks of Board 2, and of stale sonar data [seed §1.3]."""
 
-from properties.forms import always, reachable, responds
+from properties.forms import always, enters_only_if, reachable, responds
 from spec_model.board2.acquisition import (
     NO_ECHO,
     axis_x,
@@ -8,6 +8,7 @@ from spec_model.board2.acquisition import (
     both_edges,
     button1,
     button2,
+    captured,
     complete,
     count,
     distance,
@@ -16,7 +17,12 @@ from spec_model.board2.acquisition import (
     last_valid,
     notified,
     published,
+    raw_btn1,
+    raw_btn2,
+    raw_x,
+    raw_y,
     sonar_task,
+    width,
 )
 from spec_model.board2.acquisition import (
     ticks as ble_now,
@@ -41,6 +47,15 @@ PB2_24 = always(
 PB2_24b = always(
     "PB2-24b", "An axis below a tenth of its range is 0, and none exceeds 1.",
     that=all_of(*((a == 0) | (a >= const(0.1)) | (a <= const(-0.1)) for a in (axis_x, axis_y))),
+    covers=["B2-BLE-02"], on=JOYSTICK,
+)  # fmt: skip
+PB2_24c = always(
+    "PB2-24c", "A complete read publishes the buttons as read, and each axis in the direction it was pushed.",
+    that=implies(complete, all_of(
+        button1 == raw_btn1, button2 == raw_btn2,
+        *((a > 0) == (raw > 280) for a, raw in ((axis_x, raw_x), (axis_y, raw_y))),
+        *((a < 0) == (raw < 230) for a, raw in ((axis_x, raw_x), (axis_y, raw_y))),
+    )),
     covers=["B2-BLE-02"], on=JOYSTICK,
 )  # fmt: skip
 PB2_25a = always(
@@ -97,6 +112,14 @@ PB2_26d = always(
     ))),
     covers=["B2-SON-03"], on=SONAR,
 )  # fmt: skip
+PB2_26e = always(
+    "PB2-26e", "A channel that completes for the first time since the trigger captures the length of its pulse.",
+    that=all_of(*(
+        implies(e & ~previous(f), pulse == length)
+        for e, f, pulse, length in zip(both_edges, flags, captured, width, strict=True)
+    )),
+    covers=["B2-SON-03"], on=SONAR,
+)  # fmt: skip
 PB2_27a = always(
     "PB2-27a", "The task is notified in the callback that makes the count 3.",
     that=implies((count == 3) & (previous(count) < 3), notified), covers=["B2-SON-04"], on=SONAR,
@@ -123,6 +146,20 @@ PB2_27e = always(
         implies(~f, d == NO_ECHO) for f, d in zip(flags, distance, strict=True)
     ))),
     covers=["B2-SON-04"], on=SONAR, readings=["E13"],
+)  # fmt: skip
+PB2_27f = enters_only_if(
+    "PB2-27f", "From one trigger to the next 60 ms pass.",
+    entering=triggered, only_if=held(~previous(triggered), for_=58 * ms),
+    covers=["B2-SON-04"], on=SONAR, from_tick=3,
+)  # fmt: skip
+PB2_27g = always(
+    "PB2-27g", "A pulse of 58 µs for each of 70 cm is published as 70 cm, and one of 300 cm as 300 cm.",
+    that=implies(published, all_of(*(
+        implies(f & (pulse == microseconds), d == centimetres)
+        for f, pulse, d in zip(flags, captured, distance, strict=True)
+        for microseconds, centimetres in ((4060, 70), (4118, 71), (17400, 300))
+    ))),
+    covers=["B2-SON-04"], on=SONAR,
 )  # fmt: skip
 REACH_SONAR_NOTIFIED = reachable(
     "REACH-SONAR-NOTIFIED", "A scan can end by its notification with three near obstacles.",

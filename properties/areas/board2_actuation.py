@@ -51,6 +51,18 @@ PB2_18m = holds_after(
     premise=autorized & no_motion, for_=19 * ticks, then=at_rest,
     covers=["B2-REF-01", "B1-REF-06"], on=ON, from_tick=2,
 )  # fmt: skip
+PB2_16r = holds_after(
+    "PB2-16r", "Half of full speed straight on, for 40 executions, commands 80 rpm on both sides.",
+    premise=autorized & (v_ref_actuation == 0.5) & (omega_ref_actuation == 0), for_=39 * ticks,
+    then=(left_rpm == LIMIT) & (right_rpm == LIMIT),
+    covers=["B2-ACT-01", "B1-REF-05"], on=ON, from_tick=2,
+)  # fmt: skip
+PB2_16s = holds_after(
+    "PB2-16s", "Half of full angular speed on the spot, for 40 executions, turns the sides against one another.",
+    premise=autorized & (v_ref_actuation == 0) & (omega_ref_actuation == 0.5), for_=39 * ticks,
+    then=(left_rpm == -LIMIT) & (right_rpm == LIMIT),
+    covers=["B2-ACT-01", "B1-REF-05"], on=ON, from_tick=2,
+)  # fmt: skip
 PB2_16q = always(
     "PB2-16q", "In a step with motor commands the stop pin follows the emergency stop.",
     that=implies(sends_speeds, stop_pin == actuate_emergency_stop), covers=["B2-ACT-01"], on=ON,

@@ -98,6 +98,11 @@ PB2_13t = holds_after(
     premise=close, for_=1 * tick, then=STOP,
     covers=["B2-OBS-04", "B2-OBS-22"], on=DRIVING, from_tick=2, readings=["E09", "E12"],
 )  # fmt: skip
+PB2_13u = always(
+    "PB2-13u", "While Board 2 is authorised, it commands a stop only for an obstacle within 3 m.",
+    that=implies(autorized & ~within(300), cmd == "CMD_NORMAL"),
+    covers=["B2-OBS-22"], on=DRIVING, from_tick=2, readings=["E09"],
+)  # fmt: skip
 
 REACH_B2_AUTORIZED = reachable(
     "REACH-B2-AUTORIZED", "Board 2 can become authorised.",

@@ -46,6 +46,10 @@ PB2_28f = always(
     "PB2-28f", "The motion is inconsistent in a step only if a window ends in it.",
     that=implies(incoherent, long_ends | ~short_result), covers=["B1-IN-03"], on=LONG, from_tick=2,
 )  # fmt: skip
+PB2_28g = always(
+    "PB2-28g", "A rover that the IMU sees turn by 2° each second has no hits: only a long window tells.",
+    that=implies(incoherent, long_ends), covers=["B1-IN-03"], on=BLOCKED, from_tick=2,
+)  # fmt: skip
 
 REACH_COH_LONG = reachable(
     "REACH-COH-LONG", "A rover that turns while its wheels stand still is found inconsistent after 3 s.",

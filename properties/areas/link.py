@@ -2,8 +2,14 @@
 
 from properties.forms import always, reachable
 from spec_model.composition import counters, receiver
-from spec_model.lang.expr import implies, ite
+from spec_model.lang.expr import Expr, implies, ite
 from spec_model.lang.words import modulo, previous
+
+
+def _ago(condition: Expr, count: int) -> Expr:
+    """The condition ``count`` ticks ago."""
+    return condition if count == 0 else previous(_ago(condition, count - 1))
+
 
 PSY_16a = always(
     "PSY-16a", "A frame that the line has changed is not accepted: payload and last-valid time stay.",
@@ -24,7 +30,7 @@ PSY_16c = always(
 )  # fmt: skip
 REACH_RECEIVER_ACCEPTS = reachable(
     "REACH-RECEIVER-ACCEPTS", "Two frames can be accepted one directly after the other.",
-    that=receiver.accepted & receiver.empty_before & previous(receiver.last == "SYNC2"),
+    that=receiver.accepted & _ago(receiver.accepted, receiver.LENGTH),
     covers=["B2-COM-03"], on="receiver",
 )  # fmt: skip
 PSY_21a = always(

@@ -59,18 +59,15 @@ def _is(status: Var, level: str, printed: str) -> Expr:
 
 critical_bits = [_is(status, critical, "TEMP_HEALTH_CRITICAL") for status, critical, _ in COMPONENTS]
 degraded_bits = [_is(status, degraded, "TEMP_HEALTH_DEGRADED") for status, _, degraded in COMPONENTS]
+# What is critical is degraded too, where both masks may carry a bit (S52).
+both = under("S52", "BOTH")
+carried = [d | (c & both) for c, d in zip(critical_bits, degraded_bits, strict=True)]
 
 fault_masks = Block(
     "Fault_masks",
     [
         assign(critical_mask, _mask(critical_bits)),
-        # What is critical is degraded too, where both masks may carry a bit (S52).
-        assign(
-            degraded_mask,
-            _mask(
-                [d | (c & under("S52", "BOTH")) for c, d in zip(critical_bits, degraded_bits, strict=True)]
-            ),
-        ),
+        assign(degraded_mask, _mask(carried)),
     ],
     text="The critical and the degraded mask of Board 1 from the eight statuses.",
 )

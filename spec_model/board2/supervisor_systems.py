@@ -133,7 +133,11 @@ coherence_exact = in_order(
     "coherence",
     *coherence.COHERENCE,
     text="Coherence of IMU and odometry for any stamps, wheel speeds and yaw rates.",
-    notes=[GRID, FEW_VALUES],
+    notes=[
+        GRID,
+        FEW_VALUES,
+        "A sum of more than 360° in one window, left open by a silent IMU, grows no more.",
+    ],
 )
 
 coherence_long = in_order(

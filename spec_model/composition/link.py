@@ -38,16 +38,17 @@ class Link:
     send: Block
     arrives: Var
     waiting: Expr
+    comes: Expr
     lost_in_a_row: Var
 
     @property
     def without_loss(self) -> Expr:
         """No frame is lost or corrupted (A02): what waits in its second step arrives."""
-        return implies(self.waiting, self.arrives != "nothing")
+        return implies(self.waiting, self.comes)
 
     def lost_at_most(self, frames: int) -> Expr:
         """At most so many frames in a row are lost or corrupted (A03)."""
-        return implies(self.waiting & (self.lost_in_a_row >= frames), self.arrives != "nothing")
+        return implies(self.waiting & (self.lost_in_a_row >= frames), self.comes)
 
 
 def link(
@@ -70,6 +71,8 @@ def link(
     earlier = flag(f"{name}.earlier_execution", "the sender executed before it built the two frames")
     lost = var(f"{name}.lost_in_a_row", integer(0, MANY), doc="frames lost or corrupted in a row")
     waiting = named(f"{name}: a frame waits in its second step", older.filled & ~older.taken)
+    newest_comes = (arrives == "newest") & newest.filled
+    comes = named(f"{name}: a frame arrives", newest_comes | ((arrives == "older") & waiting))
 
     taking_newest: list[Action] = [
         *_taken(newest, payload),
@@ -95,7 +98,7 @@ def link(
         f"{name}.receive",
         [
             when(
-                (arrives == "newest") & newest.filled,
+                newest_comes,
                 taking_newest,
                 [when((arrives == "older") & waiting, taking_older, taking_none)],
             )
@@ -114,7 +117,7 @@ def link(
         ],
         text="The transmit task builds a frame from the snapshots of this step.",
     )
-    return Link(receive, send, arrives, waiting, lost)
+    return Link(receive, send, arrives, waiting, comes, lost)
 
 
 @dataclass(frozen=True)

@@ -18,8 +18,8 @@ def not_beyond_135(test: Expr) -> Expr:
     data = variables(test)
     if "targetAngle" not in data:
         return test
-    rest = wrap(data["targetAngle"] - data["yaw"])
-    return named(f"{TEST} on its side", test & (absolute(rest) < 135))
+    rest = named("wrap(targetAngle - yaw)", wrap(data["targetAngle"] - data["yaw"]))
+    return test & (absolute(rest) < 135)
 
 
 def on_its_side(chart: Chart) -> Chart:

@@ -44,10 +44,12 @@ def test_a_repair_edits_parts_of_the_rover_and_leaves_their_states(repair: Repai
     assert {*repair.charts, *repair.blocks} <= known
     changed = set()
     for system in SPECIFIED.values():
-        for before, after in zip(system.charts, repaired(system, repair).charts, strict=True):
+        edited = repaired(system, repair)
+        for before, after in zip(system.charts, edited.charts, strict=True):
             assert list(before.states) == list(after.states)
-            changed |= {before.name} if changes(before, after) else set()
-    assert changed >= set(repair.charts)
+        for old, new in zip(parts(system.components), parts(edited.components), strict=True):
+            changed |= {old.name} if changes(old, new) else set()
+    assert changed == {*repair.charts, *repair.blocks}
 
 
 @pytest.mark.parametrize("repair", [r for r in EVERY if r.readings], ids=lambda r: r.name)

@@ -1,6 +1,6 @@
 """Faults put in by hand into charts and blocks, and whether a property of the catalogue notices them."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
@@ -131,30 +131,23 @@ def value(of: Var, change: Change) -> BlockEdit:
 
 
 def forgotten(of: Var) -> BlockEdit:
-    """The block assigns nothing to a variable."""
-    return _assignments(of, lambda _: [])
+    """A variable keeps its value where the block assigns one."""
+    return _assignments(of, lambda found: [Assign(found.var, found.var)])
 
 
 def goes_to(wrong: Var, *, for_: Var) -> BlockEdit:
-    """What is meant for one variable is assigned to another."""
-    return _assignments(for_, lambda found: [Assign(wrong, found.value)])
+    """What is meant for one variable, which keeps its value, is assigned to another."""
+    return _assignments(for_, lambda found: [Assign(wrong, found.value), Assign(found.var, found.var)])
 
 
 def _assignments(of: Var, change: Callable[[Assign], Sequence[Action]]) -> BlockEdit:
-    def walk(actions: Sequence[Action]) -> list[Action]:
-        out: list[Action] = []
+    def walk(actions: Sequence[Action]) -> Iterator[Action]:
         for action in actions:
             if isinstance(action, If):
-                out.append(If(action.condition, tuple(walk(action.then)), tuple(walk(action.otherwise))))
+                yield If(action.condition, tuple(walk(action.then)), tuple(walk(action.otherwise)))
             elif isinstance(action, Assign) and action.var.name == of.name:
-                out.extend(change(action))
+                yield from change(action)
             else:
-                out.append(action)
-        return out
+                yield action
 
-    def edit(block: Block) -> Block:
-        changed = walk(block.do)
-        assert changed != list(block.do), f"{block.name} does not assign {of.name}"
-        return Block(block.name, changed, text=block.text)
-
-    return edit
+    return lambda block: Block(block.name, tuple(walk(block.do)), text=block.text)

@@ -1,0 +1,45 @@
+"""Monitors of Board 2: a source is critical in every step in which it is silent."""
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+from spec_model.board2.monitor_systems import twin
+from spec_model.board2.monitors import silent
+from spec_model.lang.chart import Chart
+from spec_model.lang.edit import guard, swap
+from spec_model.lang.expr import all_of
+from spec_model.repairs import Repair
+from spec_model.signals.board2_supervisor import SOURCES, Source
+
+
+def looking_at_the_age(sources: Sequence[Source]) -> Callable[[Chart], Chart]:
+    """The edit of a chart with a region for some of the sources."""
+
+    def change(chart: Chart) -> Chart:
+        for source in sources:
+            if (source.region,) in chart.states:
+                chart = _one_region(chart, source)
+        return chart
+
+    return change
+
+
+def _one_region(chart: Chart, source: Source) -> Chart:
+    """The mean of the gaps stays short while no stamp comes, so that CRIT ends in the midst of a silence."""
+    for level in ("OK", "DEG"):
+        chart = swap(chart, f"{source.region}.{level}", 1, 2)
+    return guard(chart, f"{source.region}.CRIT", 1, partial(all_of, ~silent(source)))
+
+
+by_age = Repair(
+    name="monitor-critical-by-age",
+    text=(
+        "In a monitor of Board 2, OK and DEG test their arrow to CRIT first, and the arrow that leaves CRIT "
+        "asks in addition that the source is not silent."
+    ),
+    fixes=("PB2-14c", "PB2-20a", "PB2-20b", "PB2-20c", "PB2-20d"),
+    charts={
+        "Monitors_2": looking_at_the_age(SOURCES),
+        "Twin_monitors_2": looking_at_the_age([twin(source) for source in SOURCES]),
+    },
+)
