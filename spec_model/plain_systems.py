@@ -47,6 +47,27 @@ board1_plain = plain(
     ),
 )
 
+STILL = (b1.x_norm, b1.y_norm, b1.crit_mask_b2, b1.degr_mask_b2, b1.current_yaw)
+
+board1_buttons = plain(
+    board1,
+    "board1_buttons",
+    "As board1_plain with wheels at rest, where frames may be missing and carry nothing but buttons: stick "
+    "at rest, CMD_NORMAL, no fault of Board 2.",
+    all_of(
+        b1.temp_update,
+        b1.temp_reading == 25,
+        b1.batt_update,
+        b1.batt_reading == 80,
+        b1.rx_update == b1.heartbeat_update,
+        b1.sent(b1.is_motion_consistent),
+        *(~lost for lost in b1.has_no_feedback.values()),
+        *(speed == 0 for speed in b1.wheel_speed_rpm.values()),
+        b1.sent(b1.cmd) == "CMD_NORMAL",
+        *(b1.sent(field) == 0 for field in STILL),
+    ),
+)
+
 first_2, *others_2 = map(env2.arriving, b2.wheel_speed_rpm.values())
 
 board2_plain = plain(
@@ -62,4 +83,4 @@ board2_plain = plain(
     ),
 )
 
-SYSTEMS: tuple[System, ...] = (board1_plain, board2_plain)
+SYSTEMS: tuple[System, ...] = (board1_plain, board1_buttons, board2_plain)

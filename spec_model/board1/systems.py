@@ -193,6 +193,8 @@ backward_frozen = in_order(
     Enabled(computed, toggle),
     text="The relay decision and the toggle of backward mode, for any buttons, stick and statuses.",
     notes=["The statuses of reception and Board 2 supervisor are free in every step."],
+    over=True,
+    concrete="board1_buttons",
 )
 
 board1 = in_order(

@@ -155,7 +155,7 @@ motion_2_with_free_error = motion(free(rotation_error, angle_err, nearly_turned)
 
 check_stop_2 = Block(
     "checkStop_2",
-    [assign(wheels_below_2_5, all_of(*(speed < 2.5 for speed in wheel_speed_rpm.values())))],
+    [assign(wheels_below_2_5, all_of(*(absolute(speed) < 2.5 for speed in wheel_speed_rpm.values())))],
     text="All four wheels slower than 2.5 rpm, as Board 1 last reported.",
 )
 
