@@ -113,7 +113,7 @@ PB2_26d = always(
     covers=["B2-SON-03"], on=SONAR,
 )  # fmt: skip
 PB2_26e = always(
-    "PB2-26e", "A channel that completes for the first time since the trigger captures the length of its pulse.",
+    "PB2-26e", "A channel that completes first since the trigger captures the length of its pulse.",
     that=all_of(*(
         implies(e & ~previous(f), pulse == length)
         for e, f, pulse, length in zip(both_edges, flags, captured, width, strict=True)

@@ -58,7 +58,7 @@ PB2_16r = holds_after(
     covers=["B2-ACT-01", "B1-REF-05"], on=ON, from_tick=2,
 )  # fmt: skip
 PB2_16s = holds_after(
-    "PB2-16s", "Half of full angular speed on the spot, for 40 executions, turns the sides against one another.",
+    "PB2-16s", "Half of full angular speed, for 40 executions, turns the sides against one another.",
     premise=autorized & (v_ref_actuation == 0) & (omega_ref_actuation == 0.5), for_=39 * ticks,
     then=(left_rpm == -LIMIT) & (right_rpm == LIMIT),
     covers=["B2-ACT-01", "B1-REF-05"], on=ON, from_tick=2,

@@ -75,7 +75,7 @@ PSY_06 = holds_after(
 PSY_10e = holds_after(
     "PSY-10e",
     "Within 101 ms of a sonar snapshot with an obstacle at 70 cm or less, constant, the linear reference "
-    "is not positive, if the user drives forward meanwhile and no rotation is active.",
+    "is not positive, if Board 1 actuates, the user drives forward and no rotation is active meanwhile.",
     premise=near & forward, for_=101 * ms, then=~v_positive,
     covers=["B2-OBS-01", "B1-EST-01"], on="stop_fine", readings=["E12"],
 )  # fmt: skip

@@ -1,4 +1,4 @@
-"""What must be true of the motor driver behind the relay: when it moves the motors, and when it stops them."""
+"""What must be true of the motor driver behind the relay: when the motors move, and when they stop."""
 
 from properties.forms import always, holds_after
 from spec_model.composition.motors import connected, followed, motors_zero, zero_1, zero_2

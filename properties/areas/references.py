@@ -207,10 +207,11 @@ REACH_EVITA_DESTRA = reachable(
 )  # fmt: skip
 REACH_MOTORI_FERMI = reachable(
     "REACH-MOTORI-FERMI", "The rover can come to rest after an emergency stop.",
-    that=_can_be_active("Motori_fermi", "CMD_STOP"), covers=["B1-ACT-01", "B1-EST-01"], on=ON,
+    that=motion_supervision.active("Motori_fermi") & (current_action == "CMD_STOP"),
+    covers=["B1-ACT-01", "B1-EST-01"], on="references_executed",
 )  # fmt: skip
 REACH_RECOVERY = reachable(
     "REACH-RECOVERY", "The emergency stop can be released.",
     that=running & previous(actuate_emergency_stop) & ~actuate_emergency_stop,
-    covers=["B1-EST-01"], on=ON, readings=["S62"],
+    covers=["B1-EST-01"], on="references_executed", readings=["S62"],
 )  # fmt: skip

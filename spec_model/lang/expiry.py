@@ -28,6 +28,9 @@ Counter = tuple[Path, When, tuple[object, ...]]
 
 Change = Callable[[Expr], Expr]
 
+LONG = 60
+"""Characters of a condition that a note no longer repeats."""
+
 
 def free_timers(system: System, keep: Collection[str] = (), *, name: str = "", text: str = "") -> System:
     """The system with the timers of its charts free, except those of the states in ``keep``.
@@ -62,6 +65,11 @@ def _known(system: System, keep: Collection[str]) -> None:
                 f"No chart of {system.name} has a state {wanted!r} whose timer could be kept; write the "
                 f"name of a state or of a chart. {did_you_mean(wanted, names)}"
             )
+
+
+def _label(word: Temporal) -> str:
+    """The word as drawn, its condition left out where that is long."""
+    return str(word) if word.arg is None or len(str(word.arg)) <= LONG else f"{word.when}(...) of {word.span}"
 
 
 def _note(freed: Sequence[tuple[str, str]]) -> str:
@@ -135,7 +143,7 @@ class Expiry:
         state = ".".join((self.original.name, *found.counter[0]))
         number = 1 + sum(len(f) for c, f in self.flags.items() if c[0] == found.counter[0])
         self.flags[found.counter][found.least] = flag(f"{state}.over{number}", f"`{word}` may be over")
-        self.freed.append((str(word), _short(self.original, found.counter[0])))
+        self.freed.append((_label(word), _short(self.original, found.counter[0])))
 
     def _free(self, word: Temporal, source: Path | None) -> Expr:
         """The word with its counter cut off after one tick; a longer time is over only if a shorter is."""

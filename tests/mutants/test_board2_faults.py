@@ -7,19 +7,17 @@ import pytest
 
 from spec_model.board2 import acquisition as acq
 from spec_model.board2 import coherence as coh
-from spec_model.lang.action import Action
 from spec_model.lang.edit import (
     arrow,
     constant,
     drop,
-    entry,
     guard,
     in_expressions,
     instead,
     operator,
     timer,
 )
-from spec_model.lang.expr import FALSE, TRUE, Expr, Op, member, var
+from spec_model.lang.expr import FALSE, TRUE, Op, member, var
 from spec_model.lang.time import ms, sec
 from spec_model.lang.words import bit, maximum
 from spec_model.signals import board2 as obstacles

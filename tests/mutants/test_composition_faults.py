@@ -6,13 +6,11 @@ from spec_model.composition import counters, fine_systems, motors, receiver
 from spec_model.lang.edit import constant, instead, operator
 from spec_model.lang.expr import FALSE, TRUE, Op, Var, flag, member
 from spec_model.signals import board1 as b1
-from spec_model.signals import board2 as obstacles
 from tests.mutants.faults import (
     BlockEdit,
     Fault,
     expressions,
     forgotten,
-    goes_to,
     in_blocks,
     mistaken,
     noticed,
@@ -64,7 +62,6 @@ BLOCKS: dict[str, list[tuple[str, str, BlockEdit]]] = {
         ("no byte is kept of two", "PSY-16c", value(receiver.clean, operator(Op.OR, Op.AND))),
         ("the second byte for the first", "PSY-16c",
          expressions(mistaken(receiver.SYNC2, for_=receiver.SYNC1))),
-        ("a byte is held after a frame", "REACH-RECEIVER-ACCEPTS", value(receiver.held, constant(0, 1))),
         ("bytes of other frames count as clean", "PSY-16a",
          value(receiver.clean, instead(receiver.untouched.name, lambda _: TRUE))),
     ],

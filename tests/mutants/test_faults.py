@@ -34,6 +34,7 @@ from tests.mutants.faults import (
     with_fault,
 )
 
+
 def _forget_sonar(expr: Expr) -> Expr:
     """``a | b | c`` becomes ``a | b``."""
 

@@ -6,8 +6,6 @@ from dataclasses import replace
 import pytest
 
 from spec_model.lang.action import Action
-from spec_model.lang.expr import Apply, Expr, Op, all_of
-from spec_model.lang.time import sec
 from spec_model.lang.edit import (
     arrow,
     constant,
@@ -20,6 +18,8 @@ from spec_model.lang.edit import (
     swap,
     timer,
 )
+from spec_model.lang.expr import Apply, Expr, Op, all_of
+from spec_model.lang.time import sec
 from tests.mutants.faults import ChartEdit, Fault, in_charts, noticed
 
 
