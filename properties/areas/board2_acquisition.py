@@ -159,7 +159,7 @@ PB2_27g = always(
         for f, pulse, d in zip(flags, captured, distance, strict=True)
         for microseconds, centimetres in ((4060, 70), (4118, 71), (17400, 300))
     ))),
-    covers=["B2-SON-04"], on=SONAR,
+    covers=["B2-SON-04"], on=SONAR, readings=["E13"],
 )  # fmt: skip
 REACH_SONAR_NOTIFIED = reachable(
     "REACH-SONAR-NOTIFIED", "A scan can end by its notification with three near obstacles.",

@@ -1,7 +1,6 @@
 """Obstacles in the degraded state, the choice between the two charts, and the command for Board 1."""
 
 from properties.forms import always, holds_after
-from spec_model.board2.systems import autorized_prev, crit_mask_b1, deg_mask_b1
 from spec_model.lang.expr import any_of, implies
 from spec_model.lang.time import tick
 from spec_model.signals.board2 import DEG_B1, B2Dec, B2DecDegraded, command, within
@@ -23,12 +22,6 @@ PB2_11c = always(
         (command == "CMD_NORMAL") & any_of(*(B2Dec == n for n in (0, 3, 5))),
     ),
     covers=("B1-IN-01", "B2-OBS-08"), on="obstacles_free", readings=("E04", "E31"),
-)  # fmt: skip
-
-PB2_11d = always(
-    "PB2-11d", "The state is degraded exactly with a fault of Board 1 or the authorisation of Board 2.",
-    that=DEG_B1 == any_of(deg_mask_b1, crit_mask_b1, autorized_prev),
-    covers=["B2-OBS-04"], on="obstacles_free", readings=["E09"],
 )  # fmt: skip
 
 PB2_12 = always(

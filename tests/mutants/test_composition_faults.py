@@ -6,6 +6,7 @@ from spec_model.composition import counters, fine_systems, motors, receiver
 from spec_model.lang.edit import constant, instead, operator
 from spec_model.lang.expr import FALSE, TRUE, Op, Var, flag, member
 from spec_model.signals import board1 as b1
+from spec_model.signals import board2_supervisor as b2
 from tests.mutants.faults import (
     BlockEdit,
     Fault,
@@ -47,7 +48,8 @@ BLOCKS: dict[str, list[tuple[str, str, BlockEdit]]] = {
     ],
     "line.send": [
         ("an execution is not remembered", "PSY-21b", forgotten(earlier)),
-        ("every frame counts as a new execution", "PSY-21b", value(_slot("newest", "executed"), lambda _: TRUE)),
+        ("every frame counts as a new execution", "PSY-21b",
+         value(_slot("newest", "executed"), lambda _: TRUE)),
         ("an execution stays with its slot", "PSY-21b", forgotten(_slot("older", "executed"))),
         ("the older frame keeps its content", "PSY-21b", forgotten(_content("older"))),
     ],
@@ -73,20 +75,22 @@ BLOCKS: dict[str, list[tuple[str, str, BlockEdit]]] = {
         ("the boards exchanged", "PSY-01a", value(motors.connected, mistaken(BOARD2, for_=BOARD1))),
         ("Board 1 is followed behind the open relay", "PSY-01c",
          value(motors.followed, mistaken(BOARD1, for_=BOARD2))),
-        ("the stop pin of the other board", "PSY-22b", value(motors.motors_zero, mistaken(BOARD2, for_=BOARD1))),
+        ("the stop pin of the other board", "PSY-22b",
+         value(motors.motors_zero, mistaken(BOARD2, for_=BOARD1))),
         ("both stop pins instead of one", "PSY-22b", value(motors.motors_zero, operator(Op.OR, Op.AND))),
         ("the last command is kept for good", "PSY-22a", value(motors.silence, constant(1, 0))),
         ("the motors never move", "PSY-22c", forgotten(motors.silence)),
         ("one speed of zero suffices", "PSY-22c", value(motors.commanded_zero, operator(Op.AND, Op.OR))),
     ],
     "B1-B2.receive": [
-        ("the payload is not replaced", "PSY-03a", forgotten(fine_systems.b2.b1_requests_switch)),
-        ("the payload inverted", "PSY-03a", value(fine_systems.b2.b1_requests_switch, lambda asked: ~asked)),
+        ("the payload is not replaced", "PSY-03a", forgotten(b2.b1_requests_switch)),
+        ("the payload inverted", "PSY-03a", value(b2.b1_requests_switch, lambda asked: ~asked)),
         ("no frame arrives", "PSY-03a", expressions(instead(fine_systems.line12.busy.name, lambda _: FALSE))),
     ],
     "B1-B2.send": [
         ("the frame keeps its content", "PSY-03a", forgotten(flag("B1-B2.b1_requests_switch", "content"))),
-        ("the content inverted", "PSY-03a", value(flag("B1-B2.b1_requests_switch", ""), lambda asked: ~asked)),
+        ("the content inverted", "PSY-03a",
+         value(flag("B1-B2.b1_requests_switch", ""), lambda asked: ~asked)),
         ("no frame", "PSY-03a", forgotten(fine_systems.line12.busy)),
     ],
     "Board2_Data.age_ms": [
@@ -106,7 +110,8 @@ BLOCKS: dict[str, list[tuple[str, str, BlockEdit]]] = {
         ("an old counter stays fresh", "PSY-06", forgotten(fine_systems.fresh)),
     ],
     "RX1": [
-        ("any frame is a heartbeat", "PSY-06", value(fine_systems.fresh, lambda fresh: fresh | fine_systems.frame21)),
+        ("any frame is a heartbeat", "PSY-06",
+         value(fine_systems.fresh, lambda fresh: fresh | fine_systems.frame21)),
     ],
 }  # fmt: skip
 
