@@ -153,7 +153,7 @@ PB2_27f = enters_only_if(
     covers=["B2-SON-04"], on=SONAR, from_tick=3,
 )  # fmt: skip
 PB2_27g = always(
-    "PB2-27g", "A pulse of 58 µs for each of 70 cm is published as 70 cm, and one of 300 cm as 300 cm.",
+    "PB2-27g", "A pulse of 58 µs for each cm of 70, 71 or 300 cm is published as that distance.",
     that=implies(published, all_of(*(
         implies(f & (pulse == microseconds), d == centimetres)
         for f, pulse, d in zip(flags, captured, distance, strict=True)

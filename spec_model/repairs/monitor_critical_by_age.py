@@ -37,7 +37,7 @@ by_age = Repair(
         "In a monitor of Board 2, OK and DEG test their arrow to CRIT first, and the arrow that leaves CRIT "
         "asks in addition that the source is not silent."
     ),
-    fixes=("PB2-14c", "PB2-20a", "PB2-20b", "PB2-20c", "PB2-20d"),
+    fixes=("PB2-14c", "PB2-20a", "PB2-20b", "PB2-20c", "PB2-20d", "PSY-07b"),
     charts={
         "Monitors_2": looking_at_the_age(SOURCES),
         "Twin_monitors_2": looking_at_the_age([twin(source) for source in SOURCES]),

@@ -25,6 +25,6 @@ def from_the_next_step_on(chart: Chart) -> Chart:
 one_per_step = Repair(
     name="one-deviation-per-step",
     text="Waiting of B2Decisions follows a signal to deviate only from the step after its entry.",
-    fixes=("PB2-09b-straight", "PB2-09c-right", "PB2-10-most"),
+    fixes=("PB2-09b-straight", "PB2-09c-right", "PB2-10-most", "PB2-09-straight"),
     charts={"Obstacles": from_the_next_step_on},
 )

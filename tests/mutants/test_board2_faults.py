@@ -118,7 +118,6 @@ BLOCKS: dict[str, list[tuple[str, str, BlockEdit]]] = {
     "TranslateDecision": [
         ("the selection inverted", "PB2-12-command",
          value(obstacles.B2Dec, instead(obstacles.DEG_B1.name, lambda degraded: ~degraded))),
-        ("no stop", "PB2-12-command", value(obstacles.command, normal_for_stop)),
         ("no stop in the non-degraded state", "PB2-02e", value(obstacles.command, constant(1, 3))),
         ("left and right exchanged", "PB2-11c", value(obstacles.command, constant(2, 4))),
     ],
@@ -204,7 +203,7 @@ BLOCKS: dict[str, list[tuple[str, str, BlockEdit]]] = {
         ("an incomplete read counts", "PB2-24",
          expressions(instead(acq.complete.name, lambda complete: complete | acq.raw_btn1))),
         ("a dead zone of a twentieth", "PB2-24b", expressions(constant(Fraction(1, 10), Fraction(26, 510)))),
-        ("every read is a valid one", "PB2-25a", goes_to(acq.last_valid, for_=acq.last_run)),
+        ("every read sets the last-valid instant", "PB2-25a", goes_to(acq.last_valid, for_=acq.last_run)),
         ("the last-valid instant is forgotten", "PB2-25b", forgotten(acq.last_valid)),
         ("the buttons are exchanged", "PB2-24c", goes_to(acq.button2, for_=acq.button1)),
         ("an axis is inverted", "PB2-24c", value(acq.axis_x, lambda x: 0 - x)),

@@ -20,19 +20,18 @@ from tests.mutants.faults import (
 )
 
 
-def _slot(age: str, what: str, link: str = "line") -> Var:
+def _slot(age: str, what: str) -> Var:
     """A flag of the newest or the older frame on its way."""
-    return flag(f"{link}.{age}.{what}", what)
+    return flag(f"line.{age}.{what}", what)
 
 
 def _content(age: str) -> Var:
+    """The alive counter in that frame."""
     return Var(f"line.{age}.{counters.received.name}", counters.received.domain, 0, "content")
 
 
 earlier = flag("line.earlier_execution", "the sender executed before it built the two frames")
 BOARD1, BOARD2 = member(motors.BOARD, "Board1"), member(motors.BOARD, "Board2")
-
-reads_inverted = instead(b1.give_b2_actuation.name, lambda open_: ~open_)
 
 BLOCKS: dict[str, list[tuple[str, str, BlockEdit]]] = {
     "line.receive": [
@@ -100,7 +99,8 @@ BLOCKS: dict[str, list[tuple[str, str, BlockEdit]]] = {
     ],
     "CTRL1": [
         ("Board 1 sends whatever the relay", "PSY-01b", expressions(operator(Op.AND, Op.OR))),
-        ("it sends while the relay is open", "PSY-01b", expressions(reads_inverted)),
+        ("it sends while the relay is open", "PSY-01b",
+         expressions(instead(b1.give_b2_actuation.name, lambda relay_open: ~relay_open))),
         ("it goes on sending", "PSY-04b",
          value(fine_systems.sends, lambda sends: sends | fine_systems.control1.due)),
     ],

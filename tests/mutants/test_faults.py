@@ -98,7 +98,7 @@ CHARTS: dict[str, list[tuple[str, str, ChartEdit]]] = {
         ("turning kept in the brake", "PB1-22", no_entry("In_frenata_di_emergenza", 2)),
         ("released while critical", "PB1-23d",
          lambda c: guard(c, "Procedura_emergency_stop", 1, operator(Op.AND, Op.OR))),
-        ("1 s at rest becomes 0.5 s", "PB1-23d",
+        ("1 s at rest becomes 0.5 s", "PB1-24b",
          lambda c: guard(c, "In_frenata_di_emergenza", 1, timer(0.5 * sec))),
     ],
     "Obstacles": [
