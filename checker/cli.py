@@ -116,6 +116,8 @@ def check(
     properties = pick_properties(ids, system, variant.properties(), full)
     if variant.name and not ids:
         properties = list(filter(variant.concerns(), properties))
+    if variant.name:
+        properties = variant.askable(properties)
     limits = Limits(depth, timeout, timers=Timers(timers))
     return run(
         properties, variant.systems(), pick_engine(engine), limits, as_json, variant.name, variant.expected

@@ -4,10 +4,12 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from checker.commands.codes import UsageError
+from checker.commands.output import err
 from checker.commands.select import pick
 from properties.catalogue import Expected, expected, read_by, under
-from properties.forms import Property
+from properties.forms import Property, formulas
 from spec_model.lang.system import System
+from spec_model.lang.walk import variables
 from spec_model.readings import ANY, fixed, readings
 from spec_model.repairs import Repair, proposals, repaired, touches
 from spec_model.rover import systems
@@ -53,6 +55,22 @@ class Variant:
 
         return concerned
 
+    def askable(self, properties: Sequence[Property]) -> list[Property]:
+        """The properties that speak of what the changed systems still have; says which do not.
+
+        Under another reading a chart may no longer read or write a variable that a property names.
+        """
+        by_name = self.systems()
+        asked: list[Property] = []
+        for prop in properties:
+            missing = sorted(_named(prop) - _known(by_name[prop.on]))
+            if missing:
+                lacks = f"{self.name}, {prop.on} has no {', '.join(missing)}"
+                err.print(f"{prop.id} is left out: {lacks}.", markup=False)
+            else:
+                asked.append(prop)
+        return asked
+
     def expected(self, id: str) -> Expected:
         """The verdict to compare with: what the repair promises, else the verdict on record."""
         if self.repair is not None and id in self.repair.fixes:
@@ -60,6 +78,15 @@ class Variant:
         if self.repair is not None and id in self.repair.gives_up:
             return Expected("violated", None, self.repair.gives_up[id])
         return expected(id)
+
+
+def _named(prop: Property) -> set[str]:
+    return set(variables(*formulas(prop.form)))
+
+
+def _known(system: System) -> set[str]:
+    places = {v.name for chart in system.charts for v in (*chart.locations, chart.entered)}
+    return places | {v.name for v in system.frozen} | system.written.keys() | system.inputs.keys()
 
 
 def pick_variant(chosen: Sequence[str], repair: str | None, dropped: Sequence[str]) -> Variant:
