@@ -117,9 +117,7 @@ def obstacles(made: Made, limit: int) -> Expr:
     left = {p: was[int(p[0]) - 1] & ~far[int(p[0]) - 1] for p in window}
     falling = {p: made.variable(f"falling{p}", boolean) for p in window}
     clear = tuple(Assign(w, const(0)) for w in window.values())
-    run: Program = tuple(
-        Assign(w, ite(falling[p], limit, ite(w > 0, w - 1, 0))) for p, w in window.items()
-    )
+    run: Program = tuple(Assign(w, ite(falling[p], limit, ite(w > 0, w - 1, 0))) for p, w in window.items())
     for p, direction in (("32", "RIGHT"), ("23", "LEFT"), ("21", "RIGHT"), ("12", "LEFT")):
         seen = (window[p] > 0) & far[int(p[1]) - 1]
         run = (If(seen, (Assign(command, member(COMMAND, direction)), *clear), run),)

@@ -51,8 +51,11 @@ def integers(draw: DrawFn, scope: Sequence[Var], depth: int) -> Expr:
             drawn: Expr = draw(st.sampled_from(numbers))
             return drawn
         return number(draw(st.integers(-4, 9)))
-    op = draw(st.sampled_from([Op.ADD, Op.SUB, Op.NEG, Op.MUL, Op.SCALE, Op.DIV, Op.MOD, Op.ABS]
-                              + [Op.MIN, Op.MAX, Op.ITE]))
+    op = draw(
+        st.sampled_from(
+            [Op.ADD, Op.SUB, Op.NEG, Op.MUL, Op.SCALE, Op.DIV, Op.MOD, Op.ABS] + [Op.MIN, Op.MAX, Op.ITE]
+        )
+    )
     first = integers(draw, scope, depth - 1)
     match op:
         case Op.NEG | Op.ABS:
@@ -152,6 +155,11 @@ def transition_systems(draw: DrawFn, most: int = 3) -> TransitionSystem:
     final = tuple(Assign(g, booleans(draw, [*scope, *wanted], 2)) for g in wanted)
     assume = booleans(draw, outside, 2) if inputs and draw(st.integers(0, 2)) == 0 else TRUE
     return TransitionSystem(
-        "random", tuple(inputs), tuple(frozen), (*variables, *wanted), tuple(temps),
-        (*setting, *body, *final), assume,
+        "random",
+        tuple(inputs),
+        tuple(frozen),
+        (*variables, *wanted),
+        tuple(temps),
+        (*setting, *body, *final),
+        assume,
     )

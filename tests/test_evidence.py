@@ -15,9 +15,7 @@ REPORTS = Path(__file__).parent.parent / "reports"
 def test_verdicts_are_as_on_record_and_the_committed_reports_show_them() -> None:
     # One test, so that the properties are decided once however many processes run the suite.
     affordable = [prop for prop in catalogue().values() if not prop.costly]
-    verdicts = [
-        Compared(r, expected(r.property.id)) for r in results(affordable, systems(), AUTO, Limits())
-    ]
+    verdicts = [Compared(r, expected(r.property.id)) for r in results(affordable, systems(), AUTO, Limits())]
     assert len(verdicts) == len(affordable)
     assert [line(c) for c in verdicts if not c.as_expected] == []
     assert list(differences(REPORTS, pages(verdicts))) == [], "run `make reports` and commit"

@@ -135,7 +135,7 @@ def listing(what: str, ids: Sequence[str] = (), english: bool = False) -> Exit:
     """
     if what == "properties":
         show = in_english if english else list_properties
-        show(pick_properties(ids, None, catalogue()))
+        show(pick_properties(ids, None, catalogue(), full=True))
     elif ids or english:
         raise UsageError(
             f"Ids and --english choose among properties; write `rovercheck list {what}` without them, "

@@ -81,8 +81,17 @@ def test_a_constant_meets_a_narrow_variable() -> None:
 
 @pytest.mark.parametrize(
     "domain",
-    [boolean, Domain(Bool(), range(1, 2)), integer(0, 0), integer(-3, 12), integer(0, 7), integer(-8, 7),
-     chosen([-7, 0, 1, 30]), enumeration("E", {"A": 2, "B": 3, "C": 7}), integer(5, 9)],
+    [
+        boolean,
+        Domain(Bool(), range(1, 2)),
+        integer(0, 0),
+        integer(-3, 12),
+        integer(0, 7),
+        integer(-8, 7),
+        chosen([-7, 0, 1, 30]),
+        enumeration("E", {"A": 2, "B": 3, "C": 7}),
+        integer(5, 9),
+    ],
 )
 def test_a_member_of_the_domain_is_what_the_constraints_allow(domain: Domain) -> None:
     var = Var("v", domain, domain.low)
@@ -96,8 +105,10 @@ def test_a_member_of_the_domain_is_what_the_constraints_allow(domain: Domain) ->
     assert found == set(domain.values)
 
 
-@pytest.mark.parametrize(("low", "high", "bits"), [(0, 0, 1), (0, 1, 2), (-1, 0, 1), (-2, 1, 2), (-3, 0, 3),
-                                                   (0, 127, 8), (-128, 5, 8), (128, 128, 9)])
+@pytest.mark.parametrize(
+    ("low", "high", "bits"),
+    [(0, 0, 1), (0, 1, 2), (-1, 0, 1), (-2, 1, 2), (-3, 0, 3), (0, 127, 8), (-128, 5, 8), (128, 128, 9)],
+)
 def test_width(low: int, high: int, bits: int) -> None:
     assert Interval(low, high).width == bits
 

@@ -212,7 +212,9 @@ def test_traces_are_calm() -> None:
     (answer,) = check(system, goal)
     assert isinstance(answer, Reached)
     assert [dict(i) for i in answer.run.inputs] == [
-        {"level": 0, "other": 3}, {"level": 0, "other": 3}, {"level": 501, "other": 3},
+        {"level": 0, "other": 3},
+        {"level": 0, "other": 3},
+        {"level": 501, "other": 3},
     ]
 
 
@@ -248,8 +250,10 @@ def test_frozen_variables_are_part_of_the_valuation() -> None:
 def test_more_goals_than_bits_in_a_word() -> None:
     count = var("count", integer(0, 99))
     wanted = tuple(flag(f"at{i}") for i in range(120))
-    program = (Assign(count, Apply(Op.MOD, (count + 1, const(100)), count.sort)),
-               *(Assign(g, count == i) for i, g in enumerate(wanted)))
+    program = (
+        Assign(count, Apply(Op.MOD, (count + 1, const(100)), count.sort)),
+        *(Assign(g, count == i) for i, g in enumerate(wanted)),
+    )
     answers = check(TransitionSystem("", (), (), (count, *wanted), (), program), *wanted)
     lengths = [len(a.run) if isinstance(a, Reached) else None for a in answers]
     assert lengths == [100, *range(1, 100), *[None] * 20]

@@ -117,8 +117,11 @@ with closing(messages(_tell_and_sleep, 60)) as inbox:
 def test_the_child_dies_with_its_parent(number: signal.Signals) -> None:
     path = os.pathsep.join([str(ROOT), *filter(None, sys.path)])
     with subprocess.Popen(
-        [sys.executable, "-c", PARENT], cwd=ROOT, env={**os.environ, "PYTHONPATH": path},
-        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+        [sys.executable, "-c", PARENT],
+        cwd=ROOT,
+        env={**os.environ, "PYTHONPATH": path},
+        stdout=subprocess.PIPE,
+        stderr=subprocess.DEVNULL,
     ) as parent:
         assert parent.stdout is not None
         pid = int(parent.stdout.readline())

@@ -21,7 +21,11 @@ from spec_model.lang.walk import variables
 from tests.strategies_ts import MODE, booleans, integers, number
 
 SCOPE = (
-    flag("p"), flag("q"), var("a", integer(-9, 9)), var("b", integer(0, 7)), var("c", chosen([-70, 3, 400])),
+    flag("p"),
+    flag("q"),
+    var("a", integer(-9, 9)),
+    var("b", integer(0, 7)),
+    var("c", chosen([-70, 3, 400])),
     var("m", MODE),
 )
 

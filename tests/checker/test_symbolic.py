@@ -93,7 +93,12 @@ def test_assumptions_on_inputs_outside_the_cone_are_loose() -> None:
     a, b, c = flag("a"), flag("b"), flag("c")
     seen, state = flag("seen"), flag("state")
     system = TransitionSystem(
-        "made", (a, b, c), (), (seen, state), (), (Assign(seen, a), Assign(state, ~state)),
+        "made",
+        (a, b, c),
+        (),
+        (seen, state),
+        (),
+        (Assign(seen, a), Assign(state, ~state)),
         (b | c) & (a | state),
     )
     part = cone(folded(transition(system)), ["seen"])
@@ -106,5 +111,6 @@ def test_children_come_before_parents() -> None:
     for _ in range(5000):
         expr = ~(expr & flag("b"))
     order = {id(node): i for i, node in enumerate(postorder(expr))}
-    assert all(order[id(child)] < order[id(node)] for node in postorder(expr)
-               for child in getattr(node, "args", ()))
+    assert all(
+        order[id(child)] < order[id(node)] for node in postorder(expr) for child in getattr(node, "args", ())
+    )

@@ -27,8 +27,9 @@ Broken = Callable[[Run, int, int], bool]
 
 
 def _responds(n: int) -> Broken:
-    return lambda u, k, f: k - n >= f and any(
-        u[j]["p"] and not any(u[i]["q"] for i in range(j, k + 1)) for j in range(f, k - n + 1)
+    return lambda u, k, f: (
+        k - n >= f
+        and any(u[j]["p"] and not any(u[i]["q"] for i in range(j, k + 1)) for j in range(f, k - n + 1))
     )
 
 

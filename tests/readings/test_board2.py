@@ -228,7 +228,8 @@ SCENARIOS: list[Scenario] = [
         "NORMAL": "CMD_NORMAL", "AVOID-BY-PAIR": "CMD_NORMAL 220 CMD_AVOID_RIGHT 720 CMD_NORMAL",
         "ZERO-TURN": "CMD_NORMAL"}, "obstacles"),
     Scenario("E31", 3, [(200, {"new_d2": SEEN, "new_bx_norm": 1}), (800, {"new_d1": SEEN, "new_bx_norm": 1})],
-        "x_norm", {"NORMAL": "0 20 1", "AVOID-BY-PAIR": "0 20 1", "ZERO-TURN": "0 20 1 240 0 740 1"}, "rover", WARM_UP),
+        "x_norm", {"NORMAL": "0 20 1", "AVOID-BY-PAIR": "0 20 1", "ZERO-TURN": "0 20 1 240 0 740 1"},
+        "rover", WARM_UP),
     Scenario("E32", 1, [(100, {}), (1000, {**S2(NEAR), "deg_mask_b1": True}), (100, S2(NEAR))], B2DEC, {
         "RUN-ALWAYS": "0 100 6 1100 1", "FREEZE": "0 100 5 120 6 1100 0 1120 1"}, "obstacles"),
 ]
