@@ -38,7 +38,7 @@ check: $(STAMP)
 	@$(RUN) -m checker check $(ARGS)
 
 check-full: $(STAMP)
-	@$(RUN) -m checker check --full $(ARGS)
+	@$(RUN) -m checker check --full --timeout 600 $(ARGS)
 	@for repair in $$($(RUN) -c 'from spec_model.repairs import proposals; print(*proposals())'); do \
 		echo; echo "With $$repair:"; \
 		$(RUN) -m checker check --repair "$$repair" --timers free $(ARGS) || exit 1; done

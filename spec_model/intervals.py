@@ -52,9 +52,7 @@ class Arrivals:
     @property
     def updates(self) -> Var:
         """Updates so far, the eleventh and all later ones as 11: eleven make ten intervals."""
-        return var(
-            f"{self.name}_updates", integer(0, INTERVALS + 1), doc="updates so far; eleven make ten intervals"
-        )
+        return var(f"{self.name}_updates", integer(0, INTERVALS + 1), doc="updates so far", hidden=True)
 
     @property
     def slow(self) -> Var:

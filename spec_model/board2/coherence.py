@@ -37,12 +37,19 @@ imu_long = var("IMU_long", ROTATION, doc="rotation measured in the long window")
 odo_short = var("odo_fast", DIFFERENCE, doc="left minus right wheels over the short window")
 odo_long = var("odo_long", DIFFERENCE, doc="left minus right wheels over the long window")
 
-started = flag("coherence_started", "the initial step is over")
+started = flag("coherence_started", "the initial step is over", hidden=True)
 wheel_gap = var(
-    "coherence_wheel_gap", integer(0, USABLE), doc="ticks since last_valid_b1_ms, less one usable"
+    "coherence_wheel_gap",
+    integer(0, USABLE),
+    doc="ticks since last_valid_b1_ms, less one usable",
+    hidden=True,
 )
-imu_gap = var("coherence_imu_gap", integer(0, SHORT), doc="ticks since IMU.data_last_valid_ms, a few")
-long_gap = var("coherence_long_gap", integer(0, LONG), doc="ticks since IMU.data_last_valid_ms, many")
+imu_gap = var(
+    "coherence_imu_gap", integer(0, SHORT), doc="ticks since IMU.data_last_valid_ms, a few", hidden=True
+)
+long_gap = var(
+    "coherence_long_gap", integer(0, LONG), doc="ticks since IMU.data_last_valid_ms, many", hidden=True
+)
 short_open = var("fast_open", integer(0, SHORT), doc="ticks from fast_start to the IMU stamp", hidden=True)
 long_open = var("long_open", integer(0, LONG), doc="ticks from long_start to the IMU stamp", hidden=True)
 ring = var(
