@@ -39,9 +39,10 @@ check: $(STAMP)
 
 check-full: $(STAMP)
 	@$(RUN) -m checker check --full --timeout 600 $(ARGS)
-	@for repair in $$($(RUN) -c 'from spec_model.repairs import proposals; print(*proposals())'); do \
+	@worst=0; for repair in $$($(RUN) -c 'from spec_model.repairs import proposals; print(*proposals())'); do \
 		echo; echo "With $$repair:"; \
-		$(RUN) -m checker check --repair "$$repair" --timers free $(ARGS) || exit 1; done
+		$(RUN) -m checker check --repair "$$repair" --timers free --timeout 600 $(ARGS) || worst=$$?; \
+	done; exit $$worst
 
 test: lint types
 	@echo "Tests, in $(JOBS) processes ..."

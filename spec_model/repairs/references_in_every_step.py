@@ -59,5 +59,8 @@ in_every_step = Repair(
     ),
     fixes=("PB1-20a", "PB1-20b", "PB1-20c", "PB1-20d", "PB1-20e", "PB1-26", "PB1-26f", "PB1-27a"),
     charts={"Motion_Supervision": writing_in_every_step},
-    gives_up={"PB1-26b": "It says that the rotation keeps the linear reference, which PB1-26 wants zero."},
+    gives_up={
+        "PB1-26b": "It says that the rotation keeps the linear reference, which PB1-26 wants zero.",
+        "PSY-10m": "The step in which the emergency stop ends writes the reference before CMD_ESTOP is tested.",
+    },
 )
