@@ -61,6 +61,8 @@ in_every_step = Repair(
     charts={"Motion_Supervision": writing_in_every_step},
     gives_up={
         "PB1-26b": "It says that the rotation keeps the linear reference, which PB1-26 wants zero.",
-        "PSY-10m": "The step in which the emergency stop ends writes the reference before CMD_ESTOP is tested.",
+        "PSY-10m": (
+            "The step in which the emergency stop ends writes the reference before CMD_ESTOP is tested."
+        ),
     },
 )
