@@ -25,15 +25,15 @@ STAMP   := $(VENV)/installed-for-$(VERSION)
 .DELETE_ON_ERROR:
 
 help:
-	@echo "make check     check every property of the rover on the charts; exit code 0: all as expected"
+	@echo "make check          every property of the rover on the charts; exit code 0: all as expected"
 	@echo "make check-full     also what takes long, at most 2 minutes for each search"
 	@echo "make check-repairs  every property that a proposed repair concerns (hours)"
-	@echo "make test      lint, types, import contracts and the whole test suite"
-	@echo "make reports   write the evidence in reports/ anew"
-	@echo "make lint      ruff only            make types     mypy only"
-	@echo "make format    lay the code out     make bench     time the engines"
-	@echo "make lock      choose new versions of the dependencies, with hashes"
-	@echo "make clean     remove the environment and every cache"
+	@echo "make test           lint, types, import contracts and the whole test suite"
+	@echo "make reports        write the evidence in reports/ anew"
+	@echo "make lint           ruff only            make types     mypy only"
+	@echo "make format         lay the code out     make bench     time the engines"
+	@echo "make lock           choose new versions of the dependencies, with hashes"
+	@echo "make clean          remove the environment and every cache"
 
 check: $(STAMP)
 	@$(RUN) -m checker check $(ARGS)

@@ -10,6 +10,7 @@ from dataclasses import replace
 from checker.engine import Progress
 from checker.loops import Hunt, hunt, looped
 from checker.recover import recovered
+from checker.reproduce import only_there
 from checker.result import Ask, Result, check_domains
 from checker.slice import always_met
 from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Violated
@@ -83,7 +84,8 @@ def _by_loop(prop: Property, systems: Systems, ask: Ask) -> Result:
     if not (isinstance(answer, Reached) and system.over):
         return _result(hunted, answer, by)
     if not system.concrete:
-        raise ModelError(f"{system.name} is an over-approximation; write concrete= to say of what.")
+        reason = only_there(system.name, len(answer.run))
+        return Result(prop, Unknown(reason, len(answer.run) - 1, by), system.name)
     there = systems[system.concrete]
     result = _result(*_hunted(replace(prop, on=there.name), there, ask))
     if isinstance(result.verdict, Unknown):

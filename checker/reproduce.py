@@ -41,14 +41,15 @@ def not_reproducible(question: Question, runs: Runs) -> list[Result]:
     """What can be said of a run of an over-approximation that stands for no system of ours: nothing."""
     name = question.system.name
     return [
-        Result(goal.property, Unknown(_only_there(name, len(answer.run)), len(answer.run) - 1, by), name)
+        Result(goal.property, Unknown(only_there(name, len(answer.run)), len(answer.run) - 1, by), name)
         for goal in question.goals
         if goal.var.name in runs
         for answer, by in [runs[goal.var.name]]
     ]
 
 
-def _only_there(name: str, ticks: int) -> str:
+def only_there(name: str, ticks: int) -> str:
+    """Why a run of an over-approximation that stands for no system of ours decides nothing."""
     return (
         f"reached after {ticks} ticks on {name}, which has more runs than the rover; "
         "no system is named on which to reproduce it"
