@@ -7,9 +7,13 @@ built without its evidence, and an unfinished search is never a pass.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Union
+from typing import TYPE_CHECKING, Union
 
 from checker.trace import Trace
+from spec_model.lang.expr import Expr
+
+if TYPE_CHECKING:
+    from checker.closed import ClosedSet
 
 
 @dataclass(frozen=True)
@@ -38,6 +42,44 @@ class Exhausted:
     depth: int
     variables: tuple[str, ...]
     skipped: bool = False
+    closed: "ClosedSet | None" = field(default=None, compare=False, repr=False)
+    """The valuations themselves, as far as the engine kept them."""
+
+    @property
+    def how(self) -> str:
+        """``154 valuations``, and whether these are only the stored ones of those visited."""
+        what = "stored valuations (quiet ticks skipped)" if self.skipped else "valuations"
+        return f"all {self.states:,} {what}"
+
+
+@dataclass(frozen=True)
+class Inductive:
+    """An inductive invariant that keeps every run away from the goals.
+
+    ``conjuncts`` speak of the variables and frozen variables of the system at the tick boundary.  They
+    hold before the first tick and, all together, pass from before a tick to after it.  The goal is
+    false after the next tick wherever the conjuncts held and the goal was false for ``ticks`` - 1 ticks
+    (``ticks`` = 1: the conjuncts alone exclude it), the first ``ticks`` ticks of every run being free
+    of it.  With ``simple``, valuations on those ticks are taken to differ from each other.  Variables
+    are taken to be within their domains; that no tick takes one out of them is part of the obligations.
+    """
+
+    conjuncts: tuple[Expr, ...]
+    ticks: int = 1
+    simple: bool = False
+
+    @property
+    def how(self) -> str:
+        """``an invariant of 12 conjuncts``, ``3-induction with 5 conjuncts``."""
+        count = len(self.conjuncts)
+        many = f"{count} conjunct{'s' * (count != 1)}"
+        if self.ticks > 1:
+            return f"{self.ticks}-induction" + (f" with {many}" if count else "")
+        return f"an invariant of {many}" if count else "one tick from anywhere"
+
+
+Evidence = Union[Exhausted, Inductive]
+"""What shows that no run reaches a goal."""
 
 
 @dataclass(frozen=True)
@@ -52,7 +94,7 @@ class Reached:
 class Unreachable:
     """The goal is false after every tick of every run."""
 
-    because: Exhausted
+    because: Evidence
 
 
 @dataclass(frozen=True)
@@ -73,7 +115,7 @@ class Proved:
     ``claim`` says what was shown of those valuations when that is not the property itself but implies it.
     """
 
-    because: Exhausted | Trace
+    because: Evidence | Trace
     engine: str
     claim: str = ""
     word: str = field(default="proved", init=False)
@@ -83,7 +125,7 @@ class Proved:
 class Violated:
     """The property fails: a replayed counterexample, or (reachability) an exhausted search."""
 
-    because: Trace | Exhausted
+    because: Trace | Evidence
     engine: str
     word: str = field(default="violated", init=False)
 

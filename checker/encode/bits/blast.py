@@ -1,0 +1,116 @@
+"""Formulas as circuits: every expression becomes a literal (truth values) or a word (numbers)."""
+
+from collections.abc import Callable, Mapping, Sequence
+
+from checker.encode.bits.aig import FALSE, TRUE, Aig, Literal
+from checker.encode.bits.words import Word, Words
+from checker.encode.intervals import Interval, interval, postorder
+from spec_model.lang.domain import Bool, Domain
+from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+
+Value = Word
+"""A word; a truth value is a word of one literal."""
+
+
+def bits_needed(var: Var) -> int:
+    """The bits that stand for a variable: no sign where its domain has no negative value."""
+    if isinstance(var.sort, Bool):
+        return 1
+    low, high = var.domain.low, var.domain.high
+    return Interval(low, high).width - (low >= 0)
+
+
+def as_word(var: Var, bits: Sequence[Literal]) -> Value:
+    """The bits of a variable as a value."""
+    signless = not isinstance(var.sort, Bool) and var.domain.low >= 0
+    return [*bits, FALSE] if signless else list(bits)
+
+
+class Blaster:
+    """Translates formulas into one graph; equal nodes are translated once.
+
+    ``values`` has the value of every variable that occurs, by name.
+    """
+
+    def __init__(self, aig: Aig, values: Mapping[str, Value]) -> None:
+        self._values = values
+        self._words = Words(aig)
+        self._range: dict[int, Interval] = {}
+        self._done: dict[int, Value] = {}
+        self._alive: list[Expr] = []
+        self._operators = _operators(aig, self._words)
+
+    def __call__(self, expr: Expr) -> Value:
+        """The value of a formula."""
+        for node in postorder(expr):
+            if id(node) not in self._done:
+                self._range[id(node)] = interval(node, self._range)
+                self._done[id(node)] = self._node(node)
+                self._alive.append(node)
+        return self._done[id(expr)]
+
+    def truth(self, expr: Expr) -> Literal:
+        """The literal of a truth value."""
+        return self(expr)[0]
+
+    def inside(self, value: Value, domain: Domain) -> Literal:
+        """Whether a value lies in a domain."""
+        aig, words = self._words.aig, self._words
+        if isinstance(domain.sort, Bool):
+            return aig.any(value[0] ^ (v == 0) for v in domain.values)
+        if not domain.dense:
+            return aig.any(words.equal(value, words.const(v)) for v in domain.values)
+        low, high = words.const(domain.low), words.const(domain.high)
+        return aig.both(words.at_most(low, value), words.at_most(value, high))
+
+    def _node(self, node: Expr) -> Value:
+        match node:
+            case Const(value, sort):
+                return [TRUE if value else FALSE] if isinstance(sort, Bool) else self._words.const(value)
+            case Var(name):
+                return self._values[name]
+            case Named(_, body):
+                return self._done[id(body)]
+            case Apply(op, args, sort):
+                values = [self._done[id(a)] for a in args]
+                if op is Op.BIT:
+                    index = self._range[id(args[1])].low
+                    return [self._words.fitted(values[0], index + 1)[index]]
+                result = self._operators[op](values)
+                bits = self._range[id(node)].width
+                return result if isinstance(sort, Bool) else self._words.fitted(result, bits)
+        raise AssertionError(f"{node} speaks of the past")
+
+
+def _operators(aig: Aig, words: Words) -> dict[Op, Callable[[Sequence[Value]], Value]]:
+    def equal(a: Sequence[Value]) -> Literal:
+        return words.equal(*a)
+
+    def at_most(a: Sequence[Value]) -> Literal:
+        return words.at_most(*a)
+
+    def swapped(a: Sequence[Value]) -> Literal:
+        return words.at_most(a[1], a[0])
+
+    return {
+        Op.NOT: lambda a: [a[0][0] ^ 1],
+        Op.AND: lambda a: [aig.all(x[0] for x in a)],
+        Op.OR: lambda a: [aig.any(x[0] for x in a)],
+        Op.ITE: lambda a: words.choose(a[0][0], a[1], a[2]),
+        Op.EQ: lambda a: [equal(a)],
+        Op.NE: lambda a: [equal(a) ^ 1],
+        Op.LE: lambda a: [at_most(a)],
+        Op.GE: lambda a: [swapped(a)],
+        Op.LT: lambda a: [swapped(a) ^ 1],
+        Op.GT: lambda a: [at_most(a) ^ 1],
+        Op.ADD: lambda a: words.add(*a),
+        Op.SUB: lambda a: words.subtract(*a),
+        Op.NEG: lambda a: words.negative(*a),
+        Op.MUL: lambda a: words.multiply(*a),
+        Op.SCALE: lambda a: words.multiply(*a),
+        Op.DIV: lambda a: words.divide(*a),
+        Op.MOD: lambda a: words.modulo(*a),
+        Op.ABS: lambda a: words.absolute(*a),
+        Op.MIN: lambda a: words.least(*a),
+        Op.MAX: lambda a: words.greatest(*a),
+    }
