@@ -67,8 +67,7 @@ reports: $(STAMP)
 	@$(RUN) -m checker reports $(ARGS)
 
 bench: $(STAMP)
-	@$(RUN) -m benchmarks.explicit $(ARGS)
-	@$(RUN) -m benchmarks.timers $(ARGS)
+	@$(RUN) -m benchmarks.compare $(ARGS)
 
 setup: $(STAMP)
 

@@ -15,7 +15,7 @@ from time import process_time
 
 from checker.engine import Limits, Timers, quiet
 from checker.engines import explicit
-from checker.verdict import Answer, Open, Unreachable
+from checker.verdict import Answer, Exhausted, Open, Unreachable
 from properties.catalogue import catalogue
 from properties.reduce import reduce
 from spec_model.lang.expiry import free_timers
@@ -47,7 +47,8 @@ class Cost:
     @property
     def stored(self) -> int | None:
         """The valuations stored by a search that came to its end."""
-        return self.answer.because.states if isinstance(self.answer, Unreachable) else None
+        because = self.answer.because if isinstance(self.answer, Unreachable) else None
+        return because.states if isinstance(because, Exhausted) else None
 
     @property
     def shown(self) -> str:
