@@ -14,7 +14,7 @@ CONFIG = ROOT / "pyproject.toml"
 SETTINGS = tomllib.loads(CONFIG.read_text(encoding="utf-8"))
 CONTRACTS = {c["id"]: c for c in SETTINGS["tool"]["importlinter"]["contracts"]}
 PACKAGES = SETTINGS["tool"]["importlinter"]["root_packages"]
-DISTRIBUTION = {"z3": "z3-solver", "vcd": "pyvcd"}
+DISTRIBUTION = {"pysat": "python-sat", "vcd": "pyvcd", "z3": "z3-solver"}
 """Import names that differ from the name to install."""
 
 

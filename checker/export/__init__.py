@@ -1,0 +1,35 @@
+"""Problems written for other model checkers: one file per format, found by being here.
+
+A format has a ``NAME`` (what users type), a file ``SUFFIX``, a one-line ``SUMMARY`` and ``export(problem)``,
+which returns text or bytes that are the same from run to run.  It raises ``ModelError`` for what its
+format cannot say.
+"""
+
+import importlib
+import pkgutil
+from typing import Any, Protocol
+
+from checker.export.problem import Bad, Problem, problem
+
+
+class Exporter(Protocol):
+    """A format that some other model checker reads."""
+
+    NAME: str
+    SUFFIX: str
+    SUMMARY: str
+
+    def export(self, problem: Problem, /) -> str | bytes: ...
+
+
+def exporters() -> dict[str, Exporter]:
+    """The formats in this folder, by name."""
+    found: dict[str, Exporter] = {}
+    for entry in sorted(pkgutil.iter_modules(__path__), key=lambda e: e.name):
+        module: Any = importlib.import_module(f"{__name__}.{entry.name}")
+        if hasattr(module, "NAME"):
+            found[module.NAME] = module
+    return found
+
+
+__all__ = ["Bad", "Exporter", "Problem", "exporters", "problem"]

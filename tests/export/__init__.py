@@ -1,0 +1,1 @@
+"""Tests of the exports, and small readers of what they write."""
