@@ -77,10 +77,11 @@ class Circuit:
 
 def circuit(system: TransitionSystem, goals: Sequence[str]) -> Circuit:
     """The circuit of a system, cut for these goals.  Raises ``ModelError`` on a temporal word."""
-    return _cut(folded(transition(system)), goals)
+    return cut(folded(transition(system)), goals)
 
 
-def _cut(whole: Transition, goals: Sequence[str]) -> Circuit:
+def cut(whole: Transition, goals: Sequence[str]) -> Circuit:
+    """The circuit of what these goals depend on, of a transition without constants."""
     part = cone(whole, goals)
     state = _state(part, goals)
     aig = Aig()

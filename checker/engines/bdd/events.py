@@ -1,0 +1,46 @@
+"""What the search reports while it goes deeper."""
+
+from dataclasses import dataclass
+from typing import Union
+
+from checker.verdict import Exhausted, Run
+
+
+@dataclass(frozen=True)
+class Found:
+    """A shortest run to a goal."""
+
+    goal: str
+    run: Run
+
+
+@dataclass(frozen=True)
+class Bound:
+    """The goals are not reached by any run of at most ``depth`` ticks.
+
+    So far ``states`` valuations are reached; the diagrams take ``nodes`` nodes.
+    """
+
+    goals: tuple[str, ...]
+    depth: int
+    states: int
+    nodes: int
+
+
+@dataclass(frozen=True)
+class Closed:
+    """No tick leads out of the valuations reached, and none from them to the goals."""
+
+    goals: tuple[str, ...]
+    because: Exhausted
+
+
+@dataclass(frozen=True)
+class Stuck:
+    """Nothing more can be said of the goals, for this reason."""
+
+    goals: tuple[str, ...]
+    reason: str
+
+
+Event = Union[Found, Bound, Closed, Stuck]
