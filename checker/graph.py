@@ -8,8 +8,6 @@ graph is ``exact``: then all valuations behind a node can go to the same nodes.
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-import networkx as nx
-
 from checker.trace import Trace
 from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.expr import Var
@@ -156,6 +154,8 @@ def _nodes(
     starts: set[int],
     edges: Iterable[tuple[int, int]],
 ) -> tuple[GraphNode, ...]:
+    import networkx as nx  # 0.1 s that other commands need not wait for
+
     plain: nx.DiGraph[int] = nx.DiGraph()
     plain.add_nodes_from(numbers.values())
     plain.add_edges_from(edges)

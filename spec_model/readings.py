@@ -9,7 +9,7 @@ scenario in which they differ, and why the default is the default.
 import tomllib
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
 
 from spec_model.lang.domain import Bool, Num, Sort, enumeration
@@ -39,7 +39,7 @@ class Reading:
     choices: Mapping[str, str]
     not_modelled: Mapping[str, str] = field(default_factory=dict)
 
-    @property
+    @cached_property
     def var(self) -> Var:
         """The frozen variable of the reading."""
         domain = enumeration(f"Reading {self.id}", list(self.choices))
@@ -68,6 +68,7 @@ def reading(id: str) -> Reading:
     return readings()[id]
 
 
+@cache
 def under(id: str, *choices: str) -> Expr:
     """The condition that a reading is one of the choices."""
     one = reading(id)

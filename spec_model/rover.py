@@ -31,26 +31,43 @@ BOARDS = (
 """Modules with a tuple SYSTEMS, in the order in which the systems are listed."""
 
 
-def systems(choices: Mapping[str, str] = AS_READ) -> dict[str, System]:
+def systems(choices: Mapping[str, str] = AS_READ) -> Mapping[str, System]:
     """Every system by name, under chosen readings; a reading not mentioned takes its default.
 
     A reading chosen as ``any`` is a frozen variable of every system.  Raises ``ModelError`` for a name
     used twice, an unknown reading or choice.
     """
-    return dict(_systems(tuple(sorted(choices.items()))))
+    return _systems(tuple(sorted(choices.items())))
 
 
 @cache
-def _systems(chosen: tuple[tuple[str, str], ...]) -> dict[str, System]:
-    choices = dict(chosen)
-    fixing, open_, modelled = fixed(choices), left_open(choices), modelled_only(choices)
-    found = merged(map(fixing.system, as_written()))
-    if not open_:
-        return found
-    return {
-        name: replace(system, frozen=(*system.frozen, *open_), assume=system.assume & modelled)
-        for name, system in found.items()
-    }
+def _systems(chosen: tuple[tuple[str, str], ...]) -> Mapping[str, System]:
+    return _Read(dict(chosen))
+
+
+class _Read(Mapping[str, System]):
+    """The systems under chosen readings, each fixed when first asked for: all together take a second."""
+
+    def __init__(self, choices: Mapping[str, str]) -> None:
+        self._fixing, self._open = fixed(choices), left_open(choices)
+        self._modelled = modelled_only(choices)
+        self._written = merged(as_written())
+        self._read: dict[str, System] = {}
+
+    def __getitem__(self, name: str) -> System:
+        if name not in self._read:
+            system = self._fixing.system(self._written[name])
+            if self._open:
+                frozen = (*system.frozen, *self._open)
+                system = replace(system, frozen=frozen, assume=system.assume & self._modelled)
+            self._read[name] = system
+        return self._read[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._written)
+
+    def __len__(self) -> int:
+        return len(self._written)
 
 
 def as_written() -> Iterator[System]:

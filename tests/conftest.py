@@ -4,7 +4,11 @@
 (``pytest --hypothesis-profile=nightly``) draws new ones, many more, and remembers what failed.
 """
 
+import os
+
 from hypothesis import HealthCheck, settings
+
+os.environ["ROVERCHECK_CACHE"] = ""  # what is tested is compiled anew
 
 settings.register_profile(
     "ci",

@@ -2,25 +2,28 @@
 
 import json
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor, as_completed
+from contextlib import closing
 from dataclasses import dataclass, replace
 
+from checker.certify.outcome import Rejected
+from checker.certifying import Certifying
+from checker.commands.certificates import certificates, certified, outcome
 from checker.commands.codes import Exit
 from checker.commands.output import err, out
 from checker.commands.progress import Watch
-from checker.decide import Task, decide, tasks
+from checker.decide import tasks
 from checker.engine import Limits
 from checker.render.story import repeating
 from checker.result import Result
+from checker.searches import Doing, Over, searches
 from checker.trace import Trace
-from checker.verdict import Exhausted, Proved, Unknown, Verdict, Violated
+from checker.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
 from properties.catalogue import Expected, expected
 from properties.forms import Property
 from spec_model.lang.system import System
 
 SCHEMA = 1
 SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
-WORKERS = 2
 
 
 @dataclass(frozen=True)
@@ -50,6 +53,8 @@ class Compared:
 
     @property
     def code(self) -> Exit:
+        if isinstance(self.result.certificate, Rejected):
+            return Exit.INTERNAL
         if self.as_expected or (self.variant and isinstance(self.verdict, Proved)):
             return Exit.AS_EXPECTED
         return Exit.INCONCLUSIVE if isinstance(self.verdict, Unknown) else Exit.CHANGED
@@ -62,31 +67,31 @@ def length(verdict: Verdict) -> int | None:
 
 
 def results(
-    properties: Sequence[Property], systems: Mapping[str, System], engine: str, limits: Limits
+    properties: Sequence[Property],
+    systems: Mapping[str, System],
+    engine: str,
+    limits: Limits,
+    jobs: int | None = None,
+    certifying: Certifying | None = None,
 ) -> Iterator[Result]:
-    """Decide the properties, two searches at a time; results come as they are found.
+    """Decide the properties, several searches at a time; results come as they are found.
 
-    On Ctrl-C the searches under way are told to stop and ``KeyboardInterrupt`` is raised.
+    On Ctrl-C the searches under way are ended and ``KeyboardInterrupt`` is raised.
     """
-    todo = sorted(tasks(properties, systems), key=lambda t: (t.system.name, t.title))
-    with Watch(err, len(todo)) as watch:
-        pool = ThreadPoolExecutor(WORKERS)
-        try:
-            running = [pool.submit(_one, task, systems, engine, limits, watch) for task in todo]
-            for done in as_completed(running):
-                yield from done.result()
-        finally:
-            pool.shutdown(wait=False, cancel_futures=True)
-
-
-def _one(
-    task: Task, systems: Mapping[str, System], engine: str, limits: Limits, watch: Watch
-) -> list[Result]:
-    try:
-        found = decide(task, systems, engine, limits, lambda line: watch.say(task.title, line))
-        return [replace(one, in_part=_in_part(one, systems.get(one.system, task.system))) for one in found]
-    finally:
-        watch.finished(task.title)
+    # The largest first, so that no long search is left for the end; those of one system together.
+    todo = sorted(tasks(properties, systems), key=lambda t: (-t.size, t.system.name, t.title))
+    heard = searches(todo, systems, engine, limits, jobs, certifying)
+    with Watch(err, len(todo)) as watch, closing(heard):
+        for one in heard:
+            match one:
+                case Doing(task, line):
+                    watch.say(task.title, line)
+                case Over(task):
+                    watch.finished(task.title)
+                case Result():
+                    yield replace(
+                        one, in_part=_in_part(one, systems.get(one.system, systems[one.property.on]))
+                    )
 
 
 def _in_part(result: Result, system: System) -> bool:
@@ -103,6 +108,8 @@ def check(
     as_json: bool,
     variant: str = "",
     expect: Callable[[str], Expected] = expected,
+    jobs: int | None = None,
+    certifying: Certifying | None = None,
 ) -> Exit:
     """Print every verdict with its evidence and what the baseline says of it."""
     if not properties:
@@ -110,7 +117,7 @@ def check(
         return Exit.NOTHING
     found: list[Compared] = []
     try:
-        for result in results(properties, systems, engine, limits):
+        for result in results(properties, systems, engine, limits, jobs, certifying):
             found.append(Compared(result, expect(result.property.id), variant))
             if not as_json:
                 out.print(line(found[-1]), markup=False)
@@ -127,9 +134,9 @@ def check(
 
 
 def worst(found: Sequence[Compared]) -> Exit:
-    """A change outweighs an inconclusive search."""
+    """A bug of ours outweighs a change, and that an inconclusive search."""
     codes = {c.code for c in found}
-    for code in (Exit.CHANGED, Exit.INCONCLUSIVE):
+    for code in (Exit.INTERNAL, Exit.CHANGED, Exit.INCONCLUSIVE):
         if code in codes:
             return code
     return Exit.AS_EXPECTED
@@ -141,6 +148,7 @@ def line(compared: Compared) -> str:
     sign = "≈" if compared.result.in_part else SIGNS[verdict.word]
     word = "in part" if compared.result.in_part else verdict.word
     text = f"{sign} {compared.result.property.id:<21} {word:<8} {in_short(compared.result)}"
+    text += certified(compared.result.certificate)
     if compared.as_expected:
         return text + (", as on record" if verdict.word != "proved" else "")
     return text + f"\n    {_other(compared)} is {recorded(compared.expected)}"
@@ -157,20 +165,15 @@ def in_short(result: Result) -> str:
     match verdict:
         case Unknown(reason, depth):
             return f"after {depth} ticks of {system}: {reason}"
-        case Proved(Exhausted() as all_, _, claim):
-            return f"all {counted(all_)} of {system}" + (f", {claim}" if claim else "")
-        case Violated(Exhausted() as all_):
-            return f"in none of {counted(all_)} of {system}"
+        case Proved((Exhausted() | Inductive()) as evidence_, _, claim):
+            return f"{evidence_.how} of {system}" + (f", {claim}" if claim else "")
+        case Violated((Exhausted() | Inductive()) as evidence_):
+            return f"never: {evidence_.how} of {system}"
         case Proved(Trace() as trace):
             return f"reached in {ticks(trace)} of {system}"
         case Violated(Trace() as trace):
             return f"{ticks(trace)} of {system}"
     raise AssertionError(verdict)
-
-
-def counted(all_: Exhausted) -> str:
-    """``154 valuations``, and whether these are only the stored ones of those visited."""
-    return f"{all_.states:,} {'stored valuations (quiet ticks skipped)' if all_.skipped else 'valuations'}"
 
 
 def recorded(entry: Expected) -> str:
@@ -184,11 +187,12 @@ def evidence(result: Result) -> str:
     match verdict:
         case Unknown(reason, depth, engine):
             return f"{engine} on {result.system}, no counterexample within {depth} ticks: {reason}"
-        case Proved(Exhausted() as all_, engine, claim):
-            whole = f"{engine}: all {counted(all_)} of {result.system}, depth {all_.depth}"
+        case Proved((Exhausted() | Inductive()) as shown, engine, claim):
+            whole = f"{engine}: {shown.how} of {result.system}"
+            whole += f", depth {shown.depth}" if isinstance(shown, Exhausted) else ""
             return f"{whole}, {claim}" if claim else whole
-        case Violated(Exhausted() as all_, engine):
-            return f"{engine}: in none of all {counted(all_)} of {result.system}"
+        case Violated((Exhausted() | Inductive()) as shown, engine):
+            return f"{engine}: in none of {shown.how} of {result.system}"
         case Proved(Trace() as trace, engine):
             return f"{engine}: witness of {ticks(trace)} on {result.system}"
         case Violated(Trace() as trace, engine):
@@ -211,6 +215,7 @@ def summary(found: Sequence[Compared]) -> None:
     parts = sum(c.result.in_part for c in found)
     if parts:
         out.print(f"≈ {parts} of them for some runs only: see the notes of their systems.", markup=False)
+    certificates([c.result for c in found])
     if not changed:
         out.print("Every verdict is as on record in the baseline.")
         return
@@ -257,6 +262,7 @@ def _row(compared: Compared) -> dict[str, object]:
         "ticks": length(verdict),
         "expected": compared.expected.verdict,
         "as_expected": compared.as_expected,
+        "certificate": outcome(compared.result.certificate),
         "because": compared.expected.because,
     }
 

@@ -1,7 +1,7 @@
 """``rovercheck export``: properties as problems for other model checkers, a file each."""
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from checker.commands.codes import Exit, UsageError
@@ -44,7 +44,7 @@ def export(
 
 def _several(
     chosen: Sequence[Property],
-    systems: dict[str, System],
+    systems: Mapping[str, System],
     exporter: Exporter,
     variant: str,
     output: Path | None,

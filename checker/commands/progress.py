@@ -1,27 +1,25 @@
 """What a long command is doing: one line on a terminal, a line every ten seconds in a log."""
 
-from threading import Event, Lock
 from time import monotonic
 from types import TracebackType
 
 from rich.console import Console
 from rich.status import Status
 
-
-class Stopped(Exception):
-    """The user interrupted; work still under way stops at its next sign of life."""
+PAUSE = 10.0
+"""Seconds between two lines in a log."""
+NARROW = 20
+"""Columns that the line takes at least, however narrow the terminal says it is."""
 
 
 class Watch:
-    """Collects the progress of several tasks and shows it; ``with`` it around the work."""
+    """Shows what each search under way is doing; ``with`` it around the work."""
 
     def __init__(self, console: Console, total: int) -> None:
         self._console = console
         self._total = total
         self._done = 0
-        self._lines: dict[str, str] = {}
-        self._lock = Lock()
-        self._stop = Event()
+        self._doing: dict[str, str] = {}
         self._last = monotonic()
         self._status: Status | None = Status("starting", console=console) if console.is_terminal else None
 
@@ -33,31 +31,32 @@ class Watch:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        self._stop.set()
         if self._status:
             self._status.stop()
 
     def say(self, task: str, line: str) -> None:
-        """A sign of life from a task.  Raises ``Stopped`` once the user has interrupted."""
-        if self._stop.is_set():
-            raise Stopped
-        with self._lock:
-            self._lines[task] = line
-            self._show()
+        """A sign of life from a task."""
+        self._doing[task] = line
+        self._show()
 
     def finished(self, task: str) -> None:
-        with self._lock:
-            self._lines.pop(task, None)
-            self._done += 1
-            self._show()
+        """A task is over."""
+        self._doing.pop(task, None)
+        self._done += 1
+        self._show()
 
     def _show(self) -> None:
-        line = f"{self._done}/{self._total} searches done"
-        if self._lines:
-            task, doing = next(iter(self._lines.items()))
-            line += f" | {task}: {doing}"
         if self._status:
-            self._status.update(line[: max(20, self._console.width - 4)])
-        elif monotonic() - self._last >= 10:
+            self._status.update(self.line(max(NARROW, self._console.width - 4)))
+        elif monotonic() - self._last >= PAUSE:
             self._last = monotonic()
-            self._console.print(line)
+            self._console.print(self.line(), markup=False)
+
+    def line(self, width: int | None = None) -> str:
+        """How many searches are done, and what the others do, each with its share of the width."""
+        head = f"{self._done}/{self._total} searches done"
+        if width is None:
+            return " | ".join([head, *(f"{task}: {doing}" for task, doing in self._doing.items())])
+        room = (width - len(head)) // max(1, len(self._doing)) - len(" | ")
+        parts = (f"{task}: {doing}"[: max(0, room)] for task, doing in self._doing.items())
+        return " | ".join([head, *parts])[:width]

@@ -1,6 +1,6 @@
 """The pages on proposed repairs: what each changes in the charts, and the proof that it repairs."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from html import escape
@@ -60,7 +60,7 @@ def proofs() -> tuple[Proof, ...]:
 
 
 @cache
-def _specified() -> dict[str, System]:
+def _specified() -> Mapping[str, System]:
     return systems()
 
 

@@ -2,13 +2,15 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
+from checker.certifying import Certifying
 from checker.commands.codes import UsageError
 from checker.commands.output import err
 from checker.commands.select import pick
 from properties.catalogue import Expected, expected, read_by, under
 from properties.forms import Property, formulas
-from spec_model.lang.system import System
+from spec_model.lang.system import Assumption, System
 from spec_model.lang.walk import variables
 from spec_model.readings import ANY, fixed, readings
 from spec_model.repairs import Repair, proposals, repaired, touches
@@ -31,8 +33,10 @@ class Variant:
         dropped = f"without {', '.join(sorted(self.without))}" if self.without else ""
         return " ".join(part for part in (chosen and f"under {chosen}", repair, dropped) if part)
 
-    def systems(self) -> dict[str, System]:
+    def systems(self) -> Mapping[str, System]:
         """Every system by name, changed."""
+        if not self.without and self.repair is None:
+            return systems(self.choices)
         found = {name: system.without(self.without) for name, system in systems(self.choices).items()}
         if self.repair is None:
             return found
@@ -71,6 +75,11 @@ class Variant:
                 asked.append(prop)
         return asked
 
+    def certifying(self, folder: Path | None, again: bool) -> Certifying:
+        """What to do with the proofs, with a note of how the charts are changed."""
+        repair = self.repair.name if self.repair else ""
+        return Certifying(folder, again, dict(self.choices), repair, tuple(sorted(self.without)))
+
     def expected(self, id: str) -> Expected:
         """The verdict to compare with: what the repair promises, else the verdict on record."""
         if self.repair is not None and id in self.repair.fixes:
@@ -92,12 +101,15 @@ def _known(system: System) -> set[str]:
 def pick_variant(chosen: Sequence[str], repair: str | None, dropped: Sequence[str]) -> Variant:
     """The variant that the command line asks for.  Raises ``UsageError`` or ``ModelError``."""
     choices = _choices(chosen)
-    known = {a.id: a for system in systems(choices).values() for a in system.assumptions}
-    without = frozenset(pick("assumption", id, known).id for id in dropped)
+    without = frozenset(pick("assumption", id, _assumptions(choices)).id for id in dropped)
     if repair is None:
         return Variant(choices, None, without)
     found = pick("repair", repair, proposals())
     return Variant({**found.readings, **choices}, found, without)
+
+
+def _assumptions(choices: Mapping[str, str]) -> dict[str, Assumption]:
+    return {a.id: a for system in systems(choices).values() for a in system.assumptions}
 
 
 def _choices(chosen: Sequence[str]) -> dict[str, str]:

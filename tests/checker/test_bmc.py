@@ -8,7 +8,7 @@ from hypothesis import given, settings
 
 from checker.engine import Limits, engines, quiet
 from checker.engines import bmc
-from checker.engines.bmc.events import Bound, Found, Inductive, Undefined
+from checker.engines.bmc.events import Bound, Found, Undefined
 from checker.engines.bmc.search import search
 from checker.isolate import Send
 from checker.verdict import Open, Reached, Run
@@ -19,6 +19,7 @@ from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
 from tests import naive
 from tests.strategies_ts import goals, transition_systems
+from tests.toys import GOAL, overflowing
 
 
 def counter(most: int, *, saturate: bool = True) -> TransitionSystem:
@@ -38,7 +39,6 @@ def counter(most: int, *, saturate: bool = True) -> TransitionSystem:
 class Searched:
     found: dict[str, Run] = field(default_factory=dict)
     deep: dict[str, int] = field(default_factory=dict)
-    inductive: set[str] = field(default_factory=set)
 
 
 def searched(system: TransitionSystem, names: Sequence[str], most: int) -> Searched:
@@ -50,8 +50,6 @@ def searched(system: TransitionSystem, names: Sequence[str], most: int) -> Searc
                 result.found[goal] = run
             case Bound(goals_, depth):
                 result.deep |= dict.fromkeys(goals_, depth)
-            case Inductive(goal, _):
-                result.inductive.add(goal)
             case Undefined():
                 raise AssertionError(event)
     return result
@@ -65,7 +63,7 @@ def test_random_systems_against_a_naive_search(system: TransitionSystem) -> None
     for name in names:
         if shortest.get(name, most + 1) > most:
             assert name not in result.found
-            assert result.deep[name] == most or (name in result.inductive and name not in shortest)
+            assert result.deep[name] == most
         else:
             assert len(result.found[name]) == shortest[name]
             assert naive.replay(system, result.found[name])[-1][name]
@@ -76,7 +74,7 @@ def test_the_shortest_run_wherever_it_falls_in_a_block(most: int) -> None:
     system = counter(most)
     result = searched(system, ["full", "over"], 2 * most)
     assert len(result.found["full"]) == most and naive.replay(system, result.found["full"])[-1]["full"]
-    assert "over" in result.inductive or result.deep["over"] == 2 * most
+    assert "over" not in result.found and result.deep["over"] == 2 * most
 
 
 def test_it_is_found_by_being_there() -> None:
@@ -89,9 +87,13 @@ def test_the_engine_answers_for_every_goal() -> None:
     answers = bmc.check(system, wanted, Limits(depth=40, seconds=60), lines.append)
     reached = answers["full"]
     assert isinstance(reached, Reached) and reached.shortest and len(reached.run) == 12
-    over = answers["over"]
-    assert isinstance(over, Open) and over.depth == 40 and "any length" in over.reason
-    assert lines[-1] == "bmc: depth 6, 0 goals open, 2 decided"
+    assert answers["over"] == Open("no run of at most 40 ticks reaches it", 40)
+    assert lines[-1] == "bmc: depth 40, 1 goal open, 1 decided"
+
+
+def test_a_depth_that_nobody_asked_for_is_said() -> None:
+    answer = bmc.check(counter(3), [flag("over")], Limits(), quiet)["over"]
+    assert answer == Open("no run of at most 300 ticks reaches it, and no other depth was asked for", 300)
 
 
 def test_a_run_shorter_than_the_limit_is_not_reported_beyond_it() -> None:
@@ -114,6 +116,12 @@ def test_a_variable_that_leaves_its_domain_ends_the_search() -> None:
     answers = bmc.check(counter(5, saturate=False), [flag("full"), flag("over")], Limits(depth=9), quiet)
     assert isinstance(answers["full"], Reached)
     assert answers["over"] == Open("count may leave its domain in tick 6", 5)
+
+
+def test_a_variable_that_leaves_its_domain_counts_also_where_it_was_simplified_away() -> None:
+    """``count > 5`` is false as long as the domain is kept, and then mentions no counter any more."""
+    answer = bmc.check(overflowing(5), [GOAL], Limits(depth=9), quiet)["goal"]
+    assert answer == Open("count may leave its domain in tick 6", 5)
 
 
 def test_frozen_values_are_chosen_once() -> None:

@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmarks.roverlite import roverlite
+from checker.closed import ClosedSet
 from checker.encode.native import OutsideDomain
 from checker.engine import Limits, quiet
 from checker.engines import explicit
@@ -17,7 +18,7 @@ from spec_model.lang.domain import chosen, integer
 from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Op, Var, all_of, const, flag, ite, var
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
-from tests.naive import Searched, projected, replay, search
+from tests.naive import Searched, State, projected, replay, search
 from tests.strategies_ts import goals, transition_systems
 
 UNLIMITED = Limits()
@@ -26,6 +27,25 @@ UNLIMITED = Limits()
 def check(system: TransitionSystem, *wanted: Var, limits: Limits = UNLIMITED) -> list[Answer]:
     answers = explicit.check(system, wanted, limits, quiet)
     return [answers[g.name] for g in wanted]
+
+
+def exhausted(answer: Answer) -> Exhausted:
+    """The evidence of an exhausted search."""
+    assert isinstance(answer, Unreachable) and isinstance(answer.because, Exhausted)
+    return answer.because
+
+
+def unpacked(closed: ClosedSet) -> set[State]:
+    """The valuations of a closed set, read by its places alone."""
+    rows = [tuple(map(int, row)) for row in closed.words]
+    places = closed.places
+    return {
+        tuple(
+            (p.var.name, (row[p.word] >> p.shift & (1 << p.bits) - 1) * p.stride + p.var.domain.low)
+            for p in places
+        )
+        for row in rows
+    }
 
 
 def agrees(system: TransitionSystem, wanted: tuple[Var, ...], naive: Searched) -> None:
@@ -39,6 +59,8 @@ def agrees(system: TransitionSystem, wanted: tuple[Var, ...], naive: Searched) -
             case Unreachable(Exhausted() as because):
                 assert goal.name not in naive.reached
                 assert because.states == len(projected(naive.states, because.variables))
+                assert because.closed is not None
+                assert unpacked(because.closed) == projected(naive.states, because.variables)
             case _:
                 raise AssertionError(answer)
 
@@ -103,6 +125,17 @@ def test_a_time_limit_leaves_the_goal_open() -> None:
     assert answer.depth > 5
 
 
+def test_the_time_ends_in_the_middle_of_a_tick_with_very_many_inputs() -> None:
+    many = tuple(var(f"i{k}", integer(0, 9)) for k in range(12))
+    kept = tuple(var(f"k{k}", integer(0, 9)) for k in range(12))
+    end = flag("end")
+    step = (Assign(end, all_of(*(k == 9 for k in kept))), *map(Assign, kept, many))
+    system = TransitionSystem("many", many, (), (*kept, end), (), step)
+    answer = check(system, end, limits=Limits(seconds=0))[0]
+    assert isinstance(answer, Open) and answer.depth == 0
+    assert answer.reason.startswith("the time limit of 0 s is reached at ")
+
+
 def test_the_store_grows_and_forgets_nothing() -> None:
     system, end = counters(60, 60, 60)
     never = flag("never")
@@ -110,8 +143,8 @@ def test_the_store_grows_and_forgets_nothing() -> None:
         "", system.inputs, (), (*system.variables, never), (), (*system.step, Assign(never, end & ~end))
     )
     (answer,) = check(whole, never)
-    assert isinstance(answer, Unreachable)
-    assert answer.because == Exhausted(61**3, answer.because.transitions, 60, answer.because.variables)
+    found = exhausted(answer)
+    assert found == Exhausted(61**3, found.transitions, 60, found.variables)
 
 
 def test_progress_is_reported() -> None:
@@ -138,7 +171,7 @@ def test_valuations_of_several_words(parts: int) -> None:
     never, odd = flag("never"), all_of(*(~(w == 0) & ~(w == 5) & (w < 7) for w in wide))
     system = TransitionSystem("wide", (source,), (), (*wide, never), (), (Assign(never, odd), *moves))
     (answer,) = check(system, never)
-    assert isinstance(answer, Unreachable) and answer.because.states == 3**parts
+    assert exhausted(answer).states == 3**parts
 
 
 def test_many_bits_in_many_variables() -> None:
@@ -164,7 +197,7 @@ def test_valuations_with_the_same_hash_are_told_apart() -> None:
     never = flag("never")
     program = (Assign(never, (a == 1) & (b == 1)), Assign(a, const(first)), Assign(b, const(_mix(first))))
     (answer,) = check(TransitionSystem("", (), (), (a, b, never), (), program), never)
-    assert isinstance(answer, Unreachable) and answer.because.states == 2
+    assert exhausted(answer).states == 2
 
 
 def _mix(word: int) -> int:
@@ -202,7 +235,7 @@ def test_inputs_that_are_not_read_cost_nothing() -> None:
     many = tuple(var(f"i{k}", integer(0, 99)) for k in range(12))
     system, goal = with_goal(many, all_of(*(v > 99 for v in many)))
     (answer,) = check(system, goal)
-    assert isinstance(answer, Unreachable) and answer.because.transitions < 1000
+    assert exhausted(answer).transitions < 1000
 
 
 def test_traces_are_calm() -> None:
@@ -232,7 +265,7 @@ def test_an_assumption_that_nothing_meets_blocks_every_tick() -> None:
     for assume in (a > 9, FALSE, (a > 3) & (a < 2)):
         system, goal = with_goal((a,), TRUE, assume)
         (answer,) = check(system, goal)
-        assert isinstance(answer, Unreachable) and answer.because.states == 1
+        assert exhausted(answer).states == 1
 
 
 def test_frozen_variables_are_part_of_the_valuation() -> None:
@@ -244,7 +277,7 @@ def test_frozen_variables_are_part_of_the_valuation() -> None:
     never = flag("never")
     more = (*program, Assign(never, (count > limit)))
     (answer,) = check(TransitionSystem("", (), (limit,), (count, reached, never), (), more), never)
-    assert isinstance(answer, Unreachable) and answer.because.states == 4 + 5 + 6 + 7
+    assert exhausted(answer).states == 4 + 5 + 6 + 7
 
 
 def test_more_goals_than_bits_in_a_word() -> None:
@@ -267,7 +300,7 @@ def test_roverlite_has_as_many_valuations_as_in_c(parts: int, k: int, states: in
     system, wanted = roverlite(parts, k)
     never = next(g for g in wanted if g.name == "broken")
     (answer,) = check(system, never)
-    assert isinstance(answer, Unreachable) and answer.because.states == states
+    assert exhausted(answer).states == states
 
 
 def test_roverlite_fails_after_as_many_ticks_as_in_c() -> None:

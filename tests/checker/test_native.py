@@ -44,7 +44,7 @@ def compiled(expr: Expr) -> Callable[[dict[str, int]], int]:
         slots[v.name] = Slot(place, Interval(v.domain.low, v.domain.high))
     emit = Expressions(build, slots)
     build.ret(emit.as_int(emit.value(expr)))
-    library = Library(module)
+    library = Library.of(module)
     call = library.function("formula", ctypes.c_int64, [ctypes.c_void_p])
 
     def run(at: dict[str, int]) -> int:

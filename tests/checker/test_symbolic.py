@@ -5,16 +5,17 @@ import random
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.encode.cone import cone, constants, folded
+from checker.encode.cone import cone, constants, folded, settled
 from checker.encode.intervals import intervals, postorder
 from checker.encode.symbolic import transition
 from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import enumeration, integer
-from spec_model.lang.evaluate import evaluate, step
+from spec_model.lang.domain import boolean, enumeration, integer
+from spec_model.lang.evaluate import admissible, evaluate, step
 from spec_model.lang.expr import TRUE, Var, flag, ite, var
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import nodes
 from spec_model.lang.words import minimum
+from tests.naive import search, vectors
 from tests.strategies_ts import goals, transition_systems
 
 
@@ -50,6 +51,8 @@ def test_the_cone_computes_its_goals_alone(system: TransitionSystem, seed: rando
     mine = {n: x for n, x in at.items() if n in inside}
     for _ in range(4):
         inputs = some(system.inputs, seed)
+        if not admissible(system, at, inputs):
+            continue
         here = {n: x for n, x in inputs.items() if n in inside}
         mine = {**mine, **{n: evaluate(e, {**mine, **here}) for n, e in part.next.items()}}
         at = {n: x for n, x in step(system, at, inputs).items() if n not in inputs}
@@ -114,3 +117,37 @@ def test_children_come_before_parents() -> None:
     assert all(
         order[id(child)] < order[id(node)] for node in postorder(expr) for child in getattr(node, "args", ())
     )
+
+
+# --- folding --------------------------------------------------------------------------------------
+
+
+@settings(max_examples=60)
+@given(transition_systems())
+def test_what_is_folded_away_never_changes(system: TransitionSystem) -> None:
+    """On every reachable valuation, under the assumption, the folded formulas give what a tick gives."""
+    whole = folded(transition(system))
+    for state in sorted(search(system, ()).states)[:40]:
+        at = dict(state)
+        for inputs in vectors(system.inputs):
+            if admissible(system, at, inputs):
+                after = step(system, at, inputs)
+                assert all(evaluate(e, {**at, **inputs}) == after[n] for n, e in whole.next.items())
+
+
+def test_an_input_that_the_assumption_settles_is_folded_away() -> None:
+    stops, reading, mode = flag("stops"), var("reading", integer(0, 9)), var("mode", integer(0, 3))
+    runs, level, goal = var("runs", boolean, True), var("level", integer(0, 9)), flag("goal")
+    steps = (
+        Assign(runs, runs & ~stops),
+        Assign(level, reading),
+        Assign(goal, ~runs | (level == 4) | (mode > 2)),
+    )
+    assumed = ~stops & (reading == 5) & (mode != 0)
+    system = TransitionSystem("settled", (stops, reading, mode), (), (runs, level, goal), (), steps, assumed)
+    whole = transition(system)
+    assert settled(whole) == {"stops": 0, "reading": 5}
+    assert constants(whole) == {"runs": 1}
+    part = cone(folded(whole), ["goal"])
+    assert [v.name for v in part.inputs] == ["mode"] and [v.name for v in part.variables] == ["goal"]
+    assert {str(e) for e in part.loose} == {"!stops", "reading == 5"}

@@ -1,16 +1,19 @@
-"""Native code for the explicit search: made with LLVM in memory, no compiler needed."""
+"""Native code for the explicit search: made with LLVM, no compiler needed, and kept on disk."""
 
 import ctypes
+from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any
+from math import prod
+from typing import Any, Literal
 
 import numpy as np
 from llvmlite import ir
 from numpy.typing import NDArray
 
+from checker.encode.native import cache
 from checker.encode.native.expressions import TooWide
-from checker.encode.native.jit import Library
-from checker.encode.native.layout import Layout, OutsideDomain, layout
+from checker.encode.native.jit import Level, Library, object_code
+from checker.encode.native.layout import Field, Layout, OutsideDomain, layout
 from checker.encode.native.quiet import Shift, moved_on, shifts
 from checker.encode.native.retrace import LEAVE_DOMAIN, REACH_TARGET, UNREAD, add_retrace
 from checker.encode.native.search import BATCH, Status, Task, add_search
@@ -25,7 +28,9 @@ __all__ = [
     "LEAVE_DOMAIN",
     "REACH_TARGET",
     "UNREAD",
+    "Field",
     "Layout",
+    "Level",
     "NativeRetrace",
     "NativeSearch",
     "OutsideDomain",
@@ -43,23 +48,32 @@ def _address(array: NDArray[Any]) -> ctypes.c_void_p:
     return ctypes.c_void_p(array.ctypes.data)
 
 
-@dataclass(frozen=True)
+@dataclass
 class NativeSearch:
-    """The compiled search: ``search``, ``rehash`` and ``known`` on arrays that the caller owns."""
+    """The compiled search: ``search``, ``rehash`` and ``known`` on arrays that the caller owns.
 
-    library: Library
+    The code may change between two calls (see ``improve``): what it works on is all in the arrays.
+    """
+
     task: Task
+    library: Library
+    level: Level
 
     @staticmethod
     def compile(task: Task) -> "NativeSearch":
-        """Compile for a task.  Raises ``TooWide`` where 64 bits do not suffice."""
-        module = ir.Module("search")
-        table = Table(module, task.layout.words)
-        store = table.store()
-        table.rehash()
-        table.known()
-        add_search(module, task, table, store)
-        return NativeSearch(Library(module), task)
+        """Compile for a task in little time, or take better code from the cache.
+
+        Raises ``TooWide`` where 64 bits do not suffice.
+        """
+        fast = _kept("search", task, Level.FAST)
+        if fast is not None:
+            return NativeSearch(task, Library(fast), Level.FAST)
+        return NativeSearch(task, Library(_code("search", task, Level.QUICK)), Level.QUICK)
+
+    def improve(self) -> None:
+        """Compile to code that runs fast, unless that was done."""
+        if self.level is not Level.FAST:
+            self.library, self.level = Library(_code("search", self.task, Level.FAST)), Level.FAST
 
     def search(self, *arrays: NDArray[Any]) -> Status:
         """context, words, parents, table, buffer, origins, hits: see ``search.add_search``."""
@@ -70,29 +84,32 @@ class NativeSearch:
         """Enter the first ``count`` stored valuations into an empty table."""
         types = [ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64]
         call = self.library.function("rehash", None, types)
-        call(_address(table), len(table) - 1, _address(words), count)
+        call(_address(table), len(table), _address(words), count)
 
     def known(self, table: Words, words: Words, asked: Words) -> NDArray[np.bool_]:
         """Which of the valuations asked about are stored."""
         found: NDArray[np.int64] = np.zeros(len(asked), dtype=np.int64)
         types = [ctypes.c_void_p, ctypes.c_int64, *[ctypes.c_void_p] * 2, ctypes.c_int64, ctypes.c_void_p]
         call = self.library.function("known", None, types)
-        call(_address(table), len(table) - 1, _address(words), _address(asked), len(asked), _address(found))
+        call(_address(table), len(table), _address(words), _address(asked), len(asked), _address(found))
         return found.astype(np.bool_)
+
+
+_MANY = 1 << 14
+"""Combinations of cells from which on retracing a tick is worth code that runs fast."""
 
 
 @dataclass(frozen=True)
 class NativeRetrace:
     """The compiled search for the inputs of one tick."""
 
-    library: Library
     task: Task
+    library: Library
 
     @staticmethod
     def compile(task: Task) -> "NativeRetrace":
-        module = ir.Module("retrace")
-        add_retrace(module, task)
-        return NativeRetrace(Library(module), task)
+        many = prod(len(p.cells) for p in task.cells.values()) >= _MANY
+        return NativeRetrace(task, Library(_code("retrace", task, Level.FAST if many else Level.QUICK)))
 
     def inputs(self, before: Words, target: Words, wanted: int) -> dict[str, int]:
         """The inputs read on a path from ``before`` that fits, by name.  Raises ``LookupError``."""
@@ -104,3 +121,39 @@ class NativeRetrace:
             raise LookupError("no inputs lead from one stored valuation to the next")
         values = zip(self.task.system.inputs, chosen, strict=False)
         return {v.name: int(raw) for v, raw in values if raw != UNREAD}
+
+
+# --- compiling, or not again -------------------------------------------------------------------------
+
+Kind = Literal["search", "retrace"]
+
+
+def _kept(kind: Kind, task: Task, level: Level) -> bytes | None:
+    """The code from the cache, if it is there."""
+    with suppress(OSError):
+        return cache.read(f"{task.key}-{kind}-{level}")
+    return None  # the sources cannot be read: nothing says what code was made by
+
+
+def _code(kind: Kind, task: Task, level: Level) -> bytes:
+    """The code from the cache, or compiled and kept there."""
+    code = _kept(kind, task, level)
+    if code is None:
+        code = object_code(assembly(kind, task), level)
+        with suppress(OSError):
+            cache.write(f"{task.key}-{kind}-{level}", code)
+    return code
+
+
+def assembly(kind: Kind, task: Task) -> str:
+    """The module of that kind in LLVM's assembly language."""
+    module = ir.Module(kind)
+    if kind == "search":
+        table = Table(module, task.layout.words, ordered=not task.shifts)
+        store = table.store()
+        table.rehash()
+        table.known()
+        add_search(module, task, table, store)
+    else:
+        add_retrace(module, task)
+    return str(module)

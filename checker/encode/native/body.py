@@ -35,6 +35,8 @@ class Body:
         self.depth, self.next = self.local(_NUMBER, "depth"), self.local(_NUMBER, "next")
         self.position, self.count = (self.local(ir.ArrayType(_NUMBER, most), n) for n in ("at", "of"))
         self.back = finished
+        self.before: dict[str, Slot] = {}
+        """What the slots were that have been written since the start of the innermost branch."""
 
     def local(self, type_: Any, name: str) -> Any:
         """A local variable of the function."""
@@ -49,9 +51,10 @@ class Body:
 
     def put(self, var: Var, code: Any, within: Interval) -> None:
         """Store a value of the variable's type."""
-        place = self.slots[var.name].place
-        self.builder.store(code, place)
-        self.slots[var.name] = Slot(place, within)
+        old = self.slots[var.name]
+        self.before.setdefault(var.name, old)
+        self.builder.store(code, old.place)
+        self.slots[var.name] = Slot(old.place, within)
 
     def reset(self, variables: Iterable[Var]) -> None:
         """Give each variable its initial value."""
@@ -87,21 +90,30 @@ class Body:
     # --- statements ------------------------------------------------------------------------------
 
     def _branch(self, condition: Any, then: PathProgram, otherwise: PathProgram) -> None:
-        build = self.builder
-        blocks = [build.append_basic_block(n) for n in ("then", "else", "join")]
-        build.cbranch(condition, blocks[0], blocks[1])
-        before = dict(self.slots)
-        build.position_at_end(blocks[0])
-        self.run(then)
-        build.branch(blocks[2])
-        after_then = dict(self.slots)
-        self.slots.update(before)
-        build.position_at_end(blocks[1])
-        self.run(otherwise)
-        build.branch(blocks[2])
-        build.position_at_end(blocks[2])
-        for name, slot in after_then.items():
-            self.slots[name] = Slot(slot.place, slot.within | self.slots[name].within)
+        join = self.builder.append_basic_block("join")
+        starts = [self.builder.append_basic_block("side") if p else join for p in (then, otherwise)]
+        self.builder.cbranch(condition, *starts)
+        then_ends = self._alternative(then, starts[0], join)
+        else_ends = self._alternative(otherwise, starts[1], join)
+        self.builder.position_at_end(join)
+        for name in then_ends | else_ends:
+            slot = self.slots[name]
+            one, other = then_ends.get(name, slot), else_ends.get(name, slot)
+            self.before.setdefault(name, slot)
+            self.slots[name] = Slot(slot.place, one.within | other.within)
+
+    def _alternative(self, program: PathProgram, start: Any, join: Any) -> dict[str, Slot]:
+        """Emit one side of a branch; the slots it has written, which are then as before it."""
+        if start is join:
+            return {}
+        outer, self.before = self.before, {}
+        self.builder.position_at_end(start)
+        self.run(program)
+        self.builder.branch(join)
+        written = {name: self.slots[name] for name in self.before}
+        self.slots.update(self.before)
+        self.before = outer
+        return written
 
     def _require(self, condition: Any) -> None:
         holds = self.builder.append_basic_block("holds")

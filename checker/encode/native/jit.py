@@ -1,11 +1,20 @@
-"""Compiling LLVM code in memory for the processor at hand."""
+"""From LLVM code to functions that Python can call, for the processor at hand."""
 
 import ctypes
 from collections.abc import Sequence
+from enum import StrEnum
 from functools import cache
 from typing import Any
 
+import llvmlite
 from llvmlite import binding, ir
+
+
+class Level(StrEnum):
+    """How well code is compiled: in little time, or to run fast."""
+
+    QUICK = "quick"
+    FAST = "fast"
 
 
 @cache
@@ -18,36 +27,62 @@ def _initialised() -> None:
 str(ir.Constant(ir.ArrayType(ir.IntType(8), 1), bytearray(b"x")))
 
 
-def _machine() -> Any:
-    """A description of this processor; the engine that is made with it owns it."""
+@cache
+def processor() -> str:
+    """The versions of LLVM and its binding, the processor and its features."""
     _initialised()
+    llvm = ".".join(map(str, binding.llvm_version_info))
     features = binding.get_host_cpu_features().flatten()
-    target = binding.Target.from_default_triple()
-    return target.create_target_machine(cpu=binding.get_host_cpu_name(), features=features, opt=2)
+    name = f"{binding.get_default_triple()} {binding.get_host_cpu_name()}"
+    return f"{llvmlite.__version__} {llvm} {name} {features}"
+
+
+def _machine(level: Level) -> Any:
+    """A description of this processor."""
+    _initialised()
+    return binding.Target.from_default_triple().create_target_machine(
+        cpu=binding.get_host_cpu_name(),
+        features=binding.get_host_cpu_features().flatten(),
+        opt=2 if level is Level.FAST else 0,
+        codemodel="jitdefault",
+    )
+
+
+def object_code(text: str, level: Level) -> bytes:
+    """A module in LLVM's assembly language, compiled."""
+    machine = _machine(level)
+    parsed = binding.parse_assembly(text)
+    parsed.triple, parsed.data_layout = machine.triple, str(machine.target_data)
+    parsed.verify()
+    if level is Level.FAST:
+        options = binding.create_pipeline_tuning_options(speed_level=1)
+        passes = binding.create_pass_builder(machine, options)
+        passes.getModulePassManager().run(parsed, passes)
+    return bytes(machine.emit_object(parsed))
 
 
 class Library:
-    """The compiled functions of a module; keep it as long as they are called."""
+    """The functions of compiled code; keep it as long as they are called."""
 
-    def __init__(self, module: ir.Module) -> None:
-        machine = _machine()
-        module.triple, module.data_layout = machine.triple, str(machine.target_data)
-        parsed = binding.parse_assembly(str(module))
-        parsed.verify()
-        _optimise(parsed, machine)
-        self.engine = binding.create_mcjit_compiler(parsed, machine)
+    def __init__(self, code: bytes) -> None:
+        machine = _machine(Level.QUICK)
+        empty = binding.parse_assembly("")
+        empty.triple = machine.triple
+        self.engine = binding.create_mcjit_compiler(empty, machine)
+        self.engine.add_object_file(binding.ObjectFileRef.from_data(code))
         self.engine.finalize_object()
         self.functions: dict[str, Any] = {}
+
+    @staticmethod
+    def of(module: ir.Module, level: Level = Level.FAST) -> "Library":
+        """A module compiled."""
+        return Library(object_code(str(module), level))
 
     def function(self, name: str, result: Any, arguments: Sequence[Any]) -> Any:
         """A function as a callable, with ctypes types; calls release the interpreter's lock."""
         if name not in self.functions:
             address = self.engine.get_function_address(name)
+            if not address:
+                raise LookupError(f"The compiled code holds no function {name}.")
             self.functions[name] = ctypes.CFUNCTYPE(result, *arguments)(address)
         return self.functions[name]
-
-
-def _optimise(parsed: Any, machine: Any) -> None:
-    options = binding.create_pipeline_tuning_options(speed_level=1)
-    passes = binding.create_pass_builder(machine, options)
-    passes.getModulePassManager().run(parsed, passes)

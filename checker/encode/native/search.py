@@ -3,15 +3,18 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import IntEnum
+from functools import cached_property
 from typing import Any
 
 from checker.encode.intervals import Interval
 from checker.encode.native.body import Body
 from checker.encode.native.expressions import BIT, INT, Slot
+from checker.encode.native.fingerprint import fingerprint
 from checker.encode.native.layout import Field, Layout
 from checker.encode.native.quiet import Shift, emit_moved_on
 from checker.encode.native.table import CONTEXT, NUMBER, NUMBERS, WORDS, Table, context, function
-from checker.encode.paths import PathProgram, assigned, saved
+from checker.encode.paths import PathProgram, assigned, path_program, saved
+from checker.partition import Partition, partitions
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 
@@ -30,20 +33,35 @@ class Status(IntEnum):
     OUTSIDE = 2
     TOO_MANY = 3
     DECIDED = 4
+    STOPPED = 5
 
 
 @dataclass(frozen=True)
 class Task:
-    """What is compiled: the sliced system, its packed valuation, its paths and the goals.
+    """What is compiled: the sliced system, its packed valuation and the goals.
 
     With ``shifts`` the result of a quiet tick is not stored (see ``add_search``).
     """
 
     system: TransitionSystem
     layout: Layout
-    paths: PathProgram
     goals: tuple[Var, ...]
     shifts: tuple[Shift, ...] = ()
+
+    @cached_property
+    def cells(self) -> dict[str, Partition]:
+        """The cells of each input, by name."""
+        return partitions(self.system)
+
+    @cached_property
+    def paths(self) -> PathProgram:
+        """The paths of a tick."""
+        return path_program(self.system, self.cells)
+
+    @cached_property
+    def key(self) -> str:
+        """What determines the code.  Raises ``OSError`` where that cannot be told."""
+        return fingerprint(self.system, self.layout, self.goals, self.shifts)
 
     @property
     def live_at_end(self) -> frozenset[str]:
@@ -64,7 +82,7 @@ def add_search(module: Any, task: Task, table: Table, store: Any) -> None:
 class _Search:
     def __init__(self, module: Any, task: Task, table: Table, store: Any) -> None:
         self.task, self.table, self.store = task, table, store
-        arguments = {"context": WORDS, "words": WORDS, "parents": NUMBERS, "table": WORDS}
+        arguments = {"context": WORDS, "words": WORDS, "parents": table.parents, "table": WORDS}
         arguments |= {"buffer": WORDS, "origins": NUMBERS, "hits": WORDS}
         if task.shifts:
             arguments |= {"frontier": WORDS, "anchors": NUMBERS, "onward": WORDS, "carried": NUMBERS}
@@ -202,6 +220,9 @@ class _Search:
         many = build.icmp_signed(">", build.load(self.tried), INT(MOST_SUCCESSORS))
         with build.if_then(many, likely=False):
             self.leave(Status.TOO_MANY)
+        told = build.icmp_signed("!=", self.get("stop"), INT(0))
+        with build.if_then(told, likely=False):
+            self.leave(Status.STOPPED)
 
     def _goals(self) -> None:
         build = self.build

@@ -3,6 +3,10 @@
 Valuations lie in arrival order in ``words`` with their parents in ``parents``.  With one word the
 table holds the word + 1 itself (0 marks an empty place).  With more it holds the number of the
 valuation + 1 and, above it, 32 bits of its hash, so that most others are told apart in place.
+
+A breadth-first search finds valuations in the order of their parents, so two bits for each are enough
+(P. Elias, "Efficient storage and retrieval by content and address of static files", 1974): bit
+i + parent(i) is set for the i-th valuation.  Where parents come in any order they are plain numbers.
 """
 
 from dataclasses import dataclass
@@ -15,19 +19,23 @@ from checker.encode.native.expressions import BIT, INT
 NUMBER = ir.IntType(32)
 WORDS = INT.as_pointer()
 NUMBERS = NUMBER.as_pointer()
+BYTE = ir.IntType(8)
+BYTES = BYTE.as_pointer()
+_DOUBLE = ir.IntType(128)
 
 CONTEXT = (
     "next",
     "last",
     "count",
     "room",
-    "mask",
+    "size",
     "transitions",
     "budget",
     "pending",
     "filled",
     "drained",
     "lines",
+    "stop",
 )
 """Numbers shared with Python, in this order, as signed 64-bit integers."""
 
@@ -96,13 +104,16 @@ class _Found:
 
 
 class Table:
-    """Emits ``store`` (insert a batch of successors) and ``rehash`` (fill a larger table)."""
+    """Emits ``store`` (insert a batch of successors) and ``rehash`` (fill a larger table).
 
-    def __init__(self, module: Any, words: int) -> None:
-        self.module, self.words = module, words
-        pointer = ir.IntType(8).as_pointer()
+    ``ordered``: parents come in ascending order.
+    """
+
+    def __init__(self, module: Any, words: int, ordered: bool = True) -> None:
+        self.module, self.words, self.ordered = module, words, ordered
+        self.parents = BYTES if ordered else NUMBERS
         self.prefetch = module.declare_intrinsic(
-            "llvm.prefetch", (pointer,), ir.FunctionType(ir.VoidType(), [pointer, NUMBER, NUMBER, NUMBER])
+            "llvm.prefetch", (BYTES,), ir.FunctionType(ir.VoidType(), [BYTES, NUMBER, NUMBER, NUMBER])
         )
 
     def store(self) -> Any:
@@ -115,7 +126,7 @@ class Table:
             {
                 "context": WORDS,
                 "words": WORDS,
-                "parents": NUMBERS,
+                "parents": self.parents,
                 "table": WORDS,
                 "buffer": WORDS,
                 "origins": NUMBERS,
@@ -123,14 +134,14 @@ class Table:
         )
         made.attributes.add("noinline")
         places = {name: context(build, a["context"], name) for name in CONTEXT}
-        mask, room = build.load(places["mask"]), build.load(places["room"])
+        size, room = build.load(places["size"]), build.load(places["room"])
         filled, drained = build.load(places["filled"]), build.load(places["drained"])
         count = _local(build, INT)
         build.store(build.load(places["count"]), count)
         with Loop(build, drained, filled) as i:
-            self._prefetch_later(build, a, mask, i, filled)
+            self._prefetch_later(build, a, size, i, filled)
             key = self.load(build, a["buffer"], i)
-            found = self._probe(build, a, key, mask, new=False)
+            found = self._probe(build, a, key, size, new=False)
             with build.if_then(found.empty):
                 full = build.icmp_signed(">=", build.load(count), room)
                 with build.if_then(full, likely=False):
@@ -138,42 +149,42 @@ class Table:
                     build.store(build.load(count), places["count"])
                     build.ret(INT(1))
                 index = self._append(build, a, key, found, count)
-                build.store(build.load(build.gep(a["origins"], [i])), build.gep(a["parents"], [index]))
+                self._note_parent(build, a["parents"], index, build.load(build.gep(a["origins"], [i])))
         for name, value in (("count", build.load(count)), ("filled", INT(0)), ("drained", INT(0))):
             build.store(value, places[name])
         build.ret(INT(0))
         return made
 
     def rehash(self) -> Any:
-        """``rehash(table, mask, words, count)``: enter the stored valuations into an empty table."""
+        """``rehash(table, size, words, count)``: enter the stored valuations into an empty table."""
         made, a, build = function(
             self.module,
             "rehash",
             ir.VoidType(),
             {
                 "table": WORDS,
-                "mask": INT,
+                "size": INT,
                 "words": WORDS,
                 "count": INT,
             },
         )
         with Loop(build, INT(0), a["count"]) as i:
-            self._prefetch_later(build, {**a, "buffer": a["words"]}, a["mask"], i, a["count"])
+            self._prefetch_later(build, {**a, "buffer": a["words"]}, a["size"], i, a["count"])
             key = self.load(build, a["words"], i)
-            found = self._probe(build, a, key, a["mask"], new=True)
+            found = self._probe(build, a, key, a["size"], new=True)
             build.store(self._entry(build, key, found.hashed, i), found.place)
         build.ret_void()
         return made
 
     def known(self) -> Any:
-        """``known(table, mask, words, asked, count, found)``: which of the valuations are stored."""
+        """``known(table, size, words, asked, count, found)``: which of the valuations are stored."""
         made, a, build = function(
             self.module,
             "known",
             ir.VoidType(),
             {
                 "table": WORDS,
-                "mask": INT,
+                "size": INT,
                 "words": WORDS,
                 "asked": WORDS,
                 "count": INT,
@@ -181,8 +192,8 @@ class Table:
             },
         )
         with Loop(build, INT(0), a["count"]) as i:
-            self._prefetch_later(build, {**a, "buffer": a["asked"]}, a["mask"], i, a["count"])
-            place = self._probe(build, a, self.load(build, a["asked"], i), a["mask"], new=False)
+            self._prefetch_later(build, {**a, "buffer": a["asked"]}, a["size"], i, a["count"])
+            place = self._probe(build, a, self.load(build, a["asked"], i), a["size"], new=False)
             build.store(build.zext(build.not_(place.empty), INT), build.gep(a["found"], [i]))
         build.ret_void()
         return made
@@ -210,31 +221,33 @@ class Table:
     def _mix(self, build: Any, x: Any) -> Any:
         return build.mul(build.xor(x, build.lshr(x, INT(32))), INT(_MULTIPLIER))
 
-    def _home(self, build: Any, hashed: Any, mask: Any) -> Any:
-        return build.and_(build.xor(hashed, build.lshr(hashed, INT(32))), mask)
+    def _home(self, build: Any, hashed: Any, size: Any) -> Any:
+        """Where to look first: the hash scaled down from 64 bits to a table of any size."""
+        product = build.mul(build.zext(hashed, _DOUBLE), build.zext(size, _DOUBLE))
+        return build.trunc(build.lshr(product, _DOUBLE(64)), INT)
 
-    def _prefetch_later(self, build: Any, a: dict[str, Any], mask: Any, i: Any, filled: Any) -> None:
+    def _prefetch_later(self, build: Any, a: dict[str, Any], size: Any, i: Any, filled: Any) -> None:
         later = build.add(i, INT(_AHEAD))
         with build.if_then(build.icmp_signed("<", later, filled)):
-            home = self._home(build, self.hash(build, self.load(build, a["buffer"], later)), mask)
-            place = build.bitcast(build.gep(a["table"], [home]), ir.IntType(8).as_pointer())
+            home = self._home(build, self.hash(build, self.load(build, a["buffer"], later)), size)
+            place = build.bitcast(build.gep(a["table"], [home]), BYTES)
             build.call(self.prefetch, [place, NUMBER(1), NUMBER(3), NUMBER(1)])
 
     def _entry(self, build: Any, key: list[Any], hashed: Any, index: Any) -> Any:
         """What the table holds for a valuation."""
         if self.words == 1:
             return build.add(key[0], INT(1))
-        mark = build.and_(hashed, INT(-1 << 32))
+        mark = build.shl(hashed, INT(32))  # the low bits: the high ones say where to look
         return build.or_(mark, build.add(index, INT(1)))
 
-    def _probe(self, build: Any, a: dict[str, Any], key: list[Any], mask: Any, new: bool) -> _Found:
+    def _probe(self, build: Any, a: dict[str, Any], key: list[Any], size: Any, new: bool) -> _Found:
         """Where a valuation is in the table, or the empty place where it belongs.
 
         ``new``: it is known not to be there.
         """
         hashed = self.hash(build, key)
         at = _local(build, INT)
-        build.store(self._home(build, hashed, mask), at)
+        build.store(self._home(build, hashed, size), at)
         probe, taken, other, found = (
             build.append_basic_block(n) for n in ("probe", "taken", "other", "found")
         )
@@ -247,7 +260,8 @@ class Table:
         build.position_at_end(taken)
         build.cbranch(BIT(0) if new else self._same(build, a, entry, key, hashed), found, other)
         build.position_at_end(other)
-        build.store(build.and_(build.add(build.load(at), INT(1)), mask), at)
+        following = build.add(build.load(at), INT(1))
+        build.store(build.select(build.icmp_unsigned("==", following, size), INT(0), following), at)
         build.branch(probe)
         build.position_at_end(found)
         return _Found(place, empty, hashed)
@@ -257,8 +271,8 @@ class Table:
             return build.icmp_unsigned("==", entry, build.add(key[0], INT(1)))
         result = _local(build, BIT)
         build.store(BIT(0), result)
-        high = INT(32)
-        alike = build.icmp_unsigned("==", build.lshr(entry, high), build.lshr(hashed, high))
+        mark = build.and_(hashed, INT((1 << 32) - 1))
+        alike = build.icmp_unsigned("==", build.lshr(entry, INT(32)), mark)
         with build.if_then(alike):
             number = build.sub(build.and_(entry, INT((1 << 32) - 1)), INT(1))
             stored = self.load(build, a["words"], number)
@@ -275,3 +289,12 @@ class Table:
         self.save(build, a["words"], index, key)
         build.store(build.add(index, INT(1)), count)
         return index
+
+    def _note_parent(self, build: Any, parents: Any, index: Any, origin: Any) -> None:
+        if not self.ordered:
+            build.store(origin, build.gep(parents, [index]))
+            return
+        at = build.add(index, build.zext(origin, INT))
+        place = build.gep(parents, [build.lshr(at, INT(3))])
+        bit = build.shl(BYTE(1), build.trunc(build.and_(at, INT(7)), BYTE))
+        build.store(build.or_(build.load(place), bit), place)

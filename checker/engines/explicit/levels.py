@@ -2,8 +2,10 @@
 
 from bisect import bisect_right
 from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import product
+from threading import Timer
 from time import monotonic
 from typing import Any
 
@@ -12,7 +14,12 @@ from numpy.typing import NDArray
 
 from checker.encode.native import CONTEXT, NativeSearch, Status, Task
 from checker.engine import Limits, Progress
+from checker.engines.explicit.advice import Advisor, Multiplier
+from checker.engines.explicit.parents import Unary
 from checker.engines.explicit.store import Store
+
+QUICK_TRANSITIONS = 1 << 18
+"""Transitions tried before the code is compiled again to run fast: most searches end before."""
 
 _PAUSE = 0.2
 _REPORT = 0.7
@@ -32,7 +39,7 @@ class Found:
     levels: tuple[int, ...]
     starts: tuple[int, ...]
     words: NDArray[np.uint64]
-    parents: NDArray[np.uint32]
+    parents: Unary | NDArray[np.uint32]
     initial: int
     states: int
     transitions: int
@@ -56,6 +63,7 @@ class Search:
     ) -> None:
         self.native, self.limits, self.deadline, self.progress = native, limits, deadline, progress
         self.store = Store(native, limits.memory)
+        self.advisor = Advisor(native)
         self.context: NDArray[np.int64] = np.zeros(len(CONTEXT), dtype=np.int64)
         self.hits: NDArray[np.int64] = np.zeros(max(1, len(native.task.goals)), dtype=np.int64)
         self["pending"] = len(native.task.goals)
@@ -74,6 +82,25 @@ class Search:
         self.context[CONTEXT.index(name)] = value
 
     def run(self) -> Found:
+        with self._watched():
+            self._search()
+        return self._found()
+
+    @contextmanager
+    def _watched(self) -> Iterator[None]:
+        """Tell the native code to stop when the time is over, also in the middle of a valuation."""
+        if self.deadline is None:
+            yield
+            return
+        timer = Timer(max(0.0, self.deadline - monotonic()), self.__setitem__, ("stop", 1))
+        timer.daemon = True
+        timer.start()
+        try:
+            yield
+        finally:
+            timer.cancel()
+
+    def _search(self) -> None:
         self._start()
         while not self.stopped and self["pending"] and self.prepare():
             if self.limits.depth is not None and self.depth >= self.limits.depth:
@@ -86,7 +113,6 @@ class Search:
             ]
             if whole and self.goes_on():
                 self.depth += 1
-        return self._found()
 
     def prepare(self) -> bool:
         """Say what to expand next; False when there is nothing left."""
@@ -134,28 +160,30 @@ class Search:
             if not self._call() or not self["pending"]:
                 return False
             now = monotonic()
+            if self["transitions"] > QUICK_TRANSITIONS:
+                self.native.improve()
             if now - began < _PAUSE / 2:
                 self.budget = min(2 * self.budget, 1 << 40)
             elif now - began > _PAUSE:
                 self.budget = max(self.budget // 2, 1 << 10)
             self._report(now)
             if self.deadline is not None and now > self.deadline:
-                self.stopped = f"the time limit of {self.limits.seconds:g} s"
-                return False
+                return self._out_of_time()
         return True
 
     def _call(self) -> bool:
         """Run native code for a while; False when it cannot go on."""
         store = self.store
         while True:
-            self["room"], self["mask"], self["budget"] = store.room, len(store.table) - 1, self.budget
+            self["room"], self["size"], self["budget"] = store.room, len(store.table), self.budget
             match self.native.search(*self.arrays):
                 case Status.PAUSED | Status.DECIDED:
                     return True
                 case Status.NO_ROOM:
                     if not store.grow(self["count"]):
-                        self.stopped = f"the memory limit of {self.limits.memory / 2**20:.0f} MiB"
-                        return False
+                        return self._out_of_memory()
+                case Status.STOPPED:
+                    return self._out_of_time()
                 case Status.TOO_MANY:
                     self.stopped = "too many inputs in one tick for an explicit search"
                     return False
@@ -164,16 +192,37 @@ class Search:
                     self.stopped = "a value outside its domain"
                     return False
 
+    def _out_of_memory(self) -> bool:
+        self._gave_up(f"the memory limit of {self.limits.memory / 2**20:.0f} MiB")
+        return False
+
+    def _out_of_time(self) -> bool:
+        self._gave_up(f"the time limit of {self.limits.seconds:g} s")
+        return False
+
     def _report(self, now: float) -> None:
         if now - self.reported < _REPORT:
             return
         self.reported = now
         states = self["count"]
         rate = states / (now - self.started)
+        most = self._multiplier()
         self.progress(
             f"explicit: {states:,} states, {rate / 1e6:.2f} M/s, depth {self.depth + 1}, "
             f"frontier {self.frontier:,}, {self.store.bytes / 2**20:.0f} MiB"
+            + (f", {self.advisor.sentence(most)}" if most else "")
         )
+
+    def _multiplier(self) -> Multiplier | None:
+        """What multiplies the valuations stored so far."""
+        return self.advisor.multiplier(self.store.words, self.store.table, self["count"])
+
+    def _gave_up(self, limit: str) -> None:
+        """Note the limit that ends the search, how far it came, and what would help."""
+        most = self._multiplier()
+        self.stopped = f"{limit} is reached at {self['count']:,} valuations"
+        if most is not None:
+            self.stopped += f": {self.advisor.sentence(most)}"
 
     def _found(self) -> Found:
         hits = tuple(int(h) - 1 if h else None for h in self.hits[: len(self.native.task.goals)])
@@ -182,8 +231,8 @@ class Search:
             hits,
             tuple(n or 0 for n in self.levels),
             tuple(self.starts),
-            store.words,
-            store.parents,
+            store.words[: self["count"]],
+            store.by_number,
             self.initial,
             self["count"],
             self["transitions"],

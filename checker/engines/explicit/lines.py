@@ -43,7 +43,7 @@ class LineSearch(Search):
         self.frontier = len(self.current)
         used = self.store.bytes + 2 * (self.current.nbytes + self.anchors.nbytes)
         if used > self.limits.memory:
-            self.stopped = f"the memory limit of {self.limits.memory / 2**20:.0f} MiB"
+            self._out_of_memory()
         return self.frontier > 0 and not self.stopped
 
     def goes_on(self) -> bool:

@@ -34,15 +34,20 @@ Packed = tuple[int, ...]
 class Runs:
     """Rebuilds runs of the whole system from what a search of its slice stored."""
 
-    def __init__(
-        self, system: TransitionSystem, task: Task, cells: Mapping[str, Partition], found: Found
-    ) -> None:
+    def __init__(self, system: TransitionSystem, task: Task, found: Found) -> None:
         self.system, self.task, self.found = system, task, found
-        self.groups = assumption_groups(system)
+
+    @cached_property
+    def groups(self) -> list[list[Expr]]:
+        """The conjuncts of the assumption, those that share inputs together."""
+        return assumption_groups(self.system)
+
+    @cached_property
+    def cells(self) -> dict[str, Partition]:
+        """The cells of every input, also of those that the slice leaves out."""
+        system, own = self.system, self.task.cells
         everything = {v.name: v for v in (*system.inputs, *system.frozen, *system.variables)}
-        self.cells = {
-            v.name: cells.get(v.name) or partition(v, [system.assume], everything) for v in system.inputs
-        }
+        return {v.name: own.get(v.name) or partition(v, [system.assume], everything) for v in system.inputs}
 
     @cached_property
     def native(self) -> NativeRetrace:
@@ -80,7 +85,10 @@ class Runs:
             if last < self.found.initial:
                 return found[::-1]
             level = self.found.level(last) - 1
-            last = int(self.found.parents[last])
+            parent = int(self.found.parents[last])
+            if not 0 <= parent < last:
+                raise AssertionError(f"{parent} is no parent of valuation {last}: it was not found before it")
+            last = parent
 
     def _quiet(self, number: int, level: int) -> list[Packed]:
         """A stored valuation and those that follow it by quiet ticks."""

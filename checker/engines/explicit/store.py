@@ -1,15 +1,23 @@
-"""Memory of the search: valuations in arrival order, their parents, and the table of the known ones."""
+"""Memory of the search: valuations in arrival order, their parents, and the table of the known ones.
+
+For each valuation of one word: 8 bytes of the word, 8 bytes at a load of 0.56 to 0.75 of the table,
+and two bits of the parent (four bytes where quiet ticks are skipped).
+"""
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from checker.encode.native import BATCH, NativeSearch
+from checker.engines.explicit.parents import Unary
 
 _LOAD = 0.75
-_FULLEST = 0.9
+_FULLEST = 0.95
 _FIRST = 1 << 13
+_LARGE = 1 << 20
+"""Entries from which on arrays grow by less than their length."""
 _MOST = (1 << 32) - 2
 
 
@@ -21,13 +29,19 @@ class Store:
     memory: int
 
     def __post_init__(self) -> None:
-        words = self.native.task.layout.words
+        task = self.native.task
+        words = task.layout.words
         self.words: NDArray[np.uint64] = np.zeros((_FIRST, words), dtype=np.uint64)
-        self.parents: NDArray[np.uint32] = np.zeros(_FIRST, dtype=np.uint32)
+        self.ordered = not task.shifts
+        self.parents: NDArray[Any] = np.zeros(self._parents(_FIRST), np.uint8 if self.ordered else np.uint32)
         self.table: NDArray[np.uint64] = np.zeros(2 * _FIRST, dtype=np.uint64)
         self.buffer: NDArray[np.uint64] = np.zeros((BATCH, words), dtype=np.uint64)
         self.origins: NDArray[np.uint32] = np.zeros(BATCH, dtype=np.uint32)
         self.load = _LOAD
+
+    def _parents(self, length: int) -> int:
+        """Entries of ``parents`` for so many valuations."""
+        return length // 4 + 1 if self.ordered else length
 
     @property
     def bytes(self) -> int:
@@ -39,31 +53,40 @@ class Store:
         """Valuations that fit before the store must grow."""
         return min(len(self.words), int(len(self.table) * self.load))
 
+    @property
+    def by_number(self) -> "Unary | NDArray[np.uint32]":
+        """The parent of each valuation; of initial ones it says nothing."""
+        return Unary(self.parents) if self.ordered else self.parents
+
     def grow(self, count: int) -> bool:
         """Make room for more than ``count`` valuations; False when the memory does not allow it."""
         if count >= _MOST:
             return False
         if count >= len(self.words) and not self._lengthen():
             return False
-        return count < int(len(self.table) * self.load) or self._double(count)
+        return count < int(len(self.table) * self.load) or self._widen(count)
 
     def _lengthen(self) -> bool:
-        extra = max(len(self.words) // 4, min(len(self.words), 1 << 20))
-        entry = self.words.itemsize * self.words.shape[1] + self.parents.itemsize
+        """Longer arrays, by little: what is not used yet is in memory all the same."""
+        length, words = self.words.shape
+        extra = length if length < _LARGE else length // 16
+        entry = self.words.itemsize * words + (1 if self.ordered else self.parents.itemsize)
         extra = min(extra, (self.memory - self.bytes) // entry)
         if extra <= 0:
             return False
-        length = len(self.words) + extra
-        self.words.resize((length, self.words.shape[1]), refcheck=False)
-        self.parents.resize(length, refcheck=False)
+        self.words.resize((length + extra, words), refcheck=False)
+        self.parents.resize(self._parents(length + extra), refcheck=False)
         return True
 
-    def _double(self, count: int) -> bool:
+    def _widen(self, count: int) -> bool:
+        """A larger table; the old one is given up first, as the valuations are all in ``words``."""
         size = len(self.table)
-        if self.bytes + self.table.nbytes > self.memory:
+        fits = (self.memory - self.bytes + self.table.nbytes) // self.table.itemsize
+        larger = min(2 * size if size < _LARGE else size * 4 // 3, fits)
+        if larger < size * 9 // 8:
             self.load = _FULLEST
             return count < int(size * self.load)
-        self.table = np.zeros(0, dtype=np.uint64)  # freed first: the valuations are all in ``words``
-        self.table = np.zeros(2 * size, dtype=np.uint64)
+        self.table = np.zeros(0, dtype=np.uint64)
+        self.table = np.zeros(larger, dtype=np.uint64)
         self.native.rehash(self.table, self.words, count)
         return True

@@ -1,0 +1,120 @@
+"""What makes a search large: the variable that multiplies the stored valuations most, and what would help.
+
+For a valuation of a sample, its *group* is the stored valuations that differ from it in one variable
+only.  Without the variable, a group is one valuation, so the store would shrink to the mean of
+1 / (size of the group) over all valuations; the sample estimates that mean.
+"""
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from checker.encode.counting import counters
+from checker.encode.native import Field, NativeSearch
+from spec_model.lang.errors import ModelError
+from spec_model.lang.expiry import free_timers
+from spec_model.lang.lower import lower
+from spec_model.lang.system import System, TransitionSystem
+
+MOST_ASKED = 1 << 15
+"""Valuations looked up for one estimate."""
+_MOST_VALUES = 256
+_MOST_SAMPLED = 256
+_WORTH_NAMING = 1.5
+
+Words = NDArray[np.uint64]
+
+
+@dataclass(frozen=True)
+class Multiplier:
+    """A variable, and by how much it multiplies the stored valuations."""
+
+    field: Field
+    factor: float
+
+
+class Advisor:
+    """Names what multiplies the valuations of one search."""
+
+    def __init__(self, native: NativeSearch) -> None:
+        self.native = native
+        self.system: TransitionSystem = native.task.system
+
+    def multiplier(self, words: Words, table: Words, count: int) -> Multiplier | None:
+        """The variable that multiplies the first ``count`` valuations most; None if none does by much."""
+        fields = self.native.task.layout.fields
+        asked = sum(min(_values(f), _MOST_VALUES) for f in fields)
+        number = max(1, min(_MOST_SAMPLED, MOST_ASKED // max(1, asked), count))
+        if not count or not fields:
+            return None
+        sample = words[np.linspace(0, count - 1, number).astype(np.int64)]
+        each = [Multiplier(f, self._factor(f, sample, words, table)) for f in fields]
+        most = max(each, key=lambda m: m.factor)
+        return most if most.factor >= _WORTH_NAMING else None
+
+    def _factor(self, field: Field, sample: Words, words: Words, table: Words) -> float:
+        codes = _spread(_values(field), _MOST_VALUES)
+        asked = np.repeat(sample, len(codes), axis=0)
+        clear = np.uint64(~(field.mask << field.shift) & (1 << 64) - 1)
+        placed = np.tile(codes << np.uint64(field.shift), len(sample))
+        asked[:, field.word] = asked[:, field.word] & clear | placed
+        own = np.repeat(sample[:, field.word], len(codes)) == asked[:, field.word]
+        others = self.native.known(table, words, asked) & ~own
+        found = others.reshape(len(sample), len(codes)).sum(axis=1)
+        tried = (~own).reshape(len(sample), len(codes)).sum(axis=1)
+        groups = 1 + found * (_values(field) - 1) / np.maximum(tried, 1)
+        return float(len(sample) / np.sum(1 / groups))
+
+    def sentence(self, most: Multiplier) -> str:
+        """``window_12 multiplies them by about 150 (try --timers free)``."""
+        said = f"{most.field.var.name} multiplies them by about {_round(most.factor)}"
+        help_ = self.remedy(most.field.var.name)
+        return f"{said} ({help_})" if help_ else said
+
+    def remedy(self, name: str) -> str:
+        """The option that would help most with a variable; empty where there is none."""
+        if name not in self._counters:
+            return ""
+        if name in self._freed:
+            return "try --timers free"
+        return "" if self.native.task.shifts else "try --timers skip"
+
+    @cached_property
+    def _counters(self) -> set[str]:
+        return {c.var.name for c in counters(self.system)}
+
+    @cached_property
+    def _freed(self) -> set[str]:
+        """The variables that have fewer values, or are gone, where timers run out at will."""
+        source = self.system.source
+        if source is None:
+            return set()
+        try:
+            exact, free = _sizes(source), _sizes(free_timers(source))
+        except ModelError:
+            return set()
+        return {name for name, size in exact.items() if free.get(name, 0) < size}
+
+
+def _sizes(system: System) -> dict[str, int]:
+    return {v.name: len(v.domain) for v in lower(system).variables}
+
+
+def _values(field: Field) -> int:
+    """How many codes a field may hold."""
+    return (field.var.domain.high - field.low) // field.stride + 1
+
+
+def _spread(size: int, most: int) -> Words:
+    """All codes below ``size``, or ``most`` of them at equal distances."""
+    return np.unique(np.linspace(0, size - 1, min(size, most)).astype(np.uint64))
+
+
+def _round(factor: float) -> str:
+    """Two figures, as more would promise too much."""
+    if factor < 10:
+        return f"{factor:.1f}"
+    digits = len(str(round(factor)))
+    return f"{round(factor, 2 - digits):,.0f}"

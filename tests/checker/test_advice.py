@@ -1,0 +1,128 @@
+"""What the explicit search says of the variable that multiplies its valuations."""
+
+import re
+
+import pytest
+
+from checker.encode.counting import counters
+from checker.encode.native import NativeSearch, Task, layout, shifts
+from checker.engine import Limits, quiet
+from checker.engines import explicit
+from checker.engines.explicit.advice import Advisor
+from checker.engines.explicit.levels import Search
+from checker.slice import sliced
+from checker.verdict import Open
+from spec_model.lang.action import Assign
+from spec_model.lang.chart import Chart, State, to
+from spec_model.lang.domain import chosen, integer
+from spec_model.lang.expr import Var, all_of, flag, ite, var
+from spec_model.lang.lower import lower
+from spec_model.lang.system import Statement, TransitionSystem, in_order
+from spec_model.lang.time import ticks
+from spec_model.lang.words import after, minimum
+
+end = flag("end")
+
+
+def searched(system: TransitionSystem) -> Search:
+    part = sliced(system, [end])
+    search = Search(NativeSearch.compile(Task(part, layout(part.variables), (end,))), Limits(), None, quiet)
+    search.run()
+    return search
+
+
+def multiplied(search: Search) -> tuple[str, float] | None:
+    store, advisor = search.store, Advisor(search.native)
+    most = advisor.multiplier(store.words, store.table, search["count"])
+    return None if most is None else (most.field.var.name, most.factor)
+
+
+def free(*variables: Var) -> TransitionSystem:
+    """Variables that take any value at any time, and a goal about all of them."""
+    inputs = tuple(Var(f"any {v.name}", v.domain, v.domain.low) for v in variables)
+    step: list[Statement] = [Assign(v, i) for v, i in zip(variables, inputs, strict=True)]
+    never = all_of(*(v > v.domain.high - 1 for v in variables), variables[0] < variables[0].domain.high)
+    return TransitionSystem("free", inputs, (), (*variables, end), (), (Assign(end, never), *step))
+
+
+@pytest.mark.parametrize("sizes", [(3, 40, 2), (90, 4, 4), (5, 6, 33)])
+def test_the_largest_of_independent_variables(sizes: tuple[int, ...]) -> None:
+    made = free(*(var(f"v{n}", integer(0, size - 1)) for n, size in enumerate(sizes)))
+    found = multiplied(searched(made))
+    assert found is not None and found[0] == f"v{sizes.index(max(sizes))}"
+    assert found[1] == pytest.approx(max(sizes), rel=0.1)
+
+
+def test_more_values_than_are_looked_up_one_by_one() -> None:
+    found = multiplied(searched(free(var("wide", integer(0, 5000)), var("narrow", integer(0, 3)))))
+    assert found is not None and found[0] == "wide" and found[1] == pytest.approx(5001, rel=0.2)
+
+
+def test_a_sparse_variable() -> None:
+    found = multiplied(searched(free(var("sparse", chosen([0, 7, 20])), var("narrow", integer(0, 1)))))
+    assert found is not None and found[0] == "sparse" and found[1] == pytest.approx(3, rel=0.1)
+
+
+def test_a_variable_that_another_one_determines_multiplies_nothing() -> None:
+    a, copy = var("a", integer(0, 50)), var("copy", integer(0, 50))
+    step = (Assign(end, (a == 7) & (copy == 8)), Assign(a, var("any", a.domain)), Assign(copy, a))
+    system = TransitionSystem("", (var("any", a.domain),), (), (a, copy, end), (), step)
+    assert multiplied(searched(system)) is None
+
+
+def stopped(system: TransitionSystem, goal: Var) -> str:
+    answer = explicit.check(system, [goal], Limits(memory=900 << 10), quiet)[goal.name]
+    assert isinstance(answer, Open)
+    return answer.reason
+
+
+def counting() -> TransitionSystem:
+    """An age that restarts at any moment, beside a number that anything may be."""
+    age, level, reset = var("age", integer(0, 900)), var("level", integer(0, 200)), flag("reset")
+    other = var("other", level.domain)
+    step = (
+        Assign(end, (age == 900) & (level == 200) & reset & ~reset),
+        Assign(age, ite(reset, 0, minimum(age + 1, 900))),
+        Assign(level, other),
+    )
+    return TransitionSystem("", (reset, other), (), (age, level, end), (), step)
+
+
+def test_the_reason_names_the_limit_the_valuations_and_the_variable() -> None:
+    said = re.fullmatch(
+        r"the memory limit of 1 MiB is reached at ([\d,]+) valuations: (\w+) multiplies them by about "
+        r"([\d.,]+)( \(try --timers skip\))?",
+        stopped(counting(), end),
+    )
+    assert said and int(said[1].replace(",", "")) > 10_000
+    assert (said[2] == "age") == bool(said[4])
+
+
+def _waiting(again: Var) -> State:
+    return State("Wait", transitions=[to("Wait", when=again), to("End", when=after(900 * ticks))])
+
+
+def test_a_timer_of_a_chart_can_be_free() -> None:
+    go = flag("go")
+    end_ = State("End", transitions=[to("Wait", when=go)])
+    charts = [Chart(n, (_waiting(flag(f"again {n}")), end_), default="Wait") for n in ("A", "B")]
+    system = lower(in_order("timed", *charts))
+    step = (*system.step, Assign(end, charts[0].active("End") & charts[1].active("End") & go & ~go))
+    made = TransitionSystem(
+        "timed", system.inputs, (), (*system.variables, end), system.temps, step, source=system.source
+    )
+    assert stopped(made, end).endswith("(try --timers free)")
+
+
+def test_nothing_is_advised_that_is_done_already() -> None:
+    system = counting()
+    part = sliced(system, [end])
+    packing = layout(part.variables)
+    moved = shifts(packing, counters(part))
+    for made, said in (
+        (Task(part, packing, (end,)), "try --timers skip"),
+        (Task(part, packing, (end,), moved), ""),
+    ):
+        advisor = Advisor(NativeSearch.compile(made))
+        assert advisor.remedy("age") == said
+        assert advisor.remedy("level") == ""
