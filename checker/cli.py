@@ -9,14 +9,14 @@ import click
 
 from checker.commands.codes import Exit, UsageError
 from checker.commands.output import err
-from checker.decide import AUTO, Disagreement
+from checker.decide import ALL, AUTO, Disagreement
 from checker.engine import Limits, Timers
 from checker.replay import ReplayError
 from spec_model.lang.errors import ModelError, did_you_mean
 
 CODES = (
     "Exit codes: 0 all as expected; 1 a violation, or an expected violation that is gone; "
-    "2 inconclusive; 3 internal error or engines disagree; 4 usage or model error; "
+    "2 inconclusive; 3 internal error, engines disagree or a proof is rejected; 4 usage or model error; "
     "5 nothing to check; 130 interrupted."
 )
 LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs", "assumptions", "engines")
@@ -41,7 +41,7 @@ def app() -> None:
 def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
     """The options of every verb that searches."""
     options: list[Callable[[Any], Any]] = [
-        click.option("--engine", default=AUTO, show_default=True, help="explicit, bmc, auto or all."),
+        click.option("--engine", default=AUTO, show_default=True, help="One of list engines, auto or all."),
         click.option("--depth", type=click.IntRange(min=1), help="Ticks to look ahead at most."),
         click.option("--timeout", type=click.FloatRange(min=0, min_open=True), help="Seconds per search."),
         click.option(
@@ -92,6 +92,17 @@ def writing(command: Callable[..., Exit]) -> Callable[..., Exit]:
 @click.option("--system", help="Only properties about this system.")
 @click.option("--full", is_flag=True, help="Also the properties that take long.")
 @click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
+@click.option("--jobs", type=click.IntRange(min=1), help="Searches at a time; by default the processors.")
+@click.option(
+    "--memory", type=click.FloatRange(min=0.25), default=8.0, show_default=True, help="GiB per search."
+)
+@click.option("--all-engines", is_flag=True, help="Ask every engine and compare the answers.")
+@click.option("--certify", is_flag=True, help="Check every proof again, without the engine that found it.")
+@click.option(
+    "--certificates",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Write the proofs into this folder.",
+)
 @varying
 @searching
 def check(
@@ -99,6 +110,11 @@ def check(
     system: str | None,
     full: bool,
     as_json: bool,
+    jobs: int | None,
+    memory: float,
+    all_engines: bool,
+    certify: bool,
+    certificates: Path | None,
     chosen: tuple[str, ...],
     repair: str | None,
     dropped: tuple[str, ...],
@@ -118,10 +134,42 @@ def check(
         properties = list(filter(variant.concerns(), properties))
     if variant.name:
         properties = variant.askable(properties)
-    limits = Limits(depth, timeout, timers=Timers(timers))
+    limits = Limits(depth, timeout, int(memory * 2**30), Timers(timers))
+    asked = ALL if all_engines else pick_engine(engine)
+    certifying = variant.certifying(certificates, certify) if certify or certificates else None
     return run(
-        properties, variant.systems(), pick_engine(engine), limits, as_json, variant.name, variant.expected
+        properties,
+        variant.systems(),
+        asked,
+        limits,
+        as_json,
+        variant.name,
+        variant.expected,
+        jobs,
+        certifying,
     )
+
+
+@app.command()
+@click.argument("paths", nargs=-1, required=True, metavar="FILE|DIR...", type=click.Path(path_type=Path))
+@click.option(
+    "--solver",
+    type=click.Choice(["bitwuzla", "enumeration", "both"]),
+    default="both",
+    show_default=True,
+    help="Who checks; both: enumeration as well where few ticks are to be tried.",
+)
+@click.option("--smt2", type=click.Path(path_type=Path), metavar="DIR", help="Write the obligations there.")
+@click.option("--timeout", type=click.FloatRange(min=0, min_open=True), help="Seconds per certificate.")
+@click.option("--verbose", "-v", is_flag=True, help="The whole valuation that refutes a certificate.")
+def certify(
+    paths: tuple[Path, ...], solver: str, smt2: Path | None, timeout: float | None, verbose: bool
+) -> Exit:
+    """Check the certificates of proofs again, by other means than found them."""
+    from checker.certify.check import By, Effort
+    from checker.commands.certifying import certify as run
+
+    return run(paths, Effort(By(solver), timeout), smt2, verbose)
 
 
 @app.command("list")
@@ -199,6 +247,28 @@ def graph(
 
 
 @app.command()
+@click.argument("ids", nargs=-1, metavar="PROPERTY...")
+@click.option("--system", help="Only properties about this system; all of them if none is named.")
+@click.option("--format", default="aiger", show_default=True, help="aiger, aag, btor2, smv or promela.")
+@varying
+@writing
+def export(
+    ids: tuple[str, ...],
+    system: str | None,
+    format: str,
+    chosen: tuple[str, ...],
+    repair: str | None,
+    dropped: tuple[str, ...],
+    output: Path | None,
+) -> Exit:
+    """Write properties for other model checkers: a file, or a folder of them."""
+    from checker.commands.exporting import export as run
+    from checker.commands.variant import pick_variant
+
+    return run(ids, system, format, pick_variant(chosen, repair, dropped), output)
+
+
+@app.command()
 @click.option("--stale", is_flag=True, help="Write nothing; say what is out of date (exit code 1).")
 @writing
 def reports(stale: bool, output: Path | None) -> Exit:
@@ -222,8 +292,10 @@ def run(arguments: list[str]) -> Exit:
         return _say(error.format_message(), Exit.USAGE)
     except (UsageError, ModelError) as error:
         return _say(str(error), Exit.USAGE)
-    except (Disagreement, ReplayError) as error:
+    except ReplayError as error:
         return _say(f"INTERNAL: {error}", Exit.INTERNAL)
+    except Disagreement as error:
+        return _disagreeing(error, arguments)
     except (KeyboardInterrupt, click.Abort):
         return _say("Interrupted; nothing was written.", Exit.INTERRUPTED)
     except BrokenPipeError:
@@ -232,6 +304,17 @@ def run(arguments: list[str]) -> Exit:
         return _say("Out of memory. Check fewer properties at once, or one --system.", Exit.INCONCLUSIVE)
     except Exception as error:
         return _say(f"INTERNAL: {type(error).__name__}: {error}. {_where(error)}", Exit.INTERNAL)
+
+
+def _disagreeing(error: Disagreement, arguments: list[str]) -> Exit:
+    """Keep what shows that an engine is wrong."""
+    from checker.commands.disagreeing import again, bundle
+
+    try:
+        kept = f"All of it is in {bundle(error, again(error, arguments), Path())}; please report it."
+    except UsageError as problem:
+        kept = str(problem)
+    return _say(f"INTERNAL: {error} At least one engine is wrong. {kept}", Exit.INTERNAL)
 
 
 def _where(error: Exception) -> str:

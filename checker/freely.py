@@ -3,6 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
+from checker.lowered import lowered
 from checker.reproduce import moved
 from checker.result import Answers, Result, result
 from checker.verdict import Reached, Unreachable
@@ -10,7 +11,6 @@ from properties.forms import Property
 from properties.reduce import reduce
 from spec_model.lang.expiry import free_timers
 from spec_model.lang.expr import Var
-from spec_model.lang.lower import lower
 from spec_model.lang.system import System, TransitionSystem
 
 Ask = Callable[[TransitionSystem, Sequence[Var]], Answers]
@@ -26,10 +26,10 @@ def freely(system: System, properties: Sequence[Property], ask: Ask) -> tuple[li
     loose = free_timers(system)
     if loose is system:
         return [], list(properties)
-    there = reduce(lower(loose), [replace(p, on=loose.name) for p in properties])
-    here = reduce(lower(system), properties)
+    there = reduce(lowered(loose), [replace(p, on=loose.name) for p in properties])
+    here = reduce(lowered(system), properties)
     found = ask(there.system, [g.var for g in there.goals])
-    if any(isinstance(found[check.name][0], Reached) for check, _ in there.system.checks):
+    if not all(isinstance(found[check.name][0], Unreachable) for check, _ in there.system.checks):
         return [], list(properties)  # a value may leave its domain only because a timer ends early
     done: list[Result] = []
     left: list[Property] = []

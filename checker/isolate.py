@@ -1,27 +1,29 @@
-"""Work in a child process that can be killed at any moment: a solver cannot be trusted to stop.
+"""Work in child processes that can be killed at any moment: a solver cannot be trusted to stop.
 
 The work is a function of a module.  It gets a ``send`` function, whose messages arrive in the
-parent one by one.  The child dies when the time is over, when the parent stops listening (Ctrl-C
+parent one by one.  A child dies when the time is over, when the parent stops listening (Ctrl-C
 too) and when the parent dies.
 """
 
 import os
 import pickle
 import signal
+import struct
 import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Generator, Iterator
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Generator
+from contextlib import suppress
 from dataclasses import dataclass
-from queue import Empty, Queue
+from queue import Empty, Queue, SimpleQueue
 from time import monotonic
-from typing import IO, Any
+from typing import Any
 
 Send = Callable[[object], None]
 _DEEP = 100_000  # nested formulas; Python's own limit is about 250 levels of a pickled one
 _MAIN = "from checker.isolate import child; child()"
+_LENGTH = struct.Struct("<Q")
 
 
 class Stopped(Exception):
@@ -29,10 +31,94 @@ class Stopped(Exception):
 
 
 @dataclass(frozen=True)
-class _End:
-    """The child's last word: what went wrong, or None."""
+class End:
+    """A child is done with an order: what went wrong, or None.  ``dead``: it takes no further order."""
 
     failure: str | None
+    dead: bool = False
+
+
+class Child:
+    """A process that carries out orders one after the other until it is killed.
+
+    ``make(*args)`` is called once in the child and gives the function that is called for each order,
+    as ``do(send, *order)``.  What it sends reaches ``tell`` (in a thread of the parent), after each
+    order an ``End``.  ``memory`` limits the address space, in bytes.  All must be picklable.
+    """
+
+    def __init__(
+        self,
+        tell: Callable[[object], None],
+        make: Callable[..., Callable[..., None]],
+        *args: object,
+        memory: int | None = None,
+    ) -> None:
+        self._tell = tell
+        self._errors = tempfile.TemporaryFile()  # noqa: SIM115, closed by ``kill``
+        self._group = not _is_child() and hasattr(os, "killpg")
+        self._process = self._started()
+        self._orders: SimpleQueue[bytes | None] = SimpleQueue()
+        self._threads = [threading.Thread(target=t, daemon=True) for t in (self._feed, self._read)]
+        for thread in self._threads:
+            thread.start()
+        self._orders.put(_pickled((memory, make, args)))
+
+    def order(self, *order: object) -> None:
+        """Have one more order carried out."""
+        self._orders.put(_pickled(order))
+
+    def kill(self) -> None:
+        """End the process, whatever it does, with all processes that it started."""
+        if self._group:
+            with suppress(ProcessLookupError, PermissionError):
+                os.killpg(self._process.pid, signal.SIGKILL)
+        self._process.kill()
+        self._orders.put(None)
+        for thread in self._threads:
+            thread.join()
+        with suppress(OSError):  # what was not written yet
+            self._process.__exit__(None, None, None)
+        self._errors.close()
+
+    def _started(self) -> subprocess.Popen[bytes]:
+        """The process, in a session of its own so that Ctrl-C reaches the parent alone."""
+        path = os.pathsep.join(filter(None, sys.path))
+        return subprocess.Popen(
+            [sys.executable, "-c", _MAIN],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=self._errors,
+            # One hash seed, so that the same question is put to a solver in the same words every time.
+            env={**os.environ, "PYTHONPATH": path, "PYTHONHASHSEED": "0"},
+            start_new_session=self._group,
+        )
+
+    def _feed(self) -> None:
+        """Write orders; the pipe is left open until the end: the child ends when it is closed."""
+        stdin = self._process.stdin
+        assert stdin is not None
+        with suppress(OSError):
+            while (order := self._orders.get()) is not None:
+                stdin.write(_LENGTH.pack(len(order)) + order)
+                stdin.flush()
+
+    def _read(self) -> None:
+        """Hand on messages until the child ends."""
+        stdout = self._process.stdout
+        assert stdout is not None
+        with suppress(EOFError, OSError, ValueError, pickle.UnpicklingError):
+            while True:
+                self._tell(pickle.load(stdout))
+        self._tell(End(self._cause(), dead=True))
+
+    def _cause(self) -> str:
+        """Why the process ended without a word."""
+        status = self._process.wait()
+        if status < 0:
+            return f"the solver process was ended by {signal.Signals(-status).name}"
+        self._errors.seek(0)
+        said = self._errors.read().decode(errors="replace").strip().splitlines()
+        return f"the solver process ended with status {status}" + (f": {said[-1]}" if said else "")
 
 
 def messages(
@@ -49,61 +135,26 @@ def messages(
     Closing the generator kills the child.
     """
     end = None if seconds is None else monotonic() + seconds
-    job = _pickled((memory, work, args))
-    with tempfile.TemporaryFile() as errors, _child(job, errors) as (process, inbox):
+    inbox: Queue[object] = Queue()
+    child = Child(inbox.put, _itself, work, memory=memory)
+    try:
+        child.order(*args)
         while True:
             left = beat if end is None else end - monotonic()
             if left <= 0:
                 raise Stopped(f"the time limit of {seconds:g} s is reached")
             message = _next(inbox, min(beat, left))
-            if isinstance(message, _End):
+            if isinstance(message, End):
                 break
             yield message
-        if message.failure is not None:
-            raise Stopped(message.failure or _cause(process, errors))
+    finally:
+        child.kill()
+    if message.failure is not None:
+        raise Stopped(message.failure)
 
 
-@contextmanager
-def _child(job: bytes, errors: IO[bytes]) -> Iterator[tuple[subprocess.Popen[bytes], Queue[object]]]:
-    """A child at work on a job, in a session of its own so that Ctrl-C reaches the parent alone."""
-    path = os.pathsep.join(filter(None, sys.path))
-    with subprocess.Popen(
-        [sys.executable, "-c", _MAIN],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        stderr=errors,
-        # One hash seed, so that the same question is put to a solver in the same words every time.
-        env={**os.environ, "PYTHONPATH": path, "PYTHONHASHSEED": "0"},
-        start_new_session=True,
-    ) as process:
-        assert process.stdin is not None and process.stdout is not None
-        inbox: Queue[object] = Queue()
-        feeder = threading.Thread(target=_feed, args=(process.stdin, job), daemon=True)
-        reader = threading.Thread(target=_read, args=(process.stdout, inbox), daemon=True)
-        try:
-            feeder.start()
-            reader.start()
-            yield process, inbox
-        finally:
-            process.kill()
-            feeder.join()
-            reader.join()
-            with suppress(OSError):  # what was not written yet
-                process.stdin.close()
-
-
-def _feed(stdin: IO[bytes], job: bytes) -> None:
-    with suppress(OSError):
-        stdin.write(job)
-        stdin.flush()  # and left open: the child ends when it is closed
-
-
-def _read(stdout: IO[bytes], inbox: Queue[object]) -> None:
-    """Move messages to the inbox until the child ends."""
-    with suppress(EOFError, OSError, ValueError, pickle.UnpicklingError):
-        while True:
-            inbox.put(pickle.load(stdout))
-    inbox.put(_End(""))
+def _itself(work: Callable[..., None]) -> Callable[..., None]:
+    return work
 
 
 def _next(inbox: Queue[object], seconds: float) -> object:
@@ -113,60 +164,74 @@ def _next(inbox: Queue[object], seconds: float) -> object:
         return None
 
 
-def _cause(process: subprocess.Popen[bytes], errors: IO[bytes]) -> str:
-    """Why a child ended without a word."""
-    status = process.wait()
-    if status < 0:
-        return f"the solver process was ended by {signal.Signals(-status).name}"
-    errors.seek(0)
-    said = errors.read().decode(errors="replace").strip().splitlines()
-    return f"the solver process ended with status {status}" + (f": {said[-1]}" if said else "")
-
-
-def _pickled(job: object) -> bytes:
+def _pickled(thing: object) -> bytes:
     limit = sys.getrecursionlimit()
     sys.setrecursionlimit(max(limit, _DEEP))
     try:
-        return pickle.dumps(job)
+        return pickle.dumps(thing)
     finally:
         sys.setrecursionlimit(limit)
+
+
+def _is_child() -> bool:
+    """Whether this process was started here: its children then die with its session."""
+    return sys.orig_argv[-1] == _MAIN
 
 
 # --- in the child -----------------------------------------------------------------------------------
 
 
 def child() -> None:
-    """The main program of the child: a job on standard input, messages on standard output."""
+    """The main program of a child: orders on standard input, messages on standard output."""
     out = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints must not look like a message
     sys.setrecursionlimit(_DEEP)
+    orders: SimpleQueue[bytes] = SimpleQueue()
+    threading.Thread(target=_listen, args=(orders,), daemon=True).start()
 
     def send(message: object) -> None:
-        pickle.dump(message, out)
+        whole = _pickled(message)  # first whole, then written: half a message could not be read
+        out.write(whole)
         out.flush()
 
-    send(_End(_failure(send)))
+    _carry_out(orders, send)
     os._exit(0)
 
 
-def _failure(send: Send) -> str | None:
-    """Do the job; what went wrong, or None."""
+def _carry_out(orders: SimpleQueue[bytes], send: Send) -> None:
+    """One order after the other, for ever; returns only when the first message cannot be obeyed."""
     try:
-        memory, work, args = pickle.load(sys.stdin.buffer)
-        threading.Thread(target=_die_with_parent, daemon=True).start()
-        _confine(memory)
-        work(send, *args)
-    except MemoryError:
-        return "the memory limit is reached"
+        do = _made(orders.get())
     except Exception as error:
-        full = "out of memory" in str(error)
-        return "the memory limit is reached" if full else f"{type(error).__name__}: {error}"
-    return None
+        return send(End(_reason(error), dead=True))
+    while True:
+        try:
+            do(send, *pickle.loads(orders.get()))
+        except Exception as error:
+            send(End(_reason(error)))
+        else:
+            send(End(None))
 
 
-def _die_with_parent() -> None:
-    while os.read(0, 1):
-        pass
+def _made(first: bytes) -> Callable[..., None]:
+    """The function that carries out orders, after the memory is confined."""
+    memory, make, args = pickle.loads(first)
+    _confine(memory)
+    made: Callable[..., None] = make(*args)
+    return made
+
+
+def _reason(error: Exception) -> str:
+    full = isinstance(error, MemoryError) or "out of memory" in str(error)
+    return "the memory limit is reached" if full else f"{type(error).__name__}: {error}"
+
+
+def _listen(orders: SimpleQueue[bytes]) -> None:
+    """Take orders until the parent closes the pipe or dies."""
+    with suppress(OSError, struct.error):
+        while True:
+            [length] = _LENGTH.unpack(sys.stdin.buffer.read(_LENGTH.size))
+            orders.put(sys.stdin.buffer.read(length))
     os._exit(1)
 
 
@@ -177,3 +242,6 @@ def _confine(memory: int | None) -> None:
         import resource
 
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
+
+
+__all__ = ["Child", "End", "Send", "Stopped", "messages"]

@@ -9,15 +9,18 @@ from dataclasses import replace
 
 from checker.engine import Progress
 from checker.loops import Hunt, hunt, looped
+from checker.lowered import lowered
+from checker.portfolio.question import Hint, Question
+from checker.portfolio.shape import VAST, shape
 from checker.recover import recovered
 from checker.reproduce import only_there
 from checker.result import Ask, Result, check_domains
+from checker.settling import settled
 from checker.slice import always_met
 from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Violated
 from properties.forms import Form, HoldsAfter, LeadsTo, Property, Recoverable, Responds, Settles
 from properties.reduce import reduce
 from spec_model.lang.errors import ModelError
-from spec_model.lang.lower import lower
 from spec_model.lang.system import System
 from spec_model.lang.time import Span
 
@@ -25,6 +28,9 @@ Systems = Mapping[str, System]
 
 NO_LOOP = "no loop closes"
 """What an exhausted search for loops has shown."""
+
+SETTLING = "settling"
+"""What finds loops by chance, in the place of an engine's name."""
 
 
 def unbounded(prop: Property, systems: Systems, ask: Ask, progress: Progress) -> Result:
@@ -37,7 +43,7 @@ def unbounded(prop: Property, systems: Systems, ask: Ask, progress: Progress) ->
         return Result(prop, proved, prop.on)
     if isinstance(prop.form, Recoverable):
         return Result(prop, recovered(prop, systems[prop.on], ask, progress), prop.on)
-    return _by_loop(prop, systems, ask)
+    return _by_loop(prop, systems, ask, progress)
 
 
 # --- a bounded property that is stronger -----------------------------------------------------------
@@ -49,7 +55,7 @@ def _by_bound(prop: Property, systems: Systems, ask: Ask) -> Proved | None:
     if bounded is None:
         return None
     form, span = bounded
-    question = reduce(lower(systems[prop.on]), [replace(prop, form=form)])
+    question = reduce(lowered(systems[prop.on]), [replace(prop, form=form)])
     goal = question.goals[0].var
     found = ask(question.system, [goal])
     check_domains(question.system, found)
@@ -65,7 +71,7 @@ def _bounded(prop: Property, systems: Systems) -> tuple[Form, Span] | None:
             return HoldsAfter(premise, bound, then), bound
         case Recoverable(to, by, Span() as within) if by is not None:
             concrete = systems[systems[prop.on].concrete or prop.on]
-            if not always_met(lower(concrete), by):
+            if not always_met(lowered(concrete), by):
                 raise ModelError(
                     f"{prop.id}: by = {by} must be a condition on inputs of {concrete.name} that can be met "
                     "in every tick; leave variables and other inputs out of it."
@@ -78,16 +84,16 @@ def _bounded(prop: Property, systems: Systems) -> tuple[Form, Span] | None:
 # --- loops -----------------------------------------------------------------------------------------
 
 
-def _by_loop(prop: Property, systems: Systems, ask: Ask) -> Result:
+def _by_loop(prop: Property, systems: Systems, ask: Ask, progress: Progress) -> Result:
     system = systems[prop.on]
-    hunted, answer, by = _hunted(prop, system, ask)
+    hunted, answer, by = _hunted(prop, system, ask, progress)
     if not (isinstance(answer, Reached) and system.over):
         return _result(hunted, answer, by)
     if not system.concrete:
         reason = only_there(system.name, len(answer.run))
         return Result(prop, Unknown(reason, len(answer.run) - 1, by), system.name)
     there = systems[system.concrete]
-    result = _result(*_hunted(replace(prop, on=there.name), there, ask))
+    result = _result(*_hunted(replace(prop, on=there.name), there, ask, progress))
     if isinstance(result.verdict, Unknown):
         reason = (
             f"a loop of {system.name}, an over-approximation, was found after {len(answer.run)} ticks; "
@@ -97,12 +103,20 @@ def _by_loop(prop: Property, systems: Systems, ask: Ask) -> Result:
     return result
 
 
-def _hunted(prop: Property, system: System, ask: Ask) -> tuple[Hunt, Answer, str]:
-    question = reduce(lower(system), [prop])
+def _hunted(prop: Property, system: System, ask: Ask, progress: Progress) -> tuple[Hunt, Answer, str]:
+    question = reduce(lowered(system), [prop])
     hunted = hunt(question, question.goals[0])
-    found = ask(hunted.lasso.system, [hunted.lasso.goal], short=True)
+    loop = settled(hunted, progress) if _vast(hunted) else None
+    if loop is not None:
+        return hunted, loop, SETTLING
+    found = ask(hunted.lasso.system, [hunted.lasso.goal], Hint.SHORT)
     check_domains(hunted.lasso.system, found)
     return hunted, *found[hunted.lasso.goal.name]
+
+
+def _vast(hunted: Hunt) -> bool:
+    """Whether pairs of valuations are too wide to enumerate, so that a long loop is best met by chance."""
+    return shape(Question(hunted.lasso.system, (hunted.lasso.goal,))).bits > VAST
 
 
 def _result(hunted: Hunt, answer: Answer, by: str) -> Result:

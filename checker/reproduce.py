@@ -4,27 +4,25 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from checker.calm import calmed, transferred
-from checker.engine import Engine, Limits, Progress
-from checker.result import Result, check_domains, result
+from checker.lowered import lowered
+from checker.portfolio.question import Hint
+from checker.result import Ask, Result, check_domains, result
 from checker.verdict import Reached, Unknown
 from properties.reduce import Goal, Question, reduce
-from spec_model.lang.lower import lower
 from spec_model.lang.system import System
 
 Runs = Mapping[str, tuple[Reached, str]]
 """The goals that were reached, with the engine that did."""
 
 
-def reproduced(
-    question: Question, runs: Runs, concrete: System, engine: Engine, limits: Limits, progress: Progress
-) -> list[Result]:
+def reproduced(question: Question, runs: Runs, concrete: System, ask: Ask) -> list[Result]:
     """A result about ``concrete`` for each goal reached on the over-approximation in ``question``.
 
     The same inputs are tried first: a run of the concrete system as short as the shortest of the
     over-approximation is a shortest one.  What is left is searched for, all goals together.
     """
     reached = [g for g in question.goals if g.var.name in runs]
-    there = reduce(lower(concrete), [replace(g.property, on=concrete.name) for g in reached])
+    there = reduce(lowered(concrete), [replace(g.property, on=concrete.name) for g in reached])
     found: list[Result] = []
     left: list[tuple[Goal, Goal]] = []
     for goal, same in zip(reached, there.goals, strict=True):
@@ -34,7 +32,7 @@ def reproduced(
             left.append((goal, same))
         else:
             found.append(result(there.system, same, run, by))
-    return found + (_searched(question, runs, there, left, engine, limits, progress) if left else [])
+    return found + (_searched(question, runs, there, left, ask) if left else [])
 
 
 def not_reproducible(question: Question, runs: Runs) -> list[Result]:
@@ -70,12 +68,9 @@ def _searched(
     runs: Runs,
     there: Question,
     left: list[tuple[Goal, Goal]],
-    engine: Engine,
-    limits: Limits,
-    progress: Progress,
+    ask: Ask,
 ) -> list[Result]:
-    goals = [same.var for _, same in left] + [check for check, _ in there.system.checks]
-    answers = {n: (a, engine.NAME) for n, a in engine.check(there.system, goals, limits, progress).items()}
+    answers = ask(there.system, [same.var for _, same in left], Hint.CONCRETE)
     check_domains(there.system, answers)
     found = []
     for goal, same in left:

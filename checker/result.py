@@ -1,10 +1,12 @@
 """Results: an answer about a goal taken home as a verdict on a property."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 from checker.calm import calmed
+from checker.certify.outcome import Outcome
+from checker.portfolio.question import Found, Hint
 from checker.replay import replay
 from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Verdict, Violated
 from properties.forms import Property
@@ -13,14 +15,14 @@ from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 
-Answers = Mapping[str, tuple[Answer, str]]
+Answers = Found
 """An answer for each goal and the name of the engine that gave it."""
 
 
 class Ask(Protocol):
-    """Asks the engines that the user chose; ``short`` tells that a run, if there is one, is short."""
+    """Asks the engines that the user chose; the hint tells what is known of the answer."""
 
-    def __call__(self, system: TransitionSystem, goals: Sequence[Var], short: bool = False) -> Answers:
+    def __call__(self, system: TransitionSystem, goals: Sequence[Var], hint: Hint = Hint.NONE) -> Answers:
         """An answer for each goal and for each check of the system."""
         ...
 
@@ -30,13 +32,15 @@ class Result:
     """A property, its verdict, and the name of the system the verdict is about.
 
     ``in_part``: the verdict rests on having searched a system that has only some of the runs of the
-    rover, so it is none about the rover.
+    rover, so it is none about the rover.  ``certificate``: what came of checking the proof again, where
+    that was asked for and the verdict rests on a proof.
     """
 
     property: Property
     verdict: Verdict
     system: str
     in_part: bool = False
+    certificate: Outcome | None = None
 
 
 def result(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Result:
@@ -56,9 +60,9 @@ def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> V
 
 
 def check_domains(system: TransitionSystem, found: Answers) -> None:
-    """Raises ``ModelError`` if some run takes a variable out of its domain."""
+    """Raises ``ModelError`` if some run is known that takes a variable out of its domain."""
     for check, text in system.checks:
-        answer, _ = found[check.name]
+        answer, _ = found.get(check.name, (None, ""))
         if isinstance(answer, Reached):
             raise ModelError(
                 f"{system.name}: {text}, first in tick {len(answer.run)}. "

@@ -14,6 +14,7 @@ from spec_model.lang.expr import Expr
 
 if TYPE_CHECKING:
     from checker.closed import ClosedSet
+    from checker.diagram import Diagram
 
 
 @dataclass(frozen=True)
@@ -32,9 +33,9 @@ class Exhausted:
     """Every reachable valuation was visited.
 
     ``states`` counts distinct valuations of ``variables`` (those the goals depend on, the others
-    being sliced away), ``transitions`` the distinct input cells tried, ``depth`` the number of
-    ticks after which nothing new appeared.  With ``skipped`` quiet ticks (see docs/timers.md) these are
-    the valuations stored; the others were visited in passing, and ``depth`` is an upper bound.
+    being sliced away), ``transitions`` the distinct input cells tried (0: not counted), ``depth`` the
+    number of ticks after which nothing new appeared.  With ``skipped`` quiet ticks (see docs/timers.md)
+    these are the valuations stored; the others were visited in passing, and ``depth`` is an upper bound.
     """
 
     states: int
@@ -44,6 +45,8 @@ class Exhausted:
     skipped: bool = False
     closed: "ClosedSet | None" = field(default=None, compare=False, repr=False)
     """The valuations themselves, as far as the engine kept them."""
+    diagram: "Diagram | None" = field(default=None, compare=False, repr=False)
+    """The set of them, where the engine kept a decision diagram of it; constants of the system included."""
 
     @property
     def how(self) -> str:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from checker.encode.intervals import Interval, postorder
 from checker.encode.symbolic import Transition
 from checker.encode.terms import Terms
-from spec_model.lang.expr import Apply, Const, Expr, Var
+from spec_model.lang.expr import Apply, Const, Expr, Op, Var
 from spec_model.lang.walk import variables
 
 
@@ -45,22 +45,54 @@ def cone(transition: Transition, goals: Iterable[str]) -> Slice:
     )
 
 
-def folded(transition: Transition) -> Transition:
-    """The transition with variables that never change replaced by their values."""
-    fold = _Folder(transition.terms, constants(transition))
+def by_cone(transition: Transition, goals: Iterable[str]) -> list[list[str]]:
+    """Goals that depend on the same variables, inputs and frozen variables, apart from goals."""
+    found: dict[frozenset[str], list[str]] = {}
+    wanted = list(goals)
+    for goal in wanted:
+        part = cone(transition, [goal])
+        names = {v.name for v in (*part.variables, *part.inputs, *part.frozen)}
+        found.setdefault(frozenset(names.difference(wanted)), []).append(goal)
+    return list(found.values())
+
+
+def folded(transition: Transition, fixed: Mapping[str, int] | None = None) -> Transition:
+    """The transition with variables that never change (``fixed``, as in ``constants``) and inputs that the
+    assumption leaves one value replaced by these values.  The assumption still says so of the inputs."""
+    fixed = constants(transition) if fixed is None else fixed
+    fold = _Folder(transition.terms, {**settled(transition), **fixed})
+    assumed = _Folder(transition.terms, fixed)
     following = {n: fold(e) for n, e in transition.next.items()}
-    return replace(transition, next=following, assume=tuple(map(fold, transition.assume)))
+    return replace(transition, next=following, assume=tuple(map(assumed, transition.assume)))
 
 
 def constants(transition: Transition) -> dict[str, int]:
     """Variables that keep their initial value in every run: the greatest set that justifies itself."""
-    fixed = transition.system.init
+    inputs, fixed = settled(transition), transition.system.init
     while True:
-        folded = _Folder(transition.terms, fixed)
+        folded = _Folder(transition.terms, {**inputs, **fixed})
         kept = {n: v for n, v in fixed.items() if _is(folded(transition.next[n]), v)}
         if len(kept) == len(fixed):
             return kept
         fixed = kept
+
+
+def settled(transition: Transition) -> dict[str, int]:
+    """Inputs to which a conjunct of the assumption gives their value: ``i``, ``~i`` or ``i == 3``."""
+    inputs = {v.name for v in transition.system.inputs}
+    pairs = (_settles(conjunct) for conjunct in transition.assume)
+    return {name: value for name, value in filter(None, pairs) if name in inputs}
+
+
+def _settles(conjunct: Expr) -> tuple[str, int] | None:
+    match conjunct:
+        case Var(name):
+            return name, 1
+        case Apply(Op.NOT, (Var(name),), _):
+            return name, 0
+        case Apply(Op.EQ, (Var(name), Const(value)), _):
+            return name, value
+    return None
 
 
 def _is(expr: Expr, value: int) -> bool:
@@ -121,11 +153,45 @@ def _split(
 
 def leaving(part: Slice, terms: Terms) -> dict[str, Expr]:
     """For the variables that might leave the hull of their domain, the condition under which they do."""
+    return _leaving(part.variables, part.next, terms)
+
+
+def leaving_among(transition: Transition, among: Iterable[Var]) -> dict[str, Expr]:
+    """As ``leaving``, for variables of the whole system.
+
+    Ask it of all that the goals depend on as written (``sliced``), not of a cone: formulas were simplified
+    on the assumption that no variable leaves its domain, and may no longer mention the one that does.
+    """
+    return _leaving(among, transition.next, transition.terms)
+
+
+def _leaving(among: Iterable[Var], following: Mapping[str, Expr], terms: Terms) -> dict[str, Expr]:
     found = {}
-    for var in part.variables:
-        value, low, high = part.next[var.name], var.domain.low, var.domain.high
+    for var in among:
+        value, low, high = following[var.name], var.domain.low, var.domain.high
         if not terms.range(value).within(Interval(low, high)):
             below = terms.at_most(value, terms.const(low - 1, var.sort))
             above = terms.negation(terms.at_most(value, terms.const(high, var.sort)))
             found[var.name] = terms.disjunction((below, above))
     return {name: condition for name, condition in found.items() if condition is not terms.false}
+
+
+def straying(transition: Transition, among: Iterable[Var]) -> dict[str, Expr]:
+    """As ``leaving_among``, and for domains with gaps also the condition for a value between members."""
+    near, terms = list(among), transition.terms
+    found = leaving_among(transition, near)
+    for var in near:
+        value = transition.next[var.name]
+        if not var.domain.dense and not _keeps(value, var):
+            inside = [terms.equal(value, terms.const(v, var.sort)) for v in var.domain.values]
+            found[var.name] = terms.negation(terms.disjunction(inside))
+    return {name: condition for name, condition in found.items() if condition is not terms.false}
+
+
+def _keeps(expr: Expr, var: Var) -> bool:
+    """Whether every case of the formula is a member of the domain, as far as it is easily seen."""
+    if isinstance(expr, Apply) and expr.op is Op.ITE:
+        return all(_keeps(case, var) for case in expr.args[1:])
+    if isinstance(expr, Const):
+        return expr.value in var.domain
+    return isinstance(expr, Var) and set(expr.domain.values) <= set(var.domain.values)

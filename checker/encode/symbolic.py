@@ -5,7 +5,7 @@ Temporaries disappear.  Inside a branch, the condition is used as a fact: a loca
 way in is a constant further down.
 """
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from checker.encode.facts import Facts
@@ -40,8 +40,20 @@ def transition(system: TransitionSystem) -> Transition:
     executor, facts = _Executor(terms), Facts(terms.range)
     assume = executor.value(system.assume, store, facts)
     executor.run(system.step, store, facts)
-    parts = assume.args if is_apply(assume, Op.AND) else () if assume is terms.true else (assume,)
+    parts = tuple(_conjuncts(assume, terms))
     return Transition(system, {v.name: store[v.name] for v in system.variables}, parts, terms)
+
+
+def _conjuncts(expr: Expr, terms: Terms) -> Iterator[Expr]:
+    """The parts of a conjunction, or of a negated disjunction."""
+    if is_apply(expr, Op.AND):
+        for arg in expr.args:
+            yield from _conjuncts(arg, terms)
+    elif is_apply(expr, Op.NOT) and is_apply(expr.args[0], Op.OR):
+        for arg in expr.args[0].args:
+            yield from _conjuncts(terms.negation(arg), terms)
+    elif expr is not terms.true:
+        yield expr
 
 
 class _Executor:

@@ -146,11 +146,11 @@ PSY_12 = until(
     start=b1.actuate_emergency_stop & stop_commanded, holds=b1.v_ref <= 0, release=~stop_commanded,
     covers=["B2-OBS-01", "B1-EST-01"], on="references_executed", from_tick=2, readings=["E10", "S62"],
 )  # fmt: skip
-PSY_18 = costly(settles(
+PSY_18 = settles(
     "PSY-18",
     "Without any fault and without an obstacle within 300 cm, wheels at rest whenever the references are "
     "zero, Board 1 drives for ever, safe and under CMD_NORMAL, and Board 2 is not authorised.",
     premise=~near_300 & (b1.wheels_below_2_5 | ~zero_1),
     then=drive1 & ~drive2 & (b1.rover_safety_state == "SAFETY_OK") & (b1.cmd == "CMD_NORMAL"),
-    covers=["B1-REL-04", "B1-REF-02", "B2-OBS-12"], on="rover_healthy", readings=["S45"],
-))  # fmt: skip
+    covers=["B1-REL-04", "B1-REF-02", "B2-OBS-12"], on="rover_plain_no_loss", readings=["S45"],
+)  # fmt: skip

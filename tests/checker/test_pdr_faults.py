@@ -13,9 +13,11 @@ from checker.encode.bits import Circuit, Literal
 from checker.engines.pdr import groups, search, seeds
 from checker.engines.pdr.cubes import Cube, cube
 from checker.engines.pdr.events import Bound, Decided
-from checker.engines.pdr.frames import Frames, Lemma, Lifter, Step
+from checker.engines.pdr.frames import Frames
 from checker.engines.pdr.generalise import Generaliser
 from checker.engines.pdr.groups import decisions
+from checker.engines.pdr.lemmas import Lemma, Step
+from checker.engines.pdr.lift import Lifter
 from checker.engines.pdr.machine import Machine, machine
 from checker.verdict import Reached, Unreachable
 from spec_model.lang.action import Assign, If

@@ -6,6 +6,7 @@ import signal
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -26,6 +27,8 @@ WRONG = [
     (["check", "--depth", "0"], Exit.USAGE, "0 is not in the range"),
     (["check", "--timeout", "soon"], Exit.USAGE, "'soon' is not a valid float"),
     (["check", "--timeout", "-1"], Exit.USAGE, "-1.0 is not in the range"),
+    (["check", "--jobs", "0"], Exit.USAGE, "0 is not in the range"),
+    (["check", "--memory", "0"], Exit.USAGE, "0.0 is not in the range"),
     (["list", "everything"], Exit.USAGE, "'everything' is not one of"),
     (["chekc"], Exit.USAGE, "No such command 'chekc'"),
     (["check", "PB1-15", "--system", "battery"], Exit.NOTHING, "Nothing to check"),
@@ -52,15 +55,30 @@ def test_an_unwritable_place_leaves_nothing_behind(
     assert list(tmp_path.iterdir()) == []
 
 
+def left_behind(mark: str) -> list[str]:
+    """The processes whose environment has a mark (none where the system does not tell)."""
+    found = []
+    for process in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):
+            if mark.encode() in (process / "environ").read_bytes():
+                found.append(process.name)
+    return found
+
+
 def test_ctrl_c_in_the_middle_ends_at_once_with_what_was_found() -> None:
+    mark = f"ROVERCHECK_TEST_{os.getpid()}_{time.monotonic_ns()}"
     child = subprocess.Popen(
         [sys.executable, "-m", "checker", "check", "--engine", "bmc", "--depth", "100000", "--json"],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+        env={**os.environ, "MARK": mark},
     )  # fmt: skip
-    time.sleep(6)
+    assert child.stderr is not None
+    said = next(line for line in child.stderr if "searches done" in line)
     os.killpg(child.pid, signal.SIGINT)
-    shown, said = child.communicate(timeout=30)
+    shown, rest = child.communicate(timeout=60)
+    said += rest
     assert child.returncode == Exit.INTERRUPTED
     assert "Interrupted:" in said
     assert "Traceback" not in said
     assert json.loads(shown)["complete"] is False
+    assert left_behind(mark) == []

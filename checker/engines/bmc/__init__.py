@@ -8,7 +8,7 @@ from contextlib import closing
 from dataclasses import replace
 
 from checker.engine import Limits, Progress
-from checker.engines.bmc.events import Bound, Event, Found, Inductive, Undefined
+from checker.engines.bmc.events import Bound, Event, Found, Undefined
 from checker.isolate import Send, Stopped, messages
 from checker.verdict import Answer, Open, Reached
 from spec_model.lang.expr import Var
@@ -17,7 +17,7 @@ from spec_model.lang.system import TransitionSystem
 NAME = "bmc"
 SUMMARY = "shortest runs by unrolling the step over bit-vectors (Z3); a bounded search, never a proof"
 DEPTH = 300
-"""Ticks searched when the limits name no depth."""
+"""Ticks searched when the limits name no depth; the answer says so."""
 
 
 def check(
@@ -33,26 +33,26 @@ def check(
     try:
         with closing(messages(_work, *job, seconds=limits.seconds, memory=limits.memory)) as events:
             for event in events:
-                _note(event, found, deep, depth)
+                _note(event, found, deep)
                 progress(_line(deep, found))
     except Stopped as stopped:
         reason = str(stopped)
-    return {n: found.get(n) or _open(deep[n], depth, reason) for n in names}
+    done = _searched(limits.depth)
+    return {n: found.get(n) or Open(done if deep[n] >= depth else reason, deep[n]) for n in names}
 
 
-def _open(deep: int, wanted: int, reason: str) -> Open:
-    """What remains to be said of a goal that no run was found to."""
-    return Open(f"no run of at most {wanted} ticks reaches it" if deep >= wanted else reason, deep)
+def _searched(wanted: int | None) -> str:
+    """What is said of a goal when all ticks were searched; a depth that nobody asked for is named as ours."""
+    if wanted is None:
+        return f"no run of at most {DEPTH} ticks reaches it, and no other depth was asked for"
+    return f"no run of at most {wanted} ticks reaches it"
 
 
-def _note(event: Event | None, found: dict[str, Answer], deep: dict[str, int], wanted: int) -> None:
+def _note(event: Event | None, found: dict[str, Answer], deep: dict[str, int]) -> None:
     """Take down what an event says; None only shows that time has passed."""
     match event:
         case Found(goal, run):
             found[goal] = Reached(run, shortest=True)
-        case Inductive(goal, ticks):
-            text = f"no run of any length reaches it by {ticks}-induction, which this engine does not certify"
-            found[goal] = Open(text, wanted)
         case Undefined(goals, variables, depth):
             names = ", ".join(variables)
             found |= dict.fromkeys(goals, Open(f"{names} may leave its domain in tick {depth + 1}", depth))

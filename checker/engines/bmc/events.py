@@ -23,14 +23,6 @@ class Bound:
 
 
 @dataclass(frozen=True)
-class Inductive:
-    """No run of any length reaches the goal: ``ticks``-induction over the domains shows it."""
-
-    goal: str
-    ticks: int
-
-
-@dataclass(frozen=True)
 class Undefined:
     """Nothing more can be said of the goals beyond ``depth``: the variables may leave their domains."""
 
@@ -39,4 +31,4 @@ class Undefined:
     depth: int
 
 
-Event = Union[Found, Bound, Inductive, Undefined]
+Event = Union[Found, Bound, Undefined]

@@ -6,14 +6,16 @@ constant gets a symbol of its own and an equation; substituting formulas into fo
 functional unrolling) makes the solver a hundred times slower on counters.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import z3
 
-from checker.encode.bitvector import Encoder, Term, literal, member, symbol, value, width
+from checker.encode.bitvector import Encoder, Term, member, symbol, value, width
+from checker.encode.bitvector import literal as constant
 from checker.encode.cone import Slice
 from checker.verdict import Run
 from spec_model.lang.expr import Expr, Var
+from spec_model.lang.system import TransitionSystem
 
 
 class Unrolling:
@@ -37,6 +39,7 @@ class Unrolling:
         for var in part.frozen:
             self.solver.add(*member(self._frozen[var.name], var.domain))
         self._state = [self._start(var, anywhere) for var in part.variables]
+        self._first = {v.name: t for v, t in zip(part.variables, self._state, strict=True)}
 
     def __len__(self) -> int:
         """The number of ticks so far."""
@@ -45,6 +48,15 @@ class Unrolling:
     def after(self, tick: int, name: str) -> Term:
         """A variable after a tick; the first tick is 1."""
         return self._after[tick - 1][name]
+
+    def valuation(self, tick: int) -> dict[str, Term]:
+        """The variables after a tick, 0 for before the first one, and the frozen variables."""
+        state = self._after[tick - 1] if tick else self._first
+        return {**state, **self._frozen}
+
+    def inputs(self, tick: int) -> Mapping[str, Term]:
+        """The inputs of a tick."""
+        return self._ticks[tick - 1]
 
     def events(self, tick: int) -> Sequence[Term]:
         """The conditions given, in a tick."""
@@ -77,7 +89,7 @@ class Unrolling:
 
     def _start(self, var: Var, anywhere: bool) -> Term:
         if not anywhere:
-            return literal(var.init, var.sort, width(var.domain))
+            return constant(var.init, var.sort, width(var.domain))
         term = symbol(var, f"{var.name}@0")
         self.solver.add(*member(term, var.domain))
         return term
@@ -126,3 +138,35 @@ def satisfiable(solver: z3.Solver, *assumptions: Term) -> bool:
 
 def _symbols(variables: Sequence[Var]) -> dict[str, Term]:
     return {v.name: symbol(v, v.name) for v in variables}
+
+
+class Outside:
+    """Inputs and frozen variables outside a slice, with values that the assumption allows.
+
+    ``possible`` is false when there are none: then the system has no run at all.
+    """
+
+    def __init__(self, system: TransitionSystem, part: Slice) -> None:
+        inside = {v.name for v in part.inputs}
+        inputs = model_of(part.loose, [v for v in system.inputs if v.name not in inside])
+        self.possible = inputs is not None
+        self._inputs = inputs or {}
+        self._frozen = {v.name: v.init for v in system.frozen}
+
+    def complete(self, run: Run) -> Run:
+        """The run with values for what the slice left out."""
+        ticks = tuple({**self._inputs, **tick} for tick in run.inputs)
+        return Run({**self._frozen, **run.frozen}, ticks)
+
+
+def steps_taken(solver: z3.Solver) -> int:
+    """The steps that Z3 has counted so far: work that does not depend on the machine."""
+    counts = solver.statistics()
+    return int(counts.get_key_value("rlimit count")) if "rlimit count" in counts.keys() else 0  # noqa: SIM118
+
+
+def literal(unrolling: Unrolling, term: Term) -> Term:
+    """A fresh literal that implies the term in the solver of the unrolling."""
+    fresh = z3.FreshBool("literal")
+    unrolling.solver.add(z3.Implies(fresh, term))
+    return fresh

@@ -1,0 +1,225 @@
+"""Certificates: what an engine has shown, as a document that anybody can check (docs/certificates.md)."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from checker.certify.diagram import Diagram, Node
+from checker.certify.invariant import Conjuncts, Invariant, conjuncts
+from checker.certify.question import Question, question
+from checker.certify.reduction import diagram
+from checker.certify.terms import Malformed, definitions
+from checker.certify.tick import conjuncts as parts
+from checker.certify.tick import executed
+from checker.closed import ClosedSet
+from checker.slice import sliced
+from checker.verdict import Answer, Evidence, Exhausted, Inductive, Unreachable
+from spec_model.lang.expr import Var
+from spec_model.lang.system import TransitionSystem
+from spec_model.lang.walk import variables
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """One answer of an engine: the goals it ``claims`` are never true, and an invariant that shows it.
+
+    ``kept``, ``about`` and ``text`` as in ``Question``; ``found`` says what the engine counted.
+    """
+
+    system: str
+    claims: tuple[str, ...]
+    kept: tuple[int, ...]
+    about: tuple[str, ...]
+    digest: str
+    text: str
+    invariant: Invariant
+    engine: str
+    found: Mapping[str, int]
+
+
+def certificates(
+    system: TransitionSystem, goals: Sequence[Var], answers: Mapping[str, Answer], engine: str
+) -> list[Certificate]:
+    """A certificate for each invariant in the answers, for the goals that it excludes.
+
+    Call it where the answers were found, so that a large closed set stays where it is.  An answer without
+    an invariant (an exhausted search that kept no closed set) gives none.
+    """
+    claims: dict[object, tuple[Evidence, list[str]]] = {}
+    for goal in goals:
+        match answers.get(goal.name):
+            case Unreachable(Exhausted(skipped=False, closed=closed) as because) if closed is not None:
+                claims.setdefault(_memory(closed), (because, []))[1].append(goal.name)
+            case Unreachable(Inductive() as because):
+                claims.setdefault(id(because), (because, []))[1].append(goal.name)
+    if not claims:
+        return []
+    step = executed(system)
+    made = []
+    for because, names in claims.values():
+        about = _about(because)
+        asked = question(step, names, _kept(system, [*names, *about]), about)
+        made.append(_certificate(system, asked, because, engine))
+    return made
+
+
+def _memory(closed: ClosedSet) -> object:
+    """Where the valuations are: one search gives the same ones to all its goals."""
+    return closed.words.__array_interface__["data"], closed.words.shape
+
+
+def _kept(system: TransitionSystem, names: Sequence[str]) -> list[int]:
+    """The conjuncts of the assumption that matter to variables: others speak of inputs that nothing reads."""
+    used = {id(part) for part in parts(sliced(system, [system.var(n) for n in names]).assume)}
+    return [i for i, part in enumerate(parts(system.assume)) if id(part) in used]
+
+
+def _about(because: Evidence) -> tuple[str, ...]:
+    if isinstance(because, Inductive):
+        return tuple(variables(*because.conjuncts))
+    assert because.closed is not None
+    return tuple(place.var.name for place in because.closed.places)
+
+
+def _certificate(system: TransitionSystem, asked: Question, because: Evidence, engine: str) -> Certificate:
+    found: dict[str, int]
+    if isinstance(because, Inductive):
+        invariant: Invariant = conjuncts(because, asked.tick.frozen, asked.tick.variables)
+        found = {"conjuncts": len(because.conjuncts)}
+    else:
+        assert because.closed is not None
+        invariant = diagram(because.closed)
+        found = {"valuations": len(because.closed), "depth": because.depth}
+    return Certificate(
+        system.name,
+        asked.claims,
+        asked.kept,
+        asked.about,
+        asked.digest,
+        asked.text,
+        invariant,
+        engine,
+        found,
+    )
+
+
+# --- as a document -------------------------------------------------------------------------------
+
+
+def document(certificate: Certificate) -> dict[str, object]:
+    """The certificate as JSON."""
+    return {
+        "system": certificate.system,
+        "claims": list(certificate.claims),
+        "assume": list(certificate.kept),
+        "about": list(certificate.about),
+        "digest": certificate.digest,
+        "question": certificate.text.splitlines(),
+        "invariant": _invariant(certificate.invariant),
+        "engine": certificate.engine,
+        "found": dict(certificate.found),
+    }
+
+
+def _invariant(invariant: Invariant) -> dict[str, object]:
+    if isinstance(invariant, Diagram):
+        nodes = [[n.variable, *(number for edge in n.edges for number in edge)] for n in invariant.nodes]
+        return {"variables": list(invariant.variables), "nodes": nodes, "root": invariant.root}
+    return {
+        "definitions": list(invariant.definitions),
+        "conjuncts": list(invariant.conjuncts),
+        "ticks": invariant.ticks,
+        "simple": invariant.simple,
+    }
+
+
+def certificate(found: Any) -> Certificate:
+    """The certificate in a JSON document.  Raises ``Malformed``.
+
+    That it has the right shape is checked here; whether it is right, by ``checker.certify.check``.
+    """
+    try:
+        return Certificate(
+            _text(found["system"]),
+            _strings(found["claims"]),
+            _numbers(found["assume"]),
+            _strings(found["about"]),
+            _text(found["digest"]),
+            "\n".join((*_strings(found["question"]), "")),
+            _read(found["invariant"]),
+            _text(found["engine"]),
+            {name: _number(number) for name, number in found["found"].items()},
+        )
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+        raise Malformed(f"{type(error).__name__} {error} in the certificate") from error
+
+
+def _read(found: Any) -> Invariant:
+    if "nodes" in found:
+        nodes = tuple(_node(_numbers(n)) for n in found["nodes"])
+        return Diagram(_strings(found["variables"]), nodes, _number(found["root"]))
+    if found["simple"] not in (True, False):
+        raise Malformed("simple must be true or false")
+    texts = _strings(found["definitions"]), _strings(found["conjuncts"])
+    return Conjuncts(*texts, _number(found["ticks"]), found["simple"])
+
+
+def _node(numbers: tuple[int, ...]) -> Node:
+    edges = tuple(zip(numbers[1::3], numbers[2::3], numbers[3::3], strict=True))
+    return Node(numbers[0], edges)
+
+
+def _text(found: Any) -> str:
+    return _strings([found])[0]
+
+
+def _number(found: Any) -> int:
+    return _numbers([found])[0]
+
+
+def _strings(found: Any) -> tuple[str, ...]:
+    if not (isinstance(found, list) and all(isinstance(s, str) for s in found)):
+        raise Malformed(f"{str(found)[:40]} is no list of texts")
+    return tuple(found)
+
+
+def _numbers(found: Any) -> tuple[int, ...]:
+    if not (isinstance(found, list) and all(type(n) is int for n in found)):
+        raise Malformed(f"{str(found)[:40]} is no list of whole numbers")
+    return tuple(found)
+
+
+# --- meaning something ---------------------------------------------------------------------------
+
+
+def meaningful(invariant: Invariant, asked: Question) -> None:
+    """Raises ``Malformed`` unless the invariant speaks of valuations of the question and of nothing else."""
+    if isinstance(invariant, Diagram):
+        _diagram(invariant, asked)
+        return
+    here = asked.symbols(0)
+    own = [here[v.name] for v in asked.state if v.name in asked.about]
+    found = definitions(invariant.definitions, own)
+    known = {"true", "false", *found, *own}
+    unknown = [c for c in invariant.conjuncts if c not in known]
+    if unknown or invariant.ticks < 1:
+        raise Malformed(f"{unknown or invariant.ticks} is no conjunct, or no number of ticks")
+
+
+def _diagram(found: Diagram, asked: Question) -> None:
+    domains = {v.name: v.domain for v in asked.state}
+    if not set(found.variables) <= domains.keys() or len(set(found.variables)) < len(found.variables):
+        raise Malformed("the diagram asks for a variable twice, or for one that is not in the question")
+    level = [len(found.variables)]
+    for number, node in enumerate(found.nodes, 1):
+        if not 0 <= node.variable < len(found.variables):
+            raise Malformed(f"node {number} asks for variable {node.variable}, which does not exist")
+        domain, last = domains[found.variables[node.variable]], None
+        for low, high, to in node.edges:
+            orderly = domain.low <= low <= high <= domain.high and (last is None or last < low)
+            if not (orderly and 0 <= to < number and level[to] > node.variable):
+                raise Malformed(f"node {number} has an edge {low}..{high} to {to} that cannot be")
+            last = high
+        level.append(node.variable)
+    if not 0 <= found.root <= len(found.nodes):
+        raise Malformed(f"there is no node {found.root} to begin with")

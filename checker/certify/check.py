@@ -1,0 +1,133 @@
+"""Checking a certificate against the system it speaks of, with nothing of the engine that wrote it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import StrEnum
+
+from checker.certify import solver
+from checker.certify.certificate import Certificate, meaningful
+from checker.certify.diagram import Diagram, size
+from checker.certify.enumeration import enumerated
+from checker.certify.invariant import Invariant
+from checker.certify.obligations import Obligation, obligations
+from checker.certify.outcome import Accepted, Outcome, Rejected, TooMuch, Undecided, told
+from checker.certify.question import Question, question
+from checker.certify.sweep import swept
+from checker.certify.terms import Malformed
+from checker.certify.tick import Executed, executed
+from spec_model.lang.system import TransitionSystem
+
+LARGE = 100_000
+"""Nodes and edges of a diagram above which trying all valuations, where that succeeds, is enough."""
+
+
+class By(StrEnum):
+    """Who checks."""
+
+    SOLVER = "bitwuzla"
+    ENUMERATION = "enumeration"
+    BOTH = "both"
+
+
+@dataclass(frozen=True)
+class Effort:
+    """Who checks, and the wall seconds that the solver may take for one certificate (None: no bound)."""
+
+    by: By = By.BOTH
+    seconds: float | None = 600
+
+
+def rebuilt(certificate: Certificate, step: Executed) -> Question | Rejected:
+    """The question of the certificate put to the system as it is now, if that is still the same one."""
+    try:
+        asked = question(step, certificate.claims, certificate.kept, certificate.about)
+    except (KeyError, IndexError) as error:
+        return Rejected("question", f"{step.system.name} has no {error.args[0]}")
+    if not certificate.claims:
+        return Rejected("question", "nothing is claimed")
+    if asked.digest != certificate.digest:
+        other = f"it is about another {certificate.system} than the present one"
+        return Rejected("question", f"{other}, whose digest is {asked.digest}")
+    if asked.text != certificate.text:
+        return Rejected("question", "the text of the question is not the one its digest was made of")
+    return asked
+
+
+def check(certificate: Certificate, system: TransitionSystem, effort: Effort) -> Outcome:
+    """Whether the certificate proves that the system never makes a claimed goal true."""
+    asked = rebuilt(certificate, executed(system))
+    if isinstance(asked, Rejected):
+        return asked
+    try:
+        meaningful(certificate.invariant, asked)
+        return _checked(certificate, system, asked, effort)
+    except Malformed as error:
+        return Rejected("invariant", str(error))
+
+
+def _checked(certificate: Certificate, system: TransitionSystem, asked: Question, effort: Effort) -> Outcome:
+    """By enumeration where that is feasible, and by the solver."""
+    tried = _tried(certificate.invariant, system, asked, effort)
+    enough = isinstance(tried, Accepted | Rejected) and _large(certificate.invariant)
+    if effort.by is By.ENUMERATION or enough:
+        return Undecided(tried.reason) if isinstance(tried, TooMuch) else tried
+    wanted = list(obligations(asked, certificate.invariant))
+    shown = solved(asked, wanted, effort.seconds)
+    return shown if isinstance(tried, TooMuch) else _together([tried, shown])
+
+
+def _tried(
+    invariant: Invariant, system: TransitionSystem, asked: Question, effort: Effort
+) -> Accepted | Rejected | TooMuch:
+    """By enumeration, slow and obvious, or on all valuations at once where that is what is left."""
+    if effort.by is By.SOLVER:
+        return TooMuch("only the solver is asked")
+    tried = enumerated(system, asked, invariant)
+    fast = isinstance(invariant, Diagram) and (effort.by is By.ENUMERATION or _large(invariant))
+    if isinstance(tried, TooMuch) and isinstance(invariant, Diagram) and fast:
+        return swept(asked, invariant)
+    return tried
+
+
+def _large(invariant: Invariant) -> bool:
+    """Whether a solver would take long over it."""
+    return isinstance(invariant, Diagram) and size(invariant) > LARGE
+
+
+def _together(outcomes: Sequence[Outcome]) -> Outcome:
+    """One that rejects, else those that accept, else the reason why nothing is known."""
+    for outcome in outcomes:
+        if isinstance(outcome, Rejected):
+            return outcome
+    accepted = [o.how for o in outcomes if isinstance(o, Accepted)]
+    return Accepted(" and ".join(accepted)) if accepted else outcomes[-1]
+
+
+def solved(asked: Question, wanted: Sequence[Obligation], seconds: float | None) -> Outcome:
+    """What the solver says of the obligations."""
+    symbols = [[s for at in range(o.ticks + 1) for s in _symbols(asked, at, o.ticks)] for o in wanted]
+    for decided in solver.decide(wanted, symbols, seconds):
+        match decided:
+            case solver.Broken(name, values):
+                ticks = next(o.ticks for o in wanted if o.name == name)
+                return Rejected(name, _words(asked, ticks, values))
+            case solver.Late(name, reason):
+                return Undecided(f"{name}: {reason}")
+    return Accepted(f"{len(wanted)} obligations by {solver.NAME}")
+
+
+def _symbols(asked: Question, at: int, ticks: int) -> list[str]:
+    names = [v.name for v in (asked.state if not at else asked.tick.variables)]
+    names += [v.name for v in asked.tick.inputs] if at < ticks else []
+    return [asked.symbols(at)[name] for name in names]
+
+
+def _words(asked: Question, ticks: int, values: solver.Values) -> str:
+    """The valuations and inputs, tick by tick."""
+    parts = []
+    for at in range(ticks + 1):
+        found = {name: values[s] for name, s in asked.symbols(at).items() if s in values}
+        parts.append(f"after {at} ticks {told(asked.state, found)}" if at else told(asked.state, found))
+        if at < ticks and asked.tick.inputs:
+            parts.append(f"inputs {told(asked.tick.inputs, found)}")
+    return "; ".join(parts)

@@ -1,0 +1,130 @@
+"""Files of certificates: one for each search, written whole or not at all, and read with suspicion."""
+
+import gzip
+import json
+import os
+import tempfile
+import zlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from typing import Any
+
+from checker.certify.certificate import Certificate, certificate, document
+from checker.certify.terms import Malformed
+
+SCHEMA = "rovercheck/certificate/1"
+LARGE = 1 << 17
+"""Bytes from which on a file is compressed."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where the questions come from: what to check again to ask them again.
+
+    ``proved`` are those of the searched ``properties`` whose verdicts rest on the certificates; the others
+    were decided by runs, or not.  The rest says how the system is changed, and how ``timers`` were searched.
+    """
+
+    system: str
+    properties: tuple[str, ...]
+    proved: tuple[str, ...]
+    readings: Mapping[str, str]
+    repair: str = ""
+    without: tuple[str, ...] = ()
+    timers: str = "exact"
+
+
+class Unwritable(Exception):
+    """A certificate cannot be written there; the message says where and why."""
+
+
+@dataclass(frozen=True)
+class Written:
+    """What a file holds."""
+
+    origin: Origin
+    certificates: tuple[Certificate, ...]
+
+
+def write(folder: Path, origin: Origin, certificates: Sequence[Certificate]) -> Path:
+    """Write the file of one search, ``<system>-<first property>.json``, with ``.gz`` where it is large.
+
+    Raises ``Unwritable``; what was there before is then still there.
+    """
+    data = json.dumps(_document(origin, certificates), separators=(",", ":")).replace('],"', '],\n"').encode()
+    plain = folder / f"{origin.system}-{origin.properties[0]}.json"
+    packed = plain.with_name(f"{plain.name}.gz")
+    target, other = (packed, plain) if len(data) >= LARGE else (plain, packed)
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        _replace(target, gzip.compress(data, mtime=0) if target is packed else data)
+        other.unlink(missing_ok=True)
+    except OSError as error:
+        raise Unwritable(f"Cannot write {target}: {error.strerror}. The verdicts stand.") from error
+    return target
+
+
+def _replace(target: Path, data: bytes) -> None:
+    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
+    try:
+        with os.fdopen(handle, "wb") as file:
+            file.write(data)
+        os.chmod(name, 0o644)
+        os.replace(name, target)
+    except BaseException:
+        Path(name).unlink(missing_ok=True)
+        raise
+
+
+def _document(origin: Origin, certificates: Sequence[Certificate]) -> dict[str, object]:
+    return {
+        "schema": SCHEMA,
+        "tool": f"rovercheck {_version()}",
+        "origin": {
+            "system": origin.system,
+            "properties": list(origin.properties),
+            "proved": list(origin.proved),
+            "readings": dict(sorted(origin.readings.items())),
+            "repair": origin.repair,
+            "without": sorted(origin.without),
+            "timers": origin.timers,
+        },
+        "certificates": [document(one) for one in certificates],
+    }
+
+
+def _version() -> str:
+    try:
+        return version("rovercheck")
+    except PackageNotFoundError:  # run from the sources
+        return "not installed"
+
+
+def read(path: Path) -> Written:
+    """What a file says.  Raises ``Malformed`` for what is no file of certificates, ``OSError``."""
+    data = path.read_bytes()
+    try:
+        text = gzip.decompress(data) if data[:2] == b"\x1f\x8b" else data
+        found = json.loads(text)
+    except (ValueError, EOFError, zlib.error, gzip.BadGzipFile, RecursionError) as error:
+        raise Malformed(f"it is not whole: {error}") from error
+    schema = found.get("schema") if isinstance(found, dict) else None
+    if schema != SCHEMA:
+        raise Malformed(f"its schema is {schema!r}, not {SCHEMA!r}")
+    if not isinstance(found.get("certificates"), list):
+        raise Malformed("it holds no list of certificates")
+    return Written(_origin(found.get("origin")), tuple(map(certificate, found["certificates"])))
+
+
+def _origin(found: Any) -> Origin:
+    try:
+        texts = [str(found[name]) for name in ("system", "repair", "timers")]
+        lists = [tuple(map(str, found[name])) for name in ("properties", "proved", "without")]
+        readings = {str(id): str(choice) for id, choice in found["readings"].items()}
+    except (KeyError, TypeError, AttributeError) as error:
+        raise Malformed(f"{type(error).__name__} {error} in its origin") from error
+    if not lists[0] or not set(lists[1]) <= set(lists[0]):
+        raise Malformed("its origin names no property, or proves one that was not searched")
+    return Origin(texts[0], lists[0], lists[1], readings, texts[1], lists[2], texts[2])

@@ -1,0 +1,44 @@
+"""Collecting certificates while properties are decided."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from checker.certify.certificate import Certificate, certificates
+from checker.verdict import Answer, Exhausted, Inductive, Proved, Verdict, Violated
+from spec_model.lang.expr import Var
+from spec_model.lang.system import TransitionSystem
+
+
+class Asked(Protocol):
+    """A question to an engine (``checker.portfolio.Question``)."""
+
+    @property
+    def system(self) -> TransitionSystem: ...
+
+    @property
+    def goals(self) -> Sequence[Var]: ...
+
+
+@dataclass
+class Recorder:
+    """Hears answers where they are found, and makes certificates of them at once."""
+
+    made: list[Certificate] = field(default_factory=list)
+
+    def answered(self, asked: Asked, found: Mapping[str, tuple[Answer, str]]) -> None:
+        """Answers to a question, each with the name of the engine that gave it."""
+        for engine in sorted({by for _, by in found.values()}):
+            own = {name: answer for name, (answer, by) in found.items() if by == engine}
+            self.made += certificates(asked.system, asked.goals, own, engine)
+
+
+def rests_on_answers(verdict: Verdict) -> bool:
+    """Whether a verdict claims that something never happens, which a certificate can show."""
+    return isinstance(verdict, Proved | Violated) and isinstance(verdict.because, Exhausted | Inductive)
+
+
+def certified(proved: Mapping[str, Verdict], made: Sequence[Certificate]) -> tuple[str, ...]:
+    """The ids among the verdicts on which the certificates can be checked."""
+    engines = {one.engine for one in made}
+    return tuple(id for id, v in proved.items() if rests_on_answers(v) and v.engine in engines)

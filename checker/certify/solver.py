@@ -1,0 +1,110 @@
+"""Bitwuzla decides the scripts of obligations: a solver that no engine uses, in a child that can be killed.
+
+Niemetz, Preiner, *Bitwuzla*, CAV 2023.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass
+
+import bitwuzla
+
+from checker.certify.obligations import Obligation
+from checker.certify.terms import Malformed
+from checker.isolate import Send, Stopped, messages
+
+NAME = f"Bitwuzla {bitwuzla.version().split()[0]}"
+
+Values = Mapping[str, int]
+"""The raw value of symbols; signed where they are bit-vectors."""
+
+
+@dataclass(frozen=True)
+class Met:
+    """The obligation is met."""
+
+    name: str
+
+
+@dataclass(frozen=True)
+class Broken:
+    """The obligation is not met: values of the symbols asked for that show it."""
+
+    name: str
+    values: Values
+
+
+@dataclass(frozen=True)
+class Late:
+    """Nothing is known of the obligation, and why."""
+
+    name: str
+    reason: str
+
+
+@dataclass(frozen=True)
+class Ill:
+    """The script has no meaning to the solver, which is the fault of the invariant in it."""
+
+    reason: str
+
+
+Decided = Met | Broken | Late
+
+
+def decide(
+    obligations: Sequence[Obligation], symbols: Sequence[Sequence[str]], seconds: float | None
+) -> Iterator[Decided]:
+    """What the solver says of each obligation, up to the first that it does not find met.
+
+    ``symbols`` are those of each whose values are wanted.  ``seconds`` is for all obligations together.
+    Raises ``Malformed`` where the sorts in an invariant do not fit.
+    """
+    scripts = [o.script for o in obligations]
+    waiting = [o.name for o in obligations]
+    try:
+        with closing(messages(solve, scripts, symbols, seconds=seconds)) as inbox:
+            for message in inbox:
+                if message is None:
+                    continue
+                yield _decided(waiting.pop(0), message)
+                if message is not True:
+                    return
+    except Stopped as stopped:
+        yield Late(waiting[0], str(stopped))
+
+
+def _decided(name: str, message: object) -> Decided:
+    if isinstance(message, Ill):
+        raise Malformed(message.reason)
+    if isinstance(message, dict):
+        return Broken(name, message)
+    return Met(name) if message is True else Late(name, f"the solver answers {message}")
+
+
+# --- in the child --------------------------------------------------------------------------------
+
+
+def solve(send: Send, scripts: Sequence[str], symbols: Sequence[Sequence[str]]) -> None:
+    """Send True for each script that is unsatisfiable, values for one that is satisfiable, else a word."""
+    for script, wanted in zip(scripts, symbols, strict=True):
+        manager, options = bitwuzla.TermManager(), bitwuzla.Options()
+        options.set(bitwuzla.Option.PRODUCE_MODELS, True)
+        parser = bitwuzla.Parser(manager, options)
+        try:
+            parser.parse(script, True, False)
+        except bitwuzla.BitwuzlaException as error:
+            return send(Ill(str(error)))
+        solver = parser.bitwuzla()
+        result = solver.check_sat()
+        if result == bitwuzla.Result.SAT:
+            send({symbol: _value(solver.get_value(parser.parse_term(symbol))) for symbol in wanted})
+        else:
+            send(result == bitwuzla.Result.UNSAT or str(result))
+
+
+def _value(term: "bitwuzla.Term") -> int:
+    if term.sort().is_bool():
+        return int(bool(term.value()))
+    bits, number = int(term.sort().bv_size()), int(str(term.value(10)))
+    return number - (number >> bits - 1 << bits)

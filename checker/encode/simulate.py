@@ -1,0 +1,292 @@
+"""Random runs of a slice, hundreds at once: what they visit suggests what might always be true.
+
+Formulas are evaluated on arrays, one place per run.  Nothing rests on a simulation but suggestions.
+"""
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import reduce
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from checker.encode.cone import Slice
+from checker.encode.intervals import postorder
+from checker.verdict import Run
+from spec_model.lang.domain import Bool
+from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.walk import variables
+
+Column = NDArray[Any]
+"""A value for each of many valuations: truth values of numpy's bool, numbers of int64."""
+Columns = Mapping[str, Column]
+
+HOLD = (1, 1, 2, 5, 12, 40, 160, 480)
+"""Ticks for which a random input keeps its value: long enough for timers of ten seconds to run out."""
+_FEW = 16
+_SMALL = 1 << 30
+_BLOCK = 32
+_TRIES = 12
+"""Attempts to draw inputs that satisfy the assumption; a run that has none waits for a tick."""
+
+
+class Vectorised:
+    """Formulas compiled to a list of array operations; equal nodes are computed once."""
+
+    def __init__(self, exprs: Sequence[Expr]) -> None:
+        self._roots = list(exprs)
+        self._nodes = list(postorder(*exprs))
+        places = {id(node): place for place, node in enumerate(self._nodes)}
+        self._steps = [_operation(node, places) for node in self._nodes]
+        self._results = [places[id(e)] for e in exprs]
+
+    def __call__(self, at: Columns) -> list[Column]:
+        """The values of the formulas; each is an array, or a single value when it is the same everywhere."""
+        done: list[Any] = []
+        for step in self._steps:
+            done.append(step(done, at))
+        return [done[place] for place in self._results]
+
+
+_Step = Callable[[list[Any], Columns], Any]
+
+
+def _operation(node: Expr, places: Mapping[int, int]) -> _Step:
+    match node:
+        case Const(value, sort):
+            constant = np.bool_(value) if isinstance(sort, Bool) else np.int64(value)
+            return lambda done, at: constant
+        case Var(name):
+            return lambda done, at: at[name]
+        case Named(_, body):
+            place = places[id(body)]
+            return lambda done, at: done[place]
+        case Apply(op, args, _):
+            operate, chosen = OPERATIONS[op], [places[id(a)] for a in args]
+            return lambda done, at: operate(*[done[place] for place in chosen])
+    raise AssertionError(f"{node} speaks of the past")
+
+
+OPERATIONS: dict[Op, Callable[..., Any]] = {
+    Op.NOT: np.logical_not,
+    Op.AND: lambda *a: reduce(np.logical_and, a, np.bool_(True)),
+    Op.OR: lambda *a: reduce(np.logical_or, a, np.bool_(False)),
+    Op.ITE: np.where,
+    Op.EQ: np.equal,
+    Op.NE: np.not_equal,
+    Op.LT: np.less,
+    Op.LE: np.less_equal,
+    Op.GT: np.greater,
+    Op.GE: np.greater_equal,
+    Op.ADD: np.add,
+    Op.SUB: np.subtract,
+    Op.NEG: np.negative,
+    Op.MUL: np.multiply,
+    Op.SCALE: np.multiply,
+    Op.DIV: np.floor_divide,
+    Op.MOD: np.mod,
+    Op.ABS: np.abs,
+    Op.MIN: np.minimum,
+    Op.MAX: np.maximum,
+    Op.BIT: lambda a, b: (a >> b & 1).astype(np.bool_),
+}
+"""Every operator on arrays; rounding is that of the reference: down."""
+
+
+def _storage(var: Var) -> type:
+    """The type in which values are kept; differences and sums of two fit in it, too."""
+    if isinstance(var.sort, Bool):
+        return np.bool_
+    return np.int32 if -_SMALL <= var.domain.low and var.domain.high < _SMALL else np.int64
+
+
+def column(var: Var, values: Sequence[int] | Column) -> Column:
+    """The raw values of a variable as a column."""
+    return np.asarray(values, dtype=np.bool_ if isinstance(var.sort, Bool) else np.int64)
+
+
+@dataclass
+class _Input:
+    """The values an input is drawn from, with numbers the formulas compare it with among them."""
+
+    var: Var
+    values: Column
+
+
+@dataclass
+class Trail:
+    """Runs: the valuations before the first and after every tick, the inputs of each tick, and where it
+    took place (not where no inputs were found that satisfy the assumption)."""
+
+    states: list[dict[str, Column]]
+    inputs: list[dict[str, Column]]
+    moved: list[Column]
+
+    def samples(self, every: int = 1) -> dict[str, Column]:
+        """The valuations of all runs, of every so many ticks and the last ones, one after the other."""
+        return _joined(self.states[::every] + self.states[-1:])
+
+    def blocks(self) -> Iterator[dict[str, Column]]:
+        """All the valuations, some ticks at a time."""
+        for first in range(0, len(self.states), _BLOCK):
+            yield _joined(self.states[first : first + _BLOCK])
+
+    def first(self, goal: str) -> tuple[int, int] | None:
+        """The least tick after which the goal is true in some run, and the number of the run."""
+        for tick, (state, moved) in enumerate(zip(self.states[1:], self.moved, strict=True), 1):
+            lanes = np.flatnonzero(state[goal] & moved)
+            if len(lanes):
+                return tick, int(lanes[0])
+        return None
+
+    def extract(self, ticks: int, lane: int, frozen: Sequence[str]) -> Run:
+        """One run up to a tick."""
+        taken = [at for at, moved in zip(self.inputs[:ticks], self.moved, strict=False) if moved[lane]]
+        inputs = tuple({name: int(values[lane]) for name, values in at.items()} for at in taken)
+        return Run({name: int(self.states[0][name][lane]) for name in frozen}, inputs)
+
+
+def _joined(states: Sequence[Columns]) -> dict[str, Column]:
+    return {name: np.concatenate([state[name] for state in states]) for name in states[0]}
+
+
+class Simulator:
+    """Runs of a slice with random inputs that are held for random times; reproducible.
+
+    ``never`` are conditions on a tick, as are conjuncts of the assumption: a run takes none that meets one.
+    """
+
+    def __init__(self, part: Slice, never: Sequence[Expr] = (), *, lanes: int = 256, seed: int = 0) -> None:
+        self.part, self.lanes = part, lanes
+        self._random = np.random.default_rng(seed)
+        self._names = [v.name for v in part.variables]
+        self._kept = {v.name: _storage(v) for v in (*part.variables, *part.frozen)}
+        self._step = Vectorised([part.next[n] for n in self._names])
+        mentioned = _constants([*part.next.values(), *part.assume])
+        alone, joint = _by_scope(part)
+        drawn = {v.name: _allowed(v, _interesting(v, mentioned), alone[v.name]) for v in part.inputs}
+        self._inputs = [_Input(v, drawn[v.name]) for v in part.inputs]
+        joint += [Apply(Op.NOT, (e,), Bool()) for e in never]
+        self._assume = Vectorised(joint)
+        self._about = [[i for i in self._inputs if i.var.name in variables(e)] for e in joint]
+
+    def start(self) -> dict[str, Column]:
+        """The initial valuation in every run, with frozen values drawn at random."""
+        fixed = {v.name: column(v, [v.init] * self.lanes) for v in self.part.variables}
+        drawn = {
+            v.name: column(v, self._random.choice(np.asarray(v.domain.values), self.lanes))
+            for v in self.part.frozen
+        }
+        return {**fixed, **drawn}
+
+    def everywhere(self, valuation: Mapping[str, int]) -> dict[str, Column]:
+        """One valuation in every run."""
+        of = (*self.part.variables, *self.part.frozen)
+        return {v.name: column(v, [valuation[v.name]] * self.lanes) for v in of}
+
+    def run(self, start: Columns, ticks: int, first: Mapping[str, int] | None = None) -> "Trail":
+        """Go on for some ticks in every run.  ``first`` gives inputs of the first tick in half of them."""
+        at, inputs = dict(start), {i.var.name: self._drawn(i, self.lanes) for i in self._inputs}
+        left = {name: self._patience(self.lanes) for name in inputs}
+        trail = Trail([self._stored(at)], [], [])
+        for tick in range(ticks):
+            self._renew(inputs, left, first if tick == 0 else None)
+            possible = self._admissible(at, inputs)
+            at = self._after(at, inputs, possible)
+            trail.states.append(self._stored(at))
+            trail.inputs.append(dict(inputs))
+            trail.moved.append(possible)
+        return trail
+
+    def _stored(self, at: Columns) -> dict[str, Column]:
+        """A copy that takes half the room where the numbers are small."""
+        return {name: values.astype(self._kept[name]) for name, values in at.items()}
+
+    def _renew(
+        self, inputs: dict[str, Column], left: dict[str, Column], given: Mapping[str, int] | None
+    ) -> None:
+        for source in self._inputs:
+            name = source.var.name
+            left[name] -= 1
+            over = np.flatnonzero(left[name] < 0)
+            if len(over):
+                inputs[name] = inputs[name].copy()
+                inputs[name][over] = self._drawn(source, len(over))
+                left[name][over] = self._patience(len(over))
+            if given is not None:
+                inputs[name] = inputs[name].copy()
+                inputs[name][: self.lanes // 2] = given[name]
+
+    def _after(self, at: Columns, inputs: Columns, possible: Column) -> dict[str, Column]:
+        results = self._step({**at, **inputs})
+        moved = dict(at)
+        for name, value in zip(self._names, results, strict=True):
+            moved[name] = np.where(possible, value, at[name])
+        return moved
+
+    def _admissible(self, at: Columns, inputs: dict[str, Column]) -> Column:
+        """Where the inputs satisfy the assumption, after drawing those that do not again."""
+        fine = np.ones(self.lanes, dtype=np.bool_)
+        for _ in range(_TRIES):
+            each = [np.broadcast_to(holds, self.lanes) for holds in self._assume({**at, **inputs})]
+            fine = np.logical_and.reduce(each, initial=True, axis=0) if each else fine
+            if fine.all():
+                break
+            for holds, sources in zip(each, self._about, strict=True):
+                self._draw_again(np.flatnonzero(~holds), sources, inputs)
+        return fine
+
+    def _draw_again(self, lanes: Column, sources: Sequence[_Input], inputs: dict[str, Column]) -> None:
+        for source in sources:
+            inputs[source.var.name] = inputs[source.var.name].copy()
+            inputs[source.var.name][lanes] = self._drawn(source, len(lanes))
+
+    def _drawn(self, source: _Input, count: int) -> Column:
+        return self._random.choice(source.values, count)
+
+    def _patience(self, count: int) -> Column:
+        return self._random.choice(np.asarray(HOLD), count)
+
+
+def _constants(roots: Sequence[Expr]) -> dict[str, set[int]]:
+    """The constants that each variable is compared with, also after something was added to it."""
+    found: dict[str, set[int]] = {}
+    for node in postorder(*roots):
+        match node:
+            case Apply(Op.EQ | Op.LE, (left, Const(value)), _):
+                for leaf in postorder(left):
+                    if isinstance(leaf, Var):
+                        found.setdefault(leaf.name, set()).add(value)
+    return found
+
+
+def _by_scope(part: Slice) -> tuple[dict[str, list[Expr]], list[Expr]]:
+    """The conjuncts of the assumption on one input alone, by its name, and the others."""
+    alone: dict[str, list[Expr]] = {v.name: [] for v in part.inputs}
+    joint: list[Expr] = []
+    for conjunct in part.assume:
+        names = list(variables(conjunct))
+        single = len(names) == 1 and names[0] in alone
+        (alone[names[0]] if single else joint).append(conjunct)
+    return alone, joint
+
+
+def _allowed(var: Var, values: Sequence[int], conditions: Sequence[Expr]) -> Column:
+    """Those of the values, or else of the whole domain, that satisfy the conditions; all if none does."""
+    for tried in (values, var.domain.values):
+        drawn = column(var, tried)
+        fine = np.ones(len(drawn), dtype=np.bool_)
+        for holds in Vectorised(conditions)({var.name: drawn}):
+            fine &= holds
+        if fine.any():
+            return drawn[fine]
+    return column(var, values)
+
+
+def _interesting(var: Var, mentioned: Mapping[str, set[int]]) -> list[int]:
+    if len(var.domain) <= _FEW:
+        return list(var.domain.values)
+    near = {c + d for c in mentioned.get(var.name, ()) for d in (-1, 0, 1)}
+    spread = [var.domain.values[i * (len(var.domain) - 1) // 7] for i in range(8)]
+    return sorted({*spread, *(v for v in near if v in var.domain)})

@@ -1,0 +1,76 @@
+"""k-induction with auxiliary invariants found automatically: proves that goals are never reached.
+
+Random runs suggest invariants, Houdini keeps those that are inductive, and k-induction shows the goal
+out of reach with their help.  A goal that the random runs, or the first few ticks, reach is answered
+by that run.
+"""
+
+from collections.abc import Mapping, Sequence
+from contextlib import closing
+from dataclasses import replace
+
+from checker.engine import Limits, Progress
+from checker.engines.kinduction.events import Bound, Closed, Doing, Event, Found, Stuck
+from checker.isolate import Send, Stopped, messages
+from checker.verdict import Answer, Open, Reached, Unreachable
+from spec_model.lang.expr import Var
+from spec_model.lang.system import TransitionSystem
+
+NAME = "kinduction"
+SUMMARY = "proofs by k-induction with invariants that are found by simulation and Houdini (Z3)"
+
+
+def check(
+    system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
+) -> Mapping[str, Answer]:
+    """``Unreachable`` with an inductive invariant, ``Reached`` by a run (``shortest`` only where it is known
+    to be), or ``Open`` with the ticks that were searched exhaustively and the reason."""
+    names = tuple(g.name for g in goals)
+    state = _Answers(names)
+    job = (replace(system, source=None), names, limits.depth)
+    reason = "the search ended without a word"
+    try:
+        with closing(messages(_work, *job, seconds=limits.seconds, memory=limits.memory)) as events:
+            for event in events:
+                state.note(event)
+                progress(state.line())
+    except Stopped as stopped:
+        reason = str(stopped)
+    return {n: state.found.get(n) or Open(state.stuck.get(n, reason), state.deep[n]) for n in names}
+
+
+class _Answers:
+    """What is known of the goals so far."""
+
+    def __init__(self, goals: Sequence[str]) -> None:
+        self.found: dict[str, Answer] = {}
+        self.stuck: dict[str, str] = {}
+        self.deep = dict.fromkeys(goals, 0)
+        self._doing = "starting"
+
+    def note(self, event: Event | None) -> None:
+        """Take down what an event says; None only shows that time has passed."""
+        match event:
+            case Found(goal, run, shortest):
+                self.found[goal] = Reached(run, shortest)
+            case Closed(goal, because):
+                self.found[goal] = Unreachable(because)
+            case Bound(goals, depth):
+                self.deep |= dict.fromkeys(goals, depth)
+            case Stuck(goals, reason):
+                self.stuck |= dict.fromkeys(goals, reason)
+            case Doing(text):
+                self._doing = text
+
+    def line(self) -> str:
+        left = len(self.deep) - len(self.found)
+        text = f"{NAME}: {self._doing}, {left} goal{'s' * (left != 1)} open"
+        return text + (f", {len(self.found)} decided" if self.found else "")
+
+
+def _work(send: Send, system: TransitionSystem, goals: tuple[str, ...], depth: int | None) -> None:
+    """In the child: Z3 is loaded here only."""
+    from checker.engines.kinduction.search import search
+
+    for event in search(system, goals, depth):
+        send(event)

@@ -1,0 +1,49 @@
+"""What the search reports of its goals."""
+
+from dataclasses import dataclass
+from typing import Union
+
+from checker.verdict import Inductive, Run
+
+
+@dataclass(frozen=True)
+class Found:
+    """A run to a goal, and whether no shorter one exists."""
+
+    goal: str
+    run: Run
+    shortest: bool
+
+
+@dataclass(frozen=True)
+class Closed:
+    """No run of any length reaches the goal."""
+
+    goal: str
+    because: Inductive
+
+
+@dataclass(frozen=True)
+class Bound:
+    """The goals are not reached by any run of at most ``depth`` ticks."""
+
+    goals: tuple[str, ...]
+    depth: int
+
+
+@dataclass(frozen=True)
+class Stuck:
+    """The goals are left open, for this reason."""
+
+    goals: tuple[str, ...]
+    reason: str
+
+
+@dataclass(frozen=True)
+class Doing:
+    """What is being done, for a progress line."""
+
+    text: str
+
+
+Event = Union[Found, Closed, Bound, Stuck, Doing]

@@ -1,0 +1,175 @@
+"""The search for a proof: plain k-induction first, then with invariants from cheap to rich templates.
+
+Goals with the same cone of influence share simulation and invariants.  What the templates leave open
+is attacked from its counterexamples to induction: each suggests clauses that exclude it.
+"""
+
+from collections.abc import Iterator, Sequence
+
+from checker.encode.cone import by_cone, cone, constants, folded, straying
+from checker.encode.simulate import Simulator, Trail
+from checker.encode.symbolic import transition
+from checker.encode.unrolling import Outside, Unrolling, literal, satisfiable
+from checker.engines.kinduction.events import Bound, Closed, Doing, Event, Found, Stuck
+from checker.engines.kinduction.hunt import Hunt
+from checker.engines.kinduction.induction import WINDOW, Step, induction
+from checker.engines.kinduction.ticks import GaveUp, Scope, excluded
+from checker.slice import sliced
+from checker.verdict import Inductive, Run
+from spec_model.lang.expr import Expr, flag
+from spec_model.lang.system import TransitionSystem
+from spec_model.lang.walk import variables
+
+BASE = 12
+"""Ticks that are searched exhaustively for a run, one by one: the base case of every induction."""
+SIMULATED = 1000
+"""Ticks of the random runs."""
+PLAIN = 3_000_000
+"""Steps of Z3 that one query without invariants may take, a second or two."""
+HELPED = 30_000_000
+"""Steps of Z3 that one with invariants may take."""
+
+
+def search(system: TransitionSystem, goals: Sequence[str], depth: int | None) -> Iterator[Event]:
+    """Events about each goal; runs are not longer than ``depth``, if that is given.
+
+    Raises ``ArithmeticError`` when Z3 gives up on the base case.
+    """
+    model = Model(system)
+    for names in by_cone(model.folded, goals):
+        yield from Group(model, names, depth).decide()
+
+
+class Model:
+    """A system's tick as functions, as written and with the variables that never change folded away."""
+
+    def __init__(self, system: TransitionSystem) -> None:
+        self.system = system
+        self.plain = transition(system)
+        self.fixed = constants(self.plain)
+        self.folded = folded(self.plain, self.fixed)
+
+    def unchanging(self, names: Sequence[str]) -> tuple[Expr, ...]:
+        """The conjuncts that folding relied on, in the cone of some variables."""
+        terms = self.plain.terms
+        return tuple(
+            terms.equal(terms.var(v), terms.const(self.fixed[v.name], v.sort))
+            for v in cone(self.plain, names).variables
+            if v.name in self.fixed
+        )
+
+
+class Group:
+    """Goals that are decided together: those still open, and the ticks they are not reached in."""
+
+    def __init__(self, model: Model, goals: Sequence[str], depth: int | None) -> None:
+        self._model, self._most = model, depth
+        self.open = list(goals)
+        self.deep = 0
+        escapes = straying(model.folded, sliced(model.system, [flag(g) for g in goals]).variables)
+        part = cone(model.folded, [*goals, *escapes])
+        self._outside = Outside(model.system, part)
+        self._names = tuple(escapes)
+        self._scope = Scope(part, tuple(escapes.values()))
+        self._reason = "no invariant was found that makes it inductive"
+
+    def decide(self) -> Iterator[Event]:
+        """Events until every goal is decided or stuck."""
+        if not self._outside.possible:  # there is no run at all
+            yield from (Closed(goal, Inductive(())) for goal in self.open)
+            return
+        try:
+            for phase in (self._first_ticks, self._plainly, self._by_simulation):
+                yield from phase()
+                if not self.open:
+                    return
+            yield Stuck(tuple(self.open), self._reason)
+        except GaveUp as gave_up:
+            yield Stuck(tuple(self.open), f"Z3 took more steps than one query may ({gave_up})")
+
+    # --- the base case ---------------------------------------------------------------------------
+
+    def _first_ticks(self) -> Iterator[Event]:
+        """Runs of the first few ticks, shortest first."""
+        unrolling = Unrolling(self._scope.part, self._scope.escapes)
+        for tick in range(1, BASE + 1 if self._most is None else min(BASE, self._most) + 1):
+            unrolling.tick()
+            yield from self._leaves(unrolling, tick)
+            for goal in list(self.open):
+                if satisfiable(unrolling.solver, literal(unrolling, unrolling.after(tick, goal))):
+                    run = unrolling.run(unrolling.solver.model(), tick)
+                    yield self._found(goal, self._outside.complete(run), shortest=True)
+            self.deep = tick
+            yield Bound(tuple(self.open), tick)
+            if not self.open:
+                return
+
+    def _leaves(self, unrolling: Unrolling, tick: int) -> Iterator[Event]:
+        """Give up where a run takes a variable out of its domain: nothing is said of what follows."""
+        for name, event in zip(self._names, unrolling.events(tick), strict=True):
+            if self.open and satisfiable(unrolling.solver, literal(unrolling, event)):
+                yield Stuck(tuple(self.open), f"{name} may leave its domain in tick {tick}")
+                self.open = []
+
+    def _found(self, goal: str, run: Run, *, shortest: bool) -> Found:
+        self.open.remove(goal)
+        return Found(goal, run, shortest)
+
+    # --- proofs ----------------------------------------------------------------------------------
+
+    def _plainly(self) -> Iterator[Event]:
+        """k-induction over the domains alone."""
+        yield Doing("k-induction over the domains alone")
+        if excluded(self._scope, (), PLAIN) is None:
+            return
+        for goal in list(self.open):
+            try:
+                step = induction(self._scope, goal, (), min(WINDOW, self.deep), PLAIN)
+            except GaveUp:
+                continue
+            if isinstance(step, Step):
+                yield self._closed(goal, step, ())
+
+    def _closed(self, goal: str, step: Step, conjuncts: Sequence[Expr]) -> Closed:
+        self.open.remove(goal)
+        needed = (*self._model.unchanging([goal, *self._names, *variables(*conjuncts)]), *conjuncts)
+        return Closed(goal, Inductive(needed, step.ticks, step.simple))
+
+    def _by_simulation(self) -> Iterator[Event]:
+        """Runs that random inputs find, then invariants that held in all of them."""
+        yield Doing("random runs")
+        simulator = Simulator(self._scope.part, self._scope.escapes)
+        most = SIMULATED if self._most is None else min(SIMULATED, self._most)
+        trail = simulator.run(simulator.start(), most)
+        frozen = [v.name for v in self._scope.part.frozen]
+        for goal in list(self.open):
+            hit = trail.first(goal)
+            if hit is not None:
+                run = self._outside.complete(trail.extract(*hit, frozen))
+                yield self._found(goal, run, shortest=False)
+        if self.open and self.deep:
+            yield from self._with_invariants(trail)
+
+    def _with_invariants(self, trail: Trail) -> Iterator[Event]:
+        hunt = Hunt(self._scope, trail)
+        for text in hunt.phases():
+            yield Doing(text)
+            yield from self._attempts(hunt, min(WINDOW, self.deep))
+            if not self.open:
+                return
+        self._reason += f", {hunt.answered} counterexamples to induction answered"
+        yield Doing("k-induction along simple paths")
+        yield from self._attempts(hunt, self.deep, simple=True)
+
+    def _attempts(self, hunt: Hunt, window: int, *, simple: bool = False) -> Iterator[Event]:
+        """Try to close each goal with the invariant so far; the hunt is told what stands in the way."""
+        safe = excluded(self._scope, hunt.known, HELPED)
+        if safe is None:
+            self._reason = f"no invariant was found that keeps {', '.join(self._names)} in the domain"
+            return
+        for goal in list(self.open):
+            step = induction(self._scope, goal, hunt.known, window, HELPED, simple=simple)
+            if isinstance(step, Step):
+                yield self._closed(goal, step, hunt.support((*step.conjuncts, *safe)))
+            else:
+                hunt.note(step)

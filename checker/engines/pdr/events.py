@@ -1,0 +1,35 @@
+"""What the child reports while it works."""
+
+from dataclasses import dataclass
+from typing import Union
+
+from checker.verdict import Reached, Unreachable
+
+
+@dataclass(frozen=True)
+class Decided:
+    """The answer about a goal, with its evidence."""
+
+    goal: str
+    answer: Reached | Unreachable
+
+
+@dataclass(frozen=True)
+class Bound:
+    """The goal is not reached by any run of at most ``depth`` ticks; ``lemmas`` are in use for that."""
+
+    goal: str
+    depth: int
+    lemmas: int
+
+
+@dataclass(frozen=True)
+class Undefined:
+    """Nothing is said of the goals: a tick of some run takes the variables out of their domains."""
+
+    goals: tuple[str, ...]
+    variables: tuple[str, ...]
+    tick: int
+
+
+Event = Union[Decided, Bound, Undefined]

@@ -1,0 +1,155 @@
+"""Property directed reachability (Bradley, VMCAI 2011; Eén, Mishchenko, Brayton, FMCAD 2011).
+
+Obligations are valuations from which a goal is reached; each is excluded from a frame by a lemma, or
+has a predecessor there, which is the next obligation, or is initial, which makes a run.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from heapq import heappop, heappush
+from itertools import count
+
+from checker.engines.pdr.cubes import Cube
+from checker.engines.pdr.frames import Frames
+from checker.engines.pdr.generalise import Generaliser
+from checker.engines.pdr.lemmas import ALWAYS, Lemma, Step
+from checker.engines.pdr.lift import Lifter
+from checker.engines.pdr.machine import Machine
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Obligation:
+    """Every valuation of the cube leads with the inputs to the next obligation, or to the goal."""
+
+    cube: Cube
+    inputs: tuple[int, ...]
+    next: "Obligation | None"
+
+
+@dataclass(frozen=True)
+class Traced:
+    """A run: the latches before the first tick and the inputs of every tick, as literals."""
+
+    latches: tuple[int, ...]
+    inputs: tuple[tuple[int, ...], ...]
+
+
+@dataclass(frozen=True)
+class Excluded:
+    """The goal is never reached: the cubes of an inductive invariant, whose negations are its clauses."""
+
+    cubes: tuple[Cube, ...]
+
+
+@dataclass(frozen=True)
+class Bounded:
+    """The goal is not reached by any run of at most ``depth`` ticks."""
+
+    depth: int
+
+
+Event = Traced | Excluded | Bounded
+
+
+class Search:
+    """Frames of one machine, used for one goal after the other."""
+
+    def __init__(self, machine: Machine) -> None:
+        self.frames = Frames(machine)
+        self._lifter = Lifter(machine)
+        self._generaliser = Generaliser(self.frames)
+        self._made = 0
+
+    def decide(self, goal: str) -> Iterator[Event]:
+        """Bounds, again and again while the work goes on; the last event is a run or an invariant.
+
+        What is learned serves the other goals too, also while their searches are not over.
+        """
+        frames = self.frames
+        for level in count():
+            while frames.top < max(level, 1):
+                frames.open()
+            while (run := self._one_less(goal, level)) is not None:
+                if isinstance(run, Traced):
+                    yield run
+                    return
+                yield Bounded(level)
+            yield Bounded(level + 1)
+            self._propagate()
+            if frames.hits(goal, ALWAYS) is None:
+                yield Excluded(tuple(lemma.cube for lemma in frames.always))
+                return
+
+    # --- obligations -----------------------------------------------------------------------------
+
+    def _one_less(self, goal: str, level: int) -> Traced | Step | None:
+        """Exclude a valuation of the frame from which the goal is reached: the step is such a one, unless
+        it begins a run; None when there is none left."""
+        step = self.frames.hits(goal, level)
+        if step is None:
+            return None
+        first = Obligation(self._lifter.onto(step, goal), step.inputs, None)
+        return self._discharged(first, level) or step
+
+    def _discharged(self, first: Obligation, level: int) -> Traced | None:
+        frames = self.frames
+        heap: list[tuple[int, int, Obligation]] = []
+        self._push(heap, level, first)
+        while heap:
+            level, _, wanted = heappop(heap)
+            if frames.initial(wanted.cube):
+                return self._run(wanted)
+            if level == 0:
+                raise ArithmeticError("the engine is wrong: frame 0 has a valuation that is not initial")
+            if not frames.excluded(wanted.cube, level):
+                blocked = frames.blocked(wanted.cube, level - 1)
+                if blocked is None:
+                    step = frames.step()
+                    before = Obligation(self._lifter.into(step, wanted.cube), step.inputs, wanted)
+                    self._push(heap, level, wanted)
+                    self._push(heap, level - 1, before)
+                    continue
+                level = self._generaliser.lemma(blocked, level).level
+            if level < frames.top:
+                self._push(heap, level + 1, wanted)
+        return None
+
+    def _push(self, heap: list[tuple[int, int, Obligation]], level: int, wanted: Obligation) -> None:
+        self._made += 1
+        heappush(heap, (level, self._made, wanted))
+
+    def _run(self, first: Obligation) -> Traced:
+        inputs, obligation = list[tuple[int, ...]](), first
+        while True:
+            inputs.append(obligation.inputs)
+            if obligation.next is None:
+                return Traced(self.frames.started(first.cube), tuple(inputs))
+            obligation = obligation.next
+
+    # --- propagation -----------------------------------------------------------------------------
+
+    def _propagate(self) -> None:
+        """Push lemmas to higher frames; those above two equal frames are inductive, and hold always."""
+        frames = self.frames
+        for level in range(1, frames.top):
+            for lemma in list(frames.lemmas[level]):
+                if lemma.witness is None and not lemma.dropped:
+                    self._try(lemma)
+            if not frames.lemmas[level]:
+                self._conclude(level + 1)
+                return
+
+    def _try(self, lemma: Lemma) -> None:
+        """Push a lemma to the next frame, or note what hinders it."""
+        frames = self.frames
+        if frames.blocked(lemma.cube, lemma.level, relative=False) is None:
+            lemma.witness = frames.witness()
+        else:
+            frames.raise_(lemma, lemma.level + 1)
+
+    def _conclude(self, level: int) -> None:
+        """The lemmas from a level on are inductive: they hold always."""
+        frames = self.frames
+        for lemma in [lemma for same in frames.lemmas[level:] for lemma in same]:
+            if not lemma.dropped:
+                frames.raise_(lemma, ALWAYS)

@@ -1,0 +1,80 @@
+"""The order of the engines, as data: measured on the rover by ``python -m benchmarks.portfolio``.
+
+What a turn grants is first of all counted in what an engine stores or looks ahead, so that a busy machine
+does not change who answers.  Engines that cannot be bounded like that are granted many times the seconds
+in which they decide what they do decide.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from types import MappingProxyType
+
+from checker.engine import Limits
+
+
+@dataclass(frozen=True)
+class Turn:
+    """An engine and what it may spend in its turn; None: all that the user allows.
+
+    ``share`` is the part it may take of the time that is left of the user's limit, if there is one.
+    """
+
+    engine: str
+    depth: int | None = None
+    memory: int | None = None
+    seconds: float | None = None
+    share: float = 1.0
+
+    def within(self, limits: Limits, left: float | None) -> Limits:
+        """What it may spend when the user allows ``limits`` and ``left`` seconds of them remain."""
+        shared = None if left is None else self.share * left
+        return replace(
+            limits,
+            depth=_least(self.depth, limits.depth),
+            memory=limits.memory if self.memory is None else min(self.memory, limits.memory),
+            seconds=self.seconds if shared is None else min(shared, self.seconds or shared),
+        )
+
+
+def _least(first: int | None, second: int | None) -> int | None:
+    return min((n for n in (first, second) if n is not None), default=None)
+
+
+MB = 1 << 20
+
+_PROOFS = (
+    Turn("kinduction", seconds=120, share=0.4),
+    Turn("pdr", seconds=60, share=0.4),
+    Turn("bdd", memory=512 * MB, seconds=60, share=0.4),
+)
+"""Engines that prove without enumerating; of narrow questions, what a small enumeration left open."""
+
+ORDERS: Mapping[str, tuple[Turn, ...]] = MappingProxyType(
+    {
+        "narrow": (
+            Turn("explicit", memory=128 * MB, share=0.5),
+            *_PROOFS,
+            Turn("explicit", share=0.8),
+            Turn("bmc"),
+        ),
+        "wide": (
+            Turn("bmc", depth=32, share=0.3),
+            Turn("explicit", memory=64 * MB, seconds=60, share=0.3),
+            *_PROOFS,
+            Turn("bmc"),
+        ),
+        "vast": (Turn("bmc", depth=32, share=0.6), *_PROOFS, Turn("bmc")),
+        "short": (
+            Turn("bmc", depth=12, share=0.3),
+            Turn("explicit", memory=64 * MB, seconds=60, share=0.3),
+            *_PROOFS,
+            Turn("bmc"),
+        ),
+        "concrete": (Turn("bmc", share=0.5), *_PROOFS),
+    }
+)
+"""The turns by kind of question (``Shape.kind``).  An engine that is not there loses its turns.
+
+Enumeration comes first where it can be afforded: it decides most searches of the rover in less time than any
+other engine, and its runs are shortest.  Wide systems are mostly asked for runs, which are mostly short.
+"""

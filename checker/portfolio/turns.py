@@ -1,0 +1,88 @@
+"""Engines in turn: each is asked what the ones before it left open, until every goal is decided."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from time import monotonic
+
+from checker.engine import Engine, Limits, engines
+from checker.portfolio.order import ORDERS
+from checker.portfolio.question import Found, Question, Told
+from checker.portfolio.shape import shape
+from checker.verdict import Answer, Open, Reached
+from spec_model.lang.expr import Var
+
+OUT_OF_MEMORY = "the memory limit is reached"
+
+
+def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
+    """After each turn all that is found so far; the last one holds an answer for every goal."""
+    known = engines()
+    turns = ORDERS[shape(question).kind]
+    present = [t for t in turns if t.engine in known]
+    deadline = limits.deadline()
+    found: dict[str, tuple[Answer, str]] = {}
+    for turn in present:
+        if found and _over(question, found, limits, deadline):
+            break
+        left = None if deadline is None else max(0.0, deadline - monotonic())
+        told.granted(left)
+        grant = turn.within(limits, left)
+        for goal, answer in asked(known[turn.engine], question, grant, told, found).items():
+            found[goal] = better(found[goal], answer) if goal in found else answer
+        told.granted(limits.seconds)  # for what is made of the answers
+        yield dict(found)
+
+
+def _over(question: Question, found: Found, limits: Limits, deadline: float | None) -> bool:
+    """Whether no further engine is worth asking."""
+    open_ = question.open(found)
+    if not open_:
+        return True
+    looked = limits.depth is not None and all(_looked(found[g.name][0], limits.depth) for g in open_)
+    # Whether other runs leave a domain does not matter to a run that is replayed.
+    shown = all(_shortest(found[g.name][0]) for g in question.wanted)
+    return looked or shown or (deadline is not None and monotonic() >= deadline)
+
+
+def _shortest(answer: Answer) -> bool:
+    return isinstance(answer, Reached) and answer.shortest
+
+
+def _looked(answer: Answer, depth: int) -> bool:
+    return isinstance(answer, Open) and answer.depth >= depth
+
+
+def asked(
+    engine: Engine, question: Question, limits: Limits, told: Told, known: Found
+) -> dict[str, tuple[Answer, str]]:
+    """What one engine says of the goals that are still open."""
+    goals: Sequence[Var] = question.open(known)
+    try:
+        answers: Mapping[str, Answer] = engine.check(question.system, goals, limits, told.progress)
+    except MemoryError:
+        answers = {g.name: Open(OUT_OF_MEMORY, 0) for g in goals}
+    return {name: (answer, engine.NAME) for name, answer in answers.items()}
+
+
+def better(first: tuple[Answer, str], second: tuple[Answer, str]) -> tuple[Answer, str]:
+    """Of two answers to one goal what both say together: the shorter run, the deeper search."""
+    match first[0], second[0]:
+        case Open(), Open():
+            return _deeper(first, second)
+        case Reached() as run, Open(_, depth):
+            return (replace(run, shortest=True), first[1]) if depth >= len(run.run) - 1 else first
+        case Open(), Reached():
+            return better(second, first)
+        case Reached(one, shortest), Reached(other):
+            return first if shortest or len(one) < len(other) else second
+        case Open(), _:
+            return second
+        case _:
+            return first
+
+
+def _deeper(first: tuple[Answer, str], second: tuple[Answer, str]) -> tuple[Answer, str]:
+    (a, by_a), (b, by_b) = first, second
+    assert isinstance(a, Open) and isinstance(b, Open)
+    reason = f"{by_a}: {a.reason}; {by_b}: {b.reason}"
+    return Open(reason, max(a.depth, b.depth)), by_a if a.depth > b.depth else by_b

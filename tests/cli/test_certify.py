@@ -1,0 +1,219 @@
+"""Files of certificates and ``rovercheck certify``: written whole, read with suspicion, derived again."""
+
+import gzip
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import cvc5
+import pytest
+import z3
+
+from checker import cli
+from checker.certify.file import SCHEMA, Origin, Unwritable, read, write
+from checker.certify.record import Recorder, certified
+from checker.certify.terms import Malformed
+from checker.commands.certifying import certify
+from checker.commands.codes import Exit
+from checker.decide import Task, decide
+from checker.engine import Limits, quiet
+from checker.portfolio import Told
+from properties.catalogue import catalogue, under
+from spec_model.rover import systems
+from tests.certifying import SOLVER, Naive
+
+COUNTERS = ("PSY-21a",)
+WHEEL = ("PB1-06a-FR", "PB1-06b-FR")
+
+
+def written(folder: Path, *ids: str, readings: dict[str, str] | None = None) -> Path:
+    """The file that a search of these properties by the naive engine writes."""
+    known, by_name = under(readings or {}), systems(readings or {})
+    properties = tuple(known[id] for id in ids)
+    task = Task(by_name[properties[0].on], properties)
+    recorder = Recorder()
+    told = Told(answered=recorder.answered)
+    results = list(decide(task, by_name, Naive(), Limits(), quiet, told))
+    proved = certified({r.property.id: r.verdict for r in results}, recorder.made)
+    return write(folder, Origin(task.system.name, ids, proved, readings or {}), recorder.made)
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the certificates of two searches."""
+    folder = tmp_path_factory.mktemp("certificates")
+    written(folder, *COUNTERS)
+    written(folder, *WHEEL)
+    return folder
+
+
+def changed(path: Path, folder: Path, change: Callable[[Any], None]) -> Path:
+    """A copy of the file with a change in its document."""
+    document = json.loads(path.read_text())
+    change(document)
+    copy = folder / path.name
+    copy.write_text(json.dumps(document))
+    return copy
+
+
+def counters(folder: Path) -> Path:
+    return folder / f"counters-{COUNTERS[0]}.json"
+
+
+def test_certificates_are_accepted(made: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.run(["certify", str(made)]) is Exit.AS_EXPECTED
+    said = capsys.readouterr().out
+    for id in (*COUNTERS, *WHEEL):
+        assert f"✓ {id} " in said
+    assert "Bitwuzla" in said and "3 properties in 2 files: 3 accepted." in said
+
+
+def test_each_way_of_checking_alone(made: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.run(["certify", str(counters(made)), "--solver", "enumeration"]) is Exit.AS_EXPECTED
+    assert "ticks tried" in capsys.readouterr().out
+    assert cli.run(["certify", str(counters(made)), "--solver", "bitwuzla"]) is Exit.AS_EXPECTED
+    assert "ticks tried" not in capsys.readouterr().out
+
+
+def test_a_corrupted_invariant_is_rejected(
+    made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def drop(document: Any) -> None:
+        document["certificates"][0]["invariant"]["nodes"][-1][1:4] = []
+
+    assert cli.run(["certify", str(changed(counters(made), tmp_path, drop))]) is Exit.CHANGED
+    assert f"✗ {COUNTERS[0]}" in capsys.readouterr().out
+
+
+def test_a_certificate_of_another_model_is_rejected(
+    made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def other(document: Any) -> None:
+        document["certificates"][0]["digest"] = "0" * 64
+
+    assert cli.run(["certify", str(changed(counters(made), tmp_path, other))]) is Exit.CHANGED
+    assert "question: it is about another counters" in capsys.readouterr().out
+
+
+def test_swapped_files_are_rejected(made: Path, tmp_path: Path) -> None:
+    other = read(made / "wheel_FR-PB1-06a-FR.json")
+    forged = write(tmp_path, read(counters(made)).origin, other.certificates)
+    assert certify([forged], SOLVER, None, False) is Exit.INCONCLUSIVE
+
+
+def test_without_its_certificate_a_property_is_undecided(made: Path, tmp_path: Path) -> None:
+    forged = changed(counters(made), tmp_path, lambda document: document["certificates"].clear())
+    assert certify([forged], SOLVER, None, False) is Exit.INCONCLUSIVE
+
+
+def test_an_origin_that_does_not_exist_is_rejected(
+    made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    changes: list[Callable[[Any], None]] = [
+        lambda d: d["origin"].update(system="nowhere"),
+        lambda d: d["origin"].update(system="relay"),
+        lambda d: d["origin"].update(repair="none"),
+        lambda d: d["origin"].update(readings={"S0": "x"}),
+        lambda d: d["origin"].update(timers="none"),
+        lambda d: d["origin"].update(properties=["PX-1"], proved=["PX-1"]),
+    ]
+    for change in changes:
+        assert certify([changed(counters(made), tmp_path, change)], SOLVER, None, False) is Exit.CHANGED
+        assert "rejected  origin" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("content", "said"),
+    [
+        (b"", "it is not whole"),
+        (b'{"schema": "rovercheck/certificate/1", "origin": {', "it is not whole"),
+        (gzip.compress(b"{}" * 999)[:20], "it is not whole"),
+        (b'{"schema": "rovercheck/check/1"}', "its schema is 'rovercheck/check/1'"),
+        (b"[]", "its schema is None"),
+        (json.dumps({"schema": SCHEMA}).encode(), "no list of certificates"),
+        (json.dumps({"schema": SCHEMA, "certificates": []}).encode(), "in its origin"),
+    ],
+)
+def test_what_is_no_file_of_certificates(
+    content: bytes, said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = tmp_path / "c.json"
+    path.write_bytes(content)
+    assert cli.run(["certify", str(path)]) is Exit.USAGE
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "part", ["claims", "assume", "about", "digest", "question", "invariant", "found", "system"]
+)
+def test_a_malformed_certificate_is_none(part: str, made: Path, tmp_path: Path) -> None:
+    def without(document: Any) -> None:
+        del document["certificates"][0][part]
+
+    def otherwise(document: Any) -> None:
+        document["certificates"][0][part] = [[]]
+
+    for change in (without, otherwise):
+        with pytest.raises(Malformed):
+            read(changed(counters(made), tmp_path, change))
+
+
+def test_a_file_that_is_not_there(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert cli.run(["certify", str(tmp_path / "none.json")]) is Exit.USAGE
+    assert cli.run(["certify", str(tmp_path)]) is Exit.USAGE
+    said = capsys.readouterr().err
+    assert "Cannot read" in said and "holds no certificates" in said
+
+
+def test_a_large_file_is_packed_and_replaces_the_plain_one(made: Path, tmp_path: Path) -> None:
+    found = read(counters(made))
+    plain = write(tmp_path, found.origin, found.certificates)
+    assert plain.name == counters(made).name and read(plain) == found
+    packed = write(tmp_path, found.origin, found.certificates * 200)
+    assert packed.name == plain.name + ".gz" and not plain.exists()
+    assert len(read(packed).certificates) == 200
+    again = write(tmp_path / "again", found.origin, found.certificates * 200)
+    assert again.read_bytes() == packed.read_bytes()
+
+
+def test_where_nothing_can_be_written(made: Path, tmp_path: Path) -> None:
+    found = read(counters(made))
+    place = tmp_path / "taken"
+    place.write_text("a file")
+    with pytest.raises(Unwritable, match=r"Cannot write .*The verdicts stand"):
+        write(place, found.origin, found.certificates)
+    assert place.read_text() == "a file"
+
+
+def test_a_proof_under_another_reading_is_derived_under_it(tmp_path: Path) -> None:
+    path = written(tmp_path, *WHEEL, readings={"S27": "OK"})
+    assert read(path).origin.readings == {"S27": "OK"}
+    assert certify([path], SOLVER, None, False) is Exit.AS_EXPECTED
+    otherwise = changed(path, tmp_path, lambda document: document["origin"].update(readings={}))
+    assert certify([otherwise], SOLVER, None, False) is Exit.CHANGED
+
+
+def test_the_obligations_are_unsatisfiable_for_other_solvers_too(made: Path, tmp_path: Path) -> None:
+    assert certify([made], SOLVER, tmp_path, False) is Exit.AS_EXPECTED
+    scripts = sorted(tmp_path.glob("*.smt2"))
+    assert {s.stem.rpartition("-")[2] for s in scripts} == {"initiation", "consecution", "domains", "safety"}
+    for script in scripts:
+        solver = z3.Solver()
+        solver.from_string(script.read_text())
+        assert solver.check() == z3.unsat
+        assert _by_cvc5(script.read_text()) == "unsat"
+
+
+def _by_cvc5(script: str) -> str:
+    solver = cvc5.Solver(cvc5.TermManager())
+    parser = cvc5.InputParser(solver)
+    parser.setStringInput(cvc5.InputLanguage.SMT_LIB_2_6, script, "obligation")
+    answers = ""
+    while not (command := parser.nextCommand()).isNull():
+        answers += str(command.invoke(solver, parser.getSymbolManager()))
+    return answers.strip()
+
+
+def test_the_properties_of_these_tests_exist() -> None:
+    assert {*COUNTERS, *WHEEL} <= catalogue().keys()

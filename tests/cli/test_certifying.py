@@ -1,0 +1,59 @@
+"""Certificates of the command line: written, checked again, and loud when one is rejected."""
+
+import json
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from checker.certify.file import read
+from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
+from checker.cli import run
+from checker.commands.codes import Exit
+from checker.result import Result
+from checker.searches import searches as honest
+
+
+def test_every_proof_is_certified_and_written(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    arguments = ["check", "PB1-11", "PB1-30c-FL", "--certify", "--certificates", str(tmp_path), "--json"]
+    assert run(arguments) == Exit.AS_EXPECTED
+    rows = {row["id"]: row for row in json.loads(capfd.readouterr().out)["results"]}
+    assert rows["PB1-11"]["certificate"]["outcome"] == "accepted"
+    assert rows["PB1-30c-FL"]["certificate"] is None, "a run is replayed, not certified"
+    [file] = tmp_path.iterdir()
+    written = read(file)
+    assert written.origin.proved == ("PB1-11",)
+    assert any("PB1-11" in one.claims for one in written.certificates)
+
+
+def test_a_verdict_tells_that_it_is_certified(capfd: pytest.CaptureFixture[str]) -> None:
+    assert run(["check", "PB1-11", "--certify"]) == Exit.AS_EXPECTED
+    shown = " ".join(capfd.readouterr().out.split())
+    assert "of relay, certified" in shown and "1 proof certified." in shown
+
+
+@pytest.mark.parametrize(
+    ("outcome", "code", "said"),
+    [
+        (Accepted("3 obligations"), Exit.AS_EXPECTED, ", certified"),
+        (Undecided("too large"), Exit.AS_EXPECTED, ", not certified: too large"),
+        (Rejected("consecution", "x = 1"), Exit.INTERNAL, "CERTIFICATE REJECTED (consecution)"),
+    ],
+)
+def test_what_comes_of_a_certificate_is_shown(
+    outcome: Outcome,
+    code: Exit,
+    said: str,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    def searches(*arguments: Sequence[object]) -> Iterator[object]:
+        for heard in honest(*arguments):  # type: ignore[arg-type]
+            yield replace(heard, certificate=outcome) if isinstance(heard, Result) else heard
+
+    monkeypatch.setattr("checker.commands.check.searches", searches)
+    assert run(["check", "PB1-11"]) == code
+    shown = capfd.readouterr()
+    assert said in shown.out
+    assert ("please report it" in " ".join(shown.err.split())) == (code is Exit.INTERNAL)

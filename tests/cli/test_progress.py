@@ -1,0 +1,47 @@
+"""The progress line: how many searches are done, and what each of the others does."""
+
+import io
+
+import pytest
+from rich.console import Console
+
+from checker.commands import progress
+from checker.commands.progress import Watch
+
+
+def watch() -> Watch:
+    made = Watch(Console(file=io.StringIO()), 5)
+    made.say("relay PB1-11", "explicit: 20,000 states, depth 7")
+    made.say("board1 PB1-15", "bmc: depth 12")
+    return made
+
+
+def test_the_line_tells_what_every_search_does() -> None:
+    expected = (
+        "0/5 searches done | relay PB1-11: explicit: 20,000 states, depth 7 | board1 PB1-15: bmc: depth 12"
+    )
+    assert watch().line() == expected
+
+
+def test_what_is_over_is_counted_and_no_longer_shown() -> None:
+    made = watch()
+    made.finished("relay PB1-11")
+    assert made.line() == "1/5 searches done | board1 PB1-15: bmc: depth 12"
+
+
+@pytest.mark.parametrize("width", [20, 40, 80])
+def test_on_a_terminal_every_search_has_its_share_of_the_width(width: int) -> None:
+    line = watch().line(width)
+    assert len(line) <= width and line.startswith("0/5 searches done")
+    if width == 80:
+        assert "relay" in line and "board1" in line
+
+
+def test_a_log_gets_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None:
+    now = [0.0]
+    monkeypatch.setattr(progress, "monotonic", lambda: now[0])
+    log = io.StringIO()
+    made = Watch(Console(file=log), 2)
+    for now[0] in (1.0, 9.0, 11.0, 12.0):
+        made.say("relay [PB1-11]", "working")
+    assert log.getvalue().splitlines() == ["0/2 searches done | relay [PB1-11]: working"]
