@@ -6,6 +6,9 @@ Bryant, *Graph-based algorithms for Boolean function manipulation*, IEEE ToC 198
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from spec_model.lang.domain import Bool, Num
+from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Op, Var
+
 NONE, ALL = 0, 1
 """The numbers of the two leaves: no valuation that gets there belongs to the set, or every one does."""
 
@@ -46,3 +49,13 @@ class Diagram:
     def variables(self) -> tuple[str, ...]:
         """The variables that are asked for, by name, in alphabetical order."""
         return tuple(sorted({node.variable for node in self.nodes}))
+
+
+def formula(diagram: Diagram, variables: Mapping[str, Var]) -> Expr:
+    """The set as a formula over its variables, given by name; nodes that are shared are shared in it."""
+    made: list[Expr] = [FALSE, TRUE]
+    for node in diagram.nodes:
+        var = variables[node.variable]
+        test = var if isinstance(var.sort, Bool) else Apply(Op.BIT, (var, Const(node.bit, Num())), Bool())
+        made.append(Apply(Op.ITE, (test, made[node.high], made[node.low]), Bool()))
+    return made[diagram.root]

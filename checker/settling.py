@@ -54,7 +54,7 @@ def settled(hunt: Hunt, progress: Progress, runs: int = RUNS) -> Reached | None:
     system, goal = hunt.question.system, hunt.goal
     wanted = [goal.var.name, *(v.name for v in goal.recurs)]
     made = circuit(system, wanted)
-    if system.frozen or made.others:
+    if system.frozen:
         return None
     for number, ticks in enumerate(UNSETTLED):
         progress(f"loops: {runs} random runs that settle after {ticks} ticks")

@@ -12,6 +12,8 @@ from checker.certify.terms import Malformed, definitions
 from checker.certify.tick import conjuncts as parts
 from checker.certify.tick import executed
 from checker.closed import ClosedSet
+from checker.diagram import Diagram as Bits
+from checker.diagram import formula
 from checker.slice import sliced
 from checker.verdict import Answer, Evidence, Exhausted, Inductive, Unreachable
 from spec_model.lang.expr import Var
@@ -50,6 +52,8 @@ def certificates(
         match answers.get(goal.name):
             case Unreachable(Exhausted(skipped=False, closed=closed) as because) if closed is not None:
                 claims.setdefault(_memory(closed), (because, []))[1].append(goal.name)
+            case Unreachable(Exhausted(skipped=False, diagram=shape)) if shape is not None:
+                claims.setdefault(id(shape), (_formula(shape, system), []))[1].append(goal.name)
             case Unreachable(Inductive() as because):
                 claims.setdefault(id(because), (because, []))[1].append(goal.name)
     if not claims:
@@ -61,6 +65,11 @@ def certificates(
         asked = question(step, names, _kept(system, [*names, *about]), about)
         made.append(_certificate(system, asked, because, engine))
     return made
+
+
+def _formula(shape: Bits, system: TransitionSystem) -> Inductive:
+    """A set of valuations that an engine has as a diagram over bits, as one conjunct."""
+    return Inductive((formula(shape, {name: system.var(name) for name in shape.variables}),))
 
 
 def _memory(closed: ClosedSet) -> object:

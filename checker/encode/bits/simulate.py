@@ -17,7 +17,7 @@ class Simulation:
         self.runs = runs
         roots = [circuit.assume, circuit.leaves, *circuit.goals.values()]
         roots += [latch.next for latch in circuit.latches]
-        first = circuit.aig.cone([circuit.assume])
+        first = circuit.aig.cone([circuit.assume, circuit.loose])
         known = set(first)
         self._assumed = self._gates(first)
         self._others = self._gates(n for n in circuit.aig.cone(roots) if n not in known)
@@ -44,12 +44,12 @@ class Simulation:
 
     def allowed(self, values: Values) -> int:
         """The runs in which inputs with these values are admissible in the next tick."""
-        for bit in self.circuit.inputs:
+        for bit in (*self.circuit.inputs, *self.circuit.others):
             if values[bit.var.name] is not self._given.get(bit.var.name):
                 self._word[bit.literal >> 1] = word_of(bit, values[bit.var.name])
         self._given = values
         self._run(self._assumed)
-        return self.value(self.circuit.assume)
+        return self.value(self.circuit.assume) & self.value(self.circuit.loose)
 
     def given(self, values: Values) -> int:
         """Compute all that the tick with these inputs leads to; the runs in which they are admissible."""

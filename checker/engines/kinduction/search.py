@@ -76,7 +76,8 @@ class Group:
     def decide(self) -> Iterator[Event]:
         """Events until every goal is decided or stuck."""
         if not self._outside.possible:  # there is no run at all
-            yield from (Closed(goal, Inductive(())) for goal in self.open)
+            all_ = self._model.unchanging([v.name for v in self._model.system.variables])
+            yield from (Closed(goal, Inductive(all_)) for goal in self.open)
             return
         try:
             for phase in (self._first_ticks, self._plainly, self._by_simulation):

@@ -1,0 +1,75 @@
+"""All engines on the same random systems: no two disagree, every run replays, every proof is certified.
+
+The naive loop over the reference semantics is the judge; each engine works in this process.
+"""
+
+from collections.abc import Iterator, Mapping
+from types import ModuleType
+
+import pytest
+from hypothesis import given, settings
+
+from checker.certify import solver
+from checker.certify.certificate import certificates
+from checker.certify.check import check
+from checker.certify.outcome import Accepted
+from checker.engine import Limits, engines, quiet
+from checker.verdict import Answer, Open, Reached, Unreachable
+from spec_model.lang.system import TransitionSystem
+from tests import naive
+from tests.certifying import SOLVER, inline
+from tests.strategies_ts import goals, transition_systems
+
+COMPLETE = ("bdd", "explicit", "pdr")
+"""Engines that leave nothing open."""
+
+
+def here(work: object, *args: object, seconds: float | None = None, memory: int | None = None) -> object:
+    """``checker.isolate.messages`` in this process."""
+    return inline(work, *args)  # type: ignore[arg-type]
+
+
+@pytest.fixture(autouse=True, scope="module")
+def in_this_process() -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(solver, "messages", inline)
+        for engine in engines().values():
+            if isinstance(engine, ModuleType) and hasattr(engine, "messages"):
+                patch.setattr(engine, "messages", here)
+        yield
+
+
+def test_every_engine_is_compared() -> None:
+    assert set(engines()) == {"bdd", "bmc", "explicit", "kinduction", "pdr"}
+
+
+@settings(max_examples=200)
+@given(transition_systems())
+def test_no_two_engines_disagree(system: TransitionSystem) -> None:
+    asked = goals(system)
+    judge = naive.search(system, asked)
+    for name, engine in engines().items():
+        found = engine.check(system, asked, Limits(depth=12 if name == "bmc" else None), quiet)
+        assert set(found) == {g.name for g in asked}
+        for goal, answer in found.items():
+            expected = judge.reached.get(goal)
+            if isinstance(answer, Open):
+                assert name not in COMPLETE, (name, answer)
+                assert expected is None or answer.depth < expected
+            elif isinstance(answer, Reached):
+                assert naive.replay(system, answer.run)[-1][goal]
+                assert expected is not None and len(answer.run) >= expected
+                assert not answer.shortest or len(answer.run) == expected
+            else:
+                assert expected is None, (name, goal)
+        proved = {g: a for g, a in found.items() if isinstance(a, Unreachable)}
+        certified(system, proved, name)
+
+
+def certified(system: TransitionSystem, proved: Mapping[str, Answer], engine: str) -> None:
+    """Every proof comes with a certificate, which a solver that no engine uses accepts."""
+    made = certificates(system, [system.var(g) for g in proved], proved, engine)
+    assert {goal for one in made for goal in one.claims} == set(proved), engine
+    for one in made:
+        outcome = check(one, system, SOLVER)
+        assert isinstance(outcome, Accepted), (engine, one.claims, outcome)
