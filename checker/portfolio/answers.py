@@ -49,7 +49,7 @@ def _rounds(question: Question, engine: str | Engine, limits: Limits, told: Told
     else:
         one = engines()[engine] if isinstance(engine, str) else engine
         told.granted(limits.seconds)
-        alone = asked(one, question, limits, told, {})
+        alone = asked(one, question, limits, told, question.goals)
         told.granted(limits.seconds)
         yield alone
 

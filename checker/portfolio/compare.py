@@ -51,7 +51,7 @@ def compared(question: Question, limits: Limits, told: Told) -> Found:
     by_engine = {}
     for name, engine in engines().items():
         told.granted(limits.seconds)
-        by_engine[name] = asked(engine, question, limits, told, {})
+        by_engine[name] = asked(engine, question, limits, told, question.goals)
     told.granted(limits.seconds)
     goals = {g.name: g for g in question.goals}
     merged: dict[str, tuple[Answer, str]] = {}

@@ -63,7 +63,12 @@ ORDERS: Mapping[str, tuple[Turn, ...]] = MappingProxyType(
             *_PROOFS,
             Turn("bmc"),
         ),
-        "vast": (Turn("bmc", depth=32, share=0.6), *_PROOFS, Turn("bmc")),
+        "vast": (
+            Turn("bmc", depth=32, share=0.6),
+            Turn("pdr", seconds=240, share=0.6),
+            Turn("kinduction", seconds=120, share=0.4),
+            Turn("bmc"),
+        ),
         "short": (
             Turn("bmc", depth=12, share=0.3),
             Turn("explicit", memory=64 * MB, seconds=60, share=0.3),

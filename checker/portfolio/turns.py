@@ -13,6 +13,12 @@ from spec_model.lang.expr import Var
 
 OUT_OF_MEMORY = "the memory limit is reached"
 
+SHORTENS = "bmc"
+"""The engine that looks for shorter runs."""
+
+SHORTENED = 128
+"""Ticks of the longest run for which a shorter one is looked for: unrolling further takes minutes."""
+
 
 def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
     """After each turn all that is found so far; the last one holds an answer for every goal."""
@@ -27,10 +33,20 @@ def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
         left = None if deadline is None else max(0.0, deadline - monotonic())
         told.granted(left)
         grant = turn.within(limits, left)
-        for goal, answer in asked(known[turn.engine], question, grant, told, found).items():
+        goals = [g for g in question.open(found) if _worth(found.get(g.name), turn.engine)]
+        if not goals:
+            continue
+        for goal, answer in asked(known[turn.engine], question, grant, told, goals).items():
             found[goal] = better(found[goal], answer) if goal in found else answer
         told.granted(limits.seconds)  # for what is made of the answers
         yield dict(found)
+
+
+def _worth(known: tuple[Answer, str] | None, engine: str) -> bool:
+    """Whether an engine is asked about a goal: a run that is known need only be made shorter."""
+    if known is None or not isinstance(known[0], Reached):
+        return True
+    return engine == SHORTENS and len(known[0].run) <= SHORTENED
 
 
 def _over(question: Question, found: Found, limits: Limits, deadline: float | None) -> bool:
@@ -53,10 +69,9 @@ def _looked(answer: Answer, depth: int) -> bool:
 
 
 def asked(
-    engine: Engine, question: Question, limits: Limits, told: Told, known: Found
+    engine: Engine, question: Question, limits: Limits, told: Told, goals: Sequence[Var]
 ) -> dict[str, tuple[Answer, str]]:
-    """What one engine says of the goals that are still open."""
-    goals: Sequence[Var] = question.open(known)
+    """What one engine says of some goals."""
     try:
         answers: Mapping[str, Answer] = engine.check(question.system, goals, limits, told.progress)
     except MemoryError:

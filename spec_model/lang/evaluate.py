@@ -1,8 +1,8 @@
 """Meaning of expressions and programs: the reference every encoder is compared with."""
 
-from collections.abc import Mapping, MutableMapping, Sequence
+from collections.abc import Callable, Mapping, MutableMapping, Sequence
 
-from spec_model.lang.action import Action, Assign, If, Send
+from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Temporal, Var
 from spec_model.lang.system import TransitionSystem
@@ -10,87 +10,74 @@ from spec_model.lang.system import TransitionSystem
 
 def evaluate(expr: Expr, at: Mapping[str, int]) -> int:
     """The raw value of a formula without temporal words in a valuation (booleans are 0 and 1)."""
-    match expr:
-        case Const(value, _):
-            return value
-        case Var(name):
-            return at[name]
-        case Named(_, body):
-            return evaluate(body, at)
-        case Apply(op, args, _):
-            return _apply(op, args, at)
-        case Temporal():
-            raise ModelError(f"`{expr}` speaks of the past; lower the chart or reduce the property first.")
+    if isinstance(expr, Apply):
+        return _apply(expr.op, expr.args, at)
+    if isinstance(expr, Var):
+        return at[expr.name]
+    if isinstance(expr, Const):
+        return expr.value
+    if isinstance(expr, Named):
+        return evaluate(expr.body, at)
+    if isinstance(expr, Temporal):
+        raise ModelError(f"`{expr}` speaks of the past; lower the chart or reduce the property first.")
     raise AssertionError(expr.__class__)
 
 
 def _apply(op: Op, args: tuple[Expr, ...], at: Mapping[str, int]) -> int:
-    match op:
-        case Op.AND:
-            return int(all(evaluate(a, at) for a in args))
-        case Op.OR:
-            return int(any(evaluate(a, at) for a in args))
-        case Op.ITE:
-            return evaluate(args[1] if evaluate(args[0], at) else args[2], at)
-        case _:
-            return operate(op, *(evaluate(a, at) for a in args))
+    if op is Op.AND:
+        for arg in args:
+            if not evaluate(arg, at):
+                return 0
+        return 1
+    if op is Op.OR:
+        for arg in args:
+            if evaluate(arg, at):
+                return 1
+        return 0
+    if op is Op.ITE:
+        return evaluate(args[1] if evaluate(args[0], at) else args[2], at)
+    return _OPERATORS[op](*[evaluate(arg, at) for arg in args])
 
 
 def operate(op: Op, *v: int) -> int:
     """An operator on raw values."""
-    match op:
-        case Op.NOT:
-            return 1 - v[0]
-        case Op.AND:
-            return int(all(v))
-        case Op.OR:
-            return int(any(v))
-        case Op.ITE:
-            return v[1] if v[0] else v[2]
-        case Op.EQ:
-            return int(v[0] == v[1])
-        case Op.NE:
-            return int(v[0] != v[1])
-        case Op.LT:
-            return int(v[0] < v[1])
-        case Op.LE:
-            return int(v[0] <= v[1])
-        case Op.GT:
-            return int(v[0] > v[1])
-        case Op.GE:
-            return int(v[0] >= v[1])
-        case Op.ADD:
-            return v[0] + v[1]
-        case Op.SUB:
-            return v[0] - v[1]
-        case Op.NEG:
-            return -v[0]
-        case Op.MUL | Op.SCALE:
-            return v[0] * v[1]
-        case Op.DIV:
-            return v[0] // v[1]
-        case Op.MOD:
-            return v[0] % v[1]
-        case Op.ABS:
-            return abs(v[0])
-        case Op.MIN:
-            return min(v)
-        case Op.MAX:
-            return max(v)
-        case Op.BIT:
-            return v[0] >> v[1] & 1
+    return _OPERATORS[op](*v)
+
+
+_OPERATORS: Mapping[Op, Callable[..., int]] = {
+    Op.NOT: lambda a: 1 - a,
+    Op.AND: lambda *v: int(all(v)),
+    Op.OR: lambda *v: int(any(v)),
+    Op.ITE: lambda test, then, other: then if test else other,
+    Op.EQ: lambda a, b: int(a == b),
+    Op.NE: lambda a, b: int(a != b),
+    Op.LT: lambda a, b: int(a < b),
+    Op.LE: lambda a, b: int(a <= b),
+    Op.GT: lambda a, b: int(a > b),
+    Op.GE: lambda a, b: int(a >= b),
+    Op.ADD: lambda a, b: a + b,
+    Op.SUB: lambda a, b: a - b,
+    Op.NEG: lambda a: -a,
+    Op.MUL: lambda a, b: a * b,
+    Op.SCALE: lambda a, b: a * b,
+    Op.DIV: lambda a, b: a // b,
+    Op.MOD: lambda a, b: a % b,
+    Op.ABS: abs,
+    Op.MIN: min,
+    Op.MAX: max,
+    Op.BIT: lambda a, index: a >> index & 1,
+}
 
 
 def run(program: Sequence[Action], at: MutableMapping[str, int]) -> None:
     """Run the statements of a lowered program in place."""
     for statement in program:
-        match statement:
-            case Assign(var, value):
-                at[var.name] = evaluate(value, at)
-            case If(condition, then, otherwise):
-                run(then if evaluate(condition, at) else otherwise, at)
-            case Send():
-                raise ModelError(f"`{statement}` belongs to a chart; lower the chart first.")
+        if isinstance(statement, Assign):
+            at[statement.var.name] = evaluate(statement.value, at)
+        elif isinstance(statement, If):
+            run(statement.then if evaluate(statement.condition, at) else statement.otherwise, at)
+        else:
+            raise ModelError(f"`{statement}` belongs to a chart; lower the chart first.")
 
 
 def step(system: TransitionSystem, before: Mapping[str, int], inputs: Mapping[str, int]) -> dict[str, int]:
