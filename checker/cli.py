@@ -134,7 +134,7 @@ def check(
         properties = list(filter(variant.concerns(), properties))
     if variant.name:
         properties = variant.askable(properties)
-    limits = Limits(depth, timeout, int(memory * 2**30), Timers(timers))
+    limits = Limits(depth, timeout, int(memory * 2**30), timers=Timers(timers))
     asked = ALL if all_engines else pick_engine(engine)
     certifying = variant.certifying(certificates, certify) if certify or certificates else None
     return run(

@@ -33,12 +33,14 @@ class Timers(StrEnum):
 class Limits:
     """What an engine may spend: ticks of depth (None: no bound), wall seconds, bytes of memory.
 
-    ``timers`` is how; an engine that does not store valuations need not look at it.
+    ``transitions`` bounds what an enumeration tries, so that a turn ends after the same work on any machine.
+    ``timers`` is how; an engine that does not store valuations need not look at either.
     """
 
     depth: int | None = None
     seconds: float | None = None
     memory: int = 8 << 30
+    transitions: int | None = None
     timers: Timers = Timers.EXACT
 
     def deadline(self) -> float | None:

@@ -37,16 +37,17 @@ FOLLOWED, LONGEST = 3, 2000
 
 @dataclass(frozen=True)
 class _Batch:
-    """Runs, the values to choose from for each input, and the inputs that a valuation may restrict."""
+    """Runs, the values to choose from for each input, and the inputs that others or a valuation restrict."""
 
     simulation: Simulation
     choices: Mapping[Var, Sequence[int]]
     bound: frozenset[str]
     random: Random
 
-    def drawn(self) -> Values:
-        """Random values of the inputs."""
-        return {v.name: self.random.choices(of, k=self.simulation.runs) for v, of in self.choices.items()}
+    def drawn(self, names: frozenset[str] | None = None) -> Values:
+        """Random values of the inputs, or of some of them."""
+        chosen = {v.name: of for v, of in self.choices.items() if names is None or v.name in names}
+        return {name: self.random.choices(of, k=self.simulation.runs) for name, of in chosen.items()}
 
 
 def settled(hunt: Hunt, progress: Progress, runs: int = RUNS) -> Reached | None:
@@ -70,7 +71,7 @@ def _batch(system: TransitionSystem, made: Circuit, runs: int, seed: int) -> _Ba
     cells = partitions(system)
     own = {v.name for v in system.inputs}
     depends = [variables(c) for c in conjuncts(system.assume)]
-    bound = frozenset(n for found in depends if not found.keys() <= own for n in found if n in own)
+    bound = frozenset(n for found in depends if len(found) > 1 for n in found if n in own)
     choices = {v: [c.value for c in cells[v.name].cells] for v in system.inputs}
     return _Batch(Simulation(made, runs), choices, bound, Random(seed))
 
@@ -87,8 +88,8 @@ def _candidates(
     values = batch.drawn()
     for _ in range(unsettled):
         values = _changed(batch, values)
-        values, admissible_ = _admissible(batch, values)
-        alive &= admissible_ & simulation.given(values)
+        values, alive = _admissible(batch, values, alive)
+        alive &= simulation.given(values)
         history.append(values)
         simulation.advance()
     values, calm = _calmed(batch, values, wanted[0])
@@ -96,8 +97,8 @@ def _candidates(
     history.append(values)
     simulation.advance()
     for _ in range(HELD):
-        values, admissible_ = _admissible(batch, values)
-        alive &= admissible_ & simulation.given(values)
+        values, alive = _admissible(batch, values, alive)
+        alive &= simulation.given(values)
         history.append(values)
         if alive:
             simulation.advance()
@@ -116,26 +117,25 @@ def _changed(batch: _Batch, values: Values) -> Values:
     }
 
 
-def _merged(old: Values, new: Values, where: int, names: frozenset[str] | None = None) -> Values:
-    """The new values in some of the runs, for some of the inputs."""
+def _merged(old: Values, new: Values, where: int) -> Values:
+    """The new values in some of the runs."""
     taken = [where >> r & 1 for r in range(len(next(iter(old.values()), ())))]
-    return {
-        name: [b if take else a for take, a, b in zip(taken, of, new[name], strict=True)]
-        if names is None or name in names
-        else of
-        for name, of in old.items()
+    changed = {
+        name: [b if take else a for take, a, b in zip(taken, old[name], of, strict=True)]
+        for name, of in new.items()
     }
+    return {**old, **changed}
 
 
-def _admissible(batch: _Batch, values: Values) -> tuple[Values, int]:
-    """The values, with those of inputs that the valuation restricts drawn anew where they may not be."""
-    allowed = batch.simulation.allowed(values)
+def _admissible(batch: _Batch, values: Values, alive: int) -> tuple[Values, int]:
+    """The values, with those of inputs that are restricted drawn anew where they may not be,
+    and the runs of those alive in which they may be now."""
+    allowed = alive & batch.simulation.allowed(values)
     for _ in range(TRIES):
-        if allowed == batch.simulation.full:
+        if allowed == alive:
             break
-        fresh = batch.drawn()
-        values = _merged(values, fresh, batch.simulation.full & ~allowed, batch.bound)
-        allowed = batch.simulation.allowed(values)
+        values = _merged(values, batch.drawn(batch.bound), alive & ~allowed)
+        allowed = alive & batch.simulation.allowed(values)
     return values, allowed
 
 

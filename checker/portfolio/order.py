@@ -22,6 +22,7 @@ class Turn:
     engine: str
     depth: int | None = None
     memory: int | None = None
+    transitions: int | None = None
     seconds: float | None = None
     share: float = 1.0
 
@@ -32,6 +33,7 @@ class Turn:
             limits,
             depth=_least(self.depth, limits.depth),
             memory=limits.memory if self.memory is None else min(self.memory, limits.memory),
+            transitions=_least(self.transitions, limits.transitions),
             seconds=self.seconds if shared is None else min(shared, self.seconds or shared),
         )
 
@@ -52,7 +54,7 @@ _PROOFS = (
 ORDERS: Mapping[str, tuple[Turn, ...]] = MappingProxyType(
     {
         "narrow": (
-            Turn("explicit", memory=128 * MB, share=0.5),
+            Turn("explicit", memory=128 * MB, transitions=250_000_000, share=0.5),
             *_PROOFS,
             Turn("explicit", share=0.8),
             Turn("bmc"),

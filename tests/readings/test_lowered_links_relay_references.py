@@ -42,7 +42,7 @@ CHOICES = [
 
 
 @cache
-def _systems(id: str, choice: str) -> dict[str, System]:
+def _systems(id: str, choice: str) -> Mapping[str, System]:
     return systems({id: choice})
 
 

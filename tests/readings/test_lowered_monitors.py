@@ -34,7 +34,7 @@ CASES = [
 
 
 @cache
-def _systems(id: str, choice: str) -> dict[str, System]:
+def _systems(id: str, choice: str) -> Mapping[str, System]:
     return systems({id: choice})
 
 

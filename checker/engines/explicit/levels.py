@@ -169,6 +169,10 @@ class Search:
             self._report(now)
             if self.deadline is not None and now > self.deadline:
                 return self._out_of_time()
+            most = self.limits.transitions
+            if most is not None and self["transitions"] > most:
+                self._gave_up(f"the limit of {most:,} transitions")
+                return False
         return True
 
     def _call(self) -> bool:
