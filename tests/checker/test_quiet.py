@@ -41,7 +41,7 @@ def same(system: TransitionSystem, goal: Var, one: Answer, other: Answer) -> Non
         case Reached(run), Reached(again):
             assert len(run) == len(again)
             assert replay(system, again)[-1][goal.name]
-        case Unreachable(whole), Unreachable(part):
+        case Unreachable(Exhausted() as whole), Unreachable(Exhausted() as part):
             assert part.states <= whole.states and part.depth >= whole.depth
         case Open(reason, depth), Open(as_well, as_deep):
             assert (reason, depth) == (as_well, as_deep)
@@ -181,14 +181,15 @@ def test_two_timers_started_at_different_times() -> None:
     reached, unreachable = both(two_ages(30, 20), goal, never)
     assert isinstance(reached, Reached) and len(reached.run) == 30
     exact = explicit.check(two_ages(30, 20), [never], Limits(), quiet)["never"]
-    assert isinstance(exact, Unreachable)
+    assert isinstance(exact, Unreachable) and isinstance(exact.because, Exhausted)
     assert stored(unreachable) < exact.because.states / 4
 
 
 def test_saturated_timers_stay_where_they_are() -> None:
     system = two_ages(3, 4)
     (answer,) = both(system, never)
-    assert isinstance(answer, Unreachable) and answer.because.depth >= 5
+    assert isinstance(answer, Unreachable) and isinstance(answer.because, Exhausted)
+    assert answer.because.depth >= 5
 
 
 def test_an_event_in_the_middle_of_a_line_is_found_in_time() -> None:

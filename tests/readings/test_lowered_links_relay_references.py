@@ -3,6 +3,7 @@
 The default choices are those of every other test.
 """
 
+from collections.abc import Mapping
 from functools import cache
 
 import pytest

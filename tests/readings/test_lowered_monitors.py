@@ -1,5 +1,6 @@
 """Temperature, battery and wheels can be checked under every choice of their readings (S01 to S33)."""
 
+from collections.abc import Mapping
 from functools import cache
 
 import pytest
