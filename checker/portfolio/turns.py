@@ -13,9 +13,6 @@ from spec_model.lang.expr import Var
 
 OUT_OF_MEMORY = "the memory limit is reached"
 
-SHORTENS = "bmc"
-"""The engine that looks for shorter runs."""
-
 SHORTENED = 128
 """Ticks of the longest run for which a shorter one is looked for: unrolling further takes minutes."""
 
@@ -33,7 +30,7 @@ def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
         left = None if deadline is None else max(0.0, deadline - monotonic())
         told.granted(left)
         grant = turn.within(limits, left)
-        goals = [g for g in question.open(found) if _worth(found.get(g.name), turn.engine)]
+        goals = [g for g in question.open(found) if _worth(found.get(g.name))]
         if not goals:
             continue
         for goal, answer in asked(known[turn.engine], question, grant, told, goals).items():
@@ -42,11 +39,9 @@ def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
         yield dict(found)
 
 
-def _worth(known: tuple[Answer, str] | None, engine: str) -> bool:
-    """Whether an engine is asked about a goal: a run that is known need only be made shorter."""
-    if known is None or not isinstance(known[0], Reached):
-        return True
-    return engine == SHORTENS and len(known[0].run) <= SHORTENED
+def _worth(known: tuple[Answer, str] | None) -> bool:
+    """Whether a goal is worth another engine: a run that is known need only be made shorter."""
+    return known is None or not isinstance(known[0], Reached) or len(known[0].run) <= SHORTENED
 
 
 def _over(question: Question, found: Found, limits: Limits, deadline: float | None) -> bool:
