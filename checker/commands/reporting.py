@@ -66,6 +66,8 @@ def differences(folder: Path, made: Pages) -> Iterator[str]:
 
 
 RUN = "## Shortest counterexample"
+LONG_RUN = "## A counterexample, not known to be a shortest one"
+"""For runs whose length is not on record."""
 
 
 def _settled(text: str) -> str:
@@ -204,7 +206,7 @@ def _finding(compared: Compared, proved: Sequence[Proof]) -> str:
     lines += [f"- {evidence(compared.result)}", "", "## Why", "", compared.expected.because, ""]
     lines += sections(prop.id, compared.expected, proved)
     if isinstance(verdict.because, Trace):
-        lines += [RUN, ""]
+        lines += [LONG_RUN if compared.expected.depth is None else RUN, ""]
         lines.append(_text(renderers("trace")["markdown"].render(verdict.because.focused())))
         names = dict.fromkeys(a.chart for t in verdict.because.ticks for a in t.arrows)
         lines += ["", "## Charts", "", *(f"- [{n}](../charts/{n}.svg)" for n in names)]
