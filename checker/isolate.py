@@ -16,7 +16,7 @@ import threading
 from collections.abc import Callable, Generator
 from contextlib import suppress
 from dataclasses import dataclass
-from queue import Empty, Queue, SimpleQueue
+from queue import Empty, SimpleQueue
 from time import monotonic
 from typing import Any
 
@@ -135,7 +135,7 @@ def messages(
     Closing the generator kills the child.
     """
     end = None if seconds is None else monotonic() + seconds
-    inbox: Queue[object] = Queue()
+    inbox: SimpleQueue[object] = SimpleQueue()
     child = Child(inbox.put, _itself, work, memory=memory)
     try:
         child.order(*args)
@@ -157,7 +157,7 @@ def _itself(work: Callable[..., None]) -> Callable[..., None]:
     return work
 
 
-def _next(inbox: Queue[object], seconds: float) -> object:
+def _next(inbox: SimpleQueue[object], seconds: float) -> object:
     try:
         return inbox.get(timeout=seconds)
     except Empty:

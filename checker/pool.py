@@ -3,7 +3,7 @@
 from collections.abc import Callable, Generator, Hashable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import count
-from queue import Empty, Queue
+from queue import Empty, SimpleQueue
 from time import monotonic
 from typing import Any
 
@@ -78,7 +78,8 @@ class _AtWork:
     def __init__(self, pool: Pool, left: dict[int, Order]) -> None:
         self._pool = pool
         self._left = left
-        self._inbox: Queue[tuple[int, object]] = Queue()
+        # Not a Queue: Ctrl-C in one of its methods can leave it locked, and its writers waiting for ever.
+        self._inbox: SimpleQueue[tuple[int, object]] = SimpleQueue()
         self._seats: dict[int, _Seat] = {}
         self._numbers = count()
 

@@ -3,8 +3,9 @@
 The naive loop over the reference semantics is the judge; each engine works in this process.
 """
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from types import ModuleType
+from typing import Any
 
 import pytest
 from hypothesis import given, settings
@@ -24,9 +25,9 @@ COMPLETE = ("bdd", "explicit", "pdr")
 """Engines that leave nothing open."""
 
 
-def here(work: object, *args: object, seconds: float | None = None, memory: int | None = None) -> object:
+def here(work: Callable[..., None], *args: Any, seconds: float | None, memory: int | None) -> Iterator[Any]:
     """``checker.isolate.messages`` in this process."""
-    return inline(work, *args)  # type: ignore[arg-type]
+    return inline(work, *args)
 
 
 @pytest.fixture(autouse=True, scope="module")
