@@ -67,7 +67,7 @@ ORDERS: Mapping[str, tuple[Turn, ...]] = MappingProxyType(
         ),
         "vast": (
             Turn("bmc", depth=32, share=0.6),
-            Turn("pdr", seconds=240, share=0.6),
+            Turn("pdr", seconds=120, share=0.6),
             Turn("kinduction", seconds=120, share=0.4),
             Turn("bmc"),
         ),
