@@ -17,6 +17,7 @@ import sys
 import tempfile
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from statistics import median
 from time import process_time
@@ -95,11 +96,8 @@ def c(program: str) -> Timed:
     before = _children()
     out = subprocess.run([program], check=True, capture_output=True, text=True).stdout
     seconds = _children() - before
-    states, transitions = (
-        re.search(rf"\b{name}=(\d+)", out).group(1)  # type: ignore[union-attr]
-        for name in ("states", "trans")
-    )
-    return Timed(int(states), int(transitions), seconds, seconds)
+    counts = dict(re.findall(r"\b(states|trans)=(\d+)", out))
+    return Timed(int(counts["states"]), int(counts["trans"]), seconds, seconds)
 
 
 def _children() -> float:
@@ -118,7 +116,7 @@ def model(comp: int, k: int, repetitions: int, folder: str) -> Iterator[str]:
     for name, factored in (("naive", False), ("factored", True)):
         program = compiled(comp, k, factored, folder)
         if program is not None:
-            runs.append((name, lambda p=program: c(p)))  # type: ignore[misc]
+            runs.append((name, partial(c, program)))
     taken: dict[str, list[Timed]] = {name: [] for name, _ in runs}
     for _ in range(repetitions):
         for name, run in runs:

@@ -2,8 +2,6 @@
 
 import gzip
 import json
-import os
-import tempfile
 import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -13,6 +11,7 @@ from typing import Any
 
 from checker.certify.certificate import Certificate, certificate, document
 from checker.certify.terms import Malformed
+from checker.files import replaced
 
 SCHEMA = "rovercheck/certificate/1"
 LARGE = 1 << 17
@@ -59,23 +58,11 @@ def write(folder: Path, origin: Origin, certificates: Sequence[Certificate]) -> 
     target, other = (packed, plain) if len(data) >= LARGE else (plain, packed)
     try:
         folder.mkdir(parents=True, exist_ok=True)
-        _replace(target, gzip.compress(data, mtime=0) if target is packed else data)
+        replaced(target, gzip.compress(data, mtime=0) if target is packed else data)
         other.unlink(missing_ok=True)
     except OSError as error:
         raise Unwritable(f"Cannot write {target}: {error.strerror}. The verdicts stand.") from error
     return target
-
-
-def _replace(target: Path, data: bytes) -> None:
-    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        os.chmod(name, 0o644)
-        os.replace(name, target)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise
 
 
 def _document(origin: Origin, certificates: Sequence[Certificate]) -> dict[str, object]:

@@ -1,13 +1,12 @@
 """Writing what a command produced: to the terminal, or to a file that is never half-written."""
 
-import os
 import sys
-import tempfile
 from pathlib import Path
 
 from rich.console import Console
 
 from checker.commands.codes import UsageError
+from checker.files import replaced
 
 out = Console(highlight=False, soft_wrap=True)
 """Results."""
@@ -27,18 +26,6 @@ def write(content: str | bytes, target: Path | None) -> None:
         sys.stdout.flush()
         return
     try:
-        _replace(target, data)
+        replaced(target, data)
     except OSError as error:
         raise UsageError(f"Cannot write {target}: {error.strerror}. Choose another --output.") from error
-
-
-def _replace(target: Path, data: bytes) -> None:
-    handle, name = tempfile.mkstemp(dir=target.parent, prefix=f".{target.name}.")
-    try:
-        with os.fdopen(handle, "wb") as file:
-            file.write(data)
-        os.chmod(name, 0o644)
-        os.replace(name, target)
-    except BaseException:
-        Path(name).unlink(missing_ok=True)
-        raise

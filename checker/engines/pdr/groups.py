@@ -5,7 +5,7 @@ from typing import Protocol
 
 from checker.encode.bits import Circuit, Literal
 from checker.encode.bits.model import cut
-from checker.encode.cone import cone, constants, folded, leaving
+from checker.encode.cone import by_cone, cone, constants, folded, leaving
 from checker.encode.symbolic import Transition, transition
 from checker.engines.pdr.cubes import Cube
 from checker.engines.pdr.events import Bound, Decided, Event, Undefined
@@ -36,7 +36,7 @@ def decisions(
     fixed = constants(raw)
     whole = folded(raw, fixed)
     groups = []
-    for names in _by_cone(whole, goals):
+    for names in by_cone(whole, goals):
         circuit = cut(whole, names)
         seeds = proved(circuit, _suggested(whole, circuit) if candidates is None else candidates)
         groups.append(_Group(circuit, _kept(raw, names, fixed), seeds, depth))
@@ -48,16 +48,6 @@ def _suggested(whole: Transition, circuit: Circuit) -> list[Expr]:
     part = cone(whole, circuit.goals)
     few = 0 < len(circuit.latches) <= LARGE
     return mined(part, list(leaving(part, whole.terms).values())) if few else []
-
-
-def _by_cone(whole: Transition, goals: Sequence[str]) -> list[list[str]]:
-    """Goals that depend on the same variables, inputs and frozen variables, apart from goals."""
-    found: dict[frozenset[str], list[str]] = {}
-    for goal in goals:
-        part = cone(whole, [goal])
-        names = frozenset(v.name for v in (*part.variables, *part.inputs, *part.frozen))
-        found.setdefault(names.difference(goals), []).append(goal)
-    return list(found.values())
 
 
 def _kept(raw: Transition, goals: Sequence[str], fixed: Mapping[str, int]) -> list[Expr]:
