@@ -10,8 +10,9 @@ from dataclasses import dataclass
 
 from checker.encode.bits.aig import Aig, Literal, bits_of
 from checker.encode.bits.blast import Blaster, Value, as_word, bits_needed
-from checker.encode.cone import Slice, cone, folded, leaving
+from checker.encode.cone import Slice, cone, folded, straying
 from checker.encode.symbolic import Transition, transition
+from checker.slice import sliced
 from checker.verdict import Run
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem
@@ -82,8 +83,10 @@ def circuit(system: TransitionSystem, goals: Sequence[str]) -> Circuit:
 
 def cut(whole: Transition, goals: Sequence[str]) -> Circuit:
     """The circuit of what these goals depend on, of a transition without constants."""
-    part = cone(whole, goals)
-    state = _state(part, goals)
+    wanted = [v for v in whole.system.variables if v.name in goals]
+    escapes = straying(whole, sliced(whole.system, wanted).variables)
+    part = cone(whole, [*goals, *escapes])
+    state = _state(part, [*goals, *escapes])
     aig = Aig()
     held = {v.name for v in part.frozen}
     latched = [v for v in (*part.frozen, *part.variables) if v.name in state or v.name in held]
@@ -100,7 +103,7 @@ def cut(whole: Transition, goals: Sequence[str]) -> Circuit:
         return (blast.truth(c) for c in conditions)
 
     following = {v.name: blast(part.next[v.name]) for v in part.variables}
-    outside = list(holds(leaving(part, whole.terms).values()))
+    outside = list(holds(escapes.values()))
     outside += [blast.inside(following[v.name], v.domain) ^ 1 for v in latched if _sparse(v, held)]
     return Circuit(
         whole.system,
