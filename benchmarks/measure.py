@@ -10,6 +10,7 @@ from pathlib import Path
 from statistics import median
 from threading import Timer
 from time import perf_counter
+from types import MappingProxyType
 
 ROOT = Path(__file__).parents[1]
 
@@ -57,17 +58,31 @@ class Sample:
 
 
 Tool = Callable[[], Sample]
+UNCHANGED: Mapping[str, str] = MappingProxyType({})
 
 LONG = 60.0
 """Seconds of wall time above which a run is not repeated."""
 
 
-def run(command: Sequence[str | Path], seconds: float | None = None, folder: Path | None = None) -> Cost:
-    """Run a command to its end, or kill it and its children after ``seconds`` of wall time."""
+def run(
+    command: Sequence[str | Path],
+    seconds: float | None = None,
+    folder: Path | None = None,
+    changed: Mapping[str, str] = UNCHANGED,
+) -> Cost:
+    """Run a command to its end, or kill it and its children after ``seconds`` of wall time.
+
+    ``changed``: variables of the environment that are other than here.
+    """
     with tempfile.TemporaryFile() as out:
         began = perf_counter()
         process = subprocess.Popen(
-            list(command), cwd=folder, stdout=out, stderr=subprocess.STDOUT, start_new_session=True
+            list(command),
+            cwd=folder,
+            env={**os.environ, **changed},
+            stdout=out,
+            stderr=subprocess.STDOUT,
+            start_new_session=True,
         )
         late: list[bool] = []
 

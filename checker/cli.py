@@ -1,5 +1,6 @@
 """The command line: every verb, and the one place where errors become exit codes."""
 
+import gc
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -11,6 +12,7 @@ from checker.commands.codes import Exit, UsageError
 from checker.commands.output import err
 from checker.decide import ALL, AUTO, Disagreement
 from checker.engine import Limits, Timers
+from checker.isolate import collect_seldom, prepared
 from checker.replay import ReplayError
 from spec_model.lang.errors import ModelError, did_you_mean
 
@@ -124,30 +126,31 @@ def check(
     timers: str,
 ) -> Exit:
     """Check properties and compare the verdicts with the baseline."""
-    from checker.commands.check import check as run
-    from checker.commands.select import pick_engine, pick_properties
-    from checker.commands.variant import pick_variant
+    with prepared("checker.searches"):
+        from checker.commands.check import check as run
+        from checker.commands.select import pick_engine, pick_properties
+        from checker.commands.variant import pick_variant
 
-    variant = pick_variant(chosen, repair, dropped)
-    properties = pick_properties(ids, system, variant.properties(), full)
-    if variant.name and not ids:
-        properties = list(filter(variant.concerns(), properties))
-    if variant.name:
-        properties = variant.askable(properties)
-    limits = Limits(depth, timeout, int(memory * 2**30), timers=Timers(timers))
-    asked = ALL if all_engines else pick_engine(engine)
-    certifying = variant.certifying(certificates, certify) if certify or certificates else None
-    return run(
-        properties,
-        variant.systems(),
-        asked,
-        limits,
-        as_json,
-        variant.name,
-        variant.expected,
-        jobs,
-        certifying,
-    )
+        variant = pick_variant(chosen, repair, dropped)
+        properties = pick_properties(ids, system, variant.properties(), full)
+        if variant.name and not ids:
+            properties = list(filter(variant.concerns(), properties))
+        if variant.name:
+            properties = variant.askable(properties)
+        limits = Limits(depth, timeout, int(memory * 2**30), timers=Timers(timers))
+        asked = ALL if all_engines else pick_engine(engine)
+        certifying = variant.certifying(certificates, certify) if certify or certificates else None
+        return run(
+            properties,
+            variant.systems(),
+            asked,
+            limits,
+            as_json,
+            variant.name,
+            variant.expected,
+            jobs,
+            certifying,
+        )
 
 
 @app.command()
@@ -280,7 +283,10 @@ def reports(stale: bool, output: Path | None) -> Exit:
 
 def main() -> None:
     """Run the command line; every error becomes one message and a documented exit code."""
-    sys.exit(int(run(sys.argv[1:])))
+    collect_seldom()
+    code = run(sys.argv[1:])
+    gc.freeze()  # or Python would look through all formulas once more before it ends
+    sys.exit(int(code))
 
 
 def run(arguments: list[str]) -> Exit:

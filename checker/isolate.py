@@ -5,6 +5,7 @@ parent one by one.  A child dies when the time is over, when the parent stops li
 too) and when the parent dies.
 """
 
+import gc
 import os
 import pickle
 import signal
@@ -13,17 +14,19 @@ import subprocess
 import sys
 import tempfile
 import threading
-from collections.abc import Callable, Generator
-from contextlib import suppress
+from collections.abc import Callable, Generator, Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
+from importlib import import_module
 from queue import Empty, SimpleQueue
 from time import monotonic
-from typing import Any
+from typing import IO, Any
 
 Send = Callable[[object], None]
 _DEEP = 100_000  # nested formulas; Python's own limit is about 250 levels of a pickled one
 _MAIN = "from checker.isolate import child; child()"
 _LENGTH = struct.Struct("<Q")
+_SELDOM = 200_000
 
 
 class Stopped(Exception):
@@ -54,25 +57,21 @@ class Child:
         memory: int | None = None,
     ) -> None:
         self._tell = tell
-        self._errors = tempfile.TemporaryFile()  # noqa: SIM115, closed by ``kill``
-        self._group = not _is_child() and hasattr(os, "killpg")
-        self._process = self._started()
+        started = _ready.pop() if _ready else _started()
+        self._process, self._errors, self._group = started.process, started.errors, started.group
         self._orders: SimpleQueue[bytes | None] = SimpleQueue()
         self._threads = [threading.Thread(target=t, daemon=True) for t in (self._feed, self._read)]
         for thread in self._threads:
             thread.start()
-        self._orders.put(_pickled((memory, make, args)))
+        self._orders.put(_packed((memory, make, args)))
 
     def order(self, *order: object) -> None:
         """Have one more order carried out."""
-        self._orders.put(_pickled(order))
+        self._orders.put(_packed(order))
 
     def kill(self) -> None:
         """End the process, whatever it does, with all processes that it started."""
-        if self._group:
-            with suppress(ProcessLookupError, PermissionError):
-                os.killpg(self._process.pid, signal.SIGKILL)
-        self._process.kill()
+        _killed(self._process, self._group)
         self._orders.put(None)
         for thread in self._threads:
             thread.join()
@@ -80,26 +79,13 @@ class Child:
             self._process.__exit__(None, None, None)
         self._errors.close()
 
-    def _started(self) -> subprocess.Popen[bytes]:
-        """The process, in a session of its own so that Ctrl-C reaches the parent alone."""
-        path = os.pathsep.join(filter(None, sys.path))
-        return subprocess.Popen(
-            [sys.executable, "-c", _MAIN],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            stderr=self._errors,
-            # One hash seed, so that the same question is put to a solver in the same words every time.
-            env={**os.environ, "PYTHONPATH": path, "PYTHONHASHSEED": "0"},
-            start_new_session=self._group,
-        )
-
     def _feed(self) -> None:
         """Write orders; the pipe is left open until the end: the child ends when it is closed."""
         stdin = self._process.stdin
         assert stdin is not None
         with suppress(OSError):
             while (order := self._orders.get()) is not None:
-                stdin.write(_LENGTH.pack(len(order)) + order)
+                stdin.write(order)
                 stdin.flush()
 
     def _read(self) -> None:
@@ -119,6 +105,64 @@ class Child:
         self._errors.seek(0)
         said = self._errors.read().decode(errors="replace").strip().splitlines()
         return f"the solver process ended with status {status}" + (f": {said[-1]}" if said else "")
+
+
+@dataclass(frozen=True)
+class _Started:
+    """A process that waits for its first order; ``group``: it leads a group that is killed with it."""
+
+    process: subprocess.Popen[bytes]
+    errors: IO[bytes]
+    group: bool
+
+
+_ready: list[_Started] = []
+"""Processes started in advance, which the next ``Child`` takes."""
+
+
+def _started() -> _Started:
+    """The process, in a session of its own so that Ctrl-C reaches the parent alone."""
+    path = os.pathsep.join(filter(None, sys.path))
+    errors = tempfile.TemporaryFile()  # noqa: SIM115, closed when the process is killed
+    group = not _is_child() and hasattr(os, "killpg")
+    process = subprocess.Popen(
+        [sys.executable, "-c", _MAIN],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=errors,
+        # One hash seed, so that the same question is put to a solver in the same words every time.
+        env={**os.environ, "PYTHONPATH": path, "PYTHONHASHSEED": "0"},
+        start_new_session=group,
+    )
+    return _Started(process, errors, group)
+
+
+def _killed(process: subprocess.Popen[bytes], group: bool) -> None:
+    if group:
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(process.pid, signal.SIGKILL)
+    process.kill()
+
+
+@contextmanager
+def prepared(module: str) -> Iterator[None]:
+    """Start a process for the first child made inside; it imports a module while the parent is busy."""
+    started = _started()
+    _ready.append(started)
+    stdin = started.process.stdin
+    assert stdin is not None
+    with suppress(OSError):  # it is dead, and will say why when it is used
+        stdin.write(_packed(module))
+        stdin.flush()
+    try:
+        yield
+    finally:
+        if started in _ready:
+            _ready.remove(started)
+            _killed(started.process, started.group)
+            with suppress(OSError):
+                started.process.__exit__(None, None, None)
+            started.errors.close()
 
 
 def messages(
@@ -153,6 +197,11 @@ def messages(
         raise Stopped(message.failure)
 
 
+def collect_seldom() -> None:
+    """Look for cyclic garbage less often than Python does: formulas are many and have no cycles."""
+    gc.set_threshold(_SELDOM)
+
+
 def _itself(work: Callable[..., None]) -> Callable[..., None]:
     return work
 
@@ -173,6 +222,12 @@ def _pickled(thing: object) -> bytes:
         sys.setrecursionlimit(limit)
 
 
+def _packed(order: object) -> bytes:
+    """An order as a child reads it."""
+    pickled = _pickled(order)
+    return _LENGTH.pack(len(pickled)) + pickled
+
+
 def _is_child() -> bool:
     """Whether this process was started here: its children then die with its session."""
     return sys.orig_argv[-1] == _MAIN
@@ -183,6 +238,7 @@ def _is_child() -> bool:
 
 def child() -> None:
     """The main program of a child: orders on standard input, messages on standard output."""
+    collect_seldom()
     out = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints must not look like a message
     sys.setrecursionlimit(_DEEP)
@@ -201,7 +257,9 @@ def child() -> None:
 def _carry_out(orders: SimpleQueue[bytes], send: Send) -> None:
     """One order after the other, for ever; returns only when the first message cannot be obeyed."""
     try:
-        do = _made(orders.get())
+        while isinstance(first := pickle.loads(orders.get()), str):
+            import_module(first)
+        do = _made(*first)
     except Exception as error:
         return send(End(_reason(error), dead=True))
     while True:
@@ -213,9 +271,10 @@ def _carry_out(orders: SimpleQueue[bytes], send: Send) -> None:
             send(End(None))
 
 
-def _made(first: bytes) -> Callable[..., None]:
+def _made(
+    memory: int | None, make: Callable[..., Callable[..., None]], args: tuple[object, ...]
+) -> Callable[..., None]:
     """The function that carries out orders, after the memory is confined."""
-    memory, make, args = pickle.loads(first)
     _confine(memory)
     made: Callable[..., None] = make(*args)
     return made
@@ -244,4 +303,4 @@ def _confine(memory: int | None) -> None:
         resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
 
 
-__all__ = ["Child", "End", "Send", "Stopped", "messages"]
+__all__ = ["Child", "End", "Send", "Stopped", "collect_seldom", "messages", "prepared"]

@@ -180,7 +180,7 @@ class Expiry:
         return Junction(junction.name, _arrows(junction.transitions, own, self._change(None)))
 
     def _change(self, source: Path | None) -> Change:
-        return lambda expr: self._replaced(expr, source)
+        return lambda expr: self._replaced(expr, source) if _asks(expr) else expr
 
     def _replaced(self, expr: Expr, source: Path | None) -> Expr:
         match expr:
@@ -192,6 +192,11 @@ class Expiry:
                 return Apply(op, tuple(self._replaced(a, source) for a in args), sort)
             case _:
                 return expr
+
+
+def _asks(expr: Expr) -> bool:
+    """Whether the formula has a temporal word at all: most have none, and stay as they are."""
+    return any(isinstance(node, Temporal) for node in nodes(expr))
 
 
 def _covered(chart: Chart, path: Path, keep: Collection[str]) -> bool:

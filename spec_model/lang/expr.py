@@ -296,9 +296,9 @@ def as_number(expr: Expr, where: str) -> Expr:
 def rescale(expr: Expr, sort: Num) -> Expr:
     """The same number in a resolution that divides its own (for a constant: its value)."""
     assert isinstance(expr.sort, Num)
-    factor = expr.sort.resolution / sort.resolution
-    if factor == 1:
+    if expr.sort.resolution == sort.resolution:
         return expr
+    factor = expr.sort.resolution / sort.resolution
     if isinstance(expr, Const):
         assert (expr.value * factor).denominator == 1
         return Const(int(expr.value * factor), sort)
@@ -309,6 +309,8 @@ def rescale(expr: Expr, sort: Num) -> Expr:
 def is_multiple(literal: Const, resolution: Fraction) -> bool:
     """Whether the constant is a whole number of steps of the resolution."""
     assert isinstance(literal.sort, Num)
+    if literal.sort.resolution == resolution:
+        return True
     return (literal.value * literal.sort.resolution / resolution).denominator == 1
 
 
