@@ -6,16 +6,18 @@ path never reads are never chosen, so they cost nothing.  What ``&``, ``|`` and 
 unread is turned into branches for the same reason; all expressions of the result are free of choices.
 """
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import takewhile
 from typing import Union
 
 from checker.partition import Partition
 from checker.slice import conjuncts, names
-from spec_model.lang.action import Assign, If
+from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.domain import Bool, Domain, Num
 from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, Op, Var, flag
 from spec_model.lang.system import TransitionSystem
+from spec_model.lang.walk import variables
 
 Names = frozenset[str]
 
@@ -36,6 +38,19 @@ class Fork:
 
 
 @dataclass(frozen=True, eq=False)
+class Each:
+    """Run the rest for each of the values in turn: a fork with a choice that every path makes.
+
+    ``alone``: no other choice is made before the next fork.
+    """
+
+    number: int
+    var: Var
+    values: tuple[int, ...]
+    alone: bool = False
+
+
+@dataclass(frozen=True, eq=False)
 class Require:
     """Go on only where the condition holds."""
 
@@ -51,7 +66,7 @@ class Branch:
     otherwise: "PathProgram"
 
 
-PathStatement = Union[Assign, Branch, Choose, Fork, Require]
+PathStatement = Union[Assign, Branch, Choose, Each, Fork, Require]
 PathProgram = tuple[PathStatement, ...]
 
 
@@ -61,8 +76,14 @@ def read_flag(var: Var) -> Var:
 
 
 def path_program(system: TransitionSystem, cells: Mapping[str, Partition]) -> PathProgram:
-    """The assumption and the step of a system; inputs are chosen cell by cell, when first read."""
-    return forked(_Made(cells).whole(system))
+    """The assumption and the step of a system; inputs are chosen cell by cell, when first read.
+
+    An input that every path reads sooner or later is chosen before the first statement that mentions it:
+    that makes no more paths, and plain loops.
+    """
+    _, seen = _Made(cells).whole(system)
+    program, _ = _Made(cells, seen.always).whole(system)
+    return forked(program)
 
 
 def _assumed(system: TransitionSystem, cells: Mapping[str, Partition]) -> list[Expr]:
@@ -91,17 +112,33 @@ class _Made:
     """Fresh names and numbers while a path program is made."""
 
     cells: Mapping[str, Partition]
+    sure: Names = frozenset()
+    """Inputs to choose as early as possible."""
     fresh: int = 0
     read: dict[int, tuple[Expr, Names]] = field(default_factory=dict)
 
-    def whole(self, system: TransitionSystem) -> PathProgram:
+    def whole(self, system: TransitionSystem) -> tuple[PathProgram, _Seen]:
+        """The program, and what its paths have read at their end."""
         out: list[PathStatement] = []
         seen = _Seen()
         for condition in _assumed(system, self.cells):
             value, seen = self.pure(condition, seen, out)
             out.append(Require(value))
-        self.statements(system.step, seen, out)
-        return tuple(out)
+        for statement in system.step:
+            for var in self.mentioned(statement):
+                if var.name in self.sure - seen.always:
+                    seen = self.choose(var, seen, out)
+            seen = self.statements((statement,), seen, out)
+        return tuple(out), seen
+
+    def mentioned(self, statement: Action) -> Iterator[Var]:
+        """The inputs that occur in a statement."""
+        if isinstance(statement, Assign):
+            yield from (v for v in variables(statement.value).values() if v.name in self.cells)
+        if isinstance(statement, If):
+            yield from (v for v in variables(statement.condition).values() if v.name in self.cells)
+            for inner in (*statement.then, *statement.otherwise):
+                yield from self.mentioned(inner)
 
     def statements(self, program: Sequence[object], seen: _Seen, out: list[PathStatement]) -> _Seen:
         for statement in program:
@@ -213,11 +250,23 @@ def forked(program: PathProgram) -> PathProgram:
     forks, weight = 0, apart
     for statement in program:
         if weight >= apart and _chooses((statement,)):
-            out.append(Fork(forks))
+            if isinstance(statement, Choose) and len(statement.values) > 1:
+                statement = Each(forks, statement.var, statement.values)
+            else:
+                out.append(Fork(forks))
             forks, weight = forks + 1, 0
         out.append(statement)
         weight += _weight((statement,))
-    return tuple(out)
+    return tuple(_alone(out))
+
+
+def _alone(program: Sequence[PathStatement]) -> Iterator[PathStatement]:
+    """The program with ``alone`` set where it is so."""
+    for at, statement in enumerate(program):
+        if isinstance(statement, Each):
+            segment = takewhile(lambda s: not isinstance(s, Fork | Each), program[at + 1 :])
+            statement = replace(statement, alone=not _chooses(tuple(segment)))
+        yield statement
 
 
 def _weight(program: PathProgram) -> int:
@@ -257,6 +306,10 @@ def _backward(
                 live |= names([condition])
             case Fork(number):
                 found[number] = tuple(v for n, v in writes.items() if n in live)
+            case Each(number, var):
+                live -= {var.name}
+                writes = {**writes, var.name: var}
+                found[number] = tuple(v for n, v in writes.items() if n in live)
             case Branch(condition, then, otherwise):
                 then_live, then_writes = _backward(then, live, writes, found)
                 else_live, else_writes = _backward(otherwise, live, writes, found)
@@ -276,7 +329,7 @@ def _positions(program: PathProgram, at: int, found: dict[str, tuple[Var, int]])
     for statement in program:
         at += 1
         match statement:
-            case Assign(var, _) | Choose(var, _):
+            case Assign(var, _) | Choose(var, _) | Each(_, var):
                 found[var.name] = (var, at)
             case Branch(_, then, otherwise):
                 at = _positions(otherwise, _positions(then, at, found), found)

@@ -260,6 +260,24 @@ def test_inputs_of_a_conjunct_that_was_left_out_still_meet_it() -> None:
     replay(system, answer.run)
 
 
+def test_goals_that_have_nothing_in_common_do_not_multiply() -> None:
+    holds = [flag(f"hold{n}") for n in range(3)]
+    counts = [var(f"count{n}", integer(0, 4000)) for n in range(3)]
+    never = [flag(f"never{n}") for n in range(3)]
+    step = (
+        *(Assign(c, ite(h, minimum(c + 1, 4000), 0)) for h, c in zip(holds, counts, strict=True)),
+        *(Assign(g, c > 4000) for g, c in zip(never, counts, strict=True)),
+    )
+    system = TransitionSystem("apart", tuple(holds), (), (*counts, *never), (), step)
+    found = explicit.check(system, never, Limits(), quiet)
+    assert [_states(a) for a in found.values()] == [4001, 4001, 4001]
+
+
+def _states(answer: Answer) -> int:
+    assert isinstance(answer, Unreachable) and isinstance(answer.because, Exhausted)
+    return answer.because.states
+
+
 def test_an_assumption_that_nothing_meets_blocks_every_tick() -> None:
     a = var("a", integer(0, 9))
     for assume in (a > 9, FALSE, (a > 3) & (a < 2)):

@@ -4,164 +4,29 @@ The comparison asks for verdicts, lengths of runs, runs that replay, and the ver
 Every fault is first shown to be one: without it the same systems agree.
 """
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
-from functools import cache
 from typing import Any
 
 import pytest
 
-from checker.encode import native
-from checker.encode.native import Field, Layout, OutsideDomain, body, quiet, retrace, search, table
+from checker.encode import native, paths
+from checker.encode.native import Field, Layout, body, quiet, retrace, search, table
 from checker.encode.native.expressions import BIT, INT, Expressions
 from checker.engine import Limits, Timers
 from checker.engine import quiet as silent
 from checker.engines import explicit
 from checker.engines.explicit import levels, parents, runs
 from checker.partition import Partition, partitions
-from checker.verdict import Answer, Exhausted, Reached, Unreachable
 from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import Op, Var, all_of, const, flag, ite, var
-from spec_model.lang.system import Statement, TransitionSystem
+from spec_model.lang.domain import integer
+from spec_model.lang.expr import Op, Var, const, flag, var
+from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
 from tests import naive
+from tests.checker.compared import SYSTEMS, Differs, Group, chain, compare, must_agree
 
 Fault = Callable[[pytest.MonkeyPatch], None]
-Group = tuple[TransitionSystem, tuple[Var, ...]]
-
-
-class Differs(AssertionError):
-    """The engine and the naive search do not agree."""
-
-
-def must(holds: bool, what: object) -> None:
-    if not holds:
-        raise Differs(what)
-
-
-# --- the comparison ----------------------------------------------------------------------------------
-
-
-@cache
-def _expected(made: Callable[[], Group]) -> tuple[Group, naive.Searched]:
-    group = made()
-    return group, naive.search(*group)
-
-
-def compare(made: Callable[[], Group], timers: Timers = Timers.EXACT) -> None:
-    """Raises ``Differs`` where the engine does not say what the naive search says."""
-    (system, goals), expected = _expected(made)
-    broken = any(dict(s)[v.name] not in v.domain for s in expected.states for v in system.variables)
-    try:
-        answers = explicit.check(system, goals, Limits(timers=timers), silent)
-    except OutsideDomain:
-        must(broken, "a value is said to be outside its domain")
-        return
-    except (LookupError, AssertionError, IndexError) as problem:
-        raise Differs(problem) from problem
-    must(not broken, "a value is outside its domain")
-    for goal in goals:
-        _compare(system, goal, answers[goal.name], expected)
-
-
-def _compare(system: TransitionSystem, goal: Var, answer: Answer, expected: naive.Searched) -> None:
-    match answer:
-        case Reached(run):
-            must(len(run) == expected.reached.get(goal.name), f"{goal.name} after {len(run)} ticks")
-            try:
-                last = naive.replay(system, run)[-1]
-            except AssertionError as problem:
-                raise Differs(problem) from problem
-            must(bool(last[goal.name]), f"{goal.name} is false after its run")
-        case Unreachable(Exhausted() as because):
-            must(goal.name not in expected.reached, f"{goal.name} is reachable")
-            states = naive.projected(expected.states, because.variables)
-            must(because.skipped or because.states == len(states), f"{because.states} valuations")
-            must(because.closed is None or _closed(because) == states, "other valuations")
-        case _:
-            raise Differs(answer)
-
-
-def _closed(because: Exhausted) -> set[naive.State]:
-    assert because.closed is not None
-    found = set()
-    for row in because.closed.words.tolist():
-        raw = {
-            p.var.name: (row[p.word] >> p.shift & (1 << p.bits) - 1) * p.stride + p.var.domain.low
-            for p in because.closed.places
-        }
-        found.add(tuple((n, raw[n]) for n in because.variables))
-    return found
-
-
-# --- systems that each fault shows on ----------------------------------------------------------------
-
-
-def mixed() -> Group:
-    """Inputs with cells, a sparse and a negative number, a counter, branches that choose."""
-    level, go, pick = var("level", integer(0, 9)), flag("go"), var("pick", chosen([-5, 0, 10]))
-    mode, kept = var("mode", chosen([-5, 0, 10])), var("kept", integer(-2, 1))
-    count, seen = var("count", integer(0, 4)), flag("seen")
-    reached, far, never = flag("reached"), flag("far"), flag("never")
-    step: tuple[Statement, ...] = (
-        If(go, (Assign(mode, pick),), (Assign(kept, ite(level > 5, kept, ite(kept < 1, kept + 1, -2))),)),
-        Assign(seen, (level > 3) & (level < 6)),
-        Assign(count, ite(seen, minimum(count + 1, 4), count)),
-        Assign(reached, (count == 3) & (mode == 10)),
-        Assign(far, all_of(count == 4, kept == 1, mode == -5)),
-        Assign(never, (count == 4) & (kept > 1)),
-    )
-    made = TransitionSystem(
-        "mixed", (level, go, pick), (), (mode, kept, count, seen, reached, far, never), (), step
-    )
-    return made, (reached, far, never)
-
-
-def wide() -> Group:
-    """A valuation of two words."""
-    values = [0, 5, (1 << 60) - 1]
-    a, b = var("a", chosen(values)), var("b", chosen(values))
-    source, end, never = var("source", chosen(values)), flag("end"), flag("never")
-    step = (
-        Assign(end, (a == 5) & (b > 5)),
-        Assign(never, (a == 7) | (b == 7)),
-        Assign(b, a),
-        Assign(a, source),
-    )
-    return TransitionSystem("wide", (source,), (), (a, b, end, never), (), step), (end, never)
-
-
-def many() -> Group:
-    """More valuations in a level than one batch holds."""
-    tag, go, count = var("tag", integer(0, 2500)), flag("go"), var("count", integer(0, 2))
-    end, never = flag("end"), flag("never")
-    step = (
-        Assign(end, (count == 2) & (tag == 2500)),
-        Assign(never, (count == 2) & (tag < 0)),
-        If(go & (tag > 2), (Assign(count, minimum(count + 1, 2)),)),
-    )
-    return TransitionSystem("many", (go,), (tag,), (count, end, never), (), step), (end, never)
-
-
-def overflowing() -> Group:
-    """A counter that goes beyond its domain."""
-    count, go, never = var("count", integer(0, 6)), flag("go"), flag("never")
-    step = (Assign(never, count == 9), If(go & (count < 9), (Assign(count, count + 1),)))
-    return TransitionSystem("overflowing", (go,), (), (count, never), (), step), (never,)
-
-
-def chain() -> Group:
-    """A run of twelve ticks, each of which needs an input of its own."""
-    place, key, end = var("place", integer(0, 12)), var("key", integer(0, 12)), flag("end")
-    step = (
-        Assign(place, ite(key == place, minimum(place + 1, 12), ite(key == 12, 0, place))),
-        Assign(end, place == 12),
-    )
-    return TransitionSystem("chain", (key,), (), (place, end), (), step), (end,)
-
-
-SYSTEMS = (mixed, wide, many, overflowing, chain)
 
 
 @pytest.mark.parametrize("made", SYSTEMS)
@@ -267,11 +132,36 @@ def a_fork_restores_nothing(patch: pytest.MonkeyPatch) -> None:
 def a_fork_is_missed(patch: pytest.MonkeyPatch) -> None:
     """Going back to a fork, the program never takes another value."""
 
-    def advance(self: body.Body, back: Any, kept: Any, resume: Any) -> None:
+    def advance(self: body.Body, back: Any, kept: Any, resume: Any, over: Any) -> None:
         self.builder.position_at_end(back)
-        self.builder.branch(self.back)
+        self.builder.branch(over)
 
     patch.setattr(body.Body, "_advance", advance)
+
+
+def a_sure_choice_takes_one_value(patch: pytest.MonkeyPatch) -> None:
+    def each(self: body.Body, statement: paths.Each) -> None:
+        real(self, replace(statement, values=statement.values[:1]))
+
+    real = body.Body._each
+    patch.setattr(body.Body, "_each", each)
+
+
+def other_choices_of_a_round_are_overlooked(patch: pytest.MonkeyPatch) -> None:
+    """A loop over the values of one input takes no other choice of its round into account."""
+
+    def alone(program: Iterable[object]) -> Iterator[object]:
+        return (replace(s, alone=True) if isinstance(s, paths.Each) else s for s in program)
+
+    patch.setattr(paths, "_alone", alone)
+
+
+def hashes_are_those_of_others(patch: pytest.MonkeyPatch) -> None:
+    def place(self: Any, build: Any, i: Any) -> Any:
+        return real(self, build, build.lshr(i, INT(1)))
+
+    real = table._Hashes._place
+    patch.setattr(table._Hashes, "_place", place)
 
 
 def the_else_branch_is_lost(patch: pytest.MonkeyPatch) -> None:
@@ -360,6 +250,9 @@ FAULTS: tuple[Fault, ...] = (
     a_value_is_never_taken,
     a_fork_restores_nothing,
     a_fork_is_missed,
+    a_sure_choice_takes_one_value,
+    other_choices_of_a_round_are_overlooked,
+    hashes_are_those_of_others,
     the_else_branch_is_lost,
     all_is_known,
     nothing_is_known,
@@ -435,7 +328,7 @@ def test_a_constant_of_the_comparison() -> None:
     system, goals = chain()
     longer = replace(system, step=(*system.step, Assign(goals[0], const(False))))
     with pytest.raises(Differs):
-        _compare(
+        must_agree(
             system,
             goals[0],
             explicit.check(longer, goals, Limits(), silent)["end"],

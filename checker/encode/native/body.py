@@ -13,7 +13,7 @@ from llvmlite import ir
 
 from checker.encode.intervals import Interval
 from checker.encode.native.expressions import INT, Expressions, Slot, kind
-from checker.encode.paths import Branch, Choose, Fork, PathProgram, Require
+from checker.encode.paths import Branch, Choose, Each, Fork, PathProgram, Require
 from spec_model.lang.action import Assign
 from spec_model.lang.expr import Var
 
@@ -82,6 +82,8 @@ class Body:
                     self._choose(var, values or (var.init,))
                 case Fork(number):
                     self._fork(number)
+                case Each():
+                    self._each(statement)
 
     def go_back(self) -> None:
         """End the path: go on with the next one."""
@@ -139,24 +141,59 @@ class Body:
         return self.builder.gep(array, [_NUMBER(0), index])
 
     def _fork(self, number: int) -> None:
+        """Start a loop around the rest of the tick: one round for each combination of later choices."""
+        build = self.builder
+        kept = self._kept(number)
+        resume, back = (build.append_basic_block(f"{n}.{number}") for n in ("fork", "back"))
+        build.branch(resume)
+        build.position_at_end(back)
+        self._advance(back, kept, resume, self.back)
+        self.back = back
+        build.position_at_end(resume)
+
+    def _each(self, each: Each) -> None:
+        """A fork whose own choice is counted in the loop."""
+        build, var, values = self.builder, each.var, each.values
+        kept, at = self._kept(each.number), self.local(_NUMBER, "each")
+        build.store(_NUMBER(0), at)
+        resume, turn, again = (
+            build.append_basic_block(f"{n}.{each.number}") for n in ("fork", "turn", "again")
+        )
+        back = turn if each.alone else build.append_basic_block(f"back.{each.number}")
+        build.branch(resume)
+        if not each.alone:
+            build.position_at_end(back)
+            self._advance(back, kept, resume, turn)
+        build.position_at_end(turn)
+        following = build.add(build.load(at), _NUMBER(1))
+        build.cbranch(build.icmp_signed("<", following, _NUMBER(len(values))), again, self.back)
+        build.position_at_end(again)
+        build.store(following, at)
+        self._restore(kept)
+        build.branch(resume)
+        self.back = back
+        build.position_at_end(resume)
+        self.put(var, self._nth(var, values, build.load(at)), Interval(min(values), max(values)))
+
+    def _kept(self, number: int) -> list[tuple[Any, Any]]:
+        """Copies of what later rounds from a fork start with, last how many choices there were."""
         build = self.builder
         places = [*(self.slots[v.name].place for v in self.saved[number]), self.next]
         kept = [(place, self.local(place.type.pointee, "kept")) for place in places]
         for place, copy in kept:
             build.store(build.load(place), copy)
-        resume, back = (build.append_basic_block(f"{n}.{number}") for n in ("fork", "back"))
-        build.branch(resume)
-        build.position_at_end(back)
-        self._advance(back, kept, resume)
-        self.back = back
-        build.position_at_end(resume)
+        return kept
 
-    def _advance(self, back: Any, kept: list[tuple[Any, Any]], resume: Any) -> None:
-        """Going back to a fork: the next value of the last choice after it that has one left."""
+    def _restore(self, kept: list[tuple[Any, Any]]) -> None:
+        for place, copy in kept:
+            self.builder.store(self.builder.load(copy), place)
+
+    def _advance(self, back: Any, kept: list[tuple[Any, Any]], resume: Any, over: Any) -> None:
+        """Going back to a fork: the next value of the last choice after it that has one left, or ``over``."""
         build = self.builder
         own, more, drop = (build.append_basic_block(n) for n in ("own", "more", "drop"))
         depth = build.load(self.depth)
-        build.cbranch(build.icmp_signed(">", depth, build.load(kept[-1][1])), own, self.back)
+        build.cbranch(build.icmp_signed(">", depth, build.load(kept[-1][1])), own, over)
         build.position_at_end(own)
         last = build.sub(depth, _NUMBER(1))
         position = self._at(self.position, last)
@@ -168,8 +205,7 @@ class Body:
         build.branch(back)
         build.position_at_end(more)
         build.store(following, position)
-        for place, copy in kept:
-            build.store(build.load(copy), place)
+        self._restore(kept)
         build.branch(resume)
 
     def _nth(self, var: Var, values: tuple[int, ...], position: Any) -> Any:

@@ -103,6 +103,39 @@ class _Found:
     hashed: Any
 
 
+@dataclass(frozen=True)
+class _Hashes:
+    """A ring of hashes for valuations that will soon be looked for; the table is fetched meanwhile."""
+
+    table: "Table"
+    arrays: dict[str, Any]
+    size: Any
+    last: Any
+    ring: Any
+
+    def note(self, build: Any, i: Any) -> None:
+        """Compute the hash of the i-th valuation and fetch the place to which it leads."""
+        hashed = self.table.hash(build, self.table.load(build, self.arrays["buffer"], i))
+        build.store(hashed, self._place(build, i))
+        home = self.table.home(build, hashed, self.size)
+        place = build.bitcast(build.gep(self.arrays["table"], [home]), BYTES)
+        build.call(self.table.prefetch, [place, NUMBER(1), NUMBER(3), NUMBER(1)])
+
+    def next(self, build: Any, i: Any) -> Any:
+        """The hash of the i-th valuation, computed before; that of a later one takes its place."""
+        hashed, later = build.load(self._place(build, i)), build.add(i, INT(_AHEAD))
+        with build.if_then(build.icmp_signed("<", later, self.last), likely=True):
+            self.note(build, later)
+        return hashed
+
+    def _place(self, build: Any, i: Any) -> Any:
+        return build.gep(self.ring, [INT(0), build.and_(i, INT(_AHEAD - 1))])
+
+
+def _least(build: Any, one: Any, two: Any) -> Any:
+    return build.select(build.icmp_signed("<", one, two), one, two)
+
+
 class Table:
     """Emits ``store`` (insert a batch of successors) and ``rehash`` (fill a larger table).
 
@@ -138,10 +171,11 @@ class Table:
         filled, drained = build.load(places["filled"]), build.load(places["drained"])
         count = _local(build, INT)
         build.store(build.load(places["count"]), count)
+        hashes = self._hashes(build, a, size, drained, filled)
         with Loop(build, drained, filled) as i:
-            self._prefetch_later(build, a, size, i, filled)
+            hashed = hashes.next(build, i)
             key = self.load(build, a["buffer"], i)
-            found = self._probe(build, a, key, size, new=False)
+            found = self._probe(build, a, key, hashed, size, new=False)
             with build.if_then(found.empty):
                 full = build.icmp_signed(">=", build.load(count), room)
                 with build.if_then(full, likely=False):
@@ -168,10 +202,11 @@ class Table:
                 "count": INT,
             },
         )
+        hashes = self._hashes(build, {**a, "buffer": a["words"]}, a["size"], INT(0), a["count"])
         with Loop(build, INT(0), a["count"]) as i:
-            self._prefetch_later(build, {**a, "buffer": a["words"]}, a["size"], i, a["count"])
+            hashed = hashes.next(build, i)
             key = self.load(build, a["words"], i)
-            found = self._probe(build, a, key, a["size"], new=True)
+            found = self._probe(build, a, key, hashed, a["size"], new=True)
             build.store(self._entry(build, key, found.hashed, i), found.place)
         build.ret_void()
         return made
@@ -191,9 +226,10 @@ class Table:
                 "found": WORDS,
             },
         )
+        hashes = self._hashes(build, {**a, "buffer": a["asked"]}, a["size"], INT(0), a["count"])
         with Loop(build, INT(0), a["count"]) as i:
-            self._prefetch_later(build, {**a, "buffer": a["asked"]}, a["size"], i, a["count"])
-            place = self._probe(build, a, self.load(build, a["asked"], i), a["size"], new=False)
+            hashed = hashes.next(build, i)
+            place = self._probe(build, a, self.load(build, a["asked"], i), hashed, a["size"], new=False)
             build.store(build.zext(build.not_(place.empty), INT), build.gep(a["found"], [i]))
         build.ret_void()
         return made
@@ -221,17 +257,17 @@ class Table:
     def _mix(self, build: Any, x: Any) -> Any:
         return build.mul(build.xor(x, build.lshr(x, INT(32))), INT(_MULTIPLIER))
 
-    def _home(self, build: Any, hashed: Any, size: Any) -> Any:
+    def home(self, build: Any, hashed: Any, size: Any) -> Any:
         """Where to look first: the hash scaled down from 64 bits to a table of any size."""
         product = build.mul(build.zext(hashed, _DOUBLE), build.zext(size, _DOUBLE))
         return build.trunc(build.lshr(product, _DOUBLE(64)), INT)
 
-    def _prefetch_later(self, build: Any, a: dict[str, Any], size: Any, i: Any, filled: Any) -> None:
-        later = build.add(i, INT(_AHEAD))
-        with build.if_then(build.icmp_signed("<", later, filled)):
-            home = self._home(build, self.hash(build, self.load(build, a["buffer"], later)), size)
-            place = build.bitcast(build.gep(a["table"], [home]), BYTES)
-            build.call(self.prefetch, [place, NUMBER(1), NUMBER(3), NUMBER(1)])
+    def _hashes(self, build: Any, a: dict[str, Any], size: Any, first: Any, last: Any) -> "_Hashes":
+        """The hashes of the valuations first..last-1 of the buffer, each computed before it is needed."""
+        kept = _Hashes(self, a, size, last, _local(build, ir.ArrayType(INT, _AHEAD)))
+        with Loop(build, first, _least(build, build.add(first, INT(_AHEAD)), last)) as i:
+            kept.note(build, i)
+        return kept
 
     def _entry(self, build: Any, key: list[Any], hashed: Any, index: Any) -> Any:
         """What the table holds for a valuation."""
@@ -240,14 +276,15 @@ class Table:
         mark = build.shl(hashed, INT(32))  # the low bits: the high ones say where to look
         return build.or_(mark, build.add(index, INT(1)))
 
-    def _probe(self, build: Any, a: dict[str, Any], key: list[Any], size: Any, new: bool) -> _Found:
+    def _probe(
+        self, build: Any, a: dict[str, Any], key: list[Any], hashed: Any, size: Any, new: bool
+    ) -> _Found:
         """Where a valuation is in the table, or the empty place where it belongs.
 
         ``new``: it is known not to be there.
         """
-        hashed = self.hash(build, key)
         at = _local(build, INT)
-        build.store(self._home(build, hashed, size), at)
+        build.store(self.home(build, hashed, size), at)
         probe, taken, other, found = (
             build.append_basic_block(n) for n in ("probe", "taken", "other", "found")
         )

@@ -1,13 +1,15 @@
 """Explicit search: every reachable valuation is visited, breadth first, by compiled code.
 
-One search decides all goals; the first hit of a goal ends a shortest run.  It stops when every goal
-is reached or nothing new appears.
+One search decides all goals that depend on nearly the same variables; the first hit of a goal ends a
+shortest run.  It stops when every goal is reached or nothing new appears.
 """
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 from checker.closed import ClosedSet, Place
 from checker.encode.counting import counters
+from checker.encode.gather import bits, gathered
 from checker.encode.native import Field, NativeSearch, Task, TooWide, layout, shifts
 from checker.engine import Limits, Progress, Timers
 from checker.engines.explicit.levels import Found, Search
@@ -19,6 +21,9 @@ from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 
 NAME = "explicit"
+EXTRA, APART = 10, 128
+"""Bits that a goal may add to those of others and still be searched with them, and bits of all goals from
+which on they are anyhow: compiling so wide a step takes longer than most searches."""
 SUMMARY = "breadth-first search of all reachable valuations, compiled to native code"
 
 
@@ -29,9 +34,33 @@ def check(
 
     Raises ``OutsideDomain`` when a tick gives a variable of the valuation a value outside its domain.
     """
-    if not goals:
-        return {}
-    deadline = limits.deadline()
+    deadline, left = limits.deadline(), limits.transitions
+    answers: dict[str, Answer] = {}
+    for wanted in _groups(system, goals):
+        spent, found = _searched(system, wanted, replace(limits, transitions=left), deadline, progress)
+        answers |= found
+        left = None if left is None else max(0, left - spent)
+    return answers
+
+
+def _groups(system: TransitionSystem, goals: Sequence[Var]) -> list[list[Var]]:
+    """The goals that are searched together, those that depend on little first."""
+    by_name = {g.name: g for g in goals}
+    if len(goals) < 2 or bits(_part(system, goals)) > APART:
+        return [list(goals)] if goals else []
+    parts = {g.name: _part(system, [g]) for g in goals}
+    return [[by_name[name] for name in together] for together in gathered(parts, EXTRA)]
+
+
+def _part(system: TransitionSystem, goals: Sequence[Var]) -> dict[str, Var]:
+    part = sliced(system, goals)
+    return {v.name: v for v in (*part.frozen, *part.variables)}
+
+
+def _searched(
+    system: TransitionSystem, goals: Sequence[Var], limits: Limits, deadline: float | None, progress: Progress
+) -> tuple[int, Mapping[str, Answer]]:
+    """One search: the transitions it tried, and an answer for each goal."""
     part = sliced(system, goals)
     try:
         packing = layout((*part.frozen, *part.variables))
@@ -40,12 +69,12 @@ def check(
         progress(f"explicit: compiling {len(packing.fields)} variables in {packing.bits} bits")
         native = NativeSearch.compile(task)
     except (TooWide, ValueError) as problem:
-        return {g.name: Open(str(problem), 0) for g in goals}
+        return 0, {g.name: Open(str(problem), 0) for g in goals}
     found = (LineSearch if task.shifts else Search)(native, limits, deadline, progress).run()
     runs = Runs(system, task, found)
     if found.outside is not None:
         raise runs.left_domain(found.outside)
-    return {g.name: _answer(found, runs, number, g) for number, g in enumerate(goals)}
+    return found.transitions, {g.name: _answer(found, runs, number, g) for number, g in enumerate(goals)}
 
 
 def _answer(found: Found, runs: Runs, number: int, goal: Var) -> Answer:

@@ -15,7 +15,7 @@ from checker.engines.explicit.parents import Unary
 
 _LOAD = 0.75
 _FULLEST = 0.95
-_FIRST = 1 << 13
+_FIRST = 1 << 16
 _LARGE = 1 << 20
 """Entries from which on arrays grow by less than their length."""
 _MOST = (1 << 32) - 2
