@@ -1,19 +1,21 @@
 """The command line: every verb, and the one place where errors become exit codes."""
 
 import gc
+import os
+import signal
 import sys
-from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
-from typing import Any
 
 import click
 
 from checker.commands.codes import Exit, UsageError
+from checker.commands.options import GIB, SECONDS, searching, varying, writing
 from checker.commands.output import err
 from checker.decide import ALL, AUTO, Disagreement
 from checker.engine import Limits, Timers
 from checker.isolate import collect_seldom, prepared
-from checker.replay import ReplayError
+from checker.runs.replay import ReplayError
 from spec_model.lang.errors import ModelError, did_you_mean
 
 CODES = (
@@ -21,6 +23,7 @@ CODES = (
     "2 inconclusive; 3 internal error, engines disagree or a proof is rejected; 4 usage or model error; "
     "5 nothing to check; 130 interrupted."
 )
+ROOM = "Make room for it, or write elsewhere, and run the command again."
 LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs", "assumptions", "engines")
 
 
@@ -40,69 +43,31 @@ def app() -> None:
     """Check the rover's supervisors: charts, properties, verdicts with evidence."""
 
 
-def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
-    """The options of every verb that searches."""
-    options: list[Callable[[Any], Any]] = [
-        click.option("--engine", default=AUTO, show_default=True, help="One of list engines, auto or all."),
-        click.option("--depth", type=click.IntRange(min=1), help="Ticks to look ahead at most."),
-        click.option("--timeout", type=click.FloatRange(min=0, min_open=True), help="Seconds per search."),
-        click.option(
-            "--timers",
-            type=click.Choice([t.value for t in Timers]),
-            default=Timers.EXACT.value,
-            show_default=True,
-            help="Count every tick, skip quiet ones, or try with timers that run out at will.",
-        ),
-    ]
-    for option in reversed(options):
-        command = option(command)
-    return command
-
-
-def varying(command: Callable[..., Exit]) -> Callable[..., Exit]:
-    """The options of every verb that looks at the charts: other readings, a proposed repair."""
-    options: list[Callable[[Any], Any]] = [
-        click.option(
-            "--reading",
-            "chosen",
-            multiple=True,
-            metavar="ID=CHOICE",
-            help="Read a sentence otherwise: S43=AND; S43=any leaves it open.",
-        ),
-        click.option("--repair", metavar="NAME", help="With a proposed repair; see list repairs."),
-        click.option(
-            "--without",
-            "dropped",
-            multiple=True,
-            metavar="ID",
-            help="Drop an assumption about the environment; see list assumptions.",
-        ),
-    ]
-    for option in reversed(options):
-        command = option(command)
-    return command
-
-
-def writing(command: Callable[..., Exit]) -> Callable[..., Exit]:
-    """The option of every verb that writes."""
-    where = click.Path(path_type=Path)
-    return click.option("--output", "-o", type=where, help="Where to write.")(command)
-
-
 @app.command()
 @click.argument("ids", nargs=-1, metavar="[ID]...")
-@click.option("--system", help="Only properties about this system.")
+@click.option("--system", metavar="NAME", help="Only properties about this system.")
 @click.option("--full", is_flag=True, help="Also the properties that take long.")
 @click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
-@click.option("--jobs", type=click.IntRange(min=1), help="Searches at a time; by default the processors.")
 @click.option(
-    "--memory", type=click.FloatRange(min=0.25), default=8.0, show_default=True, help="GiB per search."
+    "--jobs",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Searches at a time; by default one per processor.",
+)
+@click.option(
+    "--memory",
+    type=GIB,
+    default=8.0,
+    show_default=True,
+    metavar="GIB",
+    help="What each search may take.",
 )
 @click.option("--all-engines", is_flag=True, help="Ask every engine and compare the answers.")
 @click.option("--certify", is_flag=True, help="Check every proof again, without the engine that found it.")
 @click.option(
     "--certificates",
     type=click.Path(file_okay=False, path_type=Path),
+    metavar="DIR",
     help="Write the proofs into this folder.",
 )
 @varying
@@ -138,7 +103,7 @@ def check(
         if variant.name:
             properties = variant.askable(properties)
         limits = Limits(depth, timeout, int(memory * 2**30), timers=Timers(timers))
-        asked = ALL if all_engines else pick_engine(engine)
+        asked = _asked(pick_engine(engine), all_engines)
         certifying = variant.certifying(certificates, certify) if certify or certificates else None
         return run(
             properties,
@@ -153,7 +118,14 @@ def check(
         )
 
 
-@app.command()
+def _asked(engine: str, every: bool) -> str:
+    """The engines to ask.  Raises ``UsageError`` when one is named and every engine wanted."""
+    if every and engine not in (AUTO, ALL):
+        raise UsageError(f"--engine {engine} asks one engine and --all-engines every one; write one of them.")
+    return ALL if every else engine
+
+
+@app.command(short_help="Check certificates of proofs again.")
 @click.argument("paths", nargs=-1, required=True, metavar="FILE|DIR...", type=click.Path(path_type=Path))
 @click.option(
     "--solver",
@@ -163,7 +135,7 @@ def check(
     help="Who checks; both: enumeration as well where few ticks are to be tried.",
 )
 @click.option("--smt2", type=click.Path(path_type=Path), metavar="DIR", help="Write the obligations there.")
-@click.option("--timeout", type=click.FloatRange(min=0, min_open=True), help="Seconds per certificate.")
+@click.option("--timeout", type=SECONDS, metavar="SEC", help="Seconds per certificate.")
 @click.option("--verbose", "-v", is_flag=True, help="The whole valuation that refutes a certificate.")
 def certify(
     paths: tuple[Path, ...], solver: str, smt2: Path | None, timeout: float | None, verbose: bool
@@ -175,18 +147,18 @@ def certify(
     return run(paths, Effort(By(solver), timeout), smt2, verbose)
 
 
-@app.command("list")
-@click.argument("what", type=click.Choice(LISTS))
+@app.command("list", short_help="List properties, systems, engines and so on.")
+@click.argument("what", type=click.Choice(LISTS), metavar="WHAT")
 @click.argument("ids", nargs=-1, metavar="[ID]...")
 @click.option("--english", is_flag=True, help="What is checked of each property, in words.")
 def list_(what: str, ids: tuple[str, ...], english: bool) -> Exit:
-    """List properties, systems, charts, requirements, readings, repairs, assumptions or engines."""
+    """List WHAT: properties, systems, charts, requirements, readings, repairs, assumptions or engines."""
     from checker.commands.listing import listing
 
     return listing(what, ids, english)
 
 
-@app.command()
+@app.command(short_help="Show which properties cover each requirement.")
 @click.option("--check", "decide", is_flag=True, help="Decide the verdicts now, instead of the baseline's.")
 @click.option("--json", "as_json", is_flag=True, help="The matrix as JSON.")
 def requirements(decide: bool, as_json: bool) -> Exit:
@@ -196,9 +168,11 @@ def requirements(decide: bool, as_json: bool) -> Exit:
     return run(decide, as_json)
 
 
-@app.command()
+@app.command(short_help="Show a counterexample or a witness, tick by tick.")
 @click.argument("id")
-@click.option("--format", default="table", show_default=True, help="table, markdown, json or vcd.")
+@click.option(
+    "--format", default="table", show_default=True, metavar="FORMAT", help="table, markdown, json or vcd."
+)
 @click.option("--all", "everything", is_flag=True, help="Also what the property does not depend on.")
 @varying
 @searching
@@ -227,10 +201,12 @@ def trace(
     return run(prop, variant.systems(), pick_engine(engine), limits, format, everything, output)
 
 
-@app.command()
+@app.command(short_help="Draw a chart, or the reachable states of a system.")
 @click.argument("name")
 @click.option("--project", metavar="VAR,VAR", help="Variables of the state graph of a system.")
-@click.option("--format", default="svg", show_default=True, help="svg, dot, mermaid, graphml or json.")
+@click.option(
+    "--format", default="svg", show_default=True, metavar="FORMAT", help="svg, dot, mermaid, graphml or json."
+)
 @varying
 @writing
 def graph(
@@ -249,10 +225,18 @@ def graph(
     return run(name, project, format, pick_variant(chosen, repair, dropped).systems(), output)
 
 
-@app.command()
+@app.command(short_help="Write properties for other model checkers.")
 @click.argument("ids", nargs=-1, metavar="PROPERTY...")
-@click.option("--system", help="Only properties about this system; all of them if none is named.")
-@click.option("--format", default="aiger", show_default=True, help="aiger, aag, btor2, smv or promela.")
+@click.option(
+    "--system", metavar="NAME", help="Only properties about this system; all of them if none is named."
+)
+@click.option(
+    "--format",
+    default="aiger",
+    show_default=True,
+    metavar="FORMAT",
+    help="aiger, aag, btor2, smv or promela.",
+)
 @varying
 @writing
 def export(
@@ -271,7 +255,7 @@ def export(
     return run(ids, system, format, pick_variant(chosen, repair, dropped), output)
 
 
-@app.command()
+@app.command(short_help="Write the evidence: verdicts, diagrams, findings.")
 @click.option("--stale", is_flag=True, help="Write nothing; say what is out of date (exit code 1).")
 @writing
 def reports(stale: bool, output: Path | None) -> Exit:
@@ -284,15 +268,26 @@ def reports(stale: bool, output: Path | None) -> Exit:
 def main() -> None:
     """Run the command line; every error becomes one message and a documented exit code."""
     collect_seldom()
+    _stop_as_on_ctrl_c()
     code = run(sys.argv[1:])
     gc.freeze()  # or Python would look through all formulas once more before it ends
     sys.exit(int(code))
+
+
+def _stop_as_on_ctrl_c() -> None:
+    """When told to end, or left by the terminal, say what was found and leave no search behind."""
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) is signal.SIG_DFL:  # not under nohup
+            signal.signal(number, signal.default_int_handler)
 
 
 def run(arguments: list[str]) -> Exit:
     """The exit code of a command line; messages go to standard error."""
     try:
         code: object = app.main(arguments, prog_name="rovercheck", standalone_mode=False)
+        if sys.stdout is not None:
+            sys.stdout.flush()
         return code if isinstance(code, Exit) else Exit.AS_EXPECTED
     except click.ClickException as error:
         return _say(error.format_message(), Exit.USAGE)
@@ -304,8 +299,13 @@ def run(arguments: list[str]) -> Exit:
         return _disagreeing(error, arguments)
     except (KeyboardInterrupt, click.Abort):
         return _say("Interrupted; nothing was written.", Exit.INTERRUPTED)
-    except BrokenPipeError:
-        return Exit.AS_EXPECTED
+    except (BrokenPipeError, SystemExit):  # click makes some of the first into the second
+        # Nobody has seen all verdicts: this is no pass, and no violation either.
+        _write_no_more()
+        return Exit.INTERRUPTED
+    except OSError as error:
+        _write_no_more()
+        return _say(f"The operating system refuses: {error}. {ROOM}", Exit.INCONCLUSIVE)
     except MemoryError:
         return _say("Out of memory. Check fewer properties at once, or one --system.", Exit.INCONCLUSIVE)
     except Exception as error:
@@ -333,5 +333,12 @@ def _where(error: Exception) -> str:
 
 
 def _say(message: str, code: Exit) -> Exit:
-    err.print(message, markup=False)
+    with suppress(OSError):  # the code says it too
+        err.print(message, markup=False)
     return code
+
+
+def _write_no_more() -> None:
+    """Let go of what is still to be written, which Python would try once more at its end."""
+    with suppress(AttributeError, OSError):
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

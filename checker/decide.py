@@ -6,12 +6,12 @@ from math import prod
 
 from checker.engine import Engine, Limits, Progress, Timers
 from checker.freely import freely
-from checker.liveness import unbounded
+from checker.liveness.verdicts import unbounded
 from checker.lowered import lowered
 from checker.portfolio import ALL, AUTO, Disagreement, Hint, Told, answers, as_found
 from checker.portfolio import Question as Asked
-from checker.reproduce import not_reproducible, reproduced
 from checker.result import Answers, Result, check_domains, result
+from checker.runs.reproduce import not_reproducible, reproduced
 from checker.verdict import Reached
 from properties.forms import Property, Unbounded
 from properties.reduce import Question, reduce
@@ -105,12 +105,11 @@ def decide(
     """
     exact = Timers.EXACT if limits.timers is Timers.FREE else limits.timers
     asking = Asking(engine, replace(limits, timers=exact), told or Told(progress))
-    if isinstance(task.properties[0].form, Unbounded):
-        for prop in task.properties:
+    for prop in task.properties:
+        if isinstance(prop.form, Unbounded):
             yield unbounded(prop, systems, asking, progress)
-        return
-    left: Sequence[Property] = task.properties
-    if limits.timers is Timers.FREE:
+    left: Sequence[Property] = [p for p in task.properties if not isinstance(p.form, Unbounded)]
+    if left and limits.timers is Timers.FREE:
         done, left = freely(task.system, left, asking)
         yield from done
     if left:

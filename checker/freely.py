@@ -4,8 +4,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from checker.lowered import lowered
-from checker.reproduce import moved
 from checker.result import Answers, Result, result
+from checker.runs.reproduce import moved
 from checker.verdict import Reached, Unreachable
 from properties.forms import Property
 from properties.reduce import reduce

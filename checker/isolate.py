@@ -2,7 +2,7 @@
 
 The work is a function of a module.  It gets a ``send`` function, whose messages arrive in the
 parent one by one.  A child dies when the time is over, when the parent stops listening (Ctrl-C
-too) and when the parent dies.
+too) and when the parent dies.  Its own side is ``checker.isolated``.
 """
 
 import gc
@@ -17,15 +17,16 @@ import threading
 from collections.abc import Callable, Generator, Iterator
 from contextlib import contextmanager, suppress
 from dataclasses import dataclass
-from importlib import import_module
 from queue import Empty, SimpleQueue
 from time import monotonic
 from typing import IO, Any
 
 Send = Callable[[object], None]
-_DEEP = 100_000  # nested formulas; Python's own limit is about 250 levels of a pickled one
-_MAIN = "from checker.isolate import child; child()"
-_LENGTH = struct.Struct("<Q")
+DEEP = 100_000
+"""Levels of nested calls: Python's own limit allows a pickled formula about 250."""
+LENGTH = struct.Struct("<Q")
+"""What precedes each order: its length."""
+_MAIN = "from checker.isolated import child; child()"
 _SELDOM = 200_000
 
 
@@ -92,16 +93,21 @@ class Child:
         """Hand on messages until the child ends."""
         stdout = self._process.stdout
         assert stdout is not None
-        with suppress(EOFError, OSError, ValueError, pickle.UnpicklingError):
+        try:
             while True:
                 self._tell(pickle.load(stdout))
-        self._tell(End(self._cause(), dead=True))
+        except (EOFError, OSError, pickle.UnpicklingError):
+            why = self._cause()
+        except Exception as error:  # the child itself would go on
+            _killed(self._process, self._group)
+            why = f"a message of the solver process cannot be read: {type(error).__name__}: {error}"
+        self._tell(End(why, dead=True))
 
     def _cause(self) -> str:
         """Why the process ended without a word."""
         status = self._process.wait()
         if status < 0:
-            return f"the solver process was ended by {signal.Signals(-status).name}"
+            return f"the solver process was ended by {_signal(-status)}"
         self._errors.seek(0)
         said = self._errors.read().decode(errors="replace").strip().splitlines()
         return f"the solver process ended with status {status}" + (f": {said[-1]}" if said else "")
@@ -126,7 +132,7 @@ def _started() -> _Started:
     errors = tempfile.TemporaryFile()  # noqa: SIM115, closed when the process is killed
     group = not _is_child() and hasattr(os, "killpg")
     process = subprocess.Popen(
-        [sys.executable, "-c", _MAIN],
+        [sys.executable, "-P", "-c", _MAIN],  # -P: no module is taken from the folder we happen to be in
         stdin=subprocess.PIPE,
         stdout=subprocess.PIPE,
         stderr=errors,
@@ -135,6 +141,11 @@ def _started() -> _Started:
         start_new_session=group,
     )
     return _Started(process, errors, group)
+
+
+def _signal(number: int) -> str:
+    named = {s.value: s.name for s in signal.Signals}  # those for real time have no names
+    return named.get(number, f"signal {number}")
 
 
 def _killed(process: subprocess.Popen[bytes], group: bool) -> None:
@@ -213,9 +224,10 @@ def _next(inbox: SimpleQueue[object], seconds: float) -> object:
         return None
 
 
-def _pickled(thing: object) -> bytes:
+def pickled(thing: object) -> bytes:
+    """A thing as it travels, however deeply nested."""
     limit = sys.getrecursionlimit()
-    sys.setrecursionlimit(max(limit, _DEEP))
+    sys.setrecursionlimit(max(limit, DEEP))
     try:
         return pickle.dumps(thing)
     finally:
@@ -224,83 +236,13 @@ def _pickled(thing: object) -> bytes:
 
 def _packed(order: object) -> bytes:
     """An order as a child reads it."""
-    pickled = _pickled(order)
-    return _LENGTH.pack(len(pickled)) + pickled
+    whole = pickled(order)
+    return LENGTH.pack(len(whole)) + whole
 
 
 def _is_child() -> bool:
     """Whether this process was started here: its children then die with its session."""
     return sys.orig_argv[-1] == _MAIN
-
-
-# --- in the child -----------------------------------------------------------------------------------
-
-
-def child() -> None:
-    """The main program of a child: orders on standard input, messages on standard output."""
-    collect_seldom()
-    out = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what a library prints must not look like a message
-    sys.setrecursionlimit(_DEEP)
-    orders: SimpleQueue[bytes] = SimpleQueue()
-    threading.Thread(target=_listen, args=(orders,), daemon=True).start()
-
-    def send(message: object) -> None:
-        whole = _pickled(message)  # first whole, then written: half a message could not be read
-        out.write(whole)
-        out.flush()
-
-    _carry_out(orders, send)
-    os._exit(0)
-
-
-def _carry_out(orders: SimpleQueue[bytes], send: Send) -> None:
-    """One order after the other, for ever; returns only when the first message cannot be obeyed."""
-    try:
-        while isinstance(first := pickle.loads(orders.get()), str):
-            import_module(first)
-        do = _made(*first)
-    except Exception as error:
-        return send(End(_reason(error), dead=True))
-    while True:
-        try:
-            do(send, *pickle.loads(orders.get()))
-        except Exception as error:
-            send(End(_reason(error)))
-        else:
-            send(End(None))
-
-
-def _made(
-    memory: int | None, make: Callable[..., Callable[..., None]], args: tuple[object, ...]
-) -> Callable[..., None]:
-    """The function that carries out orders, after the memory is confined."""
-    _confine(memory)
-    made: Callable[..., None] = make(*args)
-    return made
-
-
-def _reason(error: Exception) -> str:
-    full = isinstance(error, MemoryError) or "out of memory" in str(error)
-    return "the memory limit is reached" if full else f"{type(error).__name__}: {error}"
-
-
-def _listen(orders: SimpleQueue[bytes]) -> None:
-    """Take orders until the parent closes the pipe or dies."""
-    with suppress(OSError, struct.error):
-        while True:
-            [length] = _LENGTH.unpack(sys.stdin.buffer.read(_LENGTH.size))
-            orders.put(sys.stdin.buffer.read(length))
-    os._exit(1)
-
-
-def _confine(memory: int | None) -> None:
-    if memory is None:
-        return
-    with suppress(ImportError, ValueError, OSError):  # not every platform has limits, or allows this one
-        import resource
-
-        resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
 
 
 __all__ = ["Child", "End", "Send", "Stopped", "collect_seldom", "messages", "prepared"]

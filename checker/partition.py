@@ -77,6 +77,16 @@ def expressions(program: Program) -> Iterator[Expr]:
                 yield from expressions(tuple(s for s in branch if isinstance(s, Assign | If)))
 
 
+def conjuncts(expr: Expr) -> tuple[Expr, ...]:
+    """The parts of a conjunction; none for ``TRUE``."""
+    body = plain(expr)
+    if isinstance(body, Const) and body.value:
+        return ()
+    if isinstance(body, Apply) and body.op is Op.AND:
+        return tuple(part for arg in body.args for part in conjuncts(arg))
+    return (expr,)
+
+
 # --- finding the sub-expressions about one variable ----------------------------------------------
 
 
@@ -144,9 +154,7 @@ def _owner(expr: Expr, known: dict[int, str | None]) -> str | None:
 def _required(assume: Expr, scope: Mapping[str, Var]) -> dict[str, list[Expr]]:
     """The conjuncts of the assumption about one input alone, by its name."""
     found: dict[str, list[Expr]] = {}
-    body = plain(assume)
-    parts = body.args if isinstance(body, Apply) and body.op is Op.AND else (assume,)
-    for part in parts:
+    for part in conjuncts(assume):
         name = _owner(part, {})
         if name is not None and name in scope:
             found.setdefault(name, []).append(part)

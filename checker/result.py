@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
-from checker.calm import calmed
 from checker.certify.outcome import Outcome
 from checker.portfolio.question import Found, Hint
-from checker.replay import replay
+from checker.runs.calm import calmed
+from checker.runs.replay import replay
 from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Verdict, Violated
 from properties.forms import Property
 from properties.reduce import Goal

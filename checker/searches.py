@@ -17,8 +17,8 @@ from checker.isolate import Send
 from checker.pool import Granted, Order, Pool
 from checker.portfolio import Told
 from checker.portfolio.question import light_evidence
-from checker.replay import ReplayError
 from checker.result import Result
+from checker.runs.replay import ReplayError
 from checker.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
 from properties.forms import Property
 from spec_model.lang.errors import ModelError

@@ -8,12 +8,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
 
-from checker.partition import partition
+from checker.partition import conjuncts, partition
 from spec_model.lang.action import Assign, If
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import TRUE, Apply, Const, Expr, Op, Var, all_of
+from spec_model.lang.expr import TRUE, Expr, Var, all_of
 from spec_model.lang.system import Program, Statement, TransitionSystem
-from spec_model.lang.walk import plain, variables
+from spec_model.lang.walk import variables
 
 Names = frozenset[str]
 
@@ -37,16 +37,6 @@ def sliced(system: TransitionSystem, goals: Sequence[Var]) -> TransitionSystem:
             return _cut(system, live, step, kept)
         kept += [c for group, is_so in zip(open_groups, needed, strict=True) if is_so for c in group]
         open_groups = [group for group, is_so in zip(open_groups, needed, strict=True) if not is_so]
-
-
-def conjuncts(expr: Expr) -> tuple[Expr, ...]:
-    """The parts of a conjunction; none for ``TRUE``."""
-    body = plain(expr)
-    if isinstance(body, Const) and body.value:
-        return ()
-    if isinstance(body, Apply) and body.op is Op.AND:
-        return tuple(part for arg in body.args for part in conjuncts(arg))
-    return (expr,)
 
 
 def names(exprs: Iterable[Expr]) -> Names:

@@ -1,20 +1,33 @@
-"""What the tests of certificates share: an engine that searches naively and keeps its closed set."""
+"""What the tests of certificates share: an engine that searches naively, forged and written certificates."""
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
+import pytest
+from hypothesis import HealthCheck, settings
+from hypothesis import strategies as st
+from hypothesis.strategies import DrawFn
 
+from checker.certify import solver
 from checker.certify.certificate import Certificate, certificates
 from checker.certify.check import By, Effort
+from checker.certify.diagram import Diagram
+from checker.certify.invariant import Conjuncts
+from checker.certify.question import question
+from checker.certify.tick import executed
 from checker.closed import ClosedSet, Place
 from checker.engine import Limits, Progress
 from checker.slice import sliced
-from checker.verdict import Answer, Exhausted, Open, Unreachable
-from spec_model.lang.expr import Var
+from checker.verdict import Answer, Exhausted, Inductive, Open, Unreachable
+from spec_model.lang.action import Assign
+from spec_model.lang.domain import integer
+from spec_model.lang.expr import Expr, Var, const, flag, ite, var
 from spec_model.lang.system import TransitionSystem
 from tests.naive import projected, search
+from tests.strategies_ts import goals, transition_systems
 
 SOLVER, ENUMERATION, BOTH = (Effort(by) for by in By)
 
@@ -74,3 +87,60 @@ def inline(work: Callable[..., None], *args: Any, seconds: float | None = None) 
     sent: list[Any] = []
     work(sent.append, *args)
     yield from sent
+
+
+@contextmanager
+def solving_here() -> Iterator[None]:
+    """The solver called in this process, for many small questions."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(solver, "messages", inline)
+        yield
+
+
+# --- certificates to begin with -------------------------------------------------------------------
+
+many = settings(max_examples=50, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
+
+
+@st.composite
+def proofs(draw: DrawFn) -> tuple[TransitionSystem, Certificate]:
+    """A random system with some goal that is never reached, and the certificate of that."""
+    system = draw(transition_systems())
+    never = flag("never")
+    system = replace(
+        system,
+        variables=(*system.variables, never),
+        step=(*system.step, Assign(never, system.variables[0] != system.variables[0])),
+    )
+    (one,) = certified(system, (*goals(system), never))
+    return system, one
+
+
+def with_invariant(one: Certificate, system: TransitionSystem, invariant: Diagram | Conjuncts) -> Certificate:
+    return asked_anew(replace(one, invariant=invariant), system)
+
+
+def asked_anew(one: Certificate, system: TransitionSystem) -> Certificate:
+    """What a forger writes: text and digest that fit what is claimed."""
+    found = question(executed(system), one.claims, one.kept, one.about)
+    return replace(one, text=found.text, digest=found.digest)
+
+
+def counting(program: tuple[Assign, ...], count: Var, *inputs: Var) -> tuple[TransitionSystem, Var]:
+    """A system with one variable, and the goal that it is 6."""
+    bad = flag("bad")
+    variables = (count, bad)
+    return TransitionSystem("counting", inputs, (), variables, (), (*program, Assign(bad, count == 6))), bad
+
+
+def claimed(
+    system: TransitionSystem, bad: Var, *conjuncts: Expr, ticks: int = 1, simple: bool = False
+) -> Certificate:
+    answer = Unreachable(Inductive(conjuncts, ticks, simple))
+    (one,) = certificates(system, [bad], {bad.name: answer}, "hand")
+    return one
+
+
+COUNT = var("count", integer(0, 7))
+BACK = Assign(COUNT, ite(COUNT < 3, COUNT + 1, ite(COUNT == 3, const(0), COUNT)))
+"""0 1 2 3 0 1 2 3 ...; from 4 on it stays."""

@@ -1,7 +1,7 @@
-"""Tiny systems with one goal each, of which it is known whether and when it is reached."""
+"""Tiny systems with a goal or two, of which it is known whether and when they are reached."""
 
 from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import integer
+from spec_model.lang.domain import chosen, integer
 from spec_model.lang.expr import FALSE, TRUE, flag, ite, var
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
@@ -52,6 +52,22 @@ def counter(at: int, *, top: int, beside: bool = False) -> TransitionSystem:
     )
     own, temps = ((count, mark, GOAL), ()) if beside else ((count, GOAL), (mark,))
     return TransitionSystem("counter", (hold,), (), own, temps, step)
+
+
+def filling(most: int, *, saturate: bool = True) -> TransitionSystem:
+    """Counts held ticks beside an input with gaps; ``full`` is reached after ``most``, ``over`` never.
+
+    Without ``saturate`` the count leaves its domain instead, and ``over`` would be true only outside.
+    """
+    hold, noise = flag("hold"), var("noise", chosen([3, 5, 40]))
+    count, full, over = var("count", integer(0, most)), flag("full"), flag("over")
+    raised = minimum(count + 1, most) if saturate else count + 1
+    step = (
+        Assign(count, ite(hold, raised, 0)),
+        Assign(full, count >= most),
+        Assign(over, count > most),
+    )
+    return TransitionSystem("filling", (hold, noise), (), (count, full, over), (), step, noise > 3)
 
 
 def overflowing(top: int) -> TransitionSystem:

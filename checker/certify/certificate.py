@@ -8,7 +8,7 @@ from checker.certify.diagram import Diagram, Node
 from checker.certify.invariant import Conjuncts, Invariant, conjuncts
 from checker.certify.question import Question, question
 from checker.certify.reduction import diagram
-from checker.certify.terms import Malformed, definitions
+from checker.certify.terms import TRUTH, Malformed, definitions
 from checker.certify.tick import conjuncts as parts
 from checker.certify.tick import executed
 from checker.closed import ClosedSet
@@ -167,7 +167,7 @@ def _read(found: Any) -> Invariant:
     if "nodes" in found:
         nodes = tuple(_node(_numbers(n)) for n in found["nodes"])
         return Diagram(_strings(found["variables"]), nodes, _number(found["root"]))
-    if found["simple"] not in (True, False):
+    if not isinstance(found["simple"], bool):
         raise Malformed("simple must be true or false")
     texts = _strings(found["definitions"]), _strings(found["conjuncts"])
     return Conjuncts(*texts, _number(found["ticks"]), found["simple"])
@@ -206,10 +206,8 @@ def meaningful(invariant: Invariant, asked: Question) -> None:
     if isinstance(invariant, Diagram):
         _diagram(invariant, asked)
         return
-    here = asked.symbols(0)
-    own = [here[v.name] for v in asked.state if v.name in asked.about]
-    found = definitions(invariant.definitions, own)
-    known = {"true", "false", *found, *own}
+    _, sorts = definitions(invariant.definitions, asked.spoken)
+    known = {"true", "false", *(symbol for symbol, sort in sorts.items() if sort == TRUTH)}
     unknown = [c for c in invariant.conjuncts if c not in known]
     if unknown or invariant.ticks < 1:
         raise Malformed(f"{unknown or invariant.ticks} is no conjunct, or no number of ticks")

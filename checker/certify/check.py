@@ -9,12 +9,13 @@ from checker.certify.certificate import Certificate, meaningful
 from checker.certify.diagram import Diagram, size
 from checker.certify.enumeration import enumerated
 from checker.certify.invariant import Invariant
-from checker.certify.obligations import Obligation, obligations
+from checker.certify.obligations import Obligation, obligations, too_long
 from checker.certify.outcome import Accepted, Outcome, Rejected, TooMuch, Undecided, told
 from checker.certify.question import Question, question
 from checker.certify.sweep import swept
 from checker.certify.terms import Malformed
 from checker.certify.tick import Executed, executed
+from spec_model.lang.domain import Bool
 from spec_model.lang.system import TransitionSystem
 
 LARGE = 100_000
@@ -43,8 +44,12 @@ def rebuilt(certificate: Certificate, step: Executed) -> Question | Rejected:
         asked = question(step, certificate.claims, certificate.kept, certificate.about)
     except (KeyError, IndexError) as error:
         return Rejected("question", f"{step.system.name} has no {error.args[0]}")
-    if not certificate.claims:
-        return Rejected("question", "nothing is claimed")
+    state = [v.name for v in asked.state]
+    goals = [v.name for v in asked.tick.variables if isinstance(v.sort, Bool)]
+    if not certificate.claims or not set(certificate.claims) <= set(goals):
+        return Rejected("question", "what is claimed is not that boolean variables are never true")
+    if not set(certificate.about) <= set(state) or len(set(certificate.about)) < len(certificate.about):
+        return Rejected("question", "it is about something that is no variable, or about one twice")
     if asked.digest != certificate.digest:
         other = f"it is about another {certificate.system} than the present one"
         return Rejected("question", f"{other}, whose digest is {asked.digest}")
@@ -71,6 +76,8 @@ def _checked(certificate: Certificate, system: TransitionSystem, asked: Question
     enough = isinstance(tried, Accepted | Rejected) and _large(certificate.invariant)
     if effort.by is By.ENUMERATION or enough:
         return Undecided(tried.reason) if isinstance(tried, TooMuch) else tried
+    if too_long(asked, certificate.invariant):
+        return Undecided("k-induction with so large a k needs scripts too long to write")
     wanted = list(obligations(asked, certificate.invariant))
     shown = solved(asked, wanted, effort.seconds)
     return shown if isinstance(tried, TooMuch) else _together([tried, shown])
@@ -113,7 +120,7 @@ def solved(asked: Question, wanted: Sequence[Obligation], seconds: float | None)
                 return Rejected(name, _words(asked, ticks, values))
             case solver.Late(name, reason):
                 return Undecided(f"{name}: {reason}")
-    return Accepted(f"{len(wanted)} obligations by {solver.NAME}")
+    return Accepted(f"{len(wanted)} obligations by {solver.name()}")
 
 
 def _symbols(asked: Question, at: int, ticks: int) -> list[str]:

@@ -109,7 +109,7 @@ def _member(asked: Question, invariant: Invariant) -> Member:
         return invariant.__contains__
     symbols = asked.symbols(0)
     own = [v for v in asked.state if v.name in asked.about]
-    found = definitions(invariant.definitions, [symbols[v.name] for v in own])
+    found, _ = definitions(invariant.definitions, asked.spoken)
 
     def member(at: Valuation) -> bool:
         values: dict[str, Value] = {symbols[v.name]: _encoded(v, at[v.name]) for v in own}

@@ -114,4 +114,6 @@ def _origin(found: Any) -> Origin:
         raise Malformed(f"{type(error).__name__} {error} in its origin") from error
     if not lists[0] or not set(lists[1]) <= set(lists[0]):
         raise Malformed("its origin names no property, or proves one that was not searched")
+    if any(len(set(named)) < len(named) for named in lists):
+        raise Malformed("its origin names something twice")
     return Origin(texts[0], lists[0], lists[1], readings, texts[1], lists[2], texts[2])

@@ -22,6 +22,9 @@ from checker.certify.invariant import Conjuncts, Invariant, holds
 from checker.certify.question import Question
 from checker.certify.smtlib import joined, own, quoted
 
+LONGEST = 1 << 30
+"""Characters of a script above which it is not written."""
+
 
 @dataclass(frozen=True)
 class Obligation:
@@ -49,6 +52,15 @@ def obligations(question: Question, invariant: Invariant) -> Iterator[Obligation
     else:
         reached = joined("or", [quoted(claim, 1) for claim in question.claims])
         yield _obligation("safety", 1, tick, before, reached)
+
+
+def too_long(question: Question, invariant: Invariant) -> bool:
+    """Whether the number of ticks is out of all reason: a file may say anything."""
+    if not isinstance(invariant, Conjuncts):
+        return False
+    pairs = invariant.ticks**2 // 2 if invariant.simple else 0
+    apart = sum(2 * len(v.name) + 20 for v in question.tick.variables)
+    return invariant.ticks * len(question.text) + pairs * apart > LONGEST
 
 
 def _induction(question: Question, invariant: Conjuncts, claim: str) -> Iterator[Obligation]:

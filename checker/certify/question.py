@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
 
-from checker.certify.smtlib import Printer, among, define, joined, own, quoted, sort, within
+from checker.certify.smtlib import Printer, among, define, joined, own, quoted, sort, sort_bits, within
+from checker.certify.terms import Sort
 from checker.certify.tick import Executed, Tick
 from spec_model.lang.expr import Var
 
@@ -47,6 +48,12 @@ class Question:
         """The symbol of every variable after ``at`` ticks, and of every input of the tick that follows."""
         frozen = {v.name: quoted(v.name) for v in self.tick.frozen}
         return frozen | {v.name: quoted(v.name, at) for v in (*self.tick.variables, *self.tick.inputs)}
+
+    @property
+    def spoken(self) -> dict[str, Sort]:
+        """The symbols, before a tick, of the variables that the invariant may speak of, with their sorts."""
+        symbols = self.symbols(0)
+        return {symbols[v.name]: sort_bits(v.domain) for v in self.state if v.name in self.about}
 
     def valuation(self) -> list[str]:
         """A valuation of any values, and the formula that all of them belong to their domains."""

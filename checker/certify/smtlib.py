@@ -7,8 +7,10 @@ and result, so nothing can overflow (Barrett, Fontaine, Tinelli, *The SMT-LIB St
 import re
 from collections.abc import Callable, Mapping, Sequence
 
+from checker.certify.terms import TRUTH, Sort
 from checker.encode.intervals import Interval, interval, postorder
-from spec_model.lang.domain import Bool, Domain, Sort
+from spec_model.lang.domain import Bool, Domain
+from spec_model.lang.domain import Sort as Kind
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
 
@@ -34,12 +36,17 @@ def sort(domain: Domain) -> str:
     return "Bool" if isinstance(domain.sort, Bool) else f"(_ BitVec {width(domain)})"
 
 
+def sort_bits(domain: Domain) -> Sort:
+    """The same as a number."""
+    return TRUTH if isinstance(domain.sort, Bool) else width(domain)
+
+
 def width(domain: Domain) -> int:
     """Bits of a variable that is no truth value."""
     return Interval(domain.low, domain.high).width
 
 
-def literal(value: int, of: Sort, bits: int) -> str:
+def literal(value: int, of: Kind, bits: int) -> str:
     """A constant; ``bits`` is ignored for a truth value."""
     if isinstance(of, Bool):
         return "true" if value else "false"

@@ -6,14 +6,14 @@ Niemetz, Preiner, *Bitwuzla*, CAV 2023.
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
-
-import bitwuzla
+from typing import TYPE_CHECKING
 
 from checker.certify.obligations import Obligation
 from checker.certify.terms import Malformed
 from checker.isolate import Send, Stopped, messages
 
-NAME = f"Bitwuzla {bitwuzla.version().split()[0]}"
+if TYPE_CHECKING:
+    import bitwuzla
 
 Values = Mapping[str, int]
 """The raw value of symbols; signed where they are bit-vectors."""
@@ -52,6 +52,13 @@ class Ill:
 Decided = Met | Broken | Late
 
 
+def name() -> str:
+    """``Bitwuzla 0.9.1``.  Raises ``ImportError`` where it is not installed."""
+    import bitwuzla
+
+    return f"Bitwuzla {bitwuzla.version().split()[0]}"
+
+
 def decide(
     obligations: Sequence[Obligation], symbols: Sequence[Sequence[str]], seconds: float | None
 ) -> Iterator[Decided]:
@@ -70,8 +77,11 @@ def decide(
                 yield _decided(waiting.pop(0), message)
                 if message is not True:
                     return
+        ended = "the solver ended without an answer"
     except Stopped as stopped:
-        yield Late(waiting[0], str(stopped))
+        ended = str(stopped)
+    if waiting:
+        yield Late(waiting[0], ended)
 
 
 def _decided(name: str, message: object) -> Decided:
@@ -79,14 +89,21 @@ def _decided(name: str, message: object) -> Decided:
         raise Malformed(message.reason)
     if isinstance(message, dict):
         return Broken(name, message)
-    return Met(name) if message is True else Late(name, f"the solver answers {message}")
+    return Met(name) if message is True else Late(name, str(message))
 
 
 # --- in the child --------------------------------------------------------------------------------
 
 
 def solve(send: Send, scripts: Sequence[str], symbols: Sequence[Sequence[str]]) -> None:
-    """Send True for each script that is unsatisfiable, values for one that is satisfiable, else a word."""
+    """Send True for each script that is unsatisfiable, values for one that is satisfiable, else why neither.
+
+    The solver is imported here, so that nothing but certificates needs it.
+    """
+    try:
+        import bitwuzla
+    except ImportError as error:
+        return send(f"Bitwuzla cannot be imported ({error}); install it, or try --solver enumeration")
     for script, wanted in zip(scripts, symbols, strict=True):
         manager, options = bitwuzla.TermManager(), bitwuzla.Options()
         options.set(bitwuzla.Option.PRODUCE_MODELS, True)
@@ -100,7 +117,7 @@ def solve(send: Send, scripts: Sequence[str], symbols: Sequence[Sequence[str]]) 
         if result == bitwuzla.Result.SAT:
             send({symbol: _value(solver.get_value(parser.parse_term(symbol))) for symbol in wanted})
         else:
-            send(result == bitwuzla.Result.UNSAT or str(result))
+            send(result == bitwuzla.Result.UNSAT or f"the solver answers {result}")
 
 
 def _value(term: "bitwuzla.Term") -> int:

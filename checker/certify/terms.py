@@ -1,11 +1,11 @@
 """Reading the formulas of a certificate: definitions in SMT-LIB that speak of one valuation only.
 
 A certificate comes from outside, and its text becomes part of what a solver is asked.  So it is read token
-by token: no command, no symbol of a tick and no second definition can hide in it.
+by token: no command, no symbol of a tick and no second definition can hide in it, and every term has a sort.
 """
 
 import re
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from typing import Union
 
 Term = Union[str, tuple["Term", ...]]
@@ -14,8 +14,22 @@ Term = Union[str, tuple["Term", ...]]
 Value = Union[bool, tuple[int, int]]
 """A truth value, or the unsigned number in a bit-vector and its width."""
 
-_TOKEN = re.compile(r"\s*(?:([()])|(\|[^|\\]*\|)|([^\s()|;\"]+))")
-_OWN = re.compile(r"\|:c\d+@0\|")
+Sort = int
+"""The bits of a bit-vector, or ``TRUTH``."""
+
+TRUTH: Sort = 0
+"""The sort of truth values."""
+
+DEEPEST = 100
+"""Parentheses that may be open at once: engines write a definition for every operator, so that few are."""
+WIDEST = 99_999
+"""Bits of the widest bit-vector that is read."""
+
+_BLANK = " \t\r\n"
+_TOKEN = re.compile(rf"[{_BLANK}]*(?:([()])|(\|[^|\\]*\|)|([^{_BLANK}()|;\"]+))")
+_OWN = re.compile(r"\|:c[0-9]+@0\|")
+_BITS = re.compile(r"[0-9]{1,5}")
+_VALUE = re.compile(r"bv[0-9]{1,4000}")
 
 
 class Malformed(Exception):
@@ -25,11 +39,13 @@ class Malformed(Exception):
 def read(text: str) -> Term:
     """The one term that the text consists of.  Raises ``Malformed``."""
     stack: list[list[Term]] = [[]]
-    position, text = 0, text.strip()
+    position, text = 0, text.strip(_BLANK)
     while position < len(text):
         token = _TOKEN.match(text, position)
-        if token is None or (token[0].strip() == ")" and len(stack) == 1):
+        if token is None or (token[1] == ")" and len(stack) == 1):
             raise Malformed(f"{text[position : position + 20]!r} does not belong into a formula")
+        if len(stack) > DEEPEST:
+            raise Malformed(f"{text[:40]!r} opens more than {DEEPEST} parentheses at once")
         position = token.end()
         if token[1] == "(":
             stack.append([])
@@ -37,56 +53,93 @@ def read(text: str) -> Term:
             last = tuple(stack.pop())
             stack[-1].append(last)
         else:
-            stack[-1].append(token[0].strip())
+            stack[-1].append(token[2] or token[3])
     if len(stack) != 1 or len(stack[0]) != 1:
         raise Malformed(f"{text[:40]!r} is not one complete term")
     return stack[0][0]
 
 
-def definitions(lines: Sequence[str], known: Collection[str]) -> dict[str, Term]:
-    """The bodies of definitions, by symbol: each of a new one, over ``known`` symbols and earlier ones.
+def definitions(lines: Sequence[str], known: Mapping[str, Sort]) -> tuple[dict[str, Term], dict[str, Sort]]:
+    """The bodies of definitions, by symbol, and the sorts of all symbols.
 
-    Raises ``Malformed``.
+    Each defines a new one, over the ``known`` symbols and earlier ones.  Raises ``Malformed``.
     """
-    found: dict[str, Term] = {}
+    found, sorts = dict[str, Term](), dict(known)
     for line in lines:
         match read(line):
-            case ("define-fun", str(symbol), (), _, body) if _OWN.fullmatch(symbol) and symbol not in found:
-                _checked(body, {*known, *found})
+            case ("define-fun", str(symbol), (), of, body) if _OWN.fullmatch(symbol) and symbol not in found:
+                sorts[symbol] = sort_of(body, sorts)
+                if _named(sorts[symbol]) != of:
+                    raise Malformed(f"{line[:60]!r} gives {symbol} another sort than its formula has")
                 found[symbol] = body
             case _:
                 raise Malformed(f"{line[:60]!r} does not define a new symbol like |:c0@0|")
+    return found, sorts
+
+
+def _named(sort: Sort) -> Term:
+    return "Bool" if sort == TRUTH else ("_", "BitVec", str(sort))
+
+
+def sort_of(term: Term, known: Mapping[str, Sort]) -> Sort:
+    """The sort of a term whose symbols have the ``known`` ones (SMT-LIB 2.6, FixedSizeBitVectors).
+
+    Raises ``Malformed`` unless every token is an operator, a literal or a known symbol, and the sorts fit.
+    """
+    found: Sort | None = None
+    match term:
+        case "true" | "false":
+            found = TRUTH
+        case str(symbol):
+            found = known.get(symbol) if not re.fullmatch("#b[01]+", symbol) else len(symbol) - 2
+        case ("_", str(number), str(bits)) if _VALUE.fullmatch(number) and _BITS.fullmatch(bits):
+            found = int(bits) or None
+        case (("_", "sign_extend", str(more)), arg) if _BITS.fullmatch(more):
+            found = _vector(arg, known) + int(more)
+        case (("_", "extract", str(high), str(low)), arg) if _BITS.fullmatch(high) and _BITS.fullmatch(low):
+            found = int(high) - int(low) + 1 if int(low) <= int(high) < _vector(arg, known) else None
+        case (str(operator), *args) if operator in _MEANING:
+            found = _applied(operator, [sort_of(arg, known) for arg in args])
+    if found is None or found > WIDEST:
+        raise Malformed(
+            f"{str(term)[:60]} is no formula over the valuation; only {sorted(_MEANING)} may be used"
+        )
     return found
 
 
-def _checked(term: Term, known: Collection[str]) -> None:
-    """Raises ``Malformed`` unless every token is an operator, a literal or a known symbol."""
-    match term:
-        case "true" | "false":
-            return
-        case str(symbol) if symbol in known or re.fullmatch("#b[01]+", symbol):
-            return
-        case ("_", str(number), str(bits)) if re.fullmatch(r"bv\d+", number) and bits.isdecimal():
-            return
-        case (("_", "sign_extend", str(n)), arg) if n.isdecimal():
-            return _checked(arg, known)
-        case (("_", "extract", str(high), str(low)), arg) if high.isdecimal() and low.isdecimal():
-            return _checked(arg, known)
-        case (str(operator), *args) if operator in _MEANING and args:
-            for arg in args:
-                _checked(arg, known)
-            return
-    raise Malformed(f"{str(term)[:60]} is no formula over the valuation; only {sorted(_MEANING)} may be used")
+def _vector(term: Term, known: Mapping[str, Sort]) -> Sort:
+    found = sort_of(term, known)
+    if found == TRUTH:
+        raise Malformed(f"{str(term)[:60]} is a truth value where a bit-vector is needed")
+    return found
+
+
+def _applied(operator: str, args: Sequence[Sort]) -> Sort | None:
+    """The sort of an operator's result; None where it does not take arguments of these sorts."""
+    alike, truths = len(set(args)) == 1, set(args) == {TRUTH}
+    match operator, args:
+        case "not", [_] if truths:
+            return TRUTH
+        case (("and" | "or"), [_, _, *_]) if truths:
+            return TRUTH
+        case (("=" | "distinct"), [_, _]) if alike:
+            return TRUTH
+        case "ite", [test, then, other] if test == TRUTH and then == other:
+            return then
+        case "bvneg", [bits] if not truths:
+            return bits
+        case (("bvslt" | "bvsle" | "bvsgt" | "bvsge"), [_, _]) if alike and not truths:
+            return TRUTH
+        case (("bvadd" | "bvsub" | "bvmul" | "bvsdiv" | "bvsmod"), [bits, _]) if alike and not truths:
+            return bits
+    return None
 
 
 # --- meaning -------------------------------------------------------------------------------------
 
 
 def evaluate(term: Term, values: Mapping[str, Value]) -> Value:
-    """The value of a term that was read by ``definitions`` (SMT-LIB 2.6, FixedSizeBitVectors).
-
-    Raises ``Malformed`` where the sorts do not fit.
-    """
+    """The value of a term that was read by ``definitions`` (SMT-LIB 2.6, FixedSizeBitVectors)."""
     match term:
         case "true" | "false":
             return term == "true"
@@ -95,30 +148,24 @@ def evaluate(term: Term, values: Mapping[str, Value]) -> Value:
         case ("_", str(number), str(bits)):
             return int(number[2:]) % (1 << int(bits)), int(bits)
         case (("_", "sign_extend", str(more)), arg):
-            number_, bits_ = _vector(evaluate(arg, values))
-            return _signed((number_, bits_)) % (1 << bits_ + int(more)), bits_ + int(more)
+            value = evaluate(arg, values)
+            bits_ = _pair(value)[1] + int(more)
+            return _signed(value) % (1 << bits_), bits_
         case (("_", "extract", str(high), str(low)), arg):
             size = int(high) - int(low) + 1
-            return _vector(evaluate(arg, values))[0] >> int(low) & (1 << size) - 1, size
+            return _pair(evaluate(arg, values))[0] >> int(low) & (1 << size) - 1, size
         case (str(operator), *args):
             return _MEANING[operator]([evaluate(arg, values) for arg in args])
-    raise Malformed(f"{term} is no formula")
+    raise AssertionError(f"{term} was not read")
 
 
-def _vector(value: Value) -> tuple[int, int]:
-    if isinstance(value, bool):
-        raise Malformed("a truth value stands where a bit-vector is needed")
-    return value
-
-
-def _truth(value: Value) -> bool:
-    if not isinstance(value, bool):
-        raise Malformed("a bit-vector stands where a truth value is needed")
+def _pair(value: Value) -> tuple[int, int]:
+    assert not isinstance(value, bool), "sorts fit in what was read"
     return value
 
 
 def _signed(value: Value) -> int:
-    number, bits = _vector(value)
+    number, bits = _pair(value)
     return number - (number >> bits - 1 << bits)
 
 
@@ -126,10 +173,7 @@ def _number(of: Callable[..., int]) -> Callable[[Sequence[Value]], Value]:
     """An operator on signed numbers of one width, the result in the same."""
 
     def applied(args: Sequence[Value]) -> Value:
-        widths = {_vector(a)[1] for a in args}
-        if len(widths) != 1:
-            raise Malformed(f"bit-vectors of {sorted(widths)} bits meet in one operator")
-        bits = widths.pop()
+        bits = _pair(args[0])[1]
         return of(*map(_signed, args)) % (1 << bits), bits
 
     return applied
@@ -145,12 +189,12 @@ def _quotient(a: int, b: int) -> int:
 
 
 _MEANING: dict[str, Callable[[Sequence[Value]], Value]] = {
-    "and": lambda args: all(map(_truth, args)),
-    "or": lambda args: any(map(_truth, args)),
-    "not": lambda args: not _truth(args[0]),
+    "and": all,
+    "or": any,
+    "not": lambda args: not args[0],
     "=": lambda args: args[0] == args[1],
     "distinct": lambda args: args[0] != args[1],
-    "ite": lambda args: args[1] if _truth(args[0]) else args[2],
+    "ite": lambda args: args[1] if args[0] else args[2],
     "bvadd": _number(lambda a, b: a + b),
     "bvsub": _number(lambda a, b: a - b),
     "bvneg": _number(lambda a: -a),

@@ -1,82 +1,38 @@
 """``rovercheck certify``: verdicts derived again from certificates, each checked by other means."""
 
-import re
-from collections.abc import Iterator, Mapping, Sequence
-from concurrent.futures import ThreadPoolExecutor
-from dataclasses import dataclass, field
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from contextlib import closing
 from pathlib import Path
 
-from checker.certify.certificate import Certificate, meaningful
-from checker.certify.check import Effort, check, rebuilt
-from checker.certify.file import Origin, Written, read
-from checker.certify.obligations import obligations
-from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
-from checker.certify.reader import Reader
+from checker.certify.check import Effort
+from checker.certify.file import Unwritable, Written, read
+from checker.certify.outcome import Accepted, Rejected, Undecided
 from checker.certify.terms import Malformed
-from checker.certify.tick import executed
 from checker.commands.codes import Exit, UsageError
-from checker.commands.output import out, write
-from checker.commands.select import pick
-from checker.commands.variant import Variant, pick_variant
-from checker.decide import Task, decide
-from checker.engine import Limits, Timers, quiet
-from checker.result import Result
-from checker.verdict import Unknown
-from properties.forms import Property
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import TransitionSystem
+from checker.commands.deriving import Deriving, Told
+from checker.commands.output import counted, out
+from checker.engine import Limits
+from checker.pool import Order, Pool
 
 WORKERS = 2
 SIGNS = {Accepted: "✓", Rejected: "✗", Undecided: "?"}
 _SHOWN = 300
 
 
-@dataclass(frozen=True)
-class Told:
-    """What is said of one property of a file."""
-
-    id: str
-    outcome: Outcome
-
-
-@dataclass
-class Checking:
-    """Checks the certificates of one file; with a folder, writes their obligations there first."""
-
-    stem: str
-    effort: Effort
-    folder: Path | None
-    asked: list[Certificate] = field(default_factory=list)
-
-    def __call__(self, one: Certificate, system: TransitionSystem) -> Outcome:
-        if self.folder is not None:
-            self._write(self.folder, one, system)
-        return check(one, system, self.effort)
-
-    def _write(self, folder: Path, one: Certificate, system: TransitionSystem) -> None:
-        self.asked.append(one)
-        question = rebuilt(one, executed(system))
-        if isinstance(question, Rejected):
-            return
-        try:
-            meaningful(one.invariant, question)
-        except Malformed:
-            return
-        folder.mkdir(parents=True, exist_ok=True)
-        for obligation in obligations(question, one.invariant):
-            name = re.sub(r"[^\w.-]+", "-", f"{self.stem}-{len(self.asked)}-{obligation.name}")
-            write(obligation.script, folder / f"{name}.smt2")
-
-
 def certify(paths: Sequence[Path], effort: Effort, smt2: Path | None, verbose: bool) -> Exit:
-    """One line for each property of the files.  Raises ``UsageError`` for what holds no certificates."""
+    """One line for each property of the files, in no particular order of the files.
+
+    Each file is checked in a child process, which may die of it.  Raises ``UsageError`` for what holds no
+    certificates, and for a folder that cannot be written.
+    """
     written = [(path, _read(path)) for path in files(paths)]
+    if smt2 is not None:
+        _folder(smt2)
     found: list[Told] = []
-    with ThreadPoolExecutor(WORKERS) as pool:
-        for told in pool.map(lambda one: told_of(one[0], one[1], effort, smt2), written):
-            for one in told:
-                out.print(line(one, verbose), markup=False)
-            found += told
+    for told in _told(written, Deriving(effort, smt2)):
+        out.print(line(told, verbose), markup=False)
+        found.append(told)
     return summary(found, len(written))
 
 
@@ -86,7 +42,7 @@ def files(paths: Sequence[Path]) -> Iterator[Path]:
         if not path.is_dir():
             yield path
             continue
-        inside = sorted(p for p in path.iterdir() if p.name.endswith((".json", ".json.gz")))
+        inside = sorted(p for p in _inside(path) if p.name.endswith((".json", ".json.gz")))
         if not inside:
             raise UsageError(
                 f"{path} holds no certificates; rovercheck check --certificates {path} writes some."
@@ -94,67 +50,72 @@ def files(paths: Sequence[Path]) -> Iterator[Path]:
         yield from inside
 
 
+def _inside(folder: Path) -> list[Path]:
+    try:
+        return list(folder.iterdir())
+    except OSError as error:
+        raise UsageError(f"Cannot read {folder}: {error.strerror}.") from error
+
+
 def _read(path: Path) -> Written:
     try:
         return read(path)
     except Malformed as error:
-        raise UsageError(f"{path} is no file of certificates: {error}.") from error
+        raise UsageError(f"{path} is no file of certificates: {shown(str(error))}.") from error
     except OSError as error:
         raise UsageError(f"Cannot read {path}: {error.strerror}.") from error
 
 
-def told_of(path: Path, written: Written, effort: Effort, smt2: Path | None) -> list[Told]:
-    """What the certificates of a file show of each property that they are to prove."""
-    reader = Reader(written.certificates, Checking(path.name.partition(".json")[0], effort, smt2))
+def _folder(place: Path) -> None:
     try:
-        results = _decided(written.origin, reader)
-    except (UsageError, ModelError, ValueError) as error:
-        return [Told(id, Rejected("origin", str(error))) for id in written.origin.proved]
-    return [Told(id, _outcome(results[id], reader)) for id in written.origin.proved]
+        place.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"Cannot write {place}: {error.strerror}. Choose another --smt2.") from error
 
 
-def _decided(origin: Origin, reader: Reader) -> Mapping[str, Result]:
-    """The results for all properties of the search, decided again by a reader of certificates."""
-    variant = _variant(origin)
-    systems, known = variant.systems(), variant.properties()
-    properties: tuple[Property, ...] = tuple(pick("property", id, known) for id in origin.properties)
-    if any(p.on != origin.system for p in properties):
-        raise UsageError(f"{origin.properties[0]} is not about {origin.system}")
-    task = Task(pick("system", origin.system, systems), properties)
-    limits = Limits(timers=Timers(origin.timers))
-    return {r.property.id: r for r in decide(task, systems, reader, limits, quiet)}
+def _told(written: Sequence[tuple[Path, Written]], deriving: Deriving) -> Iterator[Told]:
+    """What is said of each property that some file is to prove, as it is found."""
+    left = [dict.fromkeys(found.origin.proved) for _, found in written]
+    stems = Counter[str]()
+    orders = []
+    for path, found in written:
+        stem = path.name.partition(".json")[0]
+        stems[stem] += 1
+        orders.append(Order((f"{stem}-{stems[stem]}" if stems[stem] > 1 else stem, found)))
+    pool = Pool(WORKERS, _itself, (deriving,), Limits().memory)
+    with closing(pool.run(orders)) as events:
+        for event in events:
+            match event.message:
+                case Unwritable() as error:
+                    raise UsageError(str(error))
+                case Told() as told:
+                    del left[event.number][told.id]
+                    yield told
+            if event.done:
+                reason = event.failure or "the check ended without a word on it"
+                yield from (Told(id, Undecided(reason)) for id in left[event.number])
 
 
-def _variant(origin: Origin) -> Variant:
-    readings = [f"{id}={choice}" for id, choice in origin.readings.items()]
-    return pick_variant(readings, origin.repair or None, origin.without)
-
-
-def _outcome(one: Result, reader: Reader) -> Outcome:
-    """Accepted if the verdict follows; otherwise what is wrong with a certificate of the file."""
-    if not isinstance(one.verdict, Unknown):
-        if one.verdict.engine != reader.NAME:
-            return Undecided(f"{one.verdict.engine} decides it, without a certificate")
-        ways = {o.how: None for o in reader.outcomes.values() if isinstance(o, Accepted)}
-        return Accepted("; ".join(ways))
-    for kind in (Rejected, Undecided):
-        for outcome in reader.outcomes.values():
-            if isinstance(outcome, kind):
-                return outcome
-    return Undecided(one.verdict.reason)
+def _itself(deriving: Deriving) -> Deriving:
+    return deriving
 
 
 def line(told: Told, verbose: bool) -> str:
     """Sign, id, outcome and why."""
     match told.outcome:
         case Accepted(how):
-            word, why = "accepted", how
-        case Rejected(obligation, shown):
-            word, why = "rejected", f"{obligation}: {shown}"
+            word, why = "accepted", f"{told.verdict}: {how}"
+        case Rejected(obligation, counterexample):
+            word, why = "rejected", f"{obligation}: {counterexample}"
         case Undecided(reason):
             word, why = "undecided", reason
     cut = why if verbose or len(why) <= _SHOWN else f"{why[:_SHOWN]} … (all of it: -v)"
-    return f"{SIGNS[type(told.outcome)]} {told.id:<21} {word:<9} {cut}"
+    return f"{SIGNS[type(told.outcome)]} {shown(f'{told.id:<21} {word:<9} {cut}')}"
+
+
+def shown(text: str) -> str:
+    """What a file says, in one line: no character in it moves the cursor or begins a new line."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
 def summary(found: Sequence[Told], count: int) -> Exit:
@@ -163,7 +124,8 @@ def summary(found: Sequence[Told], count: int) -> Exit:
     words = {Accepted: "accepted", Rejected: "rejected", Undecided: "undecided"}
     counts = ", ".join(f"{kinds.count(k)} {word}" for k, word in words.items() if k in kinds)
     told = counts or "nothing is proved in them"
-    out.print(f"\n{len(found)} properties in {count} files: {told}.", markup=False)
+    size = f"{counted(len(found), 'property', 'properties')} in {counted(count, 'file', 'files')}"
+    out.print(f"\n{size}: {told}.", markup=False)
     if Rejected in kinds:
         return Exit.CHANGED
     return Exit.INCONCLUSIVE if Undecided in kinds else Exit.AS_EXPECTED if found else Exit.NOTHING

@@ -5,11 +5,12 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 
+from checker.certify.file import Unwritable
 from checker.certify.outcome import Rejected
 from checker.certifying import Certifying
 from checker.commands.certificates import certificates, certified, outcome
-from checker.commands.codes import Exit
-from checker.commands.output import err, out
+from checker.commands.codes import Exit, UsageError
+from checker.commands.output import counted, err, out
 from checker.commands.progress import Watch
 from checker.decide import tasks
 from checker.engine import Limits
@@ -121,6 +122,8 @@ def check(
             found.append(Compared(result, expect(result.property.id), variant))
             if not as_json:
                 out.print(line(found[-1]), markup=False)
+    except Unwritable as error:
+        raise UsageError(str(error)) from error
     except KeyboardInterrupt:
         err.print(f"Interrupted: {len(found)} of {len(properties)} properties decided.")
         if as_json:
@@ -211,7 +214,7 @@ def summary(found: Sequence[Compared]) -> None:
     words = [c.verdict.word for c in found]
     counts = ", ".join(f"{words.count(w)} {w}" for w in ("proved", "violated", "unknown") if w in words)
     changed = [c for c in found if not c.as_expected]
-    out.print(f"\n{len(found)} properties: {counts}.", markup=False)
+    out.print(f"\n{counted(len(found), 'property', 'properties')}: {counts}.", markup=False)
     parts = sum(c.result.in_part for c in found)
     if parts:
         out.print(f"≈ {parts} of them for some runs only: see the notes of their systems.", markup=False)

@@ -8,9 +8,10 @@ from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from checker.commands.codes import UsageError
 from checker.commands.output import write
 from checker.decide import Disagreement
-from checker.portfolio.compare import Saying
+from checker.portfolio.disagreement import Saying
 from checker.verdict import Reached, Run
 from properties.catalogue import catalogue
 
@@ -25,7 +26,10 @@ def bundle(found: Disagreement, command: list[str], folder: Path) -> Path:
     """
     document = json.dumps(_document(found, command), indent=2, ensure_ascii=False)
     target = folder / f"rovercheck-disagreement-{sha256(document.encode()).hexdigest()[:12]}"
-    target.mkdir(parents=True, exist_ok=True)
+    try:
+        target.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"Cannot write {target}: {error.strerror}. Run it in another folder.") from error
     write(document + "\n", target / "disagreement.json")
     write("\n".join(_readme(found, command)), target / "README.md")
     return target

@@ -112,8 +112,8 @@ def list_assumptions() -> None:
 
 def list_engines() -> None:
     rows = [(e.NAME, e.SUMMARY) for e in engines().values()]
-    rows.append((AUTO, "Explicit search first, then bounded model checking of what it leaves open."))
-    rows.append((ALL, "Every engine; answers that cannot both be true are an error (exit code 3)."))
+    rows.append((AUTO, "engines in turn, each with more to spend; the first conclusive answer counts"))
+    rows.append((ALL, "every engine; answers that cannot both be true are an error (exit code 3)"))
     _print(("name", "what it does"), rows)
 
 

@@ -8,10 +8,18 @@ from rich.console import Console
 from checker.commands.codes import UsageError
 from checker.files import replaced
 
-out = Console(highlight=False, soft_wrap=True)
+
+class _Console(Console):
+    """A console that leaves it to the command line what to do when nobody reads on."""
+
+    def on_broken_pipe(self) -> None:
+        raise BrokenPipeError
+
+
+out = _Console(highlight=False, soft_wrap=True)
 """Results."""
 
-err = Console(stderr=True, highlight=False, soft_wrap=True)
+err = _Console(stderr=True, highlight=False, soft_wrap=True)
 """Progress and messages."""
 
 
@@ -21,11 +29,19 @@ def write(content: str | bytes, target: Path | None) -> None:
     Raises ``UsageError`` when the place cannot be written.
     """
     data = content.encode() if isinstance(content, str) else content
-    if target is None:
-        sys.stdout.buffer.write(data if data.endswith(b"\n") else data + b"\n")
-        sys.stdout.flush()
-        return
     try:
-        replaced(target, data)
+        if target is None:
+            sys.stdout.buffer.write(data if data.endswith(b"\n") else data + b"\n")
+            sys.stdout.flush()
+        else:
+            replaced(target, data)
+    except BrokenPipeError:  # whoever reads has seen enough
+        raise
     except OSError as error:
-        raise UsageError(f"Cannot write {target}: {error.strerror}. Choose another --output.") from error
+        place = target or "to standard output"
+        raise UsageError(f"Cannot write {place}: {error.strerror}. Choose another --output.") from error
+
+
+def counted(number: int, one: str, many: str) -> str:
+    """``1 property``, ``1,386 properties``."""
+    return f"{number:,} {one if number == 1 else many}"

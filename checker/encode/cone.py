@@ -10,7 +10,9 @@ from dataclasses import dataclass, replace
 from checker.encode.intervals import Interval, postorder
 from checker.encode.symbolic import Transition
 from checker.encode.terms import Terms
+from checker.slice import sliced
 from spec_model.lang.expr import Apply, Const, Expr, Op, Var
+from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables
 
 
@@ -151,47 +153,56 @@ def _split(
         loose = [e for e in loose if all(e is not m for m in moved)]
 
 
-def leaving(part: Slice, terms: Terms) -> dict[str, Expr]:
-    """For the variables that might leave the hull of their domain, the condition under which they do."""
-    return _leaving(part.variables, part.next, terms)
+def as_written(system: TransitionSystem, goals: Iterable[str]) -> tuple[Var, ...]:
+    """The variables that some goals, and the assumption, depend on as the system is written.
 
-
-def leaving_among(transition: Transition, among: Iterable[Var]) -> dict[str, Expr]:
-    """As ``leaving``, for variables of the whole system.
-
-    Ask it of all that the goals depend on as written (``sliced``), not of a cone: formulas were simplified
-    on the assumption that no variable leaves its domain, and may no longer mention the one that does.
+    What is said of the goals is true if these stay in their domains, see ``straying``.  A cone may have
+    fewer: formulas were simplified on the assumption that no variable leaves its domain, and may no
+    longer mention the one that does.
     """
-    return _leaving(among, transition.next, transition.terms)
-
-
-def _leaving(among: Iterable[Var], following: Mapping[str, Expr], terms: Terms) -> dict[str, Expr]:
-    found = {}
-    for var in among:
-        value, low, high = following[var.name], var.domain.low, var.domain.high
-        if not terms.range(value).within(Interval(low, high)):
-            below = terms.at_most(value, terms.const(low - 1, var.sort))
-            above = terms.negation(terms.at_most(value, terms.const(high, var.sort)))
-            found[var.name] = terms.disjunction((below, above))
-    return {name: condition for name, condition in found.items() if condition is not terms.false}
+    wanted, assumed = set(goals), variables(system.assume)
+    roots = [v for v in system.variables if v.name in wanted or v.name in assumed]
+    read = {v.name for v in sliced(system, roots).variables}
+    return tuple(v for v in system.variables if v.name in read or v.name in assumed)
 
 
 def straying(transition: Transition, among: Iterable[Var]) -> dict[str, Expr]:
-    """As ``leaving_among``, and for domains with gaps also the condition for a value between members."""
-    near, terms = list(among), transition.terms
-    found = leaving_among(transition, near)
-    for var in near:
-        value = transition.next[var.name]
-        if not var.domain.dense and not _keeps(value, var):
-            inside = [terms.equal(value, terms.const(v, var.sort)) for v in var.domain.values]
-            found[var.name] = terms.negation(terms.disjunction(inside))
+    """For the variables that might leave their domain, the condition under which a tick takes them out of
+    it; a value between two members of a domain with gaps is outside, too."""
+    terms = transition.terms
+    found = {v.name: _outside(transition.next[v.name], v, terms) for v in among}
     return {name: condition for name, condition in found.items() if condition is not terms.false}
+
+
+def _outside(value: Expr, var: Var, terms: Terms) -> Expr:
+    """The value is not in the domain of the variable."""
+    low, high = var.domain.low, var.domain.high
+    if terms.range(value).within(Interval(low, high)) if var.domain.dense else _keeps(value, var):
+        return terms.false
+    if not var.domain.dense or low == high:  # also a truth value, which has no order
+        inside = [terms.equal(value, terms.const(v, var.sort)) for v in var.domain.values]
+        return terms.negation(terms.disjunction(inside))
+    below = terms.at_most(value, terms.const(low - 1, var.sort))
+    above = terms.negation(terms.at_most(value, terms.const(high, var.sort)))
+    return terms.disjunction((below, above))
 
 
 def _keeps(expr: Expr, var: Var) -> bool:
     """Whether every case of the formula is a member of the domain, as far as it is easily seen."""
-    if isinstance(expr, Apply) and expr.op is Op.ITE:
-        return all(_keeps(case, var) for case in expr.args[1:])
+    cases, todo = set[int](), [expr]
+    while todo:
+        case = todo.pop()
+        if id(case) in cases:
+            continue
+        cases.add(id(case))
+        if isinstance(case, Apply) and case.op is Op.ITE:
+            todo += case.args[1:]
+        elif not _is_member(case, var):
+            return False
+    return True
+
+
+def _is_member(expr: Expr, var: Var) -> bool:
     if isinstance(expr, Const):
         return expr.value in var.domain
-    return isinstance(expr, Var) and set(expr.domain.values) <= set(var.domain.values)
+    return expr is var or (isinstance(expr, Var) and set(expr.domain.values) <= set(var.domain.values))

@@ -11,8 +11,8 @@ from dataclasses import dataclass, field, replace
 from itertools import takewhile
 from typing import Union
 
-from checker.partition import Partition
-from checker.slice import conjuncts, names
+from checker.partition import Partition, conjuncts
+from checker.slice import names
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.domain import Bool, Domain, Num
 from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, Op, Var, flag

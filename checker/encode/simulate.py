@@ -164,12 +164,11 @@ class Simulator:
         self._kept = {v.name: _storage(v) for v in (*part.variables, *part.frozen)}
         self._step = Vectorised([part.next[n] for n in self._names])
         mentioned = _constants([*part.next.values(), *part.assume])
-        alone, joint = _by_scope(part)
-        drawn = {v.name: _allowed(v, _interesting(v, mentioned), alone[v.name]) for v in part.inputs}
+        drawn = {v.name: _allowed(v, _interesting(v, mentioned), _alone(part, v)) for v in part.inputs}
         self._inputs = [_Input(v, drawn[v.name]) for v in part.inputs]
-        joint += [Apply(Op.NOT, (e,), Bool()) for e in never]
-        self._assume = Vectorised(joint)
-        self._about = [[i for i in self._inputs if i.var.name in variables(e)] for e in joint]
+        assumed = [*part.assume, *(Apply(Op.NOT, (e,), Bool()) for e in never)]
+        self._assume = Vectorised(assumed)
+        self._about = [[i for i in self._inputs if i.var.name in variables(e)] for e in assumed]
 
     def start(self) -> dict[str, Column]:
         """The initial valuation in every run, with frozen values drawn at random."""
@@ -261,15 +260,9 @@ def _constants(roots: Sequence[Expr]) -> dict[str, set[int]]:
     return found
 
 
-def _by_scope(part: Slice) -> tuple[dict[str, list[Expr]], list[Expr]]:
-    """The conjuncts of the assumption on one input alone, by its name, and the others."""
-    alone: dict[str, list[Expr]] = {v.name: [] for v in part.inputs}
-    joint: list[Expr] = []
-    for conjunct in part.assume:
-        names = list(variables(conjunct))
-        single = len(names) == 1 and names[0] in alone
-        (alone[names[0]] if single else joint).append(conjunct)
-    return alone, joint
+def _alone(part: Slice, var: Var) -> list[Expr]:
+    """The conjuncts of the assumption on one input alone."""
+    return [conjunct for conjunct in part.assume if list(variables(conjunct)) == [var.name]]
 
 
 def _allowed(var: Var, values: Sequence[int], conditions: Sequence[Expr]) -> Column:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from checker.encode.intervals import Interval, interval, postorder
 from checker.export.machine import Machine, machine, meaning
-from checker.export.names import symbols
+from checker.export.names import one_line, symbols
 from checker.export.problem import Problem
 from spec_model.lang.domain import Bool, Sort
 from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
@@ -120,7 +120,7 @@ class _Writer:
 
     def _declare(self, kind: str, var: Var) -> None:
         bits = bits_of(var)
-        said = meaning(var)
+        said = one_line(meaning(var))
         line = f"{kind} {self._sort(bits)} {self._symbols[var.name]}"
         self._variables[var.name] = Word(self._line(line, f" ; {said}" if said else ""), bits)
 

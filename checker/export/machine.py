@@ -3,10 +3,9 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from checker.encode.cone import Slice, cone, folded, straying
+from checker.encode.cone import Slice, as_written, cone, folded, straying
 from checker.encode.symbolic import Transition, transition
 from checker.export.problem import LEAVES, Problem
-from checker.slice import sliced
 from spec_model.lang.domain import Bool, Num
 from spec_model.lang.expr import Expr, Var, flag
 from spec_model.lang.walk import variables
@@ -52,7 +51,7 @@ def demanded(problem: Problem) -> tuple[Transition, tuple[str, ...]]:
     every tick.
     """
     whole, goals = folded(transition(problem.system)), [b.var for b in problem.bad]
-    leaving = list(straying(whole, sliced(problem.system, goals).variables).values())
+    leaving = list(straying(whole, as_written(problem.system, [g.name for g in goals])).values())
     if leaving:
         goals.append(flag(LEAVES))
         following = {**whole.next, LEAVES: whole.terms.disjunction(leaving)}

@@ -18,6 +18,11 @@ def symbols(names: Iterable[str]) -> dict[str, str]:
     return _distinct(((name, re.sub(r"[\s;]+", "_", name)) for name in names), ())
 
 
+def one_line(text: str) -> str:
+    """A comment or a name that goes on to the end of its line: a blank for whatever lies between words."""
+    return " ".join(text.split())
+
+
 def _identifier(name: str) -> str:
     word = re.sub(r"[^A-Za-z0-9]+", "_", name).strip("_")
     return word if word[:1].isalpha() else f"x_{word}"

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from checker.encode.bits import Aig, Bit, Circuit, Latch, Literal
 from checker.encode.bits.model import cut
 from checker.export.machine import demanded
+from checker.export.names import one_line
 from checker.export.problem import Problem
 
 Gate = tuple[int, int, int]
@@ -51,7 +52,7 @@ class Netlist:
         named = [f"i{n} {name}" for n, name in enumerate(self.inputs)]
         named += [f"l{n} {latch.name}" for n, latch in enumerate(self.latches)]
         named += [f"b{n} {name}" for n, (_, name) in enumerate(self.bad)]
-        return "".join(f"{line}\n" for line in [*named, "c0 assumption"])
+        return "".join(f"{one_line(line)}\n" for line in [*named, "c0 assumption"])
 
 
 def netlist(problem: Problem) -> Netlist:

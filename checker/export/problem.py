@@ -4,7 +4,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 
-from checker.loops import hunt
+from checker.export.names import one_line
+from checker.liveness.loops import hunt
 from properties.forms import LeadsTo, Property, Recoverable, Settles
 from properties.reduce import reduce
 from spec_model.lang.errors import ModelError
@@ -43,15 +44,15 @@ class Problem:
         """One line each: tool and version, system, what it is about, what the bad states mean."""
         meanings = (f"bad state {b.var.name}: {b.meaning}" for b in self.bad)
         lines = (f"rovercheck {version('rovercheck')}", f"system: {self.system.name}", *self.about, *meanings)
-        return tuple(" ".join(line.split()) for line in lines)
+        return tuple(map(one_line, lines))
 
 
 def problem(system: TransitionSystem, prop: Property, about: Sequence[str] = ()) -> Problem:
     """The property as a question of reachability on the lowered system.
 
     A property about infinite runs becomes the question whether a loop closes that breaks it
-    (``checker.lasso``).  Raises ``ModelError`` for a ``Recoverable``, which is no such question, and for a
-    property that does not fit the system.
+    (``checker.liveness.lasso``).  Raises ``ModelError`` for a ``Recoverable``, which is no such question,
+    and for a property that does not fit the system.
     """
     if isinstance(prop.form, Recoverable):
         raise ModelError(

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 
 from checker.export.flow import Flow, Reach
 from checker.export.machine import meaning
-from checker.export.names import identifiers
+from checker.export.names import identifiers, one_line
 from checker.export.problem import Problem
 from checker.export.statements import Text
 from checker.slice import sliced
@@ -30,10 +30,10 @@ nfull notrace np_ od of pc_value pid printf printm priority proctype provided re
 short show skip STDIN timeout trace true typedef unless unsigned xr xs
 auto case char const continue default double enum extern float for long register restrict signed sizeof static
 struct switch union void volatile while
-cas final max min mix maxseq0 minseq0 now pptr rand rot rover this uchar uint ulong ushort wasnew
+linux unix cas final max min mix maxseq0 minseq0 now pptr rand rot rover this uchar uint ulong ushort wasnew
 """
 KEYWORDS = frozenset(_WORDS.split())
-"""Words that a model cannot use as names: those of the language, of C, and of the program SPIN writes."""
+"""Words that a model cannot use as names: of the language, of C and its macros, of what SPIN writes."""
 
 
 def export(problem: Problem) -> str:
@@ -93,7 +93,7 @@ class _Process:
     def _declaration(self, var: Var, init: int) -> str:
         name = self._names[var.name]
         said = [*([var.name] if var.name != name else []), *([meaning(var)] if meaning(var) else [])]
-        comment = f" /* {': '.join(said).replace('*/', '* /')} */" if said else ""
+        comment = f" /* {one_line(': '.join(said)).replace('*/', '* /')} */" if said else ""
         return f"{self._reach.type(var)} {name}{f' = {init}' if init else ''};{comment}"
 
     # --- the tick ----------------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping, Sequence
 
 from checker.encode.intervals import intervals, postorder
 from checker.export.machine import Machine, machine, meaning
-from checker.export.names import identifiers
+from checker.export.names import identifiers, one_line
 from checker.export.problem import Problem
 from spec_model.lang.domain import Bool
 from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
@@ -92,7 +92,7 @@ class _Module:
         else:
             listed = ", ".join(map(str, domain.values)) if not domain.dense else ""
             kind = f"{{{listed}}}" if listed else f"{domain.low}..{domain.high}"
-        said = ": ".join(filter(None, (var.name if var.name != name else "", meaning(var))))
+        said = one_line(": ".join(filter(None, (var.name if var.name != name else "", meaning(var)))))
         return f"  {name} : {kind};{f' -- {said}' if said else ''}"
 
     def _at_first(self, var: Var) -> str:

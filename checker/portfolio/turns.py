@@ -5,6 +5,7 @@ from dataclasses import replace
 from time import monotonic
 
 from checker.engine import Engine, Limits, engines
+from checker.portfolio.disagreement import contradict, said
 from checker.portfolio.order import ORDERS
 from checker.portfolio.question import Found, Question, Told
 from checker.portfolio.shape import shape
@@ -18,7 +19,10 @@ SHORTENED = 128
 
 
 def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
-    """After each turn all that is found so far; the last one holds an answer for every goal."""
+    """After each turn all that is found so far; the last one holds an answer for every goal.
+
+    Raises ``Disagreement`` when a turn contradicts what an earlier one left to be confirmed.
+    """
     known = engines()
     turns = ORDERS[shape(question).kind]
     present = [t for t in turns if t.engine in known]
@@ -27,16 +31,26 @@ def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
     for turn in present:
         if found and _over(question, found, limits, deadline):
             break
-        left = None if deadline is None else max(0.0, deadline - monotonic())
-        told.granted(left)
-        grant = turn.within(limits, left)
         goals = [g for g in question.open(found) if _worth(found.get(g.name))]
         if not goals:
-            continue
-        for goal, answer in asked(known[turn.engine], question, grant, told, goals).items():
-            found[goal] = better(found[goal], answer) if goal in found else answer
+            break
+        left = None if deadline is None else max(0.0, deadline - monotonic())
+        told.granted(left)
+        answers = asked(known[turn.engine], question, turn.within(limits, left), told, goals)
+        found |= {g.name: _both(question, g, found.get(g.name), answers[g.name]) for g in goals}
         told.granted(limits.seconds)  # for what is made of the answers
         yield dict(found)
+
+
+def _both(
+    question: Question, goal: Var, before: tuple[Answer, str] | None, now: tuple[Answer, str]
+) -> tuple[Answer, str]:
+    """What two turns say of a goal together.  Raises ``Disagreement``."""
+    if before is None:
+        return now
+    if contradict(before[0], now[0]):
+        raise said(question.system, goal, (before, now))
+    return better(before, now)
 
 
 def _worth(known: tuple[Answer, str] | None) -> bool:

@@ -1,6 +1,6 @@
 """A system without inputs: its counterexample was calmed to no tick at all, and could not be replayed."""
 
-from checker.calm import calmed
+from checker.runs.calm import calmed
 from checker.verdict import Run
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block

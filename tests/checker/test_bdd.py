@@ -17,7 +17,6 @@ from checker.engines import bdd
 from checker.engines.bdd import kept
 from checker.engines.bdd.events import Bound, Closed, Found, Stuck
 from checker.engines.bdd.search import search
-from checker.isolate import Send
 from checker.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import Bool, chosen, integer
@@ -25,6 +24,7 @@ from spec_model.lang.expr import FALSE, TRUE, Apply, Op, Var, all_of, const, fla
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
 from tests import naive
+from tests.engine_children import LIMIT, cut_off
 from tests.strategies_ts import goals, transition_systems
 
 NODES = 1 << 18
@@ -186,17 +186,10 @@ def test_a_node_limit_leaves_the_goal_open() -> None:
     assert isinstance(answer, Open) and answer.reason == "the memory limit is reached"
 
 
-def _hang(send: Send, system: TransitionSystem, names: tuple[str, ...], *_: object) -> None:
-    from time import sleep
-
-    send(Bound(names, 7, 100, 10))
-    sleep(60)
-
-
-def test_the_child_is_killed_when_the_time_is_over(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(bdd, "_work", _hang)
-    answer = check(counters(3)[0], flag("end"), Limits(seconds=2.5))
-    assert answer == Open("the time limit of 2.5 s is reached", 7)
+def test_what_was_seen_before_the_time_was_over_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    cut_off(monkeypatch, bdd, Bound(("end",), 7, 100, 10))
+    answer = check(counters(3)[0], flag("end"), Limits())
+    assert answer == Open(LIMIT, 7)
 
 
 def test_no_goals() -> None:

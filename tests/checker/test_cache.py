@@ -137,6 +137,17 @@ def test_the_processor_is_part_of_the_key(monkeypatch: pytest.MonkeyPatch) -> No
     fingerprint.compiler.cache_clear()
 
 
+def test_code_made_by_sources_that_were_changed_meanwhile_is_not_kept(
+    monkeypatch: pytest.MonkeyPatch, folder: Path
+) -> None:
+    """Their new text would be in the key of code that the old one has made."""
+    monkeypatch.setattr(fingerprint, "_LOADED", 0.0)
+    fingerprint.compiler.cache_clear()
+    with pytest.raises(OSError, match="has changed since it was loaded"):
+        fingerprint.compiler()
+    assert isinstance(answers(system())[0], Reached) and not folder.exists()
+
+
 def test_every_module_that_takes_part_is_in_the_key() -> None:
     """The modules of the project that are loaded for compiling, seen in a process of its own."""
     script = (
@@ -221,6 +232,20 @@ def test_its_size_is_bounded_and_the_longest_unused_go_first(
         os.utime(folder / f"key{number}.o", (number, number))
         assert sum(p.stat().st_size for p in folder.iterdir()) <= 1000
     assert cache.read("key19") is not None and cache.read("key0") is None
+
+
+def test_a_folder_that_may_only_be_read_is_used(
+    monkeypatch: pytest.MonkeyPatch, compiled: list[Level]
+) -> None:
+    first = answers(system())
+    compiled.clear()
+
+    def refused(*_: object) -> None:
+        raise PermissionError
+
+    for name in ("utime", "replace"):
+        monkeypatch.setattr(os, name, refused)
+    assert answers(system()) == first and not compiled
 
 
 def test_what_is_used_is_not_the_first_to_go(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:

@@ -2,67 +2,46 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
-from itertools import pairwise
 
 import pytest
-from hypothesis import HealthCheck, assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
-from hypothesis.strategies import DataObject, DrawFn
+from hypothesis.strategies import DataObject
 
-from checker.certify import solver
 from checker.certify.certificate import Certificate, certificate, certificates, document
 from checker.certify.check import check
 from checker.certify.diagram import Diagram, Node
-from checker.certify.invariant import Conjuncts
-from checker.certify.outcome import Accepted, Rejected, Undecided
-from checker.certify.question import question
+from checker.certify.outcome import Accepted, Rejected
 from checker.certify.reduction import diagram
-from checker.certify.tick import executed
 from checker.closed import ClosedSet
-from checker.verdict import Exhausted, Inductive, Unreachable
+from checker.verdict import Exhausted, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.expr import TRUE, Expr, Var, all_of, const, flag, ite, var
+from spec_model.lang.expr import TRUE, flag, var
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
-from tests.certifying import BOTH, ENUMERATION, SOLVER, certified, closed_set, inline, reachable
+from tests.certifying import (
+    BOTH,
+    ENUMERATION,
+    SOLVER,
+    asked_anew,
+    certified,
+    closed_set,
+    many,
+    proofs,
+    reachable,
+    solving_here,
+    with_invariant,
+)
 from tests.naive import search, vectors
-from tests.strategies_ts import goals, transition_systems
+from tests.strategies_ts import goals
 
 
 @pytest.fixture(autouse=True, scope="module")
 def in_this_process() -> Iterator[None]:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(solver, "messages", inline)
+    with solving_here():
         yield
-
-
-many = settings(max_examples=50, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
-
-
-@st.composite
-def proofs(draw: DrawFn) -> tuple[TransitionSystem, Certificate]:
-    """A random system with some goal that is never reached, and the certificate of that."""
-    system = draw(transition_systems())
-    never = flag("never")
-    system = replace(
-        system,
-        variables=(*system.variables, never),
-        step=(*system.step, Assign(never, system.variables[0] != system.variables[0])),
-    )
-    (one,) = certified(system, (*goals(system), never))
-    return system, one
-
-
-def with_invariant(one: Certificate, system: TransitionSystem, invariant: Diagram | Conjuncts) -> Certificate:
-    return asked_anew(replace(one, invariant=invariant), system)
-
-
-def asked_anew(one: Certificate, system: TransitionSystem) -> Certificate:
-    """What a forger writes: text and digest that fit what is claimed."""
-    found = question(executed(system), one.claims, one.kept, one.about)
-    return replace(one, text=found.text, digest=found.digest)
 
 
 def inductive(one: Certificate, system: TransitionSystem) -> bool:
@@ -227,192 +206,3 @@ def test_an_assumption_that_is_used_cannot_be_dropped() -> None:
     assert isinstance(check(freed, system, SOLVER), Rejected)
     assert isinstance(check(freed, system, ENUMERATION), Rejected)
     assert isinstance(check(one, replace(system, assume=TRUE), BOTH), Rejected)
-
-
-# --- each obligation alone -----------------------------------------------------------------------
-
-
-def counting(program: tuple[Assign, ...], count: Var, *inputs: Var) -> tuple[TransitionSystem, Var]:
-    """A system with one variable, and the goal that it is 6."""
-    bad = flag("bad")
-    variables = (count, bad)
-    return TransitionSystem("counting", inputs, (), variables, (), (*program, Assign(bad, count == 6))), bad
-
-
-def claimed(
-    system: TransitionSystem, bad: Var, *conjuncts: Expr, ticks: int = 1, simple: bool = False
-) -> Certificate:
-    answer = Unreachable(Inductive(conjuncts, ticks, simple))
-    (one,) = certificates(system, [bad], {bad.name: answer}, "hand")
-    return one
-
-
-def rejected_for(one: Certificate, system: TransitionSystem, obligation: str) -> None:
-    outcome = check(one, system, SOLVER)
-    assert isinstance(outcome, Rejected) and outcome.obligation == obligation, outcome
-    if not (isinstance(one.invariant, Conjuncts) and one.invariant.ticks > 1):
-        outcome = check(one, system, ENUMERATION)
-        assert isinstance(outcome, Rejected) and outcome.obligation == obligation, outcome
-
-
-COUNT = var("count", integer(0, 7))
-BACK = Assign(COUNT, ite(COUNT < 3, COUNT + 1, ite(COUNT == 3, const(0), COUNT)))
-"""0 1 2 3 0 1 2 3 ...; from 4 on it stays."""
-
-
-def test_an_invariant_is_accepted() -> None:
-    system, bad = counting((BACK,), COUNT)
-    for one in (claimed(system, bad, COUNT <= 3), claimed(system, bad, COUNT < 5, ~(COUNT == 4))):
-        assert check(one, system, SOLVER) == Accepted(f"4 obligations by {solver.NAME}")
-        assert check(one, system, ENUMERATION) == Accepted("4 ticks tried")
-        assert isinstance(check(one, system, BOTH), Accepted)
-
-
-def test_only_initiation_fails() -> None:
-    system, bad = counting((Assign(COUNT, ite(COUNT < 3, const(1), COUNT)),), COUNT)
-    rejected_for(claimed(system, bad, COUNT >= 1, COUNT <= 5), system, "initiation")
-
-
-def test_only_consecution_fails() -> None:
-    system, bad = counting((BACK,), COUNT)
-    rejected_for(claimed(system, bad, COUNT <= 2), system, "consecution")
-
-
-def test_only_domains_fail() -> None:
-    small = var("count", integer(0, 3))
-    system, bad = counting((Assign(small, small + 1),), small)
-    rejected_for(claimed(system, bad), system, "domains")
-
-
-def test_only_safety_fails() -> None:
-    system, bad = counting((BACK,), COUNT)
-    rejected_for(claimed(system, bad, COUNT <= 6), system, "safety")
-
-
-CLIMB = Assign(COUNT, ite(COUNT < 3, COUNT + 1, ite(COUNT == 3, const(0), minimum(COUNT + 1, const(7)))))
-"""0 1 2 3 0 ...; from 4, where no run gets, on to 6 and 7."""
-
-
-def test_k_induction_with_the_k_it_needs() -> None:
-    system, bad = counting((CLIMB,), COUNT)
-    for k in (3, 4):
-        assert isinstance(check(claimed(system, bad, ticks=k), system, BOTH), Accepted)
-    for k in (1, 2):
-        outcome = check(claimed(system, bad, ticks=k), system, SOLVER)
-        assert isinstance(outcome, Rejected)
-        assert outcome.obligation == ("safety" if k == 1 else "step of bad")
-    assert isinstance(
-        check(claimed(system, bad, ~(COUNT == 5), ~(COUNT == 4), ticks=2), system, SOLVER), Accepted
-    )
-
-
-def test_only_the_base_fails() -> None:
-    start = var("count", integer(0, 7), 4)
-    system, bad = counting((Assign(start, minimum(start + 1, const(7))),), start)
-    rejected_for(claimed(system, bad, ticks=4), system, "base of bad")
-
-
-def test_the_base_knows_what_is_assumed() -> None:
-    start, go = var("count", integer(0, 7), 4), flag("go")
-    system, bad = counting((Assign(start, ite(go, minimum(start + 1, const(7)), start)),), start, go)
-    blocked = replace(system, assume=(start < 4) | ~go)
-    assert isinstance(check(claimed(blocked, bad, ticks=2), blocked, SOLVER), Accepted)
-    rejected_for(claimed(system, bad, ticks=8), system, "base of bad")
-
-
-def test_simple_paths_prove_what_no_k_proves_without() -> None:
-    stay = flag("stay")
-    program = (Assign(COUNT, ite(COUNT < 4, const(0), ite(stay, COUNT, minimum(COUNT + 1, const(6))))),)
-    system, bad = counting(program, COUNT, stay)
-    assert isinstance(check(claimed(system, bad, ticks=4, simple=True), system, SOLVER), Accepted)
-    for k in (2, 4, 6):
-        rejected_for(claimed(system, bad, ticks=k), system, "step of bad")
-    rejected_for(claimed(system, bad, ticks=2, simple=True), system, "step of bad")
-
-
-def test_a_frozen_variable_may_have_any_value() -> None:
-    top = var("top", integer(2, 5))
-    program = (Assign(COUNT, ite(COUNT < top, COUNT + 1, COUNT)),)
-    bad = flag("bad")
-    system = TransitionSystem("", (), (top,), (COUNT, bad), (), (*program, Assign(bad, COUNT == 6)))
-    assert isinstance(check(claimed(system, bad, COUNT <= top), system, BOTH), Accepted)
-    (closed,) = certified(system, [bad])
-    assert isinstance(check(closed, system, BOTH), Accepted)
-    rejected_for(claimed(system, bad, COUNT <= 2), system, "consecution")
-    rejected_for(claimed(system, bad, top == 3, COUNT <= top), system, "initiation")
-
-
-# --- conjuncts that are altered ------------------------------------------------------------------
-
-
-def test_a_conjunct_that_is_needed_cannot_be_dropped() -> None:
-    other, held, bad = var("other", integer(0, 7)), var("held", integer(0, 7)), flag("bad")
-    swap = (Assign(held, other), Assign(other, ite(COUNT < 3, const(0), COUNT)), Assign(COUNT, held))
-    program = (*swap, Assign(bad, COUNT == 6))
-    system = TransitionSystem("", (), (), (COUNT, other, bad), (held,), program)
-    one = claimed(system, bad, COUNT < 3, other < 3)
-    assert isinstance(check(one, system, BOTH), Accepted)
-    found = one.invariant
-    assert isinstance(found, Conjuncts)
-    for i in range(2):
-        fewer = replace(found, conjuncts=found.conjuncts[:i] + found.conjuncts[i + 1 :])
-        assert isinstance(check(replace(one, invariant=fewer), system, BOTH), Rejected)
-    for a, b in (("(_ bv3 3)", "(_ bv7 3)"), ("bvslt", "bvsgt"), ("|count@0|", "|other@0|")):
-        text = tuple(d.replace(a, b) for d in found.definitions)
-        assert text != found.definitions
-        assert isinstance(
-            check(replace(one, invariant=replace(found, definitions=text)), system, BOTH), Rejected
-        )
-
-
-@pytest.mark.parametrize(
-    "changed",
-    [
-        Conjuncts(("(define-fun |:c0@0| () Bool true) (assert false)",), ("|:c0@0|",)),
-        Conjuncts((), ("|count@1|",)),
-        Conjuncts((), ("false) (assert false",)),
-        Conjuncts((), ("|:invariant@0|",)),
-        Conjuncts((), (), ticks=0),
-        Conjuncts(("(define-fun |:c0@0| () Bool (bvslt |count@0| (_ bv1 9)))",), ("|:c0@0|",)),
-        Diagram(("count", "count"), (), 0),
-        Diagram(("unheard",), (), 0),
-        Diagram(("count",), (), 1),
-        Diagram(("count",), (), -1),
-        Diagram(("count",), (Node(1, ((0, 3, 0),)),), 1),
-        Diagram(("count",), (Node(0, ((0, 3, 1),)),), 1),
-        Diagram(("count",), (Node(0, ((3, 0, 0),)),), 1),
-        Diagram(("count",), (Node(0, ((0, 99, 0),)),), 1),
-        Diagram(("count",), (Node(0, ((0, 3, 0), (2, 5, 0))),), 1),
-        Diagram(("count",), (Node(0, ((0, 3, 0),)), Node(0, ((0, 3, 1),))), 2),
-    ],
-)
-def test_what_has_no_meaning_is_rejected(changed: Conjuncts | Diagram) -> None:
-    system, bad = counting((BACK,), COUNT)
-    one = claimed(system, bad, COUNT <= 3)
-    outcome = check(replace(one, invariant=changed), system, BOTH)
-    assert isinstance(outcome, Rejected) and outcome.obligation == "invariant", outcome
-
-
-def test_names_and_positions_that_do_not_exist_are_rejected() -> None:
-    system, bad = counting((BACK,), COUNT)
-    one = claimed(system, bad, COUNT <= 3)
-    for forged in (
-        replace(one, claims=("unheard",)),
-        replace(one, claims=()),
-        replace(one, kept=(0,)),
-        replace(one, kept=(-1,)),
-        replace(one, about=("unheard",)),
-    ):
-        outcome = check(forged, system, BOTH)
-        assert isinstance(outcome, Rejected) and outcome.obligation == "question"
-
-
-def test_what_is_too_much_to_enumerate_is_undecided() -> None:
-    wide = tuple(var(f"w{i}", integer(0, 99)) for i in range(4))
-    never = flag("never")
-    moved = tuple(Assign(a, b) for a, b in pairwise(wide))
-    program = (*moved, Assign(never, all_of(*(w > 99 for w in wide))))
-    system = TransitionSystem("", (), (), (*wide, never), (), program)
-    one = claimed(system, never, TRUE)
-    assert isinstance(check(one, system, ENUMERATION), Undecided)
-    assert isinstance(check(one, system, BOTH), Accepted)

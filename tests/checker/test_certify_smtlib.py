@@ -11,7 +11,7 @@ from checker.certify import smtlib, solver
 from checker.certify.invariant import conjuncts
 from checker.certify.question import Question, question
 from checker.certify.smtlib import own, quoted
-from checker.certify.terms import Malformed, definitions, evaluate, read
+from checker.certify.terms import DEEPEST, TRUTH, Malformed, definitions, evaluate, read
 from checker.certify.tick import conjuncts as parts
 from checker.certify.tick import executed
 from checker.verdict import Inductive
@@ -76,7 +76,8 @@ def test_conjuncts_mean_the_same_to_the_solver_and_to_the_reader(
     found = asked(system)
     at = some(data, state)
     symbols = found.symbols(0)
-    bodies = definitions(written.definitions, [symbols[v.name] for v in state])
+    bodies, sorts = definitions(written.definitions, found.spoken)
+    assert all(sorts[c] == TRUTH for c in written.conjuncts if c.startswith("|"))
     known: dict[str, bool | tuple[int, int]] = {}
     for v in state:
         bits = 0 if smtlib.sort(v.domain) == "Bool" else smtlib.width(v.domain)
@@ -104,7 +105,7 @@ def test_symbols_of_different_names_differ(name: str) -> None:
     assert symbol not in others
 
 
-INSIDE = ["|x@0|", "|b@0|"]
+INSIDE = {"|x@0|": 4, "|b@0|": TRUTH}
 
 
 @pytest.mark.parametrize(
@@ -119,6 +120,28 @@ INSIDE = ["|x@0|", "|b@0|"]
         "(define-fun |:c0@0| () Bool (exists ((y Bool)) y))",
         "(define-fun |:c0@0| () Bool ((_ extract 1 -1) |x@0|))",
         "(define-fun |:c0@0| () Bool true) ; |",
+        "(define-fun |:c0@0| () Bool true)\u00a0",
+        "(define-fun |:c0@0| () Bool\x00true)",
+        "(define-fun |:c\u0663@0| () Bool true)",
+        "(define-fun |:c0@0| () Bool (push 1))",
+        "(define-fun |:c0@0| () Bool (not |b@0| false))",
+        "(define-fun |:c0@0| () Bool (ite |b@0|))",
+        "(define-fun |:c0@0| () Bool (and))",
+        "(define-fun |:c0@0| () Bool (= |x@0| |x@0| |x@0|))",
+        "(define-fun |:c0@0| () Bool (= |x@0| |b@0|))",
+        "(define-fun |:c0@0| () Bool (ite |b@0| true |x@0|))",
+        "(define-fun |:c0@0| () Bool (bvslt |x@0| (_ bv1 5)))",
+        "(define-fun |:c0@0| () Bool (bvslt (_ bv0 0) (_ bv0 0)))",
+        "(define-fun |:c0@0| () Bool |x@0|)",
+        "(define-fun |:c0@0| () (_ BitVec 4) |b@0|)",
+        "(define-fun |:c0@0| () (_ BitVec 5) |x@0|)",
+        "(define-fun |:c0@0| () (_ BitVec 1) ((_ extract 4 4) |x@0|))",
+        "(define-fun |:c0@0| () (_ BitVec 1) ((_ extract 1 2) |x@0|))",
+        "(define-fun |:c0@0| () (_ BitVec 2) ((_ extract 1 0) |b@0|))",
+        "(define-fun |:c0@0| () Bool (= |x@0| ((_ sign_extend 9999999999) |x@0|)))",
+        "(define-fun |:c0@0| () Bool (= |x@0| (_ bv" + "9" * 5000 + " 4)))",
+        "(define-fun |:c0@0| () Bool " + "(not " * DEEPEST + "true" + ")" * DEEPEST + ")",
+        "(define-fun |:c0@0| () Bool " + "(" * 100_000,
         "(assert false)",
         "(declare-const |:c0@0| Bool)",
         ")",
@@ -132,7 +155,7 @@ def test_a_definition_says_nothing_but_a_formula_about_the_valuation(line: str) 
 
 def test_nothing_is_defined_twice() -> None:
     line = "(define-fun |:c0@0| () Bool |b@0|)"
-    assert definitions([line], INSIDE) == {"|:c0@0|": "|b@0|"}
+    assert definitions([line], INSIDE) == ({"|:c0@0|": "|b@0|"}, INSIDE | {"|:c0@0|": TRUTH})
     with pytest.raises(Malformed):
         definitions([line, line], INSIDE)
 

@@ -23,8 +23,7 @@ from checker.certify.tick import executed
 from spec_model.lang.evaluate import step
 from spec_model.lang.expr import Op, Var
 from spec_model.lang.system import TransitionSystem
-from tests.certifying import BOTH, certified, closed_set
-from tests.checker.test_certify import BACK, COUNT, counting, many, proofs
+from tests.certifying import BACK, BOTH, COUNT, certified, closed_set, counting, many, proofs
 from tests.checker.test_certify_diagram import sets
 from tests.naive import vectors
 from tests.strategies_ts import transition_systems

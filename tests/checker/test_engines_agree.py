@@ -8,7 +8,7 @@ from types import ModuleType
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from checker.certify import solver
 from checker.certify.certificate import certificates
@@ -20,6 +20,8 @@ from checker.verdict import Answer, Open, Reached, Unreachable
 from spec_model.lang.system import TransitionSystem
 from tests import naive
 from tests.certifying import SOLVER, inline
+from tests.profiles import examples
+from tests.strategies_timed import timed_systems
 from tests.strategies_ts import goals, transition_systems
 from tests.toys import GOAL, overflowing
 
@@ -46,9 +48,26 @@ def test_every_engine_is_compared() -> None:
     assert set(engines()) == {"bdd", "bmc", "explicit", "kinduction", "pdr"}
 
 
-@settings(max_examples=200)
+@examples(800)
 @given(transition_systems())
 def test_no_two_engines_disagree(system: TransitionSystem) -> None:
+    agree(system)
+
+
+@examples(150)
+@given(transition_systems(most=5))
+def test_nor_on_larger_systems(system: TransitionSystem) -> None:
+    agree(system)
+
+
+@examples(350)
+@given(timed_systems())
+def test_nor_on_charts_with_timers(system: TransitionSystem) -> None:
+    agree(system)
+
+
+def agree(system: TransitionSystem) -> None:
+    """Every engine against the naive search; every run replayed, every proof certified."""
     asked = goals(system)
     judge = naive.search(system, asked)
     for name, engine in engines().items():

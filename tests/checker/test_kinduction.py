@@ -106,6 +106,19 @@ def test_simple_paths_where_no_invariant_is_found(monkeypatch: pytest.MonkeyPatc
     assert because.simple and not because.conjuncts
 
 
+def test_simple_paths_are_simple_in_all_that_the_goal_is_written_with(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """``turn`` is simplified away, and valuations that differ in it alone are different to who checks."""
+    monkeypatch.setattr(Hunt, "phases", lambda self: iter(()))
+    turn, plain = var("turn", integer(0, 1)), waiting()
+    step = (*plain.step, Assign(GOAL, GOAL | (turn > 1)), Assign(turn, 1 - turn))
+    system = replace(plain, variables=(*plain.variables, turn), step=step)
+    assert searched(plain, [GOAL])["goal"] == Unreachable(Inductive((), 4, simple=True))
+    because = proved(system)
+    assert because.simple and because.ticks > 4
+
+
 def test_the_full_roverlite() -> None:
     """The relay is off only 150 ticks after the last critical one, and two goals beside it."""
     system, names = roverlite(127)

@@ -4,9 +4,9 @@ from hypothesis import given
 
 from checker.partition import Partition, expressions, partitions
 from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import chosen, integer
+from spec_model.lang.domain import Bool, chosen, integer
 from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.expr import TRUE, Expr, Var, all_of, any_of, flag, ite, var
+from spec_model.lang.expr import TRUE, Apply, Expr, Op, Var, all_of, any_of, flag, ite, var
 from spec_model.lang.system import Program, TransitionSystem
 from spec_model.lang.words import absolute, named
 from tests.naive import vectors
@@ -61,6 +61,14 @@ def test_an_unread_input_has_one_cell() -> None:
 def test_the_assumption_about_one_input_bounds_its_values() -> None:
     assert values(cells(DISTANCE > 100, assume=(DISTANCE > 50) & (OTHER < 5))) == [(51, 50), (101, 900)]
     assert cells(assume=DISTANCE > 1000).cells == ()
+
+
+def test_the_assumption_bounds_values_however_its_conjunctions_are_nested() -> None:
+    """Conjuncts about one input are met by its cells alone: the paths of a tick do not test them again."""
+    inner = Apply(Op.AND, (DISTANCE > 50, OTHER > DISTANCE), Bool())
+    for first in (inner, named("near", inner)):
+        nested = Apply(Op.AND, (first, OTHER < 5), Bool())
+        assert cells(assume=nested).cells[0].value == 51
 
 
 def test_sparse_domains_and_members() -> None:

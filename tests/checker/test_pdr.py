@@ -18,24 +18,13 @@ from checker.verdict import Inductive, Open, Reached, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import chosen, integer
 from spec_model.lang.evaluate import admissible, evaluate, step
-from spec_model.lang.expr import FALSE, TRUE, Expr, flag, ite, var
+from spec_model.lang.expr import FALSE, TRUE, Expr, flag, var
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
 from tests import naive
+from tests.engine_children import LIMIT, cut_off
 from tests.strategies_ts import goals, transition_systems
-
-
-def counter(most: int, *, saturate: bool = True) -> TransitionSystem:
-    """Counts held ticks; ``full`` is the goal, ``over`` is never true."""
-    hold, noise = flag("hold"), var("noise", chosen([3, 5, 40]))
-    count, full, over = var("count", integer(0, most)), flag("full"), flag("over")
-    raised = minimum(count + 1, most) if saturate else count + 1
-    step = (
-        Assign(count, ite(hold, raised, 0)),
-        Assign(full, count >= most),
-        Assign(over, count > most),
-    )
-    return TransitionSystem("counter", (hold, noise), (), (count, full, over), (), step, noise > 3)
+from tests.toys import filling
 
 
 def decided(
@@ -112,7 +101,7 @@ def test_invariants_found_without_candidates(system: TransitionSystem) -> None:
 
 
 def test_of_candidates_only_what_is_inductive_is_used() -> None:
-    system = counter(9)
+    system = filling(9)
     count, full, _ = system.variables
     wrong = [count < 4, count != 7, full, count == 0]
     right = [count <= 9, ~full | (count == 9)]
@@ -124,7 +113,7 @@ def test_of_candidates_only_what_is_inductive_is_used() -> None:
 @pytest.mark.parametrize("candidates", [None, ()])
 @pytest.mark.parametrize("most", [1, 2, 15, 16, 17, 47, 100])
 def test_counters(most: int, candidates: Sequence[Expr] | None) -> None:
-    system = counter(most)
+    system = filling(most)
     answers = decided(system, ["full", "over"], candidates)
     full, over = answers["full"], answers["over"]
     assert isinstance(full, Reached) and len(full.run) == most
@@ -133,7 +122,7 @@ def test_counters(most: int, candidates: Sequence[Expr] | None) -> None:
 
 
 def test_the_same_question_has_the_same_answer() -> None:
-    first, second = (decided(counter(40), ["full", "over"]) for _ in range(2))
+    first, second = (decided(filling(40), ["full", "over"]) for _ in range(2))
     assert str(first) == str(second)
 
 
@@ -145,7 +134,7 @@ def test_it_is_found_by_being_there() -> None:
 
 
 def test_the_engine_answers_for_every_goal() -> None:
-    system, lines = counter(12), list[str]()
+    system, lines = filling(12), list[str]()
     wanted = [v for v in system.variables if v.name != "count"]
     answers = pdr.check(system, wanted, Limits(seconds=60), lines.append)
     reached = answers["full"]
@@ -155,18 +144,18 @@ def test_the_engine_answers_for_every_goal() -> None:
 
 
 def test_no_goals() -> None:
-    assert pdr.check(counter(3), [], Limits(), quiet) == {}
+    assert pdr.check(filling(3), [], Limits(), quiet) == {}
 
 
 def test_an_assumption_that_no_input_meets_allows_no_run() -> None:
-    system = counter(3)
+    system = filling(3)
     for assume in (FALSE, system.inputs[1] > 40):
         answer = pdr.check(replace(system, assume=assume), [flag("full")], Limits(), quiet)["full"]
         assert answer == Unreachable(Inductive(()))
 
 
 def test_a_variable_that_leaves_its_domain_leaves_the_goals_open() -> None:
-    answers = pdr.check(counter(5, saturate=False), [flag("full"), flag("over")], Limits(), quiet)
+    answers = pdr.check(filling(5, saturate=False), [flag("full"), flag("over")], Limits(), quiet)
     assert answers["full"] == answers["over"] == Open("count may leave its domain in tick 6", 0)
 
 
@@ -206,18 +195,11 @@ def test_frozen_values_stay_in_their_domain() -> None:
 
 def test_a_bounded_search_claims_no_more() -> None:
     """``full`` is reached after 60 ticks, which a search of 3 ticks cannot know of."""
-    answer = pdr.check(counter(60), [flag("full")], Limits(depth=3), quiet)["full"]
+    answer = pdr.check(filling(60), [flag("full")], Limits(depth=3), quiet)["full"]
     assert answer == Open("no run of at most 3 ticks reaches it", 3) or isinstance(answer, Reached)
 
 
 # --- a child that misbehaves: it has to be importable, so it is a function of this module ---------
-
-
-def _hang(send: Send, system: TransitionSystem, names: tuple[str, ...], depth: int | None) -> None:
-    import ctypes
-
-    send(Bound(names[0], 7, 12))
-    ctypes.CDLL(None).sleep(60)  # deaf to Python, as a solver is
 
 
 def _die(send: Send, *_: object) -> None:
@@ -227,17 +209,17 @@ def _die(send: Send, *_: object) -> None:
     os.kill(os.getpid(), signal.SIGSEGV)
 
 
-def test_a_hanging_solver_is_killed_when_the_time_is_over(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pdr, "_work", _hang)
+def test_what_was_seen_before_the_time_was_over_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    cut_off(monkeypatch, pdr, Bound("full", 7, 12))
     lines = list[str]()
-    answers = pdr.check(counter(3), [flag("full")], Limits(seconds=2.5), lines.append)
-    assert answers["full"] == Open("the time limit of 2.5 s is reached", 7)
+    answers = pdr.check(filling(3), [flag("full")], Limits(), lines.append)
+    assert answers["full"] == Open(LIMIT, 7)
     assert lines[-1] == "pdr: depth 7, 1 goal open, 12 lemmas"
 
 
 def test_a_dying_solver_leaves_the_goals_open(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pdr, "_work", _die)
-    answers = pdr.check(counter(3), [flag("full")], Limits(), quiet)
+    answers = pdr.check(filling(3), [flag("full")], Limits(), quiet)
     assert answers["full"] == Open("the solver process was ended by SIGSEGV", 0)
 
 

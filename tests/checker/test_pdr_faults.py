@@ -26,7 +26,8 @@ from spec_model.lang.expr import TRUE, Expr, flag, ite, var
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
 from tests import naive
-from tests.checker.test_pdr import counter, justified
+from tests.checker.test_pdr import justified
+from tests.toys import filling
 
 PATIENCE = 400
 """Events after which a search that never ends is given up, as a fault that shows."""
@@ -71,7 +72,7 @@ def guarded() -> TransitionSystem:
     return TransitionSystem("guarded", (push,), (), (count, reached, bad), (), step, (push < 2) | (count > 5))
 
 
-SYSTEMS = (watch, modes, guarded, lambda: counter(9))
+SYSTEMS = (watch, modes, guarded, lambda: filling(9))
 
 
 def wrong() -> Iterator[str]:

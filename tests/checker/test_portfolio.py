@@ -187,6 +187,21 @@ def test_answers_that_cannot_both_be_true_are_never_merged(one: Answer, other: A
             ask(ALL)
 
 
+@pytest.mark.parametrize(
+    ("before", "now"),
+    [
+        (run(3, shortest=False), NEVER),
+        (run(3, shortest=False), run(4)),
+        (run(3, shortest=False), Open("searched", 3)),
+        (Open("searched", 3), run(3)),
+    ],
+)
+def test_a_turn_that_contradicts_an_earlier_one_is_not_overheard(before: Answer, now: Answer, using) -> None:
+    using(Fake("first", {"on": before}), Fake("second", {"on": now}))
+    with pytest.raises(Disagreement, match=r"engines disagree about on of toggle.*first: .*second: "):
+        ask(AUTO)
+
+
 @pytest.mark.parametrize(("one", "other"), HARMONIES)
 def test_answers_that_agree_are_merged(one: Answer, other: Answer, using) -> None:
     for first, second in ((one, other), (other, one)):

@@ -3,8 +3,8 @@
 from checker.encode.bits import circuit
 from checker.encode.bits.simulate import Simulation
 from checker.engine import quiet
-from checker.loops import Hunt, hunt, looped
-from checker.settling import settled
+from checker.liveness.loops import Hunt, hunt, looped
+from checker.liveness.settling import settled
 from properties.forms import settles
 from properties.reduce import reduce
 from spec_model.lang.action import assign

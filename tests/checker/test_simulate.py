@@ -8,8 +8,10 @@ from checker.encode.cone import cone
 from checker.encode.simulate import OPERATIONS, Simulator, Trail, Vectorised, column
 from checker.encode.symbolic import transition
 from checker.encode.unrolling import Outside
+from spec_model.lang.action import Assign
+from spec_model.lang.domain import chosen
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Op
+from spec_model.lang.expr import Op, var
 from spec_model.lang.system import TransitionSystem
 from tests import naive
 from tests.strategies_ts import transition_systems
@@ -71,6 +73,16 @@ def test_a_tick_that_must_not_be_is_not_taken() -> None:
     beyond = part.next["count"] > 5
     simulator = Simulator(part, [beyond], lanes=8)
     assert simulator.run(simulator.start(), 100).samples()["count"].max() == 5
+
+
+def test_no_tick_is_taken_where_no_value_of_an_input_is_allowed() -> None:
+    """The only value that the assumption allows lies in a gap of the domain."""
+    noise = var("noise", chosen([3, 5, 40]))
+    step = (Assign(GOAL, noise < 40),)
+    system = TransitionSystem("gap", (noise,), (), (GOAL,), (), step, noise == 4)
+    simulator = Simulator(cone(transition(system), [GOAL.name]), lanes=8)
+    trail = simulator.run(simulator.start(), 20)
+    assert trail.first(GOAL.name) is None and not np.any(trail.moved)
 
 
 def test_runs_can_be_repeated() -> None:

@@ -27,6 +27,12 @@ WRONG = [
     (["check", "--depth", "0"], Exit.USAGE, "0 is not in the range"),
     (["check", "--timeout", "soon"], Exit.USAGE, "'soon' is not a valid float"),
     (["check", "--timeout", "-1"], Exit.USAGE, "-1.0 is not in the range"),
+    (["check", "--timeout", "nan"], Exit.USAGE, "'nan' is not a number"),
+    (["check", "--timeout", "inf"], Exit.USAGE, "inf is not in the range"),
+    (["check", "--memory", "nan"], Exit.USAGE, "'nan' is not a number"),
+    (["check", "--memory", "1e30"], Exit.USAGE, "1e+30 is not in the range"),
+    (["check", "--all-engines", "--engine", "bmc"], Exit.USAGE, "--engine bmc asks one engine"),
+    (["check", "--all-engines", "--engine", "bcm"], Exit.USAGE, "There is no engine 'bcm'"),
     (["check", "--jobs", "0"], Exit.USAGE, "0 is not in the range"),
     (["check", "--memory", "0"], Exit.USAGE, "0.0 is not in the range"),
     (["list", "everything"], Exit.USAGE, "'everything' is not one of"),
@@ -65,7 +71,9 @@ def left_behind(mark: str) -> list[str]:
     return found
 
 
-def test_ctrl_c_in_the_middle_ends_at_once_with_what_was_found() -> None:
+@pytest.mark.skipif(os.name != "posix", reason="signals")
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM, signal.SIGHUP])
+def test_whoever_ends_it_in_the_middle_gets_what_was_found(number: signal.Signals) -> None:
     mark = f"ROVERCHECK_TEST_{os.getpid()}_{time.monotonic_ns()}"
     child = subprocess.Popen(
         [sys.executable, "-m", "checker", "check", "--engine", "bmc", "--depth", "100000", "--json"],
@@ -74,7 +82,7 @@ def test_ctrl_c_in_the_middle_ends_at_once_with_what_was_found() -> None:
     )  # fmt: skip
     assert child.stderr is not None
     said = next(line for line in child.stderr if "searches done" in line)
-    os.killpg(child.pid, signal.SIGINT)
+    os.killpg(child.pid, number)
     shown, rest = child.communicate(timeout=60)
     said += rest
     assert child.returncode == Exit.INTERRUPTED

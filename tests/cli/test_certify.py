@@ -2,7 +2,6 @@
 
 import gzip
 import json
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -11,54 +10,19 @@ import pytest
 import z3
 
 from checker import cli
-from checker.certify.file import SCHEMA, Origin, Unwritable, read, write
-from checker.certify.record import Recorder, certified
+from checker.certify.file import SCHEMA, Unwritable, read, write
 from checker.certify.terms import Malformed
 from checker.commands.certifying import certify
 from checker.commands.codes import Exit
-from checker.decide import Task, decide
-from checker.engine import Limits, quiet
-from checker.portfolio import Told
-from properties.catalogue import catalogue, under
-from spec_model.rover import systems
-from tests.certifying import SOLVER, Naive
-
-COUNTERS = ("PSY-21a",)
-WHEEL = ("PB1-06a-FR", "PB1-06b-FR")
-
-
-def written(folder: Path, *ids: str, readings: dict[str, str] | None = None) -> Path:
-    """The file that a search of these properties by the naive engine writes."""
-    known, by_name = under(readings or {}), systems(readings or {})
-    properties = tuple(known[id] for id in ids)
-    task = Task(by_name[properties[0].on], properties)
-    recorder = Recorder()
-    told = Told(answered=recorder.answered)
-    results = list(decide(task, by_name, Naive(), Limits(), quiet, told))
-    proved = certified({r.property.id: r.verdict for r in results}, recorder.made)
-    return write(folder, Origin(task.system.name, ids, proved, readings or {}), recorder.made)
+from properties.catalogue import catalogue
+from tests.certificate_files import COUNTERS, WHEEL, changed, counters, two_searches, written
+from tests.certifying import SOLVER
 
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A folder with the certificates of two searches."""
-    folder = tmp_path_factory.mktemp("certificates")
-    written(folder, *COUNTERS)
-    written(folder, *WHEEL)
-    return folder
-
-
-def changed(path: Path, folder: Path, change: Callable[[Any], None]) -> Path:
-    """A copy of the file with a change in its document."""
-    document = json.loads(path.read_text())
-    change(document)
-    copy = folder / path.name
-    copy.write_text(json.dumps(document))
-    return copy
-
-
-def counters(folder: Path) -> Path:
-    return folder / f"counters-{COUNTERS[0]}.json"
+    return two_searches(tmp_path_factory.mktemp("certificates"))
 
 
 def test_certificates_are_accepted(made: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -74,53 +38,6 @@ def test_each_way_of_checking_alone(made: Path, capsys: pytest.CaptureFixture[st
     assert "ticks tried" in capsys.readouterr().out
     assert cli.run(["certify", str(counters(made)), "--solver", "bitwuzla"]) is Exit.AS_EXPECTED
     assert "ticks tried" not in capsys.readouterr().out
-
-
-def test_a_corrupted_invariant_is_rejected(
-    made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def drop(document: Any) -> None:
-        document["certificates"][0]["invariant"]["nodes"][-1][1:4] = []
-
-    assert cli.run(["certify", str(changed(counters(made), tmp_path, drop))]) is Exit.CHANGED
-    assert f"✗ {COUNTERS[0]}" in capsys.readouterr().out
-
-
-def test_a_certificate_of_another_model_is_rejected(
-    made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def other(document: Any) -> None:
-        document["certificates"][0]["digest"] = "0" * 64
-
-    assert cli.run(["certify", str(changed(counters(made), tmp_path, other))]) is Exit.CHANGED
-    assert "question: it is about another counters" in capsys.readouterr().out
-
-
-def test_swapped_files_are_rejected(made: Path, tmp_path: Path) -> None:
-    other = read(made / "wheel_FR-PB1-06a-FR.json")
-    forged = write(tmp_path, read(counters(made)).origin, other.certificates)
-    assert certify([forged], SOLVER, None, False) is Exit.INCONCLUSIVE
-
-
-def test_without_its_certificate_a_property_is_undecided(made: Path, tmp_path: Path) -> None:
-    forged = changed(counters(made), tmp_path, lambda document: document["certificates"].clear())
-    assert certify([forged], SOLVER, None, False) is Exit.INCONCLUSIVE
-
-
-def test_an_origin_that_does_not_exist_is_rejected(
-    made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    changes: list[Callable[[Any], None]] = [
-        lambda d: d["origin"].update(system="nowhere"),
-        lambda d: d["origin"].update(system="relay"),
-        lambda d: d["origin"].update(repair="none"),
-        lambda d: d["origin"].update(readings={"S0": "x"}),
-        lambda d: d["origin"].update(timers="none"),
-        lambda d: d["origin"].update(properties=["PX-1"], proved=["PX-1"]),
-    ]
-    for change in changes:
-        assert certify([changed(counters(made), tmp_path, change)], SOLVER, None, False) is Exit.CHANGED
-        assert "rejected  origin" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

@@ -57,3 +57,10 @@ def test_what_comes_of_a_certificate_is_shown(
     shown = capfd.readouterr()
     assert said in shown.out
     assert ("please report it" in " ".join(shown.err.split())) == (code is Exit.INTERNAL)
+
+
+def test_a_folder_that_cannot_be_written(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "taken").write_text("a file")
+    assert run(["check", "PB1-11", "--certificates", str(tmp_path / "taken" / "in")]) == Exit.USAGE
+    shown = capfd.readouterr()
+    assert "PB1-11" in shown.out and "The verdicts stand." in shown.err and "INTERNAL" not in shown.err

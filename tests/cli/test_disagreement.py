@@ -8,7 +8,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.codes import Exit
+from checker.commands.codes import Exit, UsageError
+from checker.commands.disagreeing import bundle
+from checker.portfolio import Disagreement
 
 ROOT = Path(__file__).parents[2]
 LIAR = '''
@@ -56,6 +58,12 @@ def test_a_lie_is_found_and_can_be_seen_again(environment: dict[str, str], tmp_p
     again = (folder / "README.md").read_text(encoding="utf-8")
     assert " ".join(found["command"]) in again
     assert check(environment, tmp_path, *found["command"][2:]).returncode == Exit.INTERNAL
+
+
+def test_a_folder_that_cannot_be_made_is_said(tmp_path: Path) -> None:
+    (tmp_path / "file").touch()
+    with pytest.raises(UsageError, match="Cannot write"):
+        bundle(Disagreement("relay", "PB1-11", ()), ["rovercheck"], tmp_path / "file")
 
 
 def test_honest_engines_agree(tmp_path: Path) -> None:

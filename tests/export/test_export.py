@@ -1,5 +1,7 @@
 """``rovercheck export``: files with names and headers that people can read, and clear messages."""
 
+import os
+import threading
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -100,6 +102,16 @@ def test_a_slip_gets_one_message(
     assert code == Exit.USAGE
     assert message.replace("{here}", str(tmp_path)) in said
     assert [file.name for file in tmp_path.iterdir()] == ["file"]
+
+
+def test_a_pipe_is_written_to_and_stays_one(tmp_path: Path) -> None:
+    pipe, read = tmp_path / "pipe", list[bytes]()
+    os.mkfifo(pipe)
+    reader = threading.Thread(target=lambda: read.append(pipe.read_bytes()), daemon=True)
+    reader.start()
+    assert run(["export", "PB1-15", "--format", "btor2", "--output", str(pipe)]) == Exit.AS_EXPECTED
+    reader.join()
+    assert pipe.is_fifo() and b"system: relay" in read[0]
 
 
 def test_files_of_different_properties_have_different_names() -> None:

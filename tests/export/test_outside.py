@@ -1,22 +1,25 @@
 """Other model checkers, where they are installed, say of our exports what our explicit engine says."""
 
 import tempfile
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from hypothesis import given, settings
 
 from checker.engine import Limits, engines, quiet
-from checker.export import Bad, Problem, problem
+from checker.export import Bad, Problem, exporters, problem
 from checker.verdict import Reached, Unreachable
 from properties.catalogue import catalogue
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import Domain, Num, boolean, chosen, integer
-from spec_model.lang.expr import Apply, Const, Op, Var, flag
+from spec_model.lang.expr import Apply, Const, Op, Var, all_of, flag
 from spec_model.lang.lower import lower
 from spec_model.lang.system import TransitionSystem
 from spec_model.rover import systems
+from tests.export import read_aiger, read_btor2, read_smv
 from tests.export.outside import Outcome, abc, needs_abc, needs_spin, spin
+from tests.export.reading import Machine
 from tests.naive import search
 from tests.strategies_ts import goals, transition_systems
 
@@ -106,3 +109,37 @@ def test_spin_reads_a_negation_of_a_negation(tmp_path: Path) -> None:
         "twice", (), (), (before, goal), (), (Assign(goal, twice), Assign(before, goal))
     )
     assert not spin(Problem("twice", system, (Bad(goal, "never"),)), tmp_path).reached
+
+
+ODD = ("linux", "é; \n*/", "do", "0", "t0")
+"""Names that SPIN, its C preprocessor or a comment would take for something else."""
+
+
+def oddly_named() -> Problem:
+    """Five variables count together to 1 and stay there; the last tells when all have."""
+    parts = [Var(name, integer(0, 1)) for name in ODD]
+    goal = flag("goal\nbad")
+    ones = (Assign(v, Apply(Op.MAX, (v, Const(1, Num())), Num())) for v in parts)
+    step = (*ones, Assign(goal, all_of(*(v == 1 for v in parts))))
+    system = TransitionSystem("odd", (), (), (*parts, goal), (), step)
+    return Problem("odd", system, (Bad(goal, "all\nare 1"),), ("two\nlines */",))
+
+
+@needs_spin
+def test_spin_reads_odd_names(tmp_path: Path) -> None:
+    assert spin(oddly_named(), tmp_path).reached
+
+
+@needs_abc
+def test_abc_reads_odd_names(tmp_path: Path) -> None:
+    assert abc(oddly_named(), tmp_path) == Outcome(True, 1)
+
+
+@pytest.mark.parametrize("format", ["aag", "btor2", "smv"])
+def test_a_name_or_a_comment_never_begins_a_line(format: str) -> None:
+    readers: dict[str, Callable[[bytes], Machine]]
+    readers = {"aag": read_aiger.read, "btor2": read_btor2.read, "smv": read_smv.read}
+    machine = readers[format](str(exporters()[format].export(oddly_named())).encode())
+    machine.start({})
+    allowed, bad = machine.tick({})
+    assert allowed and list(bad.values()) == [True]

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 
 from checker.decide import AUTO, Task, decide, tasks
 from checker.engine import Limits, engines, quiet
-from checker.liveness import NO_LOOP
-from checker.loops import hunt, looped
-from checker.recover import Trap, trapped
+from checker.liveness.loops import hunt, looped
+from checker.liveness.recover import Trap, trapped
+from checker.liveness.verdicts import NO_LOOP
 from checker.render import renderers
 from checker.render.trace_json import SCHEMA, document
 from checker.render.trace_table import render

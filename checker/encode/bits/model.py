@@ -10,9 +10,8 @@ from dataclasses import dataclass
 
 from checker.encode.bits.aig import Aig, Literal, bits_of
 from checker.encode.bits.blast import Blaster, Value, as_word, bits_needed
-from checker.encode.cone import Slice, cone, folded, straying
+from checker.encode.cone import Slice, as_written, cone, folded, straying
 from checker.encode.symbolic import Transition, transition
-from checker.slice import sliced
 from checker.verdict import Run
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem
@@ -83,8 +82,7 @@ def circuit(system: TransitionSystem, goals: Sequence[str]) -> Circuit:
 
 def cut(whole: Transition, goals: Sequence[str]) -> Circuit:
     """The circuit of what these goals depend on, of a transition without constants."""
-    wanted = [v for v in whole.system.variables if v.name in goals]
-    escapes = straying(whole, sliced(whole.system, wanted).variables)
+    escapes = straying(whole, as_written(whole.system, goals))
     part = cone(whole, [*goals, *escapes])
     state = _state(part, [*goals, *escapes])
     aig = Aig()

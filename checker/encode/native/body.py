@@ -5,7 +5,7 @@ takes its next one, and the path is run again from the innermost fork before tha
 is a loop around the rest of the tick, so that LLVM moves what an inner loop does not change out of it.
 """
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from itertools import pairwise
 from typing import Any
 
@@ -24,11 +24,20 @@ class Body:
     """Emits a path program into a function.
 
     ``saved`` says what each fork restores; ``finished`` is the block to go to when every path of the
-    current valuation has been run; ``most`` is the number of inputs.
+    current valuation has been run; ``most`` is the number of inputs.  ``forbidden`` emits what is done
+    where the assumption fails.
     """
 
-    def __init__(self, builder: Any, saved: Mapping[int, tuple[Var, ...]], finished: Any, most: int) -> None:
+    def __init__(
+        self,
+        builder: Any,
+        saved: Mapping[int, tuple[Var, ...]],
+        finished: Any,
+        most: int,
+        forbidden: Callable[[], None] = lambda: None,
+    ) -> None:
         self.builder = builder
+        self.forbidden = forbidden
         self.saved = saved
         self.slots: dict[str, Slot] = {}
         self.emit = Expressions(builder, self.slots)
@@ -118,8 +127,11 @@ class Body:
         return written
 
     def _require(self, condition: Any) -> None:
-        holds = self.builder.append_basic_block("holds")
-        self.builder.cbranch(condition, holds, self.back)
+        holds, fails = (self.builder.append_basic_block(n) for n in ("holds", "fails"))
+        self.builder.cbranch(condition, holds, fails)
+        self.builder.position_at_end(fails)
+        self.forbidden()
+        self.go_back()
         self.builder.position_at_end(holds)
 
     def _choose(self, var: Var, values: tuple[int, ...]) -> None:

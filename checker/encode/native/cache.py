@@ -26,7 +26,8 @@ def read(key: str) -> bytes | None:
         sealed = path.read_bytes()
         contents = sealed[_DIGEST:]
         if sealed[:_DIGEST] == _seal(key, contents):
-            os.utime(path)  # used now: the last to be removed
+            with suppress(OSError):  # where files are read only, too, they may be used
+                os.utime(path)  # used now: the last to be removed
             return contents
     return None
 

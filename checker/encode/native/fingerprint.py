@@ -9,6 +9,7 @@ from collections.abc import Iterable
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
+from time import time
 
 import numpy as np
 
@@ -21,6 +22,8 @@ from spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from spec_model.lang.system import TransitionSystem
 
 _ROOT = Path(__file__).parents[3]
+_LOADED = time()
+"""When this module was loaded, in seconds of the clock that files are dated by."""
 SOURCES = (
     "checker/__init__.py",
     "checker/encode",
@@ -54,9 +57,14 @@ def fingerprint(
 
 @cache
 def compiler() -> str:
-    """What compiles: this project's code, the versions of what it uses, the processor."""
+    """What compiles: this project's code, the versions of what it uses, the processor.
+
+    Raises ``OSError`` when a source has changed since it was loaded: what runs is no longer what is read.
+    """
     digest = sha256()
     for path in sorted(sources()):
+        if path.stat().st_mtime > _LOADED:
+            raise OSError(f"{path} has changed since it was loaded.")
         digest.update(f"{path.relative_to(_ROOT).as_posix()}\0".encode())
         digest.update(sha256(path.read_bytes()).digest())
     return f"{digest.hexdigest()} {sys.version} {np.__version__} {processor()}"

@@ -24,6 +24,9 @@ BATCH = 2048
 MOST_SUCCESSORS = 1 << 25
 """Successors of one valuation beyond which a search is given up: it could not be interrupted."""
 
+MOST_IDLE = 1 << 16
+"""Paths without a successor to keep after which a search looks whether it is to stop; a power of two."""
+
 
 class Status(IntEnum):
     """Why ``search`` came back."""
@@ -94,13 +97,15 @@ class _Search:
         self.drain()
         finished = build.append_basic_block("finished")
         most = max(1, len(self.task.system.inputs))
-        self.body = Body(build, saved(self.task.paths, self.task.live_at_end), finished, most)
-        self.parent, self.filled, self.tried, self.spent = (
-            self.body.local(INT, n) for n in ("parent", "filled", "tried", "spent")
+        kept = saved(self.task.paths, self.task.live_at_end)
+        self.body = Body(build, kept, finished, most, self._nothing_kept)
+        self.parent, self.filled, self.tried, self.spent, self.idle = (
+            self.body.local(INT, n) for n in ("parent", "filled", "tried", "spent", "idle")
         )
         build.store(self.get("next"), self.parent)
         build.store(INT(0), self.filled)
         build.store(INT(0), self.spent)
+        build.store(INT(0), self.idle)
         head, expand = build.append_basic_block("next"), build.append_basic_block("expand")
         build.branch(head)
         self._head(head, expand)
@@ -197,6 +202,7 @@ class _Search:
         with build.if_else(same) as (quiet, other):
             with quiet:
                 build.store(BIT(1), self.is_quiet)
+                self._nothing_kept()
             with other:
                 self._keep(after)
 
@@ -220,7 +226,21 @@ class _Search:
         many = build.icmp_signed(">", build.load(self.tried), INT(MOST_SUCCESSORS))
         with build.if_then(many, likely=False):
             self.leave(Status.TOO_MANY)
-        told = build.icmp_signed("!=", self.get("stop"), INT(0))
+        self._stop_if_told()
+
+    def _nothing_kept(self) -> None:
+        """A path that leaves the buffer as it is: after many of them look whether to stop."""
+        build = self.build
+        idle = build.add(build.load(self.idle), INT(1))
+        build.store(idle, self.idle)
+        many = build.icmp_unsigned("==", build.and_(idle, INT(MOST_IDLE - 1)), INT(0))
+        with build.if_then(many, likely=False):
+            self._stop_if_told()
+
+    def _stop_if_told(self) -> None:
+        """Back to Python if it says so; read anew each time, as another thread writes it."""
+        build = self.build
+        told = build.icmp_signed("!=", build.load_atomic(self.places["stop"], "monotonic", 8), INT(0))
         with build.if_then(told, likely=False):
             self.leave(Status.STOPPED)
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from checker.encode.bits import Circuit
 from checker.encode.bits.model import cut
-from checker.encode.cone import cone, constants, folded
+from checker.encode.cone import as_written, cone, constants, folded
 from checker.encode.gather import gathered
 from checker.encode.symbolic import transition
 from spec_model.lang.expr import Var
@@ -35,6 +35,5 @@ def groups(system: TransitionSystem, goals: Sequence[str]) -> Iterator[Group]:
         goal: {v.name: v for v in cone(moving, [goal]).variables if v.name not in goals} for goal in goals
     }
     for together in gathered(cones, EXTRA):
-        part = cone(whole, together)
-        kept = tuple((v, fixed[v.name]) for v in part.variables if v.name in fixed)
+        kept = tuple((v, fixed[v.name]) for v in as_written(system, together) if v.name in fixed)
         yield Group(cut(moving, together), kept)

@@ -10,12 +10,11 @@ from collections.abc import Iterator, Mapping, Sequence
 import z3
 
 from checker.encode.bitvector import Term
-from checker.encode.cone import by_cone, cone, folded, leaving_among
+from checker.encode.cone import as_written, by_cone, cone, folded, straying
 from checker.encode.symbolic import Transition, transition
 from checker.encode.unrolling import Outside, Unrolling, model_of, satisfiable, steps_taken
 from checker.engines.bmc.events import Bound, Event, Found, Undefined
-from checker.slice import sliced
-from spec_model.lang.expr import Expr, flag
+from spec_model.lang.expr import Expr
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables
 
@@ -42,8 +41,7 @@ class _Group:
         self.open = list(goals)
         self.depth = 0
         self.spent = 0
-        near = sliced(whole.system, [flag(g) for g in goals]).variables
-        self._leaving = _feasible(whole, leaving_among(whole, near))
+        self._leaving = _feasible(whole, straying(whole, as_written(whole.system, goals)))
         part = cone(whole, [*goals, *self._leaving])
         self._outside = Outside(whole.system, part)
         self._unrolling = Unrolling(part, tuple(self._leaving.values()))

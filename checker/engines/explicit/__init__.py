@@ -5,18 +5,19 @@ shortest run.  It stops when every goal is reached or nothing new appears.
 """
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
+from time import monotonic
 
 from checker.closed import ClosedSet, Place
 from checker.encode.counting import counters
 from checker.encode.gather import bits, gathered
 from checker.encode.native import Field, NativeSearch, Task, TooWide, layout, shifts
 from checker.engine import Limits, Progress, Timers
-from checker.engines.explicit.levels import Found, Search
+from checker.engines.explicit.levels import Found, Search, Spent
 from checker.engines.explicit.lines import LineSearch
 from checker.engines.explicit.runs import Runs
 from checker.slice import sliced
 from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable
+from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 
@@ -32,15 +33,30 @@ def check(
 ) -> Mapping[str, Answer]:
     """An answer for each goal, by name.
 
-    Raises ``OutsideDomain`` when a tick gives a variable of the valuation a value outside its domain.
+    Raises ``OutsideDomain`` when a tick gives a variable of the valuation a value outside its domain, and
+    ``ModelError`` for a goal that no tick leads to: one that is no variable of the system.
     """
-    deadline, left = limits.deadline(), limits.transitions
+    _check_goals(system, goals)
+    deadline, spent = limits.deadline(), Spent()
     answers: dict[str, Answer] = {}
     for wanted in _groups(system, goals):
-        spent, found = _searched(system, wanted, replace(limits, transitions=left), deadline, progress)
-        answers |= found
-        left = None if left is None else max(0, left - spent)
+        if answers and deadline is not None and monotonic() > deadline:
+            late = Open(f"the time limit of {limits.seconds:g} s is reached before it is searched for", 0)
+            answers |= {g.name: late for g in wanted}
+        else:
+            found, spent = _searched(system, wanted, limits, deadline, spent, progress)
+            answers |= found
     return answers
+
+
+def _check_goals(system: TransitionSystem, goals: Sequence[Var]) -> None:
+    own = {v.name for v in (*system.variables, *system.frozen)}
+    for goal in goals:
+        if goal.name not in own:
+            raise ModelError(
+                f"{goal.name} is no variable of {system.name}, so no run reaches it; "
+                "ask for a variable that the system writes."
+            )
 
 
 def _groups(system: TransitionSystem, goals: Sequence[Var]) -> list[list[Var]]:
@@ -58,9 +74,14 @@ def _part(system: TransitionSystem, goals: Sequence[Var]) -> dict[str, Var]:
 
 
 def _searched(
-    system: TransitionSystem, goals: Sequence[Var], limits: Limits, deadline: float | None, progress: Progress
-) -> tuple[int, Mapping[str, Answer]]:
-    """One search: the transitions it tried, and an answer for each goal."""
+    system: TransitionSystem,
+    goals: Sequence[Var],
+    limits: Limits,
+    deadline: float | None,
+    spent: Spent,
+    progress: Progress,
+) -> tuple[Mapping[str, Answer], Spent]:
+    """One search: an answer for each goal, and what is spent after it."""
     part = sliced(system, goals)
     try:
         packing = layout((*part.frozen, *part.variables))
@@ -69,12 +90,15 @@ def _searched(
         progress(f"explicit: compiling {len(packing.fields)} variables in {packing.bits} bits")
         native = NativeSearch.compile(task)
     except (TooWide, ValueError) as problem:
-        return 0, {g.name: Open(str(problem), 0) for g in goals}
-    found = (LineSearch if task.shifts else Search)(native, limits, deadline, progress).run()
+        return {g.name: Open(str(problem), 0) for g in goals}, spent
+    search = (LineSearch if task.shifts else Search)(native, limits, deadline, progress, spent)
+    found = search.run()
     runs = Runs(system, task, found)
     if found.outside is not None:
         raise runs.left_domain(found.outside)
-    return found.transitions, {g.name: _answer(found, runs, number, g) for number, g in enumerate(goals)}
+    answers = {g.name: _answer(found, runs, number, g) for number, g in enumerate(goals)}
+    kept = search.store.words.nbytes if any(isinstance(a, Unreachable) for a in answers.values()) else 0
+    return answers, Spent(spent.transitions + found.transitions, spent.bytes + kept)
 
 
 def _answer(found: Found, runs: Runs, number: int, goal: Var) -> Answer:

@@ -52,6 +52,17 @@ class Found:
         return bisect_right(self.starts, number) - 1
 
 
+@dataclass(frozen=True)
+class Spent:
+    """What earlier searches under the same limits have used, and bytes that their answers hold."""
+
+    transitions: int = 0
+    bytes: int = 0
+
+
+NOTHING = Spent()
+
+
 class Search:
     """Breadth-first search that stores every valuation it visits.
 
@@ -59,10 +70,16 @@ class Search:
     """
 
     def __init__(
-        self, native: NativeSearch, limits: Limits, deadline: float | None, progress: Progress
+        self,
+        native: NativeSearch,
+        limits: Limits,
+        deadline: float | None,
+        progress: Progress,
+        spent: Spent = NOTHING,
     ) -> None:
         self.native, self.limits, self.deadline, self.progress = native, limits, deadline, progress
-        self.store = Store(native, limits.memory)
+        self.spent = spent
+        self.store = Store(native, limits.memory - spent.bytes)
         self.advisor = Advisor(native)
         self.context: NDArray[np.int64] = np.zeros(len(CONTEXT), dtype=np.int64)
         self.hits: NDArray[np.int64] = np.zeros(max(1, len(native.task.goals)), dtype=np.int64)
@@ -146,10 +163,10 @@ class Search:
         layout = self.native.task.layout
         batch = self.store.buffer
         for valuation in initial_valuations(self.native.task):
+            if self["filled"] == len(batch) and not (self._call() and self._in_time()):
+                return
             batch[self["filled"]] = layout.pack(valuation)
             self["filled"] += 1
-            if self["filled"] == len(batch):
-                self._call()
         self._call()
         self.initial = self["count"]
 
@@ -167,12 +184,11 @@ class Search:
             elif now - began > _PAUSE:
                 self.budget = max(self.budget // 2, 1 << 10)
             self._report(now)
-            if self.deadline is not None and now > self.deadline:
-                return self._out_of_time()
-            most = self.limits.transitions
-            if most is not None and self["transitions"] > most:
-                self._gave_up(f"the limit of {most:,} transitions")
+            if not self._in_time():
                 return False
+            most = self.limits.transitions
+            if most is not None and self.spent.transitions + self["transitions"] > most:
+                return self._gave_up(f"the limit of {most:,} transitions")
         return True
 
     def _call(self) -> bool:
@@ -185,7 +201,7 @@ class Search:
                     return True
                 case Status.NO_ROOM:
                     if not store.grow(self["count"]):
-                        return self._out_of_memory()
+                        return self._out_of_room()
                 case Status.STOPPED:
                     return self._out_of_time()
                 case Status.TOO_MANY:
@@ -196,13 +212,19 @@ class Search:
                     self.stopped = "a value outside its domain"
                     return False
 
+    def _out_of_room(self) -> bool:
+        if self["count"] >= self.store.most:
+            return self._gave_up(f"the most that an explicit search can number, {self.store.most:,},")
+        return self._out_of_memory()
+
     def _out_of_memory(self) -> bool:
-        self._gave_up(f"the memory limit of {self.limits.memory / 2**20:.0f} MiB")
-        return False
+        return self._gave_up(f"the memory limit of {self.limits.memory / 2**20:.0f} MiB")
+
+    def _in_time(self) -> bool:
+        return self.deadline is None or monotonic() <= self.deadline or self._out_of_time()
 
     def _out_of_time(self) -> bool:
-        self._gave_up(f"the time limit of {self.limits.seconds:g} s")
-        return False
+        return self._gave_up(f"the time limit of {self.limits.seconds:g} s")
 
     def _report(self, now: float) -> None:
         if now - self.reported < _REPORT:
@@ -221,12 +243,13 @@ class Search:
         """What multiplies the valuations stored so far."""
         return self.advisor.multiplier(self.store.words, self.store.table, self["count"])
 
-    def _gave_up(self, limit: str) -> None:
-        """Note the limit that ends the search, how far it came, and what would help."""
+    def _gave_up(self, limit: str) -> bool:
+        """Note the limit that ends the search, how far it came, and what would help; False."""
         most = self._multiplier()
         self.stopped = f"{limit} is reached at {self['count']:,} valuations"
         if most is not None:
             self.stopped += f": {self.advisor.sentence(most)}"
+        return False
 
     def _found(self) -> Found:
         hits = tuple(int(h) - 1 if h else None for h in self.hits[: len(self.native.task.goals)])

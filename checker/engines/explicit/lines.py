@@ -13,16 +13,21 @@ from numpy.typing import NDArray
 
 from checker.encode.native import NativeSearch
 from checker.engine import Limits, Progress
-from checker.engines.explicit.levels import Search
+from checker.engines.explicit.levels import NOTHING, Search, Spent
 
 
 class LineSearch(Search):
     """Stores anchors; for a task with shifts."""
 
     def __init__(
-        self, native: NativeSearch, limits: Limits, deadline: float | None, progress: Progress
+        self,
+        native: NativeSearch,
+        limits: Limits,
+        deadline: float | None,
+        progress: Progress,
+        spent: Spent = NOTHING,
     ) -> None:
-        super().__init__(native, limits, deadline, progress)
+        super().__init__(native, limits, deadline, progress, spent)
         self.current, self.anchors = self._room(0)
         self.onward, self.carried = self._room(0)
 
@@ -42,7 +47,7 @@ class LineSearch(Search):
         self["next"], self["last"], self["lines"] = 0, len(self.current), 0
         self.frontier = len(self.current)
         used = self.store.bytes + 2 * (self.current.nbytes + self.anchors.nbytes)
-        if used > self.limits.memory:
+        if used > self.store.memory:
             self._out_of_memory()
         return self.frontier > 0 and not self.stopped
 

@@ -18,15 +18,18 @@ _FULLEST = 0.95
 _FIRST = 1 << 16
 _LARGE = 1 << 20
 """Entries from which on arrays grow by less than their length."""
-_MOST = (1 << 32) - 2
 
 
 @dataclass
 class Store:
-    """Arrays that the native code fills; ``memory`` is the most they may take, in bytes."""
+    """Arrays that the native code fills; ``memory`` is the most they may take, in bytes.
+
+    ``most`` valuations at most: they are numbered by 32 bits.
+    """
 
     native: NativeSearch
     memory: int
+    most: int = (1 << 32) - 2
 
     def __post_init__(self) -> None:
         task = self.native.task
@@ -51,7 +54,7 @@ class Store:
     @property
     def room(self) -> int:
         """Valuations that fit before the store must grow."""
-        return min(len(self.words), int(len(self.table) * self.load))
+        return min(len(self.words), int(len(self.table) * self.load), self.most)
 
     @property
     def by_number(self) -> "Unary | NDArray[np.uint32]":
@@ -59,8 +62,8 @@ class Store:
         return Unary(self.parents) if self.ordered else self.parents
 
     def grow(self, count: int) -> bool:
-        """Make room for more than ``count`` valuations; False when the memory does not allow it."""
-        if count >= _MOST:
+        """Make room for more than ``count`` valuations; False when that is not allowed."""
+        if count >= self.most:
             return False
         if count >= len(self.words) and not self._lengthen():
             return False

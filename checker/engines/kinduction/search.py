@@ -4,9 +4,10 @@ Goals with the same cone of influence share simulation and invariants.  What the
 is attacked from its counterexamples to induction: each suggests clauses that exclude it.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 
-from checker.encode.cone import by_cone, cone, constants, folded, straying
+from checker.encode.cone import as_written, by_cone, cone, constants, folded, straying
 from checker.encode.simulate import Simulator, Trail
 from checker.encode.symbolic import transition
 from checker.encode.unrolling import Outside, Unrolling, literal, satisfiable
@@ -14,11 +15,9 @@ from checker.engines.kinduction.events import Bound, Closed, Doing, Event, Found
 from checker.engines.kinduction.hunt import Hunt
 from checker.engines.kinduction.induction import WINDOW, Step, induction
 from checker.engines.kinduction.ticks import GaveUp, Scope, excluded
-from checker.slice import sliced
 from checker.verdict import Inductive, Run
-from spec_model.lang.expr import Expr, flag
+from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
 
 BASE = 12
 """Ticks that are searched exhaustively for a run, one by one: the base case of every induction."""
@@ -49,12 +48,12 @@ class Model:
         self.fixed = constants(self.plain)
         self.folded = folded(self.plain, self.fixed)
 
-    def unchanging(self, names: Sequence[str]) -> tuple[Expr, ...]:
-        """The conjuncts that folding relied on, in the cone of some variables."""
+    def unchanging(self, among: Iterable[Var]) -> tuple[Expr, ...]:
+        """The conjuncts that folding relied on, about some variables."""
         terms = self.plain.terms
         return tuple(
             terms.equal(terms.var(v), terms.const(self.fixed[v.name], v.sort))
-            for v in cone(self.plain, names).variables
+            for v in among
             if v.name in self.fixed
         )
 
@@ -63,21 +62,23 @@ class Group:
     """Goals that are decided together: those still open, and the ticks they are not reached in."""
 
     def __init__(self, model: Model, goals: Sequence[str], depth: int | None) -> None:
-        self._model, self._most = model, depth
+        self._most = depth
         self.open = list(goals)
         self.deep = 0
-        escapes = straying(model.folded, sliced(model.system, [flag(g) for g in goals]).variables)
+        near = as_written(model.system, goals)
+        escapes = straying(model.folded, near)
+        self._unchanging = model.unchanging(near)
         part = cone(model.folded, [*goals, *escapes])
         self._outside = Outside(model.system, part)
         self._names = tuple(escapes)
         self._scope = Scope(part, tuple(escapes.values()))
+        self._whole = replace(self._scope, part=cone(model.folded, [*goals, *(v.name for v in near)]))
         self._reason = "no invariant was found that makes it inductive"
 
     def decide(self) -> Iterator[Event]:
         """Events until every goal is decided or stuck."""
         if not self._outside.possible:  # there is no run at all
-            all_ = self._model.unchanging([v.name for v in self._model.system.variables])
-            yield from (Closed(goal, Inductive(all_)) for goal in self.open)
+            yield from (Closed(goal, Inductive(self._unchanging)) for goal in self.open)
             return
         try:
             for phase in (self._first_ticks, self._plainly, self._by_simulation):
@@ -133,8 +134,7 @@ class Group:
 
     def _closed(self, goal: str, step: Step, conjuncts: Sequence[Expr]) -> Closed:
         self.open.remove(goal)
-        needed = (*self._model.unchanging([goal, *self._names, *variables(*conjuncts)]), *conjuncts)
-        return Closed(goal, Inductive(needed, step.ticks, step.simple))
+        return Closed(goal, Inductive((*self._unchanging, *conjuncts), step.ticks, step.simple))
 
     def _by_simulation(self) -> Iterator[Event]:
         """Runs that random inputs find, then invariants that held in all of them."""
@@ -163,13 +163,18 @@ class Group:
         yield from self._attempts(hunt, self.deep, simple=True)
 
     def _attempts(self, hunt: Hunt, window: int, *, simple: bool = False) -> Iterator[Event]:
-        """Try to close each goal with the invariant so far; the hunt is told what stands in the way."""
-        safe = excluded(self._scope, hunt.known, HELPED)
+        """Try to close each goal with the invariant so far; the hunt is told what stands in the way.
+
+        ``simple``: along paths whose valuations, of all that the goals depend on as written, differ; whoever
+        checks the proof does not know what was simplified away.
+        """
+        scope = self._whole if simple else self._scope
+        safe = excluded(scope, hunt.known, HELPED)
         if safe is None:
             self._reason = f"no invariant was found that keeps {', '.join(self._names)} in the domain"
             return
         for goal in list(self.open):
-            step = induction(self._scope, goal, hunt.known, window, HELPED, simple=simple)
+            step = induction(scope, goal, hunt.known, window, HELPED, simple=simple)
             if isinstance(step, Step):
                 yield self._closed(goal, step, hunt.support((*step.conjuncts, *safe)))
             else:

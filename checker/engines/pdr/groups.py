@@ -5,7 +5,7 @@ from typing import Protocol
 
 from checker.encode.bits import Circuit, Literal
 from checker.encode.bits.model import cut
-from checker.encode.cone import by_cone, cone, constants, folded, leaving
+from checker.encode.cone import as_written, by_cone, cone, constants, folded, straying
 from checker.encode.symbolic import Transition, transition
 from checker.engines.pdr.cubes import Cube
 from checker.engines.pdr.events import Bound, Decided, Event, Undefined
@@ -39,7 +39,7 @@ def decisions(
     for names in by_cone(whole, goals):
         circuit = cut(whole, names)
         seeds = proved(circuit, _suggested(whole, circuit) if candidates is None else candidates)
-        groups.append(_Group(circuit, _kept(raw, names, fixed), seeds, depth))
+        groups.append(_Group(circuit, _kept(system, names, fixed), seeds, depth))
     yield from _in_turns(groups)
 
 
@@ -47,13 +47,13 @@ def _suggested(whole: Transition, circuit: Circuit) -> list[Expr]:
     """Candidate invariants, for a circuit that is not too large."""
     part = cone(whole, circuit.goals)
     few = 0 < len(circuit.latches) <= LARGE
-    return mined(part, list(leaving(part, whole.terms).values())) if few else []
+    return mined(part, list(straying(whole, part.variables).values())) if few else []
 
 
-def _kept(raw: Transition, goals: Sequence[str], fixed: Mapping[str, int]) -> list[Expr]:
-    """That variables which never change, in the cone of the goals, have their values: the circuit takes it
-    for granted, and it is inductive, since what such a variable depends on is in the cone too."""
-    return [equal(v, fixed[v.name]) for v in cone(raw, goals).variables if v.name in fixed]
+def _kept(system: TransitionSystem, goals: Sequence[str], fixed: Mapping[str, int]) -> list[Expr]:
+    """That variables which never change have their values, of all that the goals depend on: the circuit takes
+    it for granted, and it is inductive, since what such a variable depends on is among them too."""
+    return [equal(v, fixed[v.name]) for v in as_written(system, goals) if v.name in fixed]
 
 
 class _Work(Protocol):

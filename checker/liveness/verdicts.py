@@ -1,21 +1,21 @@
 """Verdicts on properties about infinite runs: a stronger bounded property first, then what refutes them.
 
 A ``LeadsTo`` or ``Settles`` is broken by a loop; that there is none proves it.  A ``Recoverable`` is
-broken by a valuation from which there is no way back (``checker.recover``).
+broken by a valuation from which there is no way back (``checker.liveness.recover``).
 """
 
 from collections.abc import Mapping
 from dataclasses import replace
 
 from checker.engine import Progress
-from checker.loops import Hunt, hunt, looped
+from checker.liveness.loops import Hunt, hunt, looped
+from checker.liveness.recover import recovered
+from checker.liveness.settling import settled
 from checker.lowered import lowered
 from checker.portfolio.question import Hint, Question
 from checker.portfolio.shape import VAST, shape
-from checker.recover import recovered
-from checker.reproduce import only_there
 from checker.result import Ask, Result, check_domains
-from checker.settling import settled
+from checker.runs.reproduce import only_there
 from checker.slice import always_met
 from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Violated
 from properties.forms import Form, HoldsAfter, LeadsTo, Property, Recoverable, Responds, Settles

@@ -14,9 +14,8 @@ from random import Random
 from checker.encode.bits import Circuit, circuit
 from checker.encode.bits.simulate import Simulation, Values
 from checker.engine import Progress
-from checker.loops import Hunt
-from checker.partition import partitions
-from checker.slice import conjuncts
+from checker.liveness.loops import Hunt
+from checker.partition import conjuncts, partitions
 from checker.verdict import Reached, Run
 from spec_model.lang.evaluate import admissible, step
 from spec_model.lang.expr import Var

@@ -7,12 +7,12 @@ condition.  What the backward search misses is a trap: no run leaves it for the 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from checker.calm import calmed
 from checker.engine import Progress
 from checker.explore import Search, TooLarge
 from checker.graph import Values
-from checker.replay import replay
 from checker.result import Ask, check_domains
+from checker.runs.calm import calmed
+from checker.runs.replay import replay
 from checker.slice import sliced
 from checker.verdict import Exhausted, Proved, Reached, Unknown, Verdict, Violated
 from properties.forms import Property

@@ -3,10 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from checker.calm import calmed, transferred
 from checker.lowered import lowered
 from checker.portfolio.question import Hint
 from checker.result import Ask, Result, check_domains, result
+from checker.runs.calm import calmed, transferred
 from checker.verdict import Reached, Unknown
 from properties.reduce import Goal, Question, reduce
 from spec_model.lang.system import System

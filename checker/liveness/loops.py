@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, replace
 
-from checker.calm import calmed
-from checker.lasso import Lasso, lasso
-from checker.replay import ReplayError, replay
+from checker.liveness.lasso import Lasso, lasso
+from checker.runs.calm import calmed
+from checker.runs.replay import ReplayError, replay
 from checker.slice import sliced
 from checker.trace import Trace
 from checker.verdict import Run

@@ -1,0 +1,17 @@
+"""Properties with and without a bound in one task: each is decided as what it is."""
+
+from checker.decide import AUTO, Task, decide
+from checker.engine import Limits, quiet
+from checker.verdict import Violated
+from properties.catalogue import catalogue
+from spec_model.rover import systems
+
+
+def test_a_bounded_property_is_never_searched_as_a_loop() -> None:
+    """One of two was violated on record and came out proved: no loop closes on a finite run."""
+    unbounded, violated = (catalogue()[id] for id in ("PB1-25-turned", "PSY-12"))
+    assert unbounded.on == violated.on
+    task = Task(systems()[violated.on], (unbounded, violated))
+    found = {r.property.id: r.verdict for r in decide(task, systems(), AUTO, Limits(), quiet)}
+    assert found.keys() == {unbounded.id, violated.id}
+    assert isinstance(found[violated.id], Violated)

@@ -1,0 +1,62 @@
+"""What the command line says of itself: whole words in 80 columns, every verb and every engine named."""
+
+import re
+import textwrap
+from pathlib import Path
+
+import click
+import pytest
+from click.testing import CliRunner
+
+from checker.cli import LISTS, app, run
+from checker.commands.listing import LISTS as LISTED
+from checker.commands.output import counted
+from checker.engine import engines
+
+ROOT = Path(__file__).parents[2]
+WRITTEN = "".join(p.read_text(encoding="utf-8") for p in (ROOT / "README.md", *(ROOT / "docs").glob("*.md")))
+HELP = {"": app, **app.commands}
+
+
+def shown(option: str) -> bool:
+    """Whether the documents have the option as a whole word."""
+    return re.search(rf"(?<![\w-]){re.escape(option)}(?![\w-])", WRITTEN) is not None
+
+
+def said(verb: str) -> str:
+    result = CliRunner().invoke(app, [*verb.split(), "--help"], terminal_width=80)
+    assert result.exit_code == 0
+    return result.output
+
+
+@pytest.mark.parametrize("verb", HELP)
+def test_help_fits_in_80_columns_and_cuts_nothing(verb: str) -> None:
+    _usage, *lines = said(verb).splitlines()
+    assert max(map(len, lines)) <= 80
+    assert not [line for line in lines if line.endswith("...")]
+
+
+@pytest.mark.parametrize("verb", HELP)
+def test_help_explains_every_option(verb: str) -> None:
+    options = [p for p in HELP[verb].params if isinstance(p, click.Option)]
+    assert [o.name for o in options if not o.help] == []
+
+
+@pytest.mark.parametrize("verb", app.commands)
+def test_the_documents_show_every_verb_and_its_options(verb: str) -> None:
+    assert f"rovercheck {verb}" in WRITTEN
+    options = [p for p in app.commands[verb].params if isinstance(p, click.Option)]
+    assert [o.name for o in options if not any(map(shown, o.opts))] == []
+
+
+def test_list_names_its_lists_and_every_engine(capsys: pytest.CaptureFixture[str]) -> None:
+    assert set(LISTS) == {*LISTED, "properties"}
+    assert all(name in textwrap.fill(said("list")) for name in LISTS)
+    run(["list", "engines"])
+    names = [line.split()[0] for line in capsys.readouterr().out.splitlines() if line[0] != " "]
+    assert names == ["name", *engines(), "auto", "all"]
+
+
+def test_one_is_no_plural() -> None:
+    counts = [counted(n, "property", "properties") for n in (0, 1, 1386)]
+    assert counts == ["0 properties", "1 property", "1,386 properties"]
