@@ -3,6 +3,8 @@
 The choices of the path that is run lie on a stack.  At its end the last choice that has values left
 takes its next one, and the path is run again from the innermost fork before that choice.  Every fork
 is a loop around the rest of the tick, so that LLVM moves what an inner loop does not change out of it.
+A round is over when no choice made inside it has values left: the stack is then as deep as when the fork
+was reached.  The choice of an ``Each`` is counted beside the stack and takes its next value only then.
 """
 
 from collections.abc import Callable, Iterable, Mapping
