@@ -1,6 +1,5 @@
 """The explicit engine against a naive search with the reference semantics."""
 
-from functools import partial
 from itertools import pairwise
 
 import pytest
@@ -10,14 +9,12 @@ from hypothesis import strategies as st
 from benchmarks.roverlite import roverlite
 from checker.closed import ClosedSet
 from checker.encode.native import OutsideDomain
-from checker.engine import Limits, Timers, quiet
+from checker.engine import Limits, quiet
 from checker.engines import explicit
-from checker.engines.explicit import levels, store
 from checker.slice import sliced
 from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable
-from spec_model.lang.action import Assign, If
+from spec_model.lang.action import Assign
 from spec_model.lang.domain import chosen, integer
-from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Op, Var, all_of, const, flag, ite, var
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
@@ -89,159 +86,6 @@ def test_a_depth_limit_never_proves_more_than_was_seen(system: TransitionSystem,
         assert isinstance(answer, Reached) == (first is not None and first <= depth)
         assert not isinstance(answer, Open) or answer.depth == depth
         assert not isinstance(answer, Unreachable) or first is None
-
-
-# --- limits ------------------------------------------------------------------------------------------
-
-
-def counters(*sizes: int) -> tuple[TransitionSystem, Var]:
-    """Counters that an input each lets go on, and a goal: all of them at their ends."""
-    steps, own, inputs = [], [], []
-    for i, size in enumerate(sizes):
-        go, count = flag(f"go{i}"), var(f"count{i}", integer(0, size))
-        steps.append(If(go, (Assign(count, ite(count == size, count, count + 1)),)))
-        own.append(count)
-        inputs.append(go)
-    end = flag("end")
-    steps.append(If(all_of(*(c == n for c, n in zip(own, sizes, strict=True))), (Assign(end, TRUE),)))
-    return TransitionSystem("counters", tuple(inputs), (), (*own, end), (), tuple(steps)), end
-
-
-def test_a_depth_limit_leaves_the_goal_open() -> None:
-    system, end = counters(9)
-    assert isinstance(check(system, end, limits=Limits(depth=9))[0], Reached)
-    answer = check(system, end, limits=Limits(depth=8))[0]
-    assert answer == Open("the depth limit of 8 ticks", 8)
-
-
-def test_a_memory_limit_leaves_the_goal_open() -> None:
-    system, end = counters(400, 400, 400)
-    answer = check(system, end, limits=Limits(memory=3 << 20))[0]
-    assert isinstance(answer, Open) and "memory" in answer.reason
-    assert 5 < answer.depth < 400
-
-
-def test_a_time_limit_leaves_the_goal_open() -> None:
-    system, end = counters(2000, 2000, 2000)
-    answer = check(system, end, limits=Limits(seconds=0.3))[0]
-    assert isinstance(answer, Open) and "time" in answer.reason
-    assert answer.depth > 5
-
-
-def test_the_time_ends_in_the_middle_of_a_tick_with_very_many_inputs() -> None:
-    many = tuple(var(f"i{k}", integer(0, 9)) for k in range(12))
-    kept = tuple(var(f"k{k}", integer(0, 9)) for k in range(12))
-    end = flag("end")
-    step = (Assign(end, all_of(*(k == 9 for k in kept))), *map(Assign, kept, many))
-    system = TransitionSystem("many", many, (), (*kept, end), (), step)
-    answer = check(system, end, limits=Limits(seconds=0))[0]
-    assert isinstance(answer, Open) and answer.depth == 0
-    assert answer.reason.startswith("the time limit of 0 s is reached at ")
-
-
-def test_a_memory_limit_is_kept_while_the_choices_of_frozen_variables_are_stored() -> None:
-    tag, never = var("tag", integer(0, 200_000)), flag("never")
-    system = TransitionSystem("frozen", (), (tag,), (never,), (), (Assign(never, tag < 0),))
-    (answer,) = check(system, never, limits=Limits(memory=1 << 20))
-    assert isinstance(answer, Open) and answer.depth == 0
-    assert answer.reason.startswith("the memory limit of 1 MiB is reached at ")
-
-
-def test_a_time_limit_is_kept_while_the_choices_of_frozen_variables_are_stored() -> None:
-    tag, never = var("tag", integer(0, 200_000)), flag("never")
-    system = TransitionSystem("frozen", (), (tag,), (never,), (), (Assign(never, tag < 0),))
-    (answer,) = check(system, never, limits=Limits(seconds=0))
-    assert isinstance(answer, Open) and answer.reason.startswith("the time limit of 0 s is reached at 2,048 ")
-
-
-def apart(last: int) -> tuple[TransitionSystem, tuple[Var, ...]]:
-    """Three counters with nothing in common, so that each of the goals has a search of its own."""
-    counts = [var(f"count{n}", integer(0, last)) for n in range(3)]
-    never = tuple(flag(f"never{n}") for n in range(3))
-    step = (
-        *(Assign(c, ite(c == last, 0, c + 1)) for c in counts),
-        *(Assign(g, c > last) for g, c in zip(never, counts, strict=True)),
-    )
-    return TransitionSystem("apart", (), (), (*counts, *never), (), step), never
-
-
-def test_a_limit_of_transitions_is_for_all_searches_together() -> None:
-    system, never = apart(5000)
-    first, *others = check(system, *never, limits=Limits(transitions=6000))
-    assert exhausted(first).states == 5001
-    for answer in others:
-        assert isinstance(answer, Open) and answer.depth < 5000
-        assert answer.reason.startswith("the limit of 6,000 transitions is reached at ")
-
-
-def test_a_memory_limit_is_for_all_searches_together() -> None:
-    """The closed set of the first search is kept, so that less is left for the others."""
-    system, never = apart(120_000)
-    first, *others = check(system, *never, limits=Limits(memory=5 << 19))
-    assert exhausted(first).states == 120_001
-    for answer in others:
-        assert isinstance(answer, Open) and 0 < answer.depth < 120_000
-        assert answer.reason.startswith("the memory limit of 2 MiB is reached at ")
-
-
-def test_a_time_limit_is_for_all_searches_together() -> None:
-    system, never = apart(5000)
-    for answer in check(system, *never, limits=Limits(seconds=0))[1:]:
-        assert answer == Open("the time limit of 0 s is reached before it is searched for", 0)
-
-
-def test_no_more_valuations_than_have_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(levels, "Store", partial(store.Store, most=1000))
-    system, end = counters(50, 50)
-    (answer,) = check(system, end)
-    assert isinstance(answer, Open)
-    assert " can number, 1,000, is reached at 1,000 valuations" in answer.reason
-
-
-def test_a_goal_that_the_system_does_not_write_is_refused() -> None:
-    """An input has no value after a tick: whatever was said of it would be a guess."""
-    go, seen = flag("go"), flag("seen")
-    system = TransitionSystem("inputs", (go,), (), (seen,), (), (Assign(seen, go),))
-    for goal in (go, flag("unknown")):
-        with pytest.raises(ModelError, match=f"{goal.name} is no variable of inputs"):
-            check(system, goal)
-
-
-def summed(*, forbidden: bool) -> tuple[TransitionSystem, Var]:
-    """A counter beside more inputs than can be tried: their sum is asked for, or assumed, out of reach."""
-    many = tuple(var(f"i{k}", integer(0, 9)) for k in range(12))
-    count, never = var("count", integer(0, 9), init=1), flag("never")
-    beyond = sum(many, start=const(0)) > 200
-    step = (Assign(count, minimum(count + 1, 9)), Assign(never, (count > 9) if forbidden else beyond))
-    return TransitionSystem("sum", many, (), (count, never), (), step, beyond if forbidden else TRUE), never
-
-
-@pytest.mark.parametrize(("forbidden", "timers"), [(True, Timers.EXACT), (False, Timers.SKIP)])
-def test_the_time_ends_in_the_middle_of_a_tick_that_leads_to_nothing_to_store(
-    forbidden: bool, timers: Timers
-) -> None:
-    system, never = summed(forbidden=forbidden)
-    (answer,) = check(system, never, limits=Limits(seconds=0, timers=timers))
-    assert isinstance(answer, Open) and answer.depth == 0
-    assert answer.reason.startswith("the time limit of 0 s is reached at 1 valuations")
-
-
-def test_the_store_grows_and_forgets_nothing() -> None:
-    system, end = counters(60, 60, 60)
-    never = flag("never")
-    whole = TransitionSystem(
-        "", system.inputs, (), (*system.variables, never), (), (*system.step, Assign(never, end & ~end))
-    )
-    (answer,) = check(whole, never)
-    found = exhausted(answer)
-    assert found == Exhausted(61**3, found.transitions, 60, found.variables)
-
-
-def test_progress_is_reported() -> None:
-    lines: list[str] = []
-    system, end = counters(150, 150, 150)
-    explicit.check(system, [end], UNLIMITED, lines.append)
-    assert lines and all(line.startswith("explicit: ") for line in lines)
 
 
 # --- packing -----------------------------------------------------------------------------------------
@@ -360,12 +204,7 @@ def test_goals_that_have_nothing_in_common_do_not_multiply() -> None:
     )
     system = TransitionSystem("apart", tuple(holds), (), (*counts, *never), (), step)
     found = explicit.check(system, never, Limits(), quiet)
-    assert [_states(a) for a in found.values()] == [4001, 4001, 4001]
-
-
-def _states(answer: Answer) -> int:
-    assert isinstance(answer, Unreachable) and isinstance(answer.because, Exhausted)
-    return answer.because.states
+    assert [exhausted(a).states for a in found.values()] == [4001, 4001, 4001]
 
 
 def test_an_assumption_that_nothing_meets_blocks_every_tick() -> None:
