@@ -1,17 +1,19 @@
 """One chart being run: which states are active, and how an execution changes that (rules G1 to G11)."""
 
-from collections.abc import MutableMapping, Sequence
+from collections.abc import Callable, MutableMapping, Sequence
 from dataclasses import dataclass
 
 from spec_model.lang.action import Action, Assign, If, Send
 from spec_model.lang.chart import NOWHERE, Chart, Path, State, Transition
-from spec_model.lang.domain import Bool, Enum
+from spec_model.lang.domain import Bool, Enum, Num
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Var
 from spec_model.lang.interpret.fired import Fired, path_label
 from spec_model.lang.interpret.words import Words
 
 Values = MutableMapping[str, int]
+Admits = Callable[[Var, int], bool]
+"""Whether a variable may hold a raw value."""
 
 
 @dataclass(frozen=True)
@@ -29,9 +31,12 @@ class ChartRun:
     receives every path taken, in order.
     """
 
-    def __init__(self, chart: Chart, at: Values, fired: list[Fired], tick_ms: int) -> None:
+    def __init__(
+        self, chart: Chart, at: Values, fired: list[Fired], tick_ms: int, admits: Admits | None = None
+    ) -> None:
         self.chart = chart
         self._at = at
+        self._admits = admits or contains
         self._fired = fired
         self._words = Words(chart, tick_ms)
         self._active: dict[Path, int] = {}
@@ -214,7 +219,7 @@ class ChartRun:
         for action in actions:
             match action:
                 case Assign(data, value):
-                    store(self._at, self.chart.name, data, self._words.value(value, self._at))
+                    store(self._at, self.chart.name, data, self._words.value(value, self._at), self._admits)
                 case If(condition, then, otherwise):
                     chosen = then if self._words.value(condition, self._at) else otherwise
                     self._run(chosen, event)
@@ -224,9 +229,21 @@ class ChartRun:
                         self.execute(path, sent)
 
 
-def store(at: Values, writer: str, data: Var, raw: int) -> None:
+def contains(data: Var, raw: int) -> bool:
+    """Whether the value is one of the domain."""
+    return raw in data.domain
+
+
+def within(data: Var, raw: int) -> bool:
+    """Whether a number lies between the ends of the domain; other values must be of the domain."""
+    if isinstance(data.sort, Num):
+        return data.domain.low <= raw <= data.domain.high
+    return raw in data.domain
+
+
+def store(at: Values, writer: str, data: Var, raw: int, admits: Admits = contains) -> None:
     """Assign a raw value.  Raises ``ModelError`` outside the variable's domain."""
-    if raw not in data.domain:
+    if not admits(data, raw):
         known = isinstance(data.sort, Bool | Enum)
         shown = str(raw) if known else data.domain.show(raw)
         raise ModelError(

@@ -9,7 +9,7 @@ from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Var
 from spec_model.lang.interpret.fired import Fired
-from spec_model.lang.interpret.run import ChartRun, Values, store
+from spec_model.lang.interpret.run import Admits, ChartRun, contains, store, within
 from spec_model.lang.system import System
 from spec_model.lang.wellformed import check_system
 
@@ -17,19 +17,24 @@ from spec_model.lang.wellformed import check_system
 class Interpreter:
     """Runs a system from power-up.
 
-    ``frozen`` gives raw values of frozen variables; those left out have their initial value.
+    ``frozen`` gives raw values of frozen variables; those left out have their initial value.  With
+    ``measured``, numbers may lie between the values of their domains: inputs are any numbers, and what is
+    computed from them stays between the ends of its domain.
     Raises ``ModelError`` for an ill-formed system.
     """
 
-    def __init__(self, system: System, frozen: Mapping[str, int] = {}) -> None:
+    def __init__(self, system: System, frozen: Mapping[str, int] = {}, *, measured: bool = False) -> None:
         check_system(system)
         self.system = system
+        self._admits: Admits = within if measured else contains
         self._inputs = system.inputs
         self._at: dict[str, int] = {n: v.init for n, v in system.written.items()}
         self._at |= {v.name: v.init for v in system.frozen} | _checked("frozen", system.frozen, frozen)
         self._fired: list[Fired] = []
         self._places = {v.name for c in system.charts for v in (*c.locations, c.entered)}
-        self._runs = {id(c): ChartRun(c, self._at, self._fired, system.step_ms) for c in system.charts}
+        self._runs = {
+            id(c): ChartRun(c, self._at, self._fired, system.step_ms, self._admits) for c in system.charts
+        }
 
     @property
     def data(self) -> dict[str, int]:
@@ -48,7 +53,9 @@ class Interpreter:
         missing = self._inputs.keys() - inputs.keys()
         if missing:
             raise ModelError(f"{self.system.name}: no value given for {', '.join(sorted(missing))}.")
-        self._at |= _checked("input", tuple(self._inputs.values()), inputs)
+        if self._admits is contains:
+            inputs = _checked("input", tuple(self._inputs.values()), inputs)
+        self._at |= inputs
         self._fired.clear()
         self._execute(self.system.components)
         return tuple(self._fired)
@@ -59,21 +66,20 @@ class Interpreter:
                 case Chart():
                     self._runs[id(component)].step()
                 case Block():
-                    _run_block(component.name, component.do, self._at)
+                    self._run_block(component.name, component.do)
                 case Enabled():
                     if evaluate(component.by, self._at):
                         self._execute(component.components)
 
-
-def _run_block(name: str, actions: Sequence[Action], at: Values) -> None:
-    for action in actions:
-        match action:
-            case Assign(data, value):
-                store(at, name, data, evaluate(value, at))
-            case If(condition, then, otherwise):
-                _run_block(name, then if evaluate(condition, at) else otherwise, at)
-            case _:
-                raise ModelError(f"{name}: a block has no states, so `{action}` has no receiver.")
+    def _run_block(self, name: str, actions: Sequence[Action]) -> None:
+        for action in actions:
+            match action:
+                case Assign(data, value):
+                    store(self._at, name, data, evaluate(value, self._at), self._admits)
+                case If(condition, then, otherwise):
+                    self._run_block(name, then if evaluate(condition, self._at) else otherwise)
+                case _:
+                    raise ModelError(f"{name}: a block has no states, so `{action}` has no receiver.")
 
 
 def _checked(kind: str, known: Sequence[Var], given: Mapping[str, int]) -> dict[str, int]:

@@ -1,0 +1,1 @@
+"""Conformance: does an implementation, or a log of one, behave as the charts say?"""

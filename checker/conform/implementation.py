@@ -1,0 +1,34 @@
+"""The contract of an implementation under test: reset and step over named concrete values."""
+
+from collections.abc import Mapping
+from typing import Protocol
+
+Value = bool | int | float
+"""A concrete value as firmware holds it: a boolean, an integer (also for enumerations) or a float."""
+
+Values = Mapping[str, Value]
+"""Concrete values by the names that ``spec_model.abstraction`` gives the signals of a board."""
+
+
+class ImplementationError(Exception):
+    """The implementation under test could not be run: it is missing something, crashed, hung or spoke
+    garbage.
+
+    The message says what was tried, at which step, and what to look at; it is shown to the user as it is.
+    """
+
+
+class Implementation(Protocol):
+    """One implementation of a board, started and at power-up.
+
+    Every adapter gives one of these.  ``reset`` returns to power-up.  ``step`` gives the concrete inputs of one
+    execution, all inputs of the board, and returns its outputs by name; it may leave out outputs that the
+    implementation does not have, which are then not compared.  ``close`` ends whatever runs outside; it may be
+    called twice.  All three raise ``ImplementationError``.
+    """
+
+    def reset(self) -> None: ...
+
+    def step(self, inputs: Values) -> Values: ...
+
+    def close(self) -> None: ...

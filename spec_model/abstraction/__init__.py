@@ -1,0 +1,6 @@
+"""Concrete measurements (floats, millisecond stamps) as inputs of the charts, and back."""
+
+from spec_model.abstraction.board import Board, Output, Reader, Signal, Value, Values
+from spec_model.abstraction.boards import boards
+
+__all__ = ["Board", "Output", "Reader", "Signal", "Value", "Values", "boards"]

@@ -1,0 +1,38 @@
+"""The boards by name, under chosen readings."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import cache
+from types import MappingProxyType
+
+from spec_model.abstraction.board import Board
+from spec_model.abstraction.board1 import BOARD1
+from spec_model.abstraction.board2 import BOARD2
+from spec_model.lang.errors import ModelError
+from spec_model.readings import fixed
+
+BOARDS = (BOARD1, BOARD2)
+RECORDED = ("S34", "S35", "S36", "S37", "S40", "S66")
+"""Readings of the record of ten intervals, which the abstraction itself computes."""
+AS_READ: Mapping[str, str] = MappingProxyType({})
+
+
+def boards(choices: Mapping[str, str] = AS_READ) -> Mapping[str, Board]:
+    """The boards under chosen readings.
+
+    Raises ``ModelError`` for an unknown reading or choice, and for one that only the model can follow.
+    """
+    return _boards(tuple(sorted(choices.items())))
+
+
+@cache
+def _boards(chosen: tuple[tuple[str, str], ...]) -> Mapping[str, Board]:
+    choices = dict(chosen)
+    recorded = [name for name in RECORDED if name in choices]
+    if recorded:
+        raise ModelError(
+            f"{', '.join(recorded)}: here the record of ten intervals is read from time stamps, at the "
+            "default readings only; leave this choice out."
+        )
+    fixing = fixed(choices)
+    return {board.name: replace(board, system=fixing.system(board.system)) for board in BOARDS}

@@ -1,0 +1,37 @@
+"""Makers of concrete signals, named as in the document."""
+
+from collections.abc import Iterable
+
+from spec_model.abstraction.board import Output, Signal, units
+from spec_model.lang.domain import Num, fixed
+from spec_model.lang.expr import FALSE, Expr, Var
+
+MILLISECONDS = fixed(0, (1 << 32) - 1, 1, "ms")
+
+
+def stamp(name: str, doc: str) -> Signal:
+    """A time of the board's clock, 0 at power-up."""
+    return Signal(name, MILLISECONDS, 0, doc, 0, MILLISECONDS.high, whole=True, stamp=True)
+
+
+def measured(var: Var, low: float, high: float, *, whole: bool = False, name: str = "") -> Signal:
+    """A number that firmware measures or receives as it comes."""
+    return Signal(name or plain(var), var.domain, units(var.domain, var.init), var.doc, low, high, whole)
+
+
+def discrete(var: Var, name: str = "") -> Signal:
+    """A boolean, an enumeration, or a mask: firmware holds the values of the domain."""
+    sort, initial = var.domain.sort, units(var.domain, var.init)
+    if isinstance(sort, Num):
+        return Signal(name or plain(var), var.domain, initial, var.doc, var.domain.low, var.domain.high, True)
+    return Signal(name or plain(var), var.domain, initial, var.doc)
+
+
+def outputs(produced: Iterable[Var], unless: Expr = FALSE) -> tuple[Output, ...]:
+    """Outputs of the firmware with the names and domains of chart variables."""
+    return tuple(Output(discrete(var), var, unless) for var in produced)
+
+
+def plain(var: Var) -> str:
+    """The document's name: without the prefix that tells the boards apart where both are modelled."""
+    return var.name.rpartition(".")[2]

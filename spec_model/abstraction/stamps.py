@@ -1,0 +1,67 @@
+"""Time stamps as firmware holds them: milliseconds of a 32-bit clock, read as ages, updates and intervals."""
+
+from collections import deque
+from fractions import Fraction
+
+from spec_model.abstraction.board import Raw, whole
+from spec_model.lang.system import TICK_MS
+
+CLOCK = 1 << 32
+"""The clock of a board starts again at 0 after 49.7 days."""
+
+
+def since(now_ms: int, then_ms: int) -> int:
+    """Milliseconds from an earlier stamp, also across one wrap of the clock."""
+    return (now_ms - then_ms) % CLOCK
+
+
+def age(now_ms: int, then_ms: int) -> Raw:
+    """The raw age of a stamp: in ticks of 20 ms, a fraction for a stamp between two steps."""
+    return whole(Fraction(since(now_ms, then_ms), TICK_MS))
+
+
+class Updates:
+    """The changes of one stamp, from power-up, where it is 0."""
+
+    def __init__(self) -> None:
+        self._stamp = 0
+
+    def step(self, stamp: int) -> int | None:
+        """The stamp before, in a step that finds a new one."""
+        before, self._stamp = self._stamp, stamp
+        return before if stamp != before else None
+
+
+class MeanOfTen:
+    """Whether the last ten intervals between updates exceed a mean, in ms [seed Table 2].
+
+    The power-up begins no interval, and fewer than ten say nothing (S34, S66); the open interval does not
+    count (S35) and of several updates between two steps only the last is seen (S36).
+    """
+
+    def __init__(self, mean_ms: int) -> None:
+        self._total = 10 * mean_ms
+        self._updates = Updates()
+        self._latest: int | None = None
+        self._intervals: deque[int] = deque(maxlen=10)
+
+    def step(self, stamp: int) -> bool:
+        """Call it once in every step."""
+        if self._updates.step(stamp) is not None:
+            if self._latest is not None:
+                self._intervals.append(since(stamp, self._latest))
+            self._latest = stamp
+        return len(self._intervals) == 10 and sum(self._intervals) > self._total
+
+
+class Stamp:
+    """The stamp that a run of the model stands for, from the age it gives the datum in each step."""
+
+    def __init__(self) -> None:
+        self._value = 0
+
+    def step(self, now_ms: int, ticks: int, most: int) -> int:
+        """``ticks`` is the raw age; at ``most`` it stands for all larger ones, and the stamp stays."""
+        if ticks < most:
+            self._value = now_ms - ticks * TICK_MS
+        return self._value
