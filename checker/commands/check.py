@@ -122,12 +122,14 @@ def check(
             found.append(Compared(result, expect(result.property.id), variant))
             if not as_json:
                 out.print(line(found[-1]), markup=False)
-    except Unwritable as error:
-        raise UsageError(str(error)) from error
-    except KeyboardInterrupt:
-        err.print(f"Interrupted: {len(found)} of {len(properties)} properties decided.")
+    except BaseException as error:
         if as_json:
             print(json.dumps(document(found, complete=False), indent=2))
+        if isinstance(error, Unwritable):
+            raise UsageError(str(error)) from error
+        if not isinstance(error, KeyboardInterrupt):
+            raise
+        err.print(f"Interrupted: {len(found)} of {len(properties)} properties decided.")
         return Exit.INTERRUPTED
     if as_json:
         print(json.dumps(document(found, complete=True), indent=2))

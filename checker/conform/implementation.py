@@ -1,7 +1,7 @@
 """The contract of an implementation under test: reset and step over named concrete values."""
 
-from collections.abc import Mapping
-from typing import Protocol
+from collections.abc import Mapping, Sequence
+from typing import Protocol, runtime_checkable
 
 Value = bool | int | float
 """A concrete value as firmware holds it: a boolean, an integer (also for enumerations) or a float."""
@@ -21,10 +21,10 @@ class ImplementationError(Exception):
 class Implementation(Protocol):
     """One implementation of a board, started and at power-up.
 
-    Every adapter gives one of these.  ``reset`` returns to power-up.  ``step`` gives the concrete inputs of one
-    execution, all inputs of the board, and returns its outputs by name; it may leave out outputs that the
-    implementation does not have, which are then not compared.  ``close`` ends whatever runs outside; it may be
-    called twice.  All three raise ``ImplementationError``.
+    Every adapter gives one of these.  ``reset`` returns to power-up.  ``step`` gives the concrete inputs of
+    one execution, all inputs of the board, and returns its outputs by name; it may leave out outputs that
+    the implementation does not have, which are then not compared.  ``close`` ends whatever runs outside; it
+    may be called twice.  All three raise ``ImplementationError``.
     """
 
     def reset(self) -> None: ...
@@ -32,3 +32,26 @@ class Implementation(Protocol):
     def step(self, inputs: Values) -> Values: ...
 
     def close(self) -> None: ...
+
+
+@runtime_checkable
+class Batched(Protocol):
+    """An implementation that is quicker when it is given many executions at once."""
+
+    def run(self, inputs: Sequence[Values]) -> Sequence[Values]: ...
+
+
+def run(implementation: Implementation, inputs: Sequence[Values]) -> Sequence[Values]:
+    """The outputs of executions in a row, as ``step`` gives them one by one.
+
+    Raises ``ImplementationError`` for the first execution that fails; the outputs before it are then lost.
+    """
+    if isinstance(implementation, Batched):
+        return implementation.run(inputs)
+    return [implementation.step(one) for one in inputs]
+
+
+def notes(implementation: Implementation) -> Sequence[str]:
+    """What a person should know about how it is run: warnings of a compiler, inputs that it does not read."""
+    found: Sequence[str] = getattr(implementation, "notes", ())
+    return found

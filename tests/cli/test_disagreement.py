@@ -60,6 +60,12 @@ def test_a_lie_is_found_and_can_be_seen_again(environment: dict[str, str], tmp_p
     assert check(environment, tmp_path, *found["command"][2:]).returncode == Exit.INTERNAL
 
 
+def test_what_was_found_before_is_not_lost_to_machines(environment: dict[str, str], tmp_path: Path) -> None:
+    shown = check(environment, tmp_path, "PB1-30c-FL", "--all-engines", "--depth", "30", "--json")
+    assert shown.returncode == Exit.INTERNAL
+    assert json.loads(shown.stdout)["complete"] is False
+
+
 def test_a_folder_that_cannot_be_made_is_said(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(UsageError, match="Cannot write"):
