@@ -1,6 +1,5 @@
 """Certificates are accepted when they prove their claims, and rejected when anything in them is wrong."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
@@ -31,17 +30,12 @@ from tests.certifying import (
     many,
     proofs,
     reachable,
-    solving_here,
     with_invariant,
 )
 from tests.naive import search, vectors
 from tests.strategies_ts import goals
 
-
-@pytest.fixture(autouse=True, scope="module")
-def in_this_process() -> Iterator[None]:
-    with solving_here():
-        yield
+pytestmark = pytest.mark.usefixtures("solver_in_this_process")
 
 
 def inductive(one: Certificate, system: TransitionSystem) -> bool:

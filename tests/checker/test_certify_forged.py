@@ -1,6 +1,5 @@
 """Certificates that somebody altered or made up are rejected, whatever stands in them."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 from itertools import pairwise
 
@@ -24,14 +23,9 @@ from tests.certifying import (
     asked_anew,
     claimed,
     counting,
-    solving_here,
 )
 
-
-@pytest.fixture(autouse=True, scope="module")
-def in_this_process() -> Iterator[None]:
-    with solving_here():
-        yield
+pytestmark = pytest.mark.usefixtures("solver_in_this_process")
 
 
 def test_a_conjunct_that_is_needed_cannot_be_dropped() -> None:

@@ -1,6 +1,5 @@
 """Each obligation of a certificate is needed: one that fails alone is what a certificate is rejected for."""
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import pytest
@@ -24,14 +23,9 @@ from tests.certifying import (
     certified,
     claimed,
     counting,
-    solving_here,
 )
 
-
-@pytest.fixture(autouse=True, scope="module")
-def in_this_process() -> Iterator[None]:
-    with solving_here():
-        yield
+pytestmark = pytest.mark.usefixtures("solver_in_this_process")
 
 
 def rejected_for(one: Certificate, system: TransitionSystem, obligation: str) -> None:
