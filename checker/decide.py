@@ -12,6 +12,7 @@ from checker.portfolio import ALL, AUTO, Disagreement, Hint, Told, answers, as_f
 from checker.portfolio import Question as Asked
 from checker.result import Answers, Result, check_domains, result
 from checker.runs.reproduce import not_reproducible, reproduced
+from checker.starting import check_starts
 from checker.verdict import Reached
 from properties.forms import Property, Unbounded
 from properties.reduce import Question, reduce
@@ -101,8 +102,9 @@ def decide(
     ``engine`` is one, or the name of one, ``auto`` (engines in turn, see ``checker.portfolio.order``) or
     ``all`` (every engine, answers compared).  With free timers in ``limits``, what the system with timers
     that run out at will does not settle is then searched exactly.  Raises ``Disagreement``,
-    ``ReplayError``, and ``ModelError`` when the model itself leaves a domain.
+    ``ReplayError``, and ``ModelError`` when the model itself leaves a domain or has no run at all.
     """
+    check_starts(lowered(task.system))
     exact = Timers.EXACT if limits.timers is Timers.FREE else limits.timers
     asking = Asking(engine, replace(limits, timers=exact), told or Told(progress))
     for prop in task.properties:

@@ -1,0 +1,58 @@
+"""An assumption that nothing meets is said, instead of proving everything."""
+
+import pytest
+from hypothesis import given
+
+from checker import starting
+from checker.decide import AUTO, Task, decide
+from checker.engine import Limits, quiet
+from checker.starting import check_starts, starts
+from properties.forms import never
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Block
+from spec_model.lang.domain import integer
+from spec_model.lang.errors import ModelError
+from spec_model.lang.expr import FALSE, TRUE, Expr, flag, var
+from spec_model.lang.system import TransitionSystem, in_order
+from tests.naive import successors, vectors
+from tests.strategies_ts import transition_systems
+
+X, Y, COUNT = var("x", integer(0, 300)), var("y", integer(0, 300)), var("count", integer(0, 9), 5)
+
+
+def system(assume: Expr) -> TransitionSystem:
+    return TransitionSystem("toy", (X, Y), (), (COUNT,), (), (), assume)
+
+
+@pytest.mark.parametrize("assume", [TRUE, (X == 301 - Y) & (Y > 299), (COUNT == 5) & (X < Y), X + Y == 600])
+def test_some_first_tick_is_found(assume: Expr) -> None:
+    assert starts(system(assume)) is True
+
+
+@pytest.mark.parametrize(
+    "assume", [FALSE, (X < 5) & (X > 5), COUNT == 6, (COUNT < 9) & (X < 3) & (Y < 3) & (X + Y == 5)]
+)
+def test_that_there_is_none_is_found(assume: Expr) -> None:
+    assert starts(system(assume)) is False
+    with pytest.raises(ModelError, match="allows no first tick"):
+        check_starts(system(assume))
+
+
+def test_what_is_not_found_out_is_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(starting, "TRIED", 1000)
+    assert starts(system(X + Y == 601)) is None
+    check_starts(system(X + Y == 601))
+
+
+@given(transition_systems())
+def test_first_ticks_by_definition(drawn: TransitionSystem) -> None:
+    ticks = (any(successors(drawn, {**drawn.init, **frozen})) for frozen in vectors(drawn.frozen))
+    assert starts(drawn) is any(ticks)
+
+
+def test_nothing_is_proved_of_a_system_without_a_run() -> None:
+    on, off = flag("on"), flag("off")
+    empty = in_order("empty", Block("copy", [assign(off, on)]), assume=on & ~on)
+    task = Task(empty, (never("P", "It is never off.", that=off, covers=["R"], on="empty"),))
+    with pytest.raises(ModelError, match="allows no first tick"):
+        list(decide(task, {"empty": empty}, AUTO, Limits(), quiet))
