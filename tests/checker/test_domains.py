@@ -3,13 +3,8 @@
 Formulas are simplified on the assumption that variables stay in their domains, and then speak of fewer.
 """
 
-from collections.abc import Iterator
-from types import ModuleType
-from typing import Any
-
 import pytest
 
-from checker.certify import solver
 from checker.certify.certificate import certificates
 from checker.certify.check import check
 from checker.certify.outcome import Accepted
@@ -22,25 +17,14 @@ from spec_model.lang.domain import Bool, Domain, chosen, integer
 from spec_model.lang.expr import Expr, Var, flag, ite, var
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
-from tests.certifying import SOLVER, inline
+from tests.certifying import SOLVER
 from tests.toys import GOAL
 
 FORMULAS = ("bdd", "bmc", "kinduction", "pdr")
 PROVERS = ("bdd", "kinduction", "pdr")
 
 
-def here(work: Any, *args: Any, seconds: float | None, memory: int | None) -> Iterator[Any]:
-    """``checker.isolate.messages`` in this process."""
-    return inline(work, *args)
-
-
-@pytest.fixture(autouse=True)
-def in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(solver, "messages", inline)
-    for name in FORMULAS:
-        engine = engines()[name]
-        assert isinstance(engine, ModuleType)
-        monkeypatch.setattr(engine, "messages", here)
+pytestmark = pytest.mark.usefixtures("engines_in_this_process")
 
 
 def answer(name: str, system: TransitionSystem) -> Answer:

@@ -3,14 +3,11 @@
 The naive loop over the reference semantics is the judge; each engine works in this process.
 """
 
-from collections.abc import Callable, Iterator, Mapping
-from types import ModuleType
-from typing import Any
+from collections.abc import Mapping
 
 import pytest
 from hypothesis import given
 
-from checker.certify import solver
 from checker.certify.certificate import certificates
 from checker.certify.check import check
 from checker.certify.outcome import Accepted
@@ -19,7 +16,7 @@ from checker.engine import Limits, engines, quiet
 from checker.verdict import Answer, Open, Reached, Unreachable
 from spec_model.lang.system import TransitionSystem
 from tests import naive
-from tests.certifying import SOLVER, inline
+from tests.certifying import SOLVER
 from tests.profiles import examples
 from tests.strategies_timed import timed_systems
 from tests.strategies_ts import goals, transition_systems
@@ -29,19 +26,7 @@ COMPLETE = ("bdd", "explicit", "pdr")
 """Engines that leave nothing open."""
 
 
-def here(work: Callable[..., None], *args: Any, seconds: float | None, memory: int | None) -> Iterator[Any]:
-    """``checker.isolate.messages`` in this process."""
-    return inline(work, *args)
-
-
-@pytest.fixture(autouse=True, scope="module")
-def in_this_process() -> Iterator[None]:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(solver, "messages", inline)
-        for engine in engines().values():
-            if isinstance(engine, ModuleType) and hasattr(engine, "messages"):
-                patch.setattr(engine, "messages", here)
-        yield
+pytestmark = pytest.mark.usefixtures("engines_in_this_process")
 
 
 def test_every_engine_is_compared() -> None:

@@ -1,13 +1,10 @@
 """Engines that work on formulas, on systems with what models seldom have (tests/strategies_odd.py)."""
 
-from collections.abc import Iterator, Mapping, Sequence
-from types import ModuleType
-from typing import Any
+from collections.abc import Mapping, Sequence
 
 import pytest
 from hypothesis import given
 
-from checker.certify import solver
 from checker.certify.certificate import certificates
 from checker.certify.check import check
 from checker.certify.outcome import Accepted
@@ -16,7 +13,7 @@ from checker.verdict import Answer, Open, Reached, Unreachable
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 from tests import naive
-from tests.certifying import SOLVER, inline
+from tests.certifying import SOLVER
 from tests.profiles import examples
 from tests.strategies_odd import odd_systems
 from tests.strategies_ts import goals
@@ -24,20 +21,7 @@ from tests.strategies_ts import goals
 FORMULAS = ("bdd", "bmc", "kinduction", "pdr")
 
 
-def here(work: Any, *args: Any, seconds: float | None, memory: int | None) -> Iterator[Any]:
-    """``checker.isolate.messages`` in this process."""
-    return inline(work, *args)
-
-
-@pytest.fixture(autouse=True, scope="module")
-def in_this_process() -> Iterator[None]:
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(solver, "messages", inline)
-        for name in FORMULAS:
-            engine = engines()[name]
-            assert isinstance(engine, ModuleType)
-            patch.setattr(engine, "messages", here)
-        yield
+pytestmark = pytest.mark.usefixtures("engines_in_this_process")
 
 
 def answers(name: str, system: TransitionSystem) -> Mapping[str, Answer]:
