@@ -1,0 +1,145 @@
+"""The cross-check: our supervisors conform, planted faults are found and become tests."""
+
+import importlib.util
+from pathlib import Path
+
+import pytest
+
+from checker.conform.adapters import python
+from checker.conform.cross import Mismatch, cross_check, quick_check, replay
+from checker.conform.cross.check import recorded_suite
+from checker.conform.cross.coverage import arrows
+from checker.conform.cross.reproduce import file_name, pytest_file, stimulus_of
+from checker.conform.cross.result import SHOWN
+from checker.conform.implementation import Implementation
+from spec_model.abstraction import boards
+from tests.conform import cross_faults
+from tests.conform.cross_faults import FAULTS
+
+EXAMPLES = {"board1": 30, "board2": 45}
+"""Random runs beside the fixed ones: enough for these faults."""
+OURS = {"board1": "supervisor.board1:Board1", "board2": "supervisor.board2.board:Board2"}
+HERE = Path(cross_faults.__file__)
+PLANTED = [(board, fault.__name__) for board, faults in FAULTS.items() for fault in faults]
+
+
+def running(board: str, target: str) -> Implementation:
+    """A supervisor in this process."""
+    return python.start(target, boards()[board], isolated=False)
+
+
+@pytest.mark.parametrize("board", ["board1", "board2"])
+def test_our_supervisor_conforms(board: str) -> None:
+    assert quick_check(board, running(board, OURS[board]), examples=EXAMPLES[board]) is None
+    suite = recorded_suite(board, "ci", EXAMPLES[board])
+    assert suite.steps > 10_000 and len(suite.runs) > EXAMPLES[board]
+
+
+@pytest.mark.parametrize(("board", "fault"), PLANTED)
+def test_a_planted_fault_is_found(board: str, fault: str) -> None:
+    faulty = running(board, f"{HERE}:{fault}")
+    found = quick_check(board, faulty, examples=EXAMPLES[board])
+    assert isinstance(found, Mismatch) and found.differences
+
+
+def test_a_mismatch_is_small_and_becomes_a_test_that_fails_until_the_fault_is_gone(tmp_path: Path) -> None:
+    address = f"python:{HERE}:LateReception"
+    result = cross_check("board1", running("board1", f"{HERE}:LateReception"), examples=0)
+    assert not result.conforms and result.conclusive and result.mismatches
+    mismatch = result.mismatches[0]
+    assert mismatch.differences[0].name in ("rx_status", "b2_sup_status")
+    assert mismatch.tick <= 8 and len(stimulus_of(mismatch).blocks) <= 3
+    text = pytest_file(mismatch, address)
+    with pytest.raises(AssertionError, match="step"):
+        run_test(tmp_path / file_name(mismatch), text)
+    run_test(tmp_path / "right.py", text.replace(address, f"python:{OURS['board1']}"))
+
+
+def run_test(place: Path, text: str) -> None:
+    """Run the only test of a file."""
+    place.write_text(text, encoding="utf-8")
+    spec = importlib.util.spec_from_file_location(place.stem, place)
+    assert spec is not None and spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    [test] = [getattr(module, name) for name in dir(module) if name.startswith("test_")]
+    test()
+
+
+def test_a_deep_mismatch_is_small_and_names_the_arrow() -> None:
+    result = cross_check("board1", running("board1", f"{HERE}:LateRelay"), examples=0)
+    mismatch = result.mismatches[0]
+    assert mismatch.tick <= 165
+    assert mismatch.arrows[0].chart == "Relay" and mismatch.arrows[0].target == ("B1_actuating",)
+    assert replay("board1", f"python:{HERE}:LateRelay", stimulus_of(mismatch)) is not None
+
+
+def test_hypothesis_shrinks_what_only_random_runs_find() -> None:
+    result = cross_check("board2", running("board2", f"{HERE}:KeepsAuthority"), examples=30)
+    [mismatch] = result.mismatches
+    assert mismatch.differences[0].name == "autorized_to_send_command" and mismatch.tick < 200
+
+
+def test_the_same_profile_tries_the_same() -> None:
+    first, second = (
+        cross_check("board2", running("board2", OURS["board2"]), examples=4, seed=9) for _ in range(2)
+    )
+    assert first.coverage.steps == second.coverage.steps and first.coverage.taken == second.coverage.taken
+    assert first.conforms and first.arrows[1] == len(arrows(first.board))
+    other = cross_check("board2", running("board2", OURS["board2"]), examples=4, seed=10)
+    assert other.coverage.steps != first.coverage.steps
+
+
+class Silent:
+    """Has no outputs."""
+
+    def reset(self) -> None: ...
+
+    def step(self, inputs: object) -> dict[str, float]:
+        return {}
+
+    def close(self) -> None: ...
+
+
+def test_an_implementation_without_outputs_is_inconclusive() -> None:
+    result = cross_check("board2", Silent(), examples=0)
+    assert not result.conclusive and not result.conforms and not result.mismatches
+    assert len(result.uncompared) == len(boards()["board2"].outputs)
+
+
+def test_a_crash_names_the_step_and_other_runs_go_on() -> None:
+    result = cross_check("board1", running("board1", f"{HERE}:Crashing"), examples=0)
+    assert result.failures and not result.conforms and not result.conclusive
+    assert "step" in result.failures[0].message and "no wheel to drive" in result.failures[0].message
+    assert result.coverage.runs > len(result.failures)
+
+
+def test_ctrl_c_keeps_what_was_found() -> None:
+    def interrupt(search: object) -> None:
+        raise KeyboardInterrupt
+
+    result = cross_check("board1", running("board1", OURS["board1"]), progress=interrupt)
+    assert result.interrupted and not result.conforms and result.coverage.runs == 1
+
+
+def test_distinct_mismatches_are_told_apart_up_to_a_number_that_is_said() -> None:
+    class Wrong:
+        """Every output of Board 2 is wrong now and then."""
+
+        def __init__(self) -> None:
+            self._right = running("board2", OURS["board2"])
+            self._reset = 0
+
+        def reset(self) -> None:
+            self._right.reset()
+            self._reset += 1
+
+        def step(self, inputs: dict[str, float]) -> dict[str, float]:
+            found = dict(self._right.step(inputs))
+            name = sorted(found)[self._reset % len(found)]
+            return found | {name: found[name] + 1}
+
+        def close(self) -> None: ...
+
+    result = cross_check("board2", Wrong(), examples=0, stop_early=False)
+    assert result.distinct > SHOWN == len(result.mismatches)
