@@ -255,6 +255,73 @@ def export(
     return run(ids, system, format, pick_variant(chosen, repair, dropped), output)
 
 
+@app.command(short_help="Run both boards in a scenario, and draw the run.")
+@click.argument("scenario", type=click.Path(path_type=Path))
+@click.option("--log", type=click.Path(path_type=Path), metavar="DIR", help="Write every step there, as CSV.")
+@click.option("--no-plot", is_flag=True, help="Draw nothing.")
+@writing
+def simulate(scenario: Path, log: Path | None, no_plot: bool, output: Path | None) -> Exit:
+    """Run both boards in the scenario of a TOML file; exit code 1 if it goes other than expected."""
+    from checker.commands.simulating import simulate as run
+
+    return run(scenario, output, log, not no_plot)
+
+
+@app.command(short_help="Check logs recorded on a board.")
+@click.argument("place", type=click.Path(exists=True, path_type=Path), metavar="LOG|DIR")
+@click.option(
+    "--map",
+    "map_file",
+    type=click.Path(path_type=Path),
+    metavar="MAP.toml",
+    help="What the columns are (docs/conform.md).",
+)
+@click.option("--system", metavar="NAME", help="The board: board1 or board2; by default the columns tell.")
+@click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
+@click.option("--verbose", "-v", is_flag=True, help="Every property, also those that say nothing.")
+def conform(place: Path, map_file: Path | None, system: str | None, as_json: bool, verbose: bool) -> Exit:
+    """Check a log, or all logs of a folder: every property as a monitor, and as a run of the charts."""
+    from checker.commands.conforming import conform as run
+
+    return run(place, map_file, system, as_json, verbose)
+
+
+@app.command(short_help="Compare a supervisor with the charts, step by step.")
+@click.option("--system", metavar="NAME", help="The board: board1 or board2; by default both.")
+@click.option("--impl", metavar="KIND:WHAT", help="Its supervisor; by default that of the project.")
+@click.option(
+    "--profile", type=click.Choice(["ci", "nightly"]), default="ci", show_default=True, help="How long."
+)
+@click.option("--examples", type=click.IntRange(min=0), metavar="N", help="Random runs on each board.")
+@click.option("--seed", type=click.IntRange(min=0), metavar="S", help="Draw the runs of this number.")
+@click.option(
+    "--tests", type=click.Path(path_type=Path), metavar="DIR", help="Also the tests there, as CSV or JSON."
+)
+@click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
+@click.option(
+    "--output",
+    "-o",
+    type=click.Path(file_okay=False, path_type=Path),
+    metavar="DIR",
+    help="Write a test for each mismatch there, not here.",
+)
+def crosscheck(
+    system: str | None,
+    impl: str | None,
+    profile: str,
+    examples: int | None,
+    seed: int | None,
+    tests: Path | None,
+    as_json: bool,
+    output: Path | None,
+) -> Exit:
+    """Run a supervisor and the charts side by side; exit code 1 where they differ."""
+    from checker.commands.crosschecking import Asked
+    from checker.commands.crosschecking import crosscheck as run
+
+    return run(Asked(system, impl, profile, examples, seed, tests), output, as_json)
+
+
 @app.command(short_help="Write the evidence: verdicts, diagrams, findings.")
 @click.option("--stale", is_flag=True, help="Write nothing; say what is out of date (exit code 1).")
 @writing

@@ -1,0 +1,159 @@
+"""A simulated run in the terms of pictures: which signals are drawn, in which lanes."""
+
+from collections.abc import Iterable, Sequence
+from enum import IntEnum
+from itertools import pairwise
+from math import nan
+
+from checker.render.lanes import Band, Chart, Curve, Lanes, Limit, Mark, Row, Rows, Tone
+from supervisor.bench import Record, Scenario
+from supervisor.bench.columns import Scalar
+from supervisor.bench.conditions import WHEELS
+from supervisor.bench.judge import history
+from supervisor.bench.record import Driver, Side
+from supervisor.bench.signals import SIGNALS, name_of
+from supervisor.types import Level, SafetyState, SupervisorCommand
+
+FULL_SCALE_RPM = 160
+COMMANDS = {
+    SupervisorCommand.CMD_NORMAL: Tone.IDLE,
+    SupervisorCommand.CMD_STOP: Tone.DEGRADED,
+    SupervisorCommand.CMD_ESTOP: Tone.CRITICAL,
+}
+STATUSES1 = ("temp_status", "batt_status", "rx_status", "b2_sup_status")
+ACTS = ("rover_safety_state", "current_action", "actuate_emergency_stop")
+STATUSES2 = ("esp_status", "imu_status", "rx_status", "b1_sup_status")
+
+
+def lanes(scenario: Scenario, record: Record, name: str) -> Lanes:
+    """The picture of a run."""
+    end_s = scenario.duration_us / 10**6
+    phase = f"Board 2 {scenario.phase_us / 1000:g} ms after Board 1"
+    drift = f", its clock {scenario.drift_ppm:+d} ppm" if scenario.drift_ppm else ""
+    return Lanes(
+        title=scenario.title or name,
+        note=f"{phase}{drift}; seed {scenario.seed}",
+        end_s=end_s,
+        lanes=(*_charts(record), *_rows(record, end_s)),
+        marks=[Mark(e.number, e.at_us / 10**6, e.end_us / 10**6, e.label) for e in scenario.events],
+    )
+
+
+def _charts(record: Record) -> Iterable[Chart]:
+    yield Chart(
+        "joystick",
+        [_curve(record, "board2.ay_norm", "y, forward"), _curve(record, "board2.bx_norm", "x, left")],
+        -1,
+        1,
+        ticks=(-1, -0.5, 0, 0.5, 1),
+    )
+    yield Chart(
+        "speed references",
+        [
+            _curve(record, "board1.v_ref", "v_ref, Board 1"),
+            _curve(record, "board2.v_ref_actuation", "v_ref, Board 2"),
+            _curve(record, "board1.omega_ref", "omega_ref, Board 1"),
+            _curve(record, "board2.omega_ref_actuation", "omega_ref, Board 2"),
+        ],
+        -0.2,
+        1,
+        ticks=(-1, -0.5, 0, 0.5, 1),
+    )
+    wheels = [_curve(record, f"rover.wheel_{w}", w, steps=False) for w in WHEELS]
+    yield Chart("wheels in rpm", wheels, 0, FULL_SCALE_RPM / 2, ticks=(-160, -80, 0, 80, 160))
+    yield Chart("heading in °", [_turning(record)], 0, 360, ticks=(0, 90, 180, 270, 360))
+    yield Chart(
+        "obstacles in cm",
+        [
+            _curve(record, "board2.d1", "left"),
+            _curve(record, "board2.d2", "centre"),
+            _curve(record, "board2.d3", "right"),
+        ],
+        0,
+        301,
+        [Limit(70, "70 stop"), Limit(100, "100"), Limit(300, "300 degraded")],
+        ticks=(0, 100, 200, 300),
+    )
+    yield Chart(
+        "temperature in °C",
+        [_curve(record, "board1.temperature_degC", "last valid")],
+        20,
+        30,
+        [Limit(-15, "−15"), Limit(-5, "−5"), Limit(55, "55 degraded"), Limit(60, "60 critical")],
+    )
+    yield Chart(
+        "battery in %",
+        [_curve(record, "board1.battery_pct", "last valid")],
+        0,
+        100,
+        [Limit(15, "15 critical"), Limit(25, "25 OK above"), Limit(23, "")],
+        ticks=(0, 50, 100),
+    )
+
+
+def _curve(record: Record, signal: str, name: str, *, steps: bool = True) -> Curve:
+    """A signal as a curve; one that keeps its values needs only the times at which they change."""
+    told = history(record, signal)
+    points = [(t / 10**6, float(v)) for t, v in zip(told.times_us, told.values, strict=True)]
+    if steps:
+        points = _corners(points)
+    return Curve(name, [t for t, _ in points], [v for _, v in points], steps)
+
+
+def _corners(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    kept = [after for before, after in pairwise(points) if after[1] != before[1]]
+    return [*points[:1], *kept, *points[-1:]]
+
+
+def _turning(record: Record) -> Curve:
+    """The heading; where it passes 360° the line is interrupted."""
+    times: list[float] = []
+    values: list[float] = []
+    for sample in record.samples:
+        if values and abs(sample.heading - values[-1]) > 180:
+            times.append(sample.time_us / 10**6)
+            values.append(nan)
+        times.append(sample.time_us / 10**6)
+        values.append(sample.heading)
+    return Curve("clockwise", times, values)
+
+
+def _rows(record: Record, end_s: float) -> Iterable[Rows]:
+    wheels = [f"wheel_status_{w}" for w in WHEELS]
+    one = (*STATUSES1, *wheels, *ACTS, "give_b2_actuation")
+    yield Rows("Board 1", [_row(record, f"board1.{name}", end_s) for name in one])
+    two = (*STATUSES2, *ACTS, "command", "autorized_to_send_command")
+    yield Rows("Board 2", [_row(record, f"board2.{name}", end_s) for name in two])
+    yield Rows("relay", [_row(record, f"rover.{n}", end_s) for n in ("relay", "driven_by")])
+
+
+def _row(record: Record, signal: str, end_s: float) -> Row:
+    told = history(record, signal)
+    bands: list[Band] = []
+    since, value = 0.0, SIGNALS[signal].initial
+    for time_us, new in zip(told.times_us, told.values, strict=True):
+        if new != value:
+            bands.append(_band(since, time_us / 10**6, value))
+            since, value = time_us / 10**6, new
+    bands.append(_band(since, end_s, value))
+    return Row(signal.partition(".")[2], bands)
+
+
+def _band(start_s: float, end_s: float, value: Scalar) -> Band:
+    return Band(start_s, end_s, _label(value), _tone(value))
+
+
+def _label(value: Scalar) -> str:
+    if isinstance(value, IntEnum):
+        return value.name.removeprefix("CMD_").removeprefix("SAFETY_").replace("BOARD_", "Board ")
+    return name_of(value)
+
+
+def _tone(value: Scalar) -> Tone:
+    if isinstance(value, Level | SafetyState):
+        return (Tone.OK, Tone.DEGRADED, Tone.CRITICAL)[value]
+    if isinstance(value, Side | Driver):
+        return {"BOARD_1": Tone.FIRST, "BOARD_2": Tone.SECOND}.get(value.name, Tone.IDLE)
+    if isinstance(value, SupervisorCommand):
+        return COMMANDS.get(value, Tone.ACTION)
+    return Tone.ACTION if value is True else Tone.IDLE
