@@ -27,7 +27,7 @@ now_ms = stamp("now_ms", "start of the step")
 SAMPLES: dict[Signal, Var] = {
     measured(b1.temperature_degC, -100, 200): b1.temperature_degC,
     measured(b1.battery_pct, 0, 100): b1.battery_pct,
-    **{measured(w, 0, 200): w for w in b1.wheel_speed_rpm.values()},
+    **{measured(w, -200, 200): w for w in b1.wheel_speed_rpm.values()},
     **{discrete(f): f for f in b1.has_no_feedback.values()},
     discrete(b1.cmd): b1.cmd,
     measured(b1.x_norm, -1, 1): b1.x_norm,

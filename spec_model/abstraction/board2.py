@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 
 from spec_model.abstraction.board import Board, Signal, Value, Values, computed, units
+from spec_model.abstraction.gaps import advance, record_of_gaps
 from spec_model.abstraction.signals import discrete, measured, outputs, stamp
 from spec_model.abstraction.stamps import Stamp, Updates, age, since
 from spec_model.board2 import ACTUATION, supervisor
 from spec_model.board2.heading import measured as heading
-from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Var, var
 from spec_model.lang.system import TICK_MS, in_order
 from spec_model.signals import board2_motion as motion
@@ -22,6 +22,8 @@ SOURCES = {
     "ble_last_valid_ms": b2.BLE,
 }
 """The monitored source of each stamp."""
+COUNTED = (b2.SUP, b2.IMU)
+"""Those whose updates the coherence counts in steps."""
 
 SAMPLES: dict[Signal, Var] = {
     **{measured(d, 0, 344, whole=True): d for d in SONARS},
@@ -33,7 +35,7 @@ SAMPLES: dict[Signal, Var] = {
     discrete(motion.btn2): motion.btn2,
     discrete(b2.crit_mask_b1): b2.crit_mask_b1,
     discrete(b2.degr_mask_b1): b2.degr_mask_b1,
-    **{measured(w, 0, 200): w for w in b2.wheel_speed_rpm.values()},
+    **{measured(w, -200, 200): w for w in b2.wheel_speed_rpm.values()},
 }
 now_ms = stamp("now_ms", "start of the step")
 sonar_last_valid_ms = stamp("sonar_last_valid_ms", "when the last scan was published; no chart reads it")
@@ -46,7 +48,12 @@ STAMPS = (
 
 
 class Reader2:
-    """Ages and updates in place of stamps, and the measurements as they are."""
+    """Ages, updates and gaps in place of stamps, and the measurements as they are.
+
+    A step sees an update whenever in the tick before it the stamp was set.  The coherence alone counts the
+    time between updates in steps, as the model does: a stamp that jitters from tick to tick is seen there
+    as one that does not.
+    """
 
     def __init__(self) -> None:
         self._updates = {name: Updates() for name in SOURCES}
@@ -56,14 +63,11 @@ class Reader2:
         at = {datum.name: signal.raw(inputs[signal.name]) for signal, datum in SAMPLES.items()}
         for name, source in SOURCES.items():
             latest = int(inputs[name])
-            changed = self._updates[name].step(latest) is not None
-            if changed and latest != now:
-                raise ModelError(
-                    f"{name} = {latest} in the step at {now} ms: the charts of Board 2 count gaps in steps, "
-                    f"so that a stamp must be that of the step that first sees it, not {since(now, latest)} "
-                    "ms older."
-                )
-            at |= {source.update.name: int(changed), source.age.name: age(now, latest)}
+            before = self._updates[name].step(latest)
+            at[source.age.name] = age(now, latest)
+            at[advance(source).name] = 0 if before is None else since(latest, before)
+            if source in COUNTED:
+                at[source.update.name] = int(before is not None)
         return computed(at)
 
 
@@ -103,7 +107,7 @@ BOARD2 = Board(
     name="board2",
     system=in_order(
         "board2_charts",
-        *supervisor(heading=heading(motion.yaw, targetAngle)),
+        *supervisor(record_of_gaps, heading(motion.yaw, targetAngle)),
         ACTUATION,
         text="The supervisor of Board 2 without environment: its inputs are what the snapshots hold.",
     ),

@@ -235,9 +235,12 @@ def contains(data: Var, raw: int) -> bool:
 
 
 def within(data: Var, raw: int) -> bool:
-    """Whether a number lies between the ends of the domain; other values must be of the domain."""
+    """Whether a number lies less than one step of the domain beyond its ends; other values must be of the domain.
+
+    The last grid point of an angle below 180 degrees is 177.5, and measured angles lie above it too.
+    """
     if isinstance(data.sort, Num):
-        return data.domain.low <= raw <= data.domain.high
+        return data.domain.low - 1 < raw < data.domain.high + 1
     return raw in data.domain
 
 
