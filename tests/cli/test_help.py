@@ -8,10 +8,11 @@ import click
 import pytest
 from click.testing import CliRunner
 
-from checker.cli import LISTS, app, run
+from checker.cli import app, run
 from checker.commands.listing import LISTS as LISTED
 from checker.commands.output import counted
 from checker.engine import engines
+from checker.verbs.properties import LISTS
 
 ROOT = Path(__file__).parents[2]
 WRITTEN = "".join(p.read_text(encoding="utf-8") for p in (ROOT / "README.md", *(ROOT / "docs").glob("*.md")))

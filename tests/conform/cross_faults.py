@@ -143,13 +143,13 @@ class NoReceptionFault(Board2):
         return replace(found, degraded_mask=found.degraded_mask & ~0b100)
 
 
-class Crashing(Board1):
-    """Raises when a motor fails."""
+class Crashing(Board2):
+    """Raises when the joystick fails."""
 
-    def step(self, inputs: Board1Inputs) -> Board1Outputs:
+    def step(self, inputs: Board2Inputs) -> Board2Outputs:
         found = super().step(inputs)
-        if Level.CRITICAL in found.statuses.wheel_status:
-            raise RuntimeError("no wheel to drive")
+        if found.statuses.esp_status is Level.CRITICAL:
+            raise RuntimeError("nobody steers")
         return found
 
 
@@ -161,5 +161,3 @@ FAULTS = {
     "board2": (StopsLate, KeepsAuthority, SwappedSonars, NoReceptionFault),
 }  # fmt: skip
 """The faults that must be found, by board."""
-
-

@@ -1,7 +1,5 @@
 """C supervisors: every way to hold signals, and what is said of code and mapping files that do not fit."""
 
-import os
-import subprocess
 from contextlib import closing
 
 import pytest
@@ -147,6 +145,41 @@ give_b2_actuation = "!!(result & 1)"
     assert found["give_b2_actuation"] is True
 
 
+def test_a_project_in_several_folders(tmp_path):
+    for name, text in {
+        "code/sup.c": SOURCE.replace("rtY_mask = 5", "rtY_mask = MASK"),
+        "code/unused.c": "this is not compiled",
+        "headers/sup.h": HEADER,
+        "maps/sup.toml": f"""
+sources = ["sup.c"]
+include = ["../headers"]
+flags = ["-DMASK=6"]
+{HEAD}{INPUTS}[outputs]
+critical_mask = "rtY_mask"
+""",
+    }.items():
+        (tmp_path / name).parent.mkdir(exist_ok=True)
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    address = f"c:{tmp_path / 'code'},map={tmp_path / 'maps' / 'sup.toml'}"
+    with closing(start(address, BOARD, LIMITS)) as started:
+        assert started.step(AT_REST) == {"critical_mask": 6}
+
+
+def test_terminate_is_called_before_the_next_power_up_and_at_the_end(opened, tmp_path):
+    ends = tmp_path / "ends"
+    mapping = f"""
+header = ["sup.h", "<stdio.h>"]
+declarations = 'static FILE *file;'
+step = "sup_step"
+terminate = ['file = fopen("{ends}", "a");', "fputc('.', file)", "fclose(file)"]
+{INPUTS}{OUTPUTS}"""
+    with opened(mapping) as started:
+        assert not ends.exists()
+        started.reset()
+        assert ends.read_text() == "."
+    assert ends.read_text() == ".."
+
+
 def test_a_symbol_of_the_supervisor_is_its_own(opened):
     """Even if the C library has one of that name."""
     source = SOURCE.replace("void sup_init", "int rand(void) { return 9; }\nvoid sup_init")
@@ -154,13 +187,12 @@ def test_a_symbol_of_the_supervisor_is_its_own(opened):
     assert stepped(opened, HEAD + INPUTS + OUTPUTS, source) == {"omega_ref": 9.0}
 
 
-def test_warnings_and_what_is_not_mapped_are_noted(opened):
+def test_warnings_and_inputs_that_are_not_given_are_noted(opened):
     source = SOURCE.replace("rtY_mask = 5;", "int unused; rtY_mask = 5;")
     with opened(HEAD + INPUTS + OUTPUTS, source) as started:
         said = "\n".join(notes(started))
     assert "unused variable 'unused'" in said
     assert "inputs without a place, which it is not given: now_ms, " in said
-    assert "outputs without a place, which are not compared: v_ref, " in said
 
 
 def test_what_was_compiled_is_deleted(opened, tmp_path, monkeypatch):
@@ -192,26 +224,24 @@ def test_a_value_out_of_the_range_of_its_type(opened, place, value, said):
 
 
 @pytest.mark.parametrize(
-    ("old", "new", "said"),
+    ("old", "new", "entry"),
     [
-        ("rtU.degc", "rtU.deg", "map.toml, [inputs] temperature_degC: error: 'struct sensors' has no member"),
-        ("rtU.degc", "rtU.fixed", "[inputs] temperature_degC: error: assignment of read-only member"),
-        ("rtU.degc", "rtU.degc + 1", "[inputs] temperature_degC: error: lvalue required"),
-        ("rtU.degc", "rtU.pointer", "[inputs] temperature_degC: error: incompatible types"),
-        ("rtU.degc", "rtU.wheel", "[inputs] temperature_degC: error: assignment to expression with"),
-        ("rtU.degc", "rtX.degc", "[inputs] temperature_degC: error: 'rtX' undeclared"),
-        ('"rtY_omega"', '"rtU"', "[outputs] omega_ref: error: aggregate value used"),
-        ("sup_step", "sup_stop", "step: error: implicit declaration of function 'sup_stop'"),
+        ("rtU.degc", "rtU.deg", "[inputs] temperature_degC"),  # no such member
+        ("rtU.degc", "rtU.fixed", "[inputs] temperature_degC"),  # constant
+        ("rtU.degc", "rtU.degc + 1", "[inputs] temperature_degC"),  # no place
+        ("rtU.degc", "rtU.pointer", "[inputs] temperature_degC"),
+        ("rtU.degc", "rtU.wheel", "[inputs] temperature_degC"),
+        ("rtU.degc", "rtX.degc", "[inputs] temperature_degC"),  # undeclared
+        ('"rtY_omega"', '"rtU"', "[outputs] omega_ref"),
+        ('"rtY_omega"', '"rtU.pointer"', "[outputs] omega_ref"),
+        ("sup_step", "sup_stop", "step"),
+        ("sup_init", "sup_start", "initialize"),
     ],
-)  # fmt: skip
-def test_a_name_that_the_code_does_not_have(opened, old, new, said):
-    """The compiler says so, of the entry of the mapping file."""
+)
+def test_a_name_that_the_code_does_not_have(opened, tmp_path, old, new, entry):
+    """The compiler says so, of the entry of the mapping file and of nothing else."""
     found = refused(opened, (HEAD + INPUTS + OUTPUTS).replace(old, new))
-    if (
-        "gcc"
-        in subprocess.run(["cc", "--version"], capture_output=True, text=True, check=False).stdout.lower()
-    ):
-        assert said in found
+    assert f"{tmp_path / 'map.toml'}, {entry}: error: " in found
     assert "rovercheck.c" not in found
 
 
@@ -222,19 +252,12 @@ def test_near_names_are_offered(opened):
 
 
 @pytest.mark.parametrize(
-    ("source", "said"),
-    [
-        (SOURCE.replace("void sup_step(void) {", "void other(void) {"), "undefined reference to `sup_step'"),
-        (
-            SOURCE.replace("rtY_mask = 5;", "rtY_mask = ;"),
-            "sup.c:5:34: error: expected expression before ';'",
-        ),
-    ],
+    ("old", "new", "said"),
+    [("void sup_step(void) {", "void other(void) {", "sup_step"), ("= 5;", "= ;", "sup.c:5:34: error: ")],
 )
-def test_code_that_does_not_compile_or_link(opened, source, said):
-    found = refused(opened, HEAD + INPUTS + OUTPUTS, source)
-    assert said in found or os.environ.get("CC")
-    assert "cannot be compiled" in found
+def test_code_that_does_not_compile_or_link(opened, old, new, said):
+    found = refused(opened, HEAD + INPUTS + OUTPUTS, SOURCE.replace(old, new))
+    assert "cannot be compiled" in found and said in found
 
 
 @pytest.mark.parametrize(

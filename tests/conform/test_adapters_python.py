@@ -141,6 +141,13 @@ class S:
     assert said == "Its standard error ends with\n  stepping\n  stepping"
 
 
+def test_there_is_nothing_to_read(tmp_path):
+    """What we write to its process is not for the class."""
+    source = "class S:\n  def step(self, i): return {'v_ref': len(open(0, closefd=False).read())}"
+    with opened(tmp_path, source) as started:
+        assert run(started, [{}, {}]) == [{"v_ref": 0}] * 2
+
+
 @pytest.mark.parametrize("isolated", [True, False])
 @pytest.mark.parametrize(
     ("source", "said"),

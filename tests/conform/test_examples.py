@@ -1,5 +1,6 @@
 """The examples in C: the sound one does what the firmware in Python does, the faulty twin does not."""
 
+import re
 import shlex
 import sys
 from contextlib import closing
@@ -155,3 +156,14 @@ def test_the_command_in_the_documentation_works(tmp_path):
     file.write_text(documented("The whole of a command:"), encoding="utf-8")
     with closing(start(f"command:{shlex.join([sys.executable, str(file)])}", BOARD, LIMITS)) as started:
         assert started.step({**AT_REST, "y_norm": 0.5}) == {"v_ref": 0.5}
+
+
+@pytest.mark.parametrize("board", list(boards().values()), ids=lambda board: board.name)
+def test_the_documentation_names_every_signal(board):
+    text = DOCS.read_text(encoding="utf-8")
+    for verb, names in {
+        "reads": [s.name for s in board.inputs],
+        "gives": [o.name for o in board.outputs],
+    }.items():
+        paragraph = text.partition(f"**{board.name} {verb}**")[2].partition("\n\n")[0]
+        assert sorted(re.findall(r"`(\w+)`", paragraph)) == sorted(names)

@@ -209,13 +209,6 @@ def test_a_damaged_gzip(tmp_path: Path) -> None:
     assert refused(file).startswith("line ")
 
 
-def test_a_stamp_between_two_steps_of_board_2(tmp_path: Path) -> None:
-    rows = copied(long_log("board2")[:SHORT])
-    rows[5]["imu_last_valid_ms"] = rows[5]["now_ms"] - 7
-    with pytest.raises(LogError, match=r"line 7: imu_last_valid_ms = 113 ms in the step at 120 ms"):
-        examine(written(tmp_path, rows), Map())
-
-
 @pytest.mark.parametrize(
     ("toml", "says"),
     [

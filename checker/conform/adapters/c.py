@@ -77,13 +77,10 @@ def _beside(path: Path) -> Path:
 
 
 def _notes(c: Map, board: "Board", warnings: str) -> list[str]:
-    """What a person should know: what is not mapped, and what the compiler warned of."""
-    inputs, outputs = {p.signal for p in c.inputs}, {p.signal for p in c.outputs}
+    """What a person should know: what it is not given, and what the compiler warned of."""
+    inputs = {place.signal for place in c.inputs}
     unread = [s.name for s in board.inputs if s.name not in inputs]
-    unseen = [o.name for o in board.outputs if o.name not in outputs]
-    found = {
-        f"{c.file}: inputs without a place, which it is not given: {', '.join(unread)}": unread,
-        f"{c.file}: outputs without a place, which are not compared: {', '.join(unseen)}": unseen,
-        f"The compiler warns:\n{warnings}": warnings,
-    }
-    return [note for note, there in found.items() if there]
+    found = (
+        [f"{c.file}: inputs without a place, which it is not given: {', '.join(unread)}"] if unread else []
+    )
+    return [*found, f"The compiler warns:\n{warnings}"] if warnings else found

@@ -61,11 +61,11 @@ def main() -> None:
     order = json.loads(sys.argv[1])
     end_with_parent()
     confine(order["memory"])
-    answers = os.dup(1)
-    os.dup2(2, 1)  # what the implementation prints must not look like an answer
+    orders, answers = Lines(os.dup(0)), os.dup(1)
+    os.dup2(os.open(os.devnull, os.O_RDONLY), 0)  # the implementation must not read orders
+    os.dup2(2, 1)  # nor may what it prints look like an answer
     sys.stdout = os.fdopen(1, "w", buffering=1, errors="replace", closefd=False)
     sys.path.append(str(Path.cwd()))
-    orders = Lines(0)
     if orders.next() is None:
         return
     try:

@@ -80,9 +80,10 @@ def _file(path: Path) -> ModuleType:
     if not path.is_file():
         raise Refused(f"there is no file {path}")
     sys.path.append(str(path.resolve().parent))
-    spec = spec_from_file_location(path.stem, path)
+    name = f"user_{path.stem}"  # a file called json.py does not hide the module
+    spec = spec_from_file_location(name, path)
     assert spec is not None and spec.loader is not None
-    module = sys.modules[path.stem] = module_from_spec(spec)
+    module = sys.modules[name] = module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 

@@ -235,7 +235,7 @@ def contains(data: Var, raw: int) -> bool:
 
 
 def within(data: Var, raw: int) -> bool:
-    """Whether a number lies less than one step of the domain beyond its ends; other values must be of the domain.
+    """Whether a number lies less than a step of the domain beyond its ends; others must be of the domain.
 
     The last grid point of an angle below 180 degrees is 177.5, and measured angles lie above it too.
     """

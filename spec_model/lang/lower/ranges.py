@@ -35,7 +35,13 @@ def possible(expr: Expr) -> Possible:
 def _union(a: Possible, b: Possible) -> Possible:
     if isinstance(a, frozenset) and isinstance(b, frozenset) and len(a) + len(b) <= _FEW:
         return a | b
-    return range(min(min(a), min(b)), max(max(a), max(b)) + 1)
+    ends = (*_ends(a), *_ends(b))
+    return range(min(ends), max(ends) + 1)
+
+
+def _ends(values: Possible) -> tuple[int, int]:
+    """The least and the greatest; Python would look for them through all of a range."""
+    return (values[0], values[-1]) if isinstance(values, range) else (min(values), max(values))
 
 
 def _image(op: Op, args: list[Possible]) -> Possible:
@@ -44,7 +50,7 @@ def _image(op: Op, args: list[Possible]) -> Possible:
         count *= len(arg)
     if count <= _FEW:
         return frozenset(operate(op, *values) for values in product(*args))
-    return _interval(op, [(min(a), max(a)) for a in args])
+    return _interval(op, [_ends(a) for a in args])
 
 
 def _interval(op: Op, ends: list[tuple[int, int]]) -> range:
@@ -61,7 +67,8 @@ def fits(expr: Expr, domain: Domain) -> bool:
     """Whether every possible value of the formula belongs to the domain."""
     values = possible(expr)
     if domain.dense:
-        return domain.low <= min(values) and max(values) <= domain.high
+        low, high = _ends(values)
+        return domain.low <= low and high <= domain.high
     return isinstance(values, frozenset) and values <= frozenset(domain.values)
 
 

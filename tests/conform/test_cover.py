@@ -1,0 +1,204 @@
+"""Goals, searches and the choice of tests, on a toy board and on the boards as drawn."""
+
+from random import Random
+
+import pytest
+
+from checker.conform.cover.coverage import Coverage, Effort, cover
+from checker.conform.cover.explore import Machine, Place, explored, first_reached, shortened
+from checker.conform.cover.goals import Goal, Kind
+from checker.conform.cover.keep import kept_of, written
+from checker.conform.cover.replay import first_reached as replayed
+from checker.conform.cover.replay import played
+from checker.conform.cover.scripts import Script, blocks, script, steps, unfolded
+from checker.conform.cover.search import Found, Uncoverable
+from checker.conform.cover.watch import watched
+from checker.conform.cover.weather import Weather
+from spec_model.abstraction import boards
+from spec_model.lang.errors import ModelError
+from spec_model.lang.interpret import Interpreter
+from tests.conform.cover_toys import AFTER_NEVER, NEVER, SYSTEM, TOY
+
+LOOKED = watched(TOY.system)
+BOTH = ["board1", "board2"]
+
+
+def random_script(name: str, ticks: int, seed: int = 0) -> Script:
+    return tuple(Weather(boards()[name]).run(Random(seed), ticks, lambda: {}))
+
+
+def texts(*kinds: Kind) -> list[str]:
+    return [g.text for g in LOOKED.of(*kinds)]
+
+
+def toy(presses: str, light: int = 9) -> Script:
+    return tuple({"press": c == "1", "light_lx": light} for c in presses)
+
+
+def reached(moments: Script) -> dict[str, int]:
+    found = replayed(TOY, LOOKED, steps(TOY, moments))
+    by_text = {g.id: g.text for g in LOOKED.goals}
+    return {by_text[id]: step for id, step in found.items()}
+
+
+# --- goals ---------------------------------------------------------------------------------------------
+
+
+def test_every_arrow_of_the_chart_is_a_goal() -> None:
+    assert len(LOOKED.of(Kind.ARROWS)) == 4
+    assert texts(Kind.ARROWS)[2].startswith("Off -> Broken")
+
+
+def test_every_arrow_into_a_state_is_paired_with_every_arrow_out_of_it() -> None:
+    ids = {g.id for g in LOOKED.of(Kind.PAIRS)}
+    assert ids == {"Lamp.pair.1-2", "Lamp.pair.4-2", AFTER_NEVER, "Lamp.pair.4-3", "Lamp.pair.2-4"}
+
+
+def test_a_comparison_has_both_nearest_values_beside_its_limit_as_goals() -> None:
+    for light, side in ((9, "just below"), (10, "at it"), (11, "just above")):
+        sides = [t for t in reached(toy("01", light)) if t.startswith("light_lx < 10")]
+        assert [t for t in sides if side in t] == sides != []
+    assert not [t for t in reached(toy("01", 100)) if t.startswith("light_lx < 10")]
+
+
+def test_a_timer_is_asked_a_step_early_in_time_and_a_step_late() -> None:
+    found = reached(toy("01111110"))
+    lit_at = found["Off -> On (arrow 1) [rising(press) && light_lx < 10]"]
+    early, due, late = (
+        found[next(t for t in found if t.startswith(f"after(3 ticks) {side}"))]
+        for side in ("one step early", "just run out", "one step late")
+    )
+    assert (early, due, late) == (lit_at + 2, lit_at + 3, lit_at + 4)
+
+
+@pytest.mark.parametrize("name", BOTH)
+def test_goals_have_ids_of_their_own_and_are_the_same_in_the_model_of_the_board(name: str) -> None:
+    from spec_model.rover import systems
+
+    board = boards()[name]
+    goals = {g.id: g.text for g in watched(board.system).goals}
+    assert len(goals) == len(watched(board.system).goals) > 500
+    in_the_model = {g.id: g.text for g in watched(systems()[name]).goals}
+    assert goals.items() <= in_the_model.items()
+
+
+@pytest.mark.parametrize("name", BOTH)
+def test_looking_changes_nothing(name: str) -> None:
+    board = boards()[name]
+    plain, looking = (
+        Interpreter(board.system, measured=True),
+        Interpreter(watched(board.system).system, measured=True),
+    )
+    one, two = board.reader(), board.reader()
+    for inputs in steps(board, random_script(name, 150)):
+        fired = plain.step(one.step(inputs))
+        again = looking.step(two.step(inputs))
+        assert [(f.chart, f.source, f.target, f.event) for f in fired] == [
+            (f.chart, f.source, f.target, f.event) for f in again
+        ]
+        assert plain.valuation().items() <= looking.valuation().items()
+
+
+@pytest.mark.parametrize("name", BOTH)
+def test_compiled_charts_reach_what_the_interpreter_reaches(name: str) -> None:
+    board, looked = boards()[name], watched(boards()[name].system)
+    machine, moments = Machine(board, looked), random_script(name, 120, seed=1)
+    place = Place.power_up(machine)
+    for moment, step in zip(moments, played(board, looked, steps(board, moments)), strict=True):
+        assert set(place.step(moment)) == step.reached
+        assert board.expected(place.at) == step.outputs
+
+
+# --- scripts -------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", BOTH)
+def test_scripts_and_rows_stand_for_the_same_inputs(name: str) -> None:
+    board, moments = boards()[name], random_script(name, 80)
+    assert unfolded(board, blocks(board, moments)) == moments
+    assert script(board, steps(board, moments)) == moments
+    assert len(blocks(board, moments)) < len(moments)
+
+
+def test_a_clock_that_jumps_is_no_test() -> None:
+    inputs = [dict(s) for s in steps(TOY, toy("00"))]
+    inputs[1]["now_ms"] = 60
+    with pytest.raises(ModelError, match="step 2 is at 60 ms"):
+        script(TOY, inputs)
+
+
+def test_a_script_is_shortened_to_the_steps_it_needs() -> None:
+    machine = Machine(TOY, LOOKED)
+    long = toy("0" * 40 + "1" + "0" * 40)
+    short = shortened(machine, long, ["Lamp.arrow.4"])
+    assert len(short) == 6  # power-up, the press, three steps lit, and the step that puts it out
+    assert first_reached(machine, short)["Lamp.arrow.4"] == 6
+
+
+def test_random_runs_are_reproducible() -> None:
+    machine = Machine(TOY, LOOKED)
+    one, two = (list(explored(machine, [g.id for g in LOOKED.goals], Random(5), 500)) for _ in range(2))
+    assert one == two != []
+
+
+# --- coverage ------------------------------------------------------------------------------------------
+
+
+@pytest.fixture(scope="module")
+def covered() -> Coverage:
+    coverage = Coverage(TOY, LOOKED.goals)
+    cover(coverage, SYSTEM, Effort(seconds=60, ticks=400, jobs=1), lambda line: None)
+    return coverage
+
+
+def test_every_goal_of_the_toy_is_covered_or_proved_uncoverable(covered: Coverage) -> None:
+    assert not covered.unknown
+    assert covered.covered.keys() | covered.uncoverable.keys() == covered.wanted
+    assert not covered.covered.keys() & covered.uncoverable.keys()
+
+
+def test_an_arrow_that_is_never_taken_is_proved_uncoverable(covered: Coverage) -> None:
+    answer = covered.answers[NEVER]
+    assert isinstance(answer, Uncoverable) and answer.because
+
+
+def test_a_pair_that_cannot_follow_is_proved_uncoverable(covered: Coverage) -> None:
+    assert AFTER_NEVER in covered.uncoverable and "Lamp.pair.4-3" in covered.uncoverable
+
+
+def test_runs_to_arrows_are_as_short_as_any(covered: Coverage) -> None:
+    lengths = {g: covered.covered[g] for g in ("Lamp.arrow.1", "Lamp.arrow.2", "Lamp.arrow.4")}
+    assert lengths == {"Lamp.arrow.1": 1, "Lamp.arrow.2": 2, "Lamp.arrow.4": 5}
+    assert lengths.keys() <= covered.shortest
+
+
+def test_few_tests_reach_all_that_is_covered(covered: Coverage) -> None:
+    kept = covered.kept()
+    claimed = [goal for _, goals, _ in kept.tests for goal in goals]
+    assert sorted(claimed) == sorted(covered.covered)
+    assert len(kept.tests) < len(covered.scripts)
+    assert kept_of(TOY, written(TOY, kept)) == kept
+
+
+def test_a_false_claim_is_not_kept() -> None:
+    from checker.runs.replay import ReplayError
+
+    coverage = Coverage(TOY, LOOKED.goals)
+    coverage.scripts.append((toy("00"), {NEVER: 2}))
+    with pytest.raises(ReplayError, match=NEVER):
+        coverage.kept()
+
+
+def test_without_a_search_all_is_unknown() -> None:
+    goals: tuple[Goal, ...] = LOOKED.goals
+    assert Coverage(TOY, goals).unknown.keys() == {g.id for g in goals}
+
+
+def test_answers_say_where_runs_come_from(covered: Coverage) -> None:
+    runs = [a for a in covered.answers.values() if isinstance(a, Found)]
+    assert runs and all(a.engine for a in runs)
+
+
+def test_a_file_of_another_board_is_refused() -> None:
+    with pytest.raises(ModelError, match="no tests of board1"):
+        kept_of(boards()["board1"], written(TOY, Coverage(TOY, ()).kept()))

@@ -1,0 +1,141 @@
+"""What the cross-check aims at: every boundary and timer of the charts, found in them and really drawn."""
+
+from fractions import Fraction
+
+import pytest
+
+from checker.conform.cross.aims import aims
+from checker.conform.cross.beside import Charts, played, rerun
+from checker.conform.cross.environment import AROUND
+from checker.conform.cross.fixed import fixed
+from checker.conform.cross.smaller import columns
+from checker.conform.cross.stimulus import SILENT, Block, Every, Player, Stimulus, Toward
+from checker.conform.cross.strategy import ENVIRONMENTS
+from spec_model.abstraction import boards
+from spec_model.abstraction.stamps import CLOCK
+from spec_model.lang.expr import Temporal
+from spec_model.lang.walk import nodes
+
+BOARDS = ("board1", "board2")
+
+
+def boundaries(board: str, signal: str) -> set[float]:
+    found = aims(boards()[board]).boundaries
+    return {float(b.value) for b in found if b.signal == signal and not b.datum and not b.source}
+
+
+def test_boundaries_are_those_of_the_charts() -> None:
+    assert boundaries("board1", "temperature_degC") == {-15, -5, 55, 60}
+    assert boundaries("board1", "battery_pct") == {0, 15, 23, 25}
+    assert boundaries("board1", "wheel_speed_rpm_FL") == {-2.5, 0, 2.5}
+    assert {-0.5, 0} <= boundaries("board1", "y_norm")
+    assert boundaries("board2", "d2") == {70, 100, 300}
+    assert {-0.5, 0} <= boundaries("board2", "ay_norm")
+
+
+def test_headings_are_aimed_at_relative_to_what_the_charts_hold() -> None:
+    for board, signal, datum in (
+        ("board1", "current_yaw", "targetAngle180"),
+        ("board2", "yaw", "B2.targetAngle180"),
+    ):
+        found = {
+            float(b.value) for b in aims(boards()[board]).boundaries if (b.signal, b.datum) == (signal, datum)
+        }
+        assert {0, 7.5, 352.5, 45, 315} <= found
+
+
+def test_estimates_move_with_the_age() -> None:
+    found = {b for b in aims(boards()["board1"]).boundaries if b.source == "batt_last_valid_ms"}
+    assert {(b.steps, b.value) for b in found} >= {(25, Fraction("15.21")), (625, Fraction("20.25"))}
+
+
+def test_lengths_are_those_of_the_charts() -> None:
+    for board in BOARDS:
+        which = boards()[board]
+        spans = {
+            n.span.ticks(20)
+            for chart in which.system.charts
+            for n in nodes(*chart.expressions)
+            if isinstance(n, Temporal) and n.span is not None
+        }
+        assert spans and spans <= set(aims(which).timers)
+    assert aims(boards()["board1"]).silences["last_valid_b2_ms"] == (6,)
+    assert aims(boards()["board2"]).silences["imu_last_valid_ms"] == (10,)
+    assert aims(boards()["board2"]).means == (2, 3, 5)
+
+
+@pytest.mark.parametrize("board", BOARDS)
+def test_every_boundary_is_met_at_it_and_on_both_sides(board: str) -> None:
+    """In the fixed runs, whatever is drawn beside them."""
+    env = ENVIRONMENTS[board]
+    put: dict[str, set[float]] = {}
+    for _, stimulus in fixed(env):
+        for block in stimulus.blocks:
+            for name, change in block.changes:
+                if isinstance(change, bool | int | float):
+                    put.setdefault(name, set()).add(float(change))
+    for b in env.values.aims.boundaries:
+        if not b.datum and not b.source:
+            signal, value = env.values.signals[b.signal], float(b.value)
+            assert value in put[b.signal]
+            assert value <= signal.low or any(value - 1 <= v < value for v in put[b.signal])
+            assert value >= signal.high or any(value < v <= value + 1 for v in put[b.signal])
+
+
+@pytest.mark.parametrize("board", BOARDS)
+def test_lengths_and_distances_are_drawn_around_every_aim(board: str) -> None:
+    env = ENVIRONMENTS[board]
+    for n in env.values.aims.timers:
+        assert {n + d for d in AROUND} <= set(env.timers)
+    for stamp, limits in env.values.aims.silences.items():
+        assert {n + d for n in limits for d in AROUND} <= set(env.silences(stamp))
+    for b in env.values.aims.boundaries:
+        if b.datum:
+            offsets = {t.offset for name, t in env.values.relative if (name, t.datum) == (b.signal, b.datum)}
+            assert {float(b.value) + d for d in (-0.125, 0, 0.125)} <= offsets
+
+
+def test_fields_change_with_their_stamp_only() -> None:
+    env = ENVIRONMENTS["board2"]
+    stimulus = Stimulus((
+        Block(2, (("ble_last_valid_ms", Every((2,))), ("ay_norm", 1))),
+        Block(2, (("ay_norm", -1), ("crit_mask_b1", 4))),
+        Block(1, (("ble_last_valid_ms", SILENT), ("ay_norm", 0))),
+    ))  # fmt: skip
+    seen = [(s.inputs["ble_last_valid_ms"], s.inputs["ay_norm"], s.inputs["crit_mask_b1"])
+            for s in played(env.board, env.fields, stimulus)]  # fmt: skip
+    assert seen == [(20, 1, 0), (20, 1, 0), (60, -1, 0), (60, -1, 0), (60, -1, 0)]
+
+
+def test_a_heading_follows_what_the_charts_hold() -> None:
+    env = ENVIRONMENTS["board1"]
+    back = (("y_norm", -1), ("current_yaw", 90))
+    toward = (("current_yaw", Toward("targetAngle180", -45.0)),)
+    steps = played(env.board, env.fields, Stimulus((Block(2, (*env.at_rest, *back)), Block(1, toward))))
+    assert steps[-1].inputs["current_yaw"] == 225 and steps[-1].expected["angle_err"] == 45
+
+
+def test_the_clock_may_wrap() -> None:
+    env = ENVIRONMENTS["board2"]
+    stimulus = Stimulus((Block(3, env.at_rest),), CLOCK - 40)
+    charts = Charts(env.board)
+    nows = [inputs["now_ms"] for inputs in _stepping(Player(env.board, env.fields, charts), stimulus, charts)]
+    assert nows == [CLOCK - 40, CLOCK - 20, 0]
+
+
+def _stepping(player: Player, stimulus: Stimulus, charts: Charts):
+    for inputs in player.steps(stimulus):
+        charts.step(inputs)
+        yield inputs
+
+
+@pytest.mark.parametrize("board", BOARDS)
+def test_columns_and_held_blocks_give_the_same_inputs(board: str) -> None:
+    env = ENVIRONMENTS[board]
+    label, stimulus = max(fixed(env), key=lambda run: run[0] == "silences" and len(run[1]) < 400)
+    steps = played(env.board, env.fields, stimulus)
+    inputs = [step.inputs for step in steps]
+    taken_apart = columns(env.board, inputs)
+    assert taken_apart.inputs(env.board) == inputs, label
+    assert [s.inputs for s in played(env.board, {}, taken_apart.stimulus())] == inputs
+    assert rerun(env.board, inputs[:20]) == steps[:20]
