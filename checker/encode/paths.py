@@ -4,70 +4,40 @@
 the last ``Fork`` before it.  ``Require`` gives a path up when the assumption fails.  Inputs that a
 path never reads are never chosen, so they cost nothing.  What ``&``, ``|`` and ``ite`` may leave
 unread is turned into branches for the same reason; all expressions of the result are free of choices.
+
+What is stored of a tick seldom asks as much of an input as goals do.  So there may be two stages, with a
+``Complete`` between them: as far as the valuation depends on it an input is chosen coarsely, then, for the
+statements that only goals need, among the cells inside the one chosen.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import takewhile
-from typing import Union
+from itertools import accumulate, pairwise, takewhile
 
-from checker.partition import Partition, conjuncts
+from checker.encode.path_statements import (
+    Branch,
+    Choose,
+    Complete,
+    Each,
+    Fork,
+    Names,
+    PathProgram,
+    PathStatement,
+    Require,
+    Span,
+    chooses,
+    weight,
+)
+from checker.encode.sinking import sunk
+from checker.partition import Partition, conjuncts, expressions, partitions
 from checker.slice import names
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.domain import Bool, Domain, Num
-from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, Op, Var, flag
-from spec_model.lang.system import TransitionSystem
+from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Named, Op, Var, flag
+from spec_model.lang.system import Program, TransitionSystem
 from spec_model.lang.walk import variables
 
-Names = frozenset[str]
-
-
-@dataclass(frozen=True, eq=False)
-class Choose:
-    """Take one of the values; the next one when the program is run again."""
-
-    var: Var
-    values: tuple[int, ...]
-
-
-@dataclass(frozen=True, eq=False)
-class Fork:
-    """From here the program is run again for other choices; ``number`` tells forks apart."""
-
-    number: int
-
-
-@dataclass(frozen=True, eq=False)
-class Each:
-    """Run the rest for each of the values in turn: a fork with a choice that every path makes.
-
-    ``alone``: no other choice is made before the next fork.
-    """
-
-    number: int
-    var: Var
-    values: tuple[int, ...]
-    alone: bool = False
-
-
-@dataclass(frozen=True, eq=False)
-class Require:
-    """Go on only where the condition holds."""
-
-    condition: Expr
-
-
-@dataclass(frozen=True, eq=False)
-class Branch:
-    """A conditional whose branches may choose."""
-
-    condition: Expr
-    then: "PathProgram"
-    otherwise: "PathProgram"
-
-
-PathStatement = Union[Assign, Branch, Choose, Each, Fork, Require]
-PathProgram = tuple[PathStatement, ...]
+Cells = Mapping[str, Partition]
 
 
 def read_flag(var: Var) -> Var:
@@ -75,7 +45,7 @@ def read_flag(var: Var) -> Var:
     return flag(f"?read {var.name}")
 
 
-def path_program(system: TransitionSystem, cells: Mapping[str, Partition]) -> PathProgram:
+def path_program(system: TransitionSystem, cells: Cells) -> PathProgram:
     """The assumption and the step of a system; inputs are chosen cell by cell, when first read.
 
     An input that every path reads sooner or later is chosen before the first statement that mentions it:
@@ -86,7 +56,40 @@ def path_program(system: TransitionSystem, cells: Mapping[str, Partition]) -> Pa
     return forked(program)
 
 
-def _assumed(system: TransitionSystem, cells: Mapping[str, Partition]) -> list[Expr]:
+_MOST_COARSE = 16
+"""Coarse cells of an input beyond which it is chosen finely at once: finding the fine ones takes too long."""
+
+
+def staged_program(system: TransitionSystem, cells: Cells, stored: Names) -> PathProgram | None:
+    """The same paths with as few of them as can be until the valuation after the tick is complete.
+
+    To there an input is chosen among coarse cells: values that the assumption and what is stored cannot
+    tell apart.  Then follow the statements that only goals need, and choices among the cells inside.
+    None where no input has coarser cells.
+    """
+    early, late = sunk(system.step, stored)
+    coarse = _coarser(system, early, late, cells)
+    if not coarse:
+        return None
+    first = replace(system, step=early)
+    _, whole = _Made(cells).whole(system)
+    _, seen = _Made({**cells, **coarse}).whole(first)
+    made = _Made({**cells, **coarse}, seen.always)
+    program, seen = made.whole(first)
+    return forked((*program, Complete(), *made.refined(late, cells, whole.always, seen)))
+
+
+def _coarser(system: TransitionSystem, early: Program, late: Program, cells: Cells) -> dict[str, Partition]:
+    """The cells to choose from at first, of the inputs for which there are fewer than in the end."""
+    if any(not p.cells for p in cells.values()):
+        return {}
+    read = names(expressions(late))
+    some = tuple(v for v in system.inputs if v.name in read and len(cells[v.name].cells) > 1)
+    found = partitions(replace(system, step=early, inputs=some)) if some else {}
+    return {n: p for n, p in found.items() if len(p.cells) <= min(_MOST_COARSE, len(cells[n].cells) - 1)}
+
+
+def _assumed(system: TransitionSystem, cells: Cells) -> list[Expr]:
     """The conjuncts that the cells do not already imply."""
     if any(not p.cells for p in cells.values()):
         return [FALSE]
@@ -106,14 +109,44 @@ class _Seen:
     def with_(self, name: str) -> "_Seen":
         return _Seen(self.always | {name}, self.sometimes | {name})
 
+    def without(self, some: Collection[str]) -> "_Seen":
+        return _Seen(self.always.difference(some), self.sometimes.difference(some))
+
+
+def _finer(coarse: Partition, fine: Partition, seen: _Seen) -> Choose:
+    """The fine cells inside the coarse one that was chosen before; any on a path that has not chosen."""
+    var, home = coarse.var, [coarse.cell_of[cell.value] for cell in fine.cells]
+    values = tuple(v for _, v in sorted(zip(home, (cell.value for cell in fine.cells), strict=True)))
+    if var.name not in seen.sometimes or len(coarse.cells) == 1:
+        return Choose(var, values)
+    ends = accumulate((home.count(n) for n in range(len(coarse.cells))), initial=0)
+    spans = [_span(*between) for between in pairwise(ends)]
+    span = spans[-1]
+    for cell, other in zip(coarse.cells[:-1], spans, strict=False):
+        span = _either(Apply(Op.EQ, (var, Const(cell.value, var.sort)), Bool()), other, span)
+    if var.name not in seen.always:
+        span = _either(read_flag(var), span, _span(0, len(values)))
+    return Choose(var, values, span)
+
+
+def _span(first: int, end: int) -> Span:
+    return Const(first, Num()), Const(end, Num())
+
+
+def _either(condition: Expr, then: Span, otherwise: Span) -> Span:
+    first, end = (Apply(Op.ITE, (condition, a, b), Num()) for a, b in zip(then, otherwise, strict=True))
+    return first, end
+
 
 @dataclass
 class _Made:
     """Fresh names and numbers while a path program is made."""
 
-    cells: Mapping[str, Partition]
+    cells: Cells
     sure: Names = frozenset()
     """Inputs to choose as early as possible."""
+    finer: dict[str, Choose] = field(default_factory=dict)
+    """The second choices of inputs that have been chosen coarsely."""
     fresh: int = 0
     read: dict[int, tuple[Expr, Names]] = field(default_factory=dict)
 
@@ -124,12 +157,26 @@ class _Made:
         for condition in _assumed(system, self.cells):
             value, seen = self.pure(condition, seen, out)
             out.append(Require(value))
-        for statement in system.step:
+        seen = self.top(system.step, seen, out)
+        return tuple(out), seen
+
+    def refined(self, late: Program, cells: Cells, sure: Names, seen: _Seen) -> PathProgram:
+        """What follows when the others are complete, on paths that have read ``seen`` before."""
+        coarse = [n for n, p in cells.items() if len(self.cells[n].cells) < len(p.cells)]
+        self.finer = {n: _finer(self.cells[n], cells[n], seen) for n in coarse}
+        self.cells, self.sure = cells, sure
+        out: list[PathStatement] = []
+        self.top(late, seen.without(coarse), out)
+        return tuple(out)
+
+    def top(self, program: Program, seen: _Seen, out: list[PathStatement]) -> _Seen:
+        """Statements outside of branches, after the choices that are sure to be made."""
+        for statement in program:
             for var in self.mentioned(statement):
                 if var.name in self.sure - seen.always:
                     seen = self.choose(var, seen, out)
             seen = self.statements((statement,), seen, out)
-        return tuple(out), seen
+        return seen
 
     def mentioned(self, statement: Action) -> Iterator[Var]:
         """The inputs that occur in a statement."""
@@ -184,8 +231,9 @@ class _Made:
         return self.read[id(expr)][1] <= seen.always
 
     def choose(self, var: Var, seen: _Seen, out: list[PathStatement]) -> _Seen:
-        known = read_flag(var)
-        made = Choose(var, tuple(c.value for c in self.cells[var.name].cells))
+        known, made = read_flag(var), Choose(var, tuple(c.value for c in self.cells[var.name].cells))
+        if var.name in self.finer:
+            known, made = flag(f"?finer {var.name}"), self.finer[var.name]
         steps: PathProgram = (made, Assign(known, TRUE))
         if var.name in seen.sometimes:
             steps = (Branch(known, (), steps),)
@@ -243,20 +291,24 @@ _FORKS = 12
 def forked(program: PathProgram) -> PathProgram:
     """The program with a fork at its start, and before choices before which much is run.
 
-    Forks lie outside of branches, so that they nest: the native code is a nest of plain loops.
+    Forks lie outside of branches, so that they nest: the native code is a nest of plain loops.  What
+    follows a ``Complete`` is short and run often, so every choice outside of branches is a fork there.
     """
-    apart = max(2, _weight(program) // _FORKS)
+    apart = max(2, weight(program) // _FORKS)
     out: list[PathStatement] = []
-    forks, weight = 0, apart
+    forks, since, last = 0, apart, False
     for statement in program:
-        if weight >= apart and _chooses((statement,)):
-            if isinstance(statement, Choose) and len(statement.values) > 1:
-                statement = Each(forks, statement.var, statement.values)
+        if isinstance(statement, Complete):
+            since, last = apart, True
+        plain = isinstance(statement, Choose) and len(statement.values) > 1
+        if chooses((statement,)) and (since >= apart or (plain and last)):
+            if isinstance(statement, Choose) and plain:
+                statement = Each(forks, statement.var, statement.values, statement.span)
             else:
                 out.append(Fork(forks))
-            forks, weight = forks + 1, 0
+            forks, since = forks + 1, 0
         out.append(statement)
-        weight += _weight((statement,))
+        since += weight((statement,))
     return tuple(_alone(out))
 
 
@@ -265,74 +317,5 @@ def _alone(program: Sequence[PathStatement]) -> Iterator[PathStatement]:
     for at, statement in enumerate(program):
         if isinstance(statement, Each):
             segment = takewhile(lambda s: not isinstance(s, Fork | Each), program[at + 1 :])
-            statement = replace(statement, alone=not _chooses(tuple(segment)))
+            statement = replace(statement, alone=not chooses(segment))
         yield statement
-
-
-def _weight(program: PathProgram) -> int:
-    """Statements on the longest path."""
-    return sum(
-        1 + max(_weight(s.then), _weight(s.otherwise)) if isinstance(s, Branch) else 1 for s in program
-    )
-
-
-def _chooses(program: PathProgram) -> bool:
-    return any(
-        isinstance(s, Choose) or (isinstance(s, Branch) and (_chooses(s.then) or _chooses(s.otherwise)))
-        for s in program
-    )
-
-
-def saved(program: PathProgram, live_at_end: Names) -> dict[int, tuple[Var, ...]]:
-    """For each fork, by number, the variables to restore before the program is run again from there:
-    those that what follows may both read and overwrite."""
-    found: dict[int, tuple[Var, ...]] = {}
-    _backward(program, live_at_end, {}, found)
-    return found
-
-
-def _backward(
-    program: PathProgram, live: Names, writes: dict[str, Var], found: dict[int, tuple[Var, ...]]
-) -> tuple[Names, dict[str, Var]]:
-    for statement in reversed(program):
-        match statement:
-            case Assign(var, value):
-                live = (live - {var.name}) | names([value])
-                writes = {**writes, var.name: var}
-            case Choose(var, _):
-                live -= {var.name}
-                writes = {**writes, var.name: var}
-            case Require(condition):
-                live |= names([condition])
-            case Fork(number):
-                found[number] = tuple(v for n, v in writes.items() if n in live)
-            case Each(number, var):
-                live -= {var.name}
-                writes = {**writes, var.name: var}
-                found[number] = tuple(v for n, v in writes.items() if n in live)
-            case Branch(condition, then, otherwise):
-                then_live, then_writes = _backward(then, live, writes, found)
-                else_live, else_writes = _backward(otherwise, live, writes, found)
-                live = then_live | else_live | names([condition])
-                writes = {**then_writes, **else_writes}
-    return live, writes
-
-
-def assigned(program: PathProgram) -> dict[str, tuple[Var, int]]:
-    """Every variable that the program writes, with the position of its last assignment."""
-    found: dict[str, tuple[Var, int]] = {}
-    _positions(program, 0, found)
-    return found
-
-
-def _positions(program: PathProgram, at: int, found: dict[str, tuple[Var, int]]) -> int:
-    for statement in program:
-        at += 1
-        match statement:
-            case Assign(var, _) | Choose(var, _) | Each(_, var):
-                found[var.name] = (var, at)
-            case Branch(_, then, otherwise):
-                at = _positions(otherwise, _positions(then, at, found), found)
-            case Require() | Fork():
-                pass
-    return at

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from checker.encode import native, paths
+from checker.encode import native, path_statements, paths
 from checker.encode.native import Field, Layout, body, quiet, retrace, search, table
 from checker.encode.native.expressions import BIT, INT, Expressions
 from checker.engine import Limits, Timers
@@ -117,8 +117,8 @@ def a_low_end_is_forgotten(patch: pytest.MonkeyPatch) -> None:
 
 
 def a_value_is_never_taken(patch: pytest.MonkeyPatch) -> None:
-    def choose(self: body.Body, var_: Var, values: tuple[int, ...]) -> None:
-        real(self, var_, values[:1])
+    def choose(self: body.Body, var_: Var, values: tuple[int, ...], span: object) -> None:
+        real(self, var_, values[:1], None)
 
     real = body.Body._choose
     patch.setattr(body.Body, "_choose", choose)
@@ -140,8 +140,8 @@ def a_fork_is_missed(patch: pytest.MonkeyPatch) -> None:
 
 
 def a_sure_choice_takes_one_value(patch: pytest.MonkeyPatch) -> None:
-    def each(self: body.Body, statement: paths.Each) -> None:
-        real(self, replace(statement, values=statement.values[:1]))
+    def each(self: body.Body, statement: path_statements.Each) -> None:
+        real(self, replace(statement, span=(const(0), const(1))))
 
     real = body.Body._each
     patch.setattr(body.Body, "_each", each)
@@ -151,7 +151,7 @@ def other_choices_of_a_round_are_overlooked(patch: pytest.MonkeyPatch) -> None:
     """A loop over the values of one input takes no other choice of its round into account."""
 
     def alone(program: Iterable[object]) -> Iterator[object]:
-        return (replace(s, alone=True) if isinstance(s, paths.Each) else s for s in program)
+        return (replace(s, alone=True) if isinstance(s, path_statements.Each) else s for s in program)
 
     patch.setattr(paths, "_alone", alone)
 

@@ -182,7 +182,7 @@ class Isolated(Contract):
             "started.step(trapped(3))\n"
         )
         hangs, root = tmp_path / "hangs", HERE.parents[1]
-        environment = {**os.environ, TELL: str(hangs), "PYTHONPATH": str(root)}
+        environment = {**os.environ, TELL: str(hangs), "PYTHONPATH": str(root), "TMPDIR": str(tmp_path)}
         with subprocess.Popen(
             [sys.executable, "-c", program],
             stdout=subprocess.PIPE,

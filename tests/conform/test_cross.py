@@ -13,7 +13,7 @@ from checker.conform.cross.reproduce import file_name, pytest_file, stimulus_of
 from checker.conform.cross.result import SHOWN
 from checker.conform.cross.smaller import smaller
 from checker.conform.cross.strategy import ENVIRONMENTS
-from checker.conform.implementation import Implementation
+from checker.conform.implementation import Implementation, Values
 from spec_model.abstraction import boards
 from tests.conform import cross_faults
 from tests.conform.cross_faults import FAULTS
@@ -140,7 +140,7 @@ def test_distinct_mismatches_are_told_apart_up_to_a_number_that_is_said() -> Non
             self._right.reset()
             self._reset += 1
 
-        def step(self, inputs: dict[str, float]) -> dict[str, float]:
+        def step(self, inputs: Values) -> Values:
             found = dict(self._right.step(inputs))
             name = sorted(found)[self._reset % len(found)]
             return found | {name: found[name] + 1}

@@ -106,7 +106,7 @@ def test_numbers_are_read_exactly(tmp_path: Path) -> None:
 
 @pytest.mark.parametrize("kind", ["update", "age"])
 def test_updates_or_ages_stand_for_stamps(tmp_path: Path, kind: str) -> None:
-    rows, before = short(), 0
+    rows, before = short(), 0.0
     for row in rows:
         stamp = row["temp_last_valid_ms"]
         row["temp"] = stamp != before if kind == "update" else row["now_ms"] - stamp

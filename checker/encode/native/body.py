@@ -15,7 +15,7 @@ from llvmlite import ir
 
 from checker.encode.intervals import Interval
 from checker.encode.native.expressions import INT, Expressions, Slot, kind
-from checker.encode.paths import Branch, Choose, Each, Fork, PathProgram, Require
+from checker.encode.path_statements import Branch, Choose, Complete, Each, Fork, PathProgram, Require, Span
 from spec_model.lang.action import Assign
 from spec_model.lang.expr import Var
 
@@ -26,8 +26,8 @@ class Body:
     """Emits a path program into a function.
 
     ``saved`` says what each fork restores; ``finished`` is the block to go to when every path of the
-    current valuation has been run; ``most`` is the number of inputs.  ``forbidden`` emits what is done
-    where the assumption fails.
+    current valuation has been run; ``most`` choices are on a path.  ``forbidden`` emits what is done
+    where the assumption fails, ``complete`` what is done with a valuation that is complete.
     """
 
     def __init__(
@@ -37,9 +37,10 @@ class Body:
         finished: Any,
         most: int,
         forbidden: Callable[[], None] = lambda: None,
+        complete: Callable[[], None] = lambda: None,
     ) -> None:
         self.builder = builder
-        self.forbidden = forbidden
+        self.forbidden, self.complete = forbidden, complete
         self.saved = saved
         self.slots: dict[str, Slot] = {}
         self.emit = Expressions(builder, self.slots)
@@ -89,12 +90,14 @@ class Body:
                     self._branch(self.emit.condition(condition), then, otherwise)
                 case Require(condition):
                     self._require(self.emit.condition(condition))
-                case Choose(var, values):
-                    self._choose(var, values or (var.init,))
+                case Choose(var, values, span):
+                    self._choose(var, values or (var.init,), span)
                 case Fork(number):
                     self._fork(number)
                 case Each():
                     self._each(statement)
+                case Complete():
+                    self._complete()
 
     def go_back(self) -> None:
         """End the path: go on with the next one."""
@@ -136,7 +139,18 @@ class Body:
         self.go_back()
         self.builder.position_at_end(holds)
 
-    def _choose(self, var: Var, values: tuple[int, ...]) -> None:
+    def _complete(self) -> None:
+        """What is done with the valuation comes when all paths from here have been run."""
+        build = self.builder
+        rest, over = (build.append_basic_block(n) for n in ("rest", "over"))
+        build.branch(rest)
+        build.position_at_end(over)
+        self.complete()
+        self.go_back()
+        self.back = over
+        build.position_at_end(rest)
+
+    def _choose(self, var: Var, values: tuple[int, ...], span: Span | None) -> None:
         within = Interval(min(values), max(values))
         if len(values) == 1:
             self.put(var, kind(var)(values[0]), within)
@@ -145,11 +159,19 @@ class Body:
         index = build.load(self.next)
         position, following = self._at(self.position, index), build.add(index, _NUMBER(1))
         with build.if_then(build.icmp_signed(">=", index, build.load(self.depth))):
-            build.store(_NUMBER(0), position)
-            build.store(_NUMBER(len(values)), self._at(self.count, index))
+            first, end = self._ends(values, span)
+            build.store(first, position)
+            build.store(end, self._at(self.count, index))
             build.store(following, self.depth)
         build.store(following, self.next)
         self.put(var, self._nth(var, values, build.load(position)), within)
+
+    def _ends(self, values: tuple[int, ...], span: Span | None) -> tuple[Any, Any]:
+        """Places of the first value to take and behind the last."""
+        if span is None:
+            return _NUMBER(0), _NUMBER(len(values))
+        first, end = (self.builder.trunc(self.emit.as_int(self.emit.value(e)), _NUMBER) for e in span)
+        return first, end
 
     def _at(self, array: Any, index: Any) -> Any:
         return self.builder.gep(array, [_NUMBER(0), index])
@@ -169,7 +191,8 @@ class Body:
         """A fork whose own choice is counted in the loop."""
         build, var, values = self.builder, each.var, each.values
         kept, at = self._kept(each.number), self.local(_NUMBER, "each")
-        build.store(_NUMBER(0), at)
+        first, end = self._ends(values, each.span)
+        build.store(first, at)
         resume, turn, again = (
             build.append_basic_block(f"{n}.{each.number}") for n in ("fork", "turn", "again")
         )
@@ -180,7 +203,7 @@ class Body:
             self._advance(back, kept, resume, turn)
         build.position_at_end(turn)
         following = build.add(build.load(at), _NUMBER(1))
-        build.cbranch(build.icmp_signed("<", following, _NUMBER(len(values))), again, self.back)
+        build.cbranch(build.icmp_signed("<", following, end), again, self.back)
         build.position_at_end(again)
         build.store(following, at)
         self._restore(kept)

@@ -6,7 +6,8 @@ from checker.encode.native.body import Body
 from checker.encode.native.expressions import BIT, INT
 from checker.encode.native.search import Task, begin, outside, packed
 from checker.encode.native.table import WORDS, Table, function
-from checker.encode.paths import read_flag, saved
+from checker.encode.path_statements import saved
+from checker.encode.paths import read_flag
 
 UNREAD = -(1 << 63)
 """Stands for the value of an input that the path does not read."""
@@ -28,7 +29,7 @@ def add_retrace(module: Any, task: Task) -> None:
     table = Table(module, task.layout.words)
     words = table.load(build, a["before"], INT(0))
     body.declare(flags)
-    begin(body, task, words)
+    begin(body, task, task.paths, words)
     body.reset(flags)
     body.run(task.paths)
     with build.if_then(_fits(body, task, a, words, table.load(build, a["target"], INT(0)))):
@@ -46,7 +47,7 @@ def add_retrace(module: Any, task: Task) -> None:
 def _fits(body: Body, task: Task, a: dict[str, Any], before: list[Any], target: list[Any]) -> Any:
     build = body.builder
     equal = build.icmp_signed("==", a["wanted"], INT(REACH_TARGET))
-    for one, two in zip(packed(body, task, before), target, strict=True):
+    for one, two in zip(packed(body, task, task.paths, before), target, strict=True):
         equal = build.and_(equal, build.icmp_unsigned("==", one, two))
     broken = outside(body, task.layout)
     result = build.and_(build.icmp_signed("==", a["wanted"], INT(LEAVE_DOMAIN)), broken)

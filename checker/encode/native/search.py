@@ -13,7 +13,8 @@ from checker.encode.native.fingerprint import fingerprint
 from checker.encode.native.layout import Field, Layout
 from checker.encode.native.quiet import Shift, emit_moved_on
 from checker.encode.native.table import CONTEXT, NUMBER, NUMBERS, WORDS, Table, context, function
-from checker.encode.paths import PathProgram, assigned, path_program, saved
+from checker.encode.path_statements import Complete, PathProgram, assigned, saved
+from checker.encode.paths import path_program, staged_program
 from checker.partition import Partition, partitions
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
@@ -62,6 +63,12 @@ class Task:
         return path_program(self.system, self.cells)
 
     @cached_property
+    def stages(self) -> PathProgram:
+        """The paths of a tick, as few as can be until the valuation after it is complete."""
+        stored = frozenset(f.var.name for f in self.layout.fields)
+        return staged_program(self.system, self.cells, stored) or self.paths
+
+    @cached_property
     def key(self) -> str:
         """What determines the code.  Raises ``OSError`` where that cannot be told."""
         return fingerprint(self.system, self.layout, self.goals, self.shifts)
@@ -96,9 +103,11 @@ class _Search:
         build = self.build
         self.drain()
         finished = build.append_basic_block("finished")
-        most = max(1, len(self.task.system.inputs))
-        kept = saved(self.task.paths, self.task.live_at_end)
-        self.body = Body(build, kept, finished, most, self._nothing_kept)
+        program = self.task.stages
+        stages = 1 if program is self.task.paths else 2
+        most = max(1, stages * len(self.task.system.inputs))
+        kept = saved(program, self.task.live_at_end)
+        self.body = Body(build, kept, finished, most, self._nothing_kept, self._complete)
         self.parent, self.filled, self.tried, self.spent, self.idle = (
             self.body.local(INT, n) for n in ("parent", "filled", "tried", "spent", "idle")
         )
@@ -112,11 +121,11 @@ class _Search:
         build.position_at_end(expand)
         build.store(INT(0), self.tried)
         frontier = self.a["frontier" if self.task.shifts else "words"]
-        words = self.table.load(build, frontier, build.load(self.parent))
-        self._expect(words)
-        begin(self.body, self.task, words)
-        self.body.run(self.task.paths)
-        self._end_of_path(words)
+        self.before = self.table.load(build, frontier, build.load(self.parent))
+        self._expect(self.before)
+        begin(self.body, self.task, program, self.before)
+        self.body.run(program)
+        self._end_of_path()
         self.body.go_back()
         self._finished(finished, head)
 
@@ -186,13 +195,25 @@ class _Search:
 
     # --- the end of a path -----------------------------------------------------------------------
 
-    def _end_of_path(self, before: list[Any]) -> None:
+    def _end_of_path(self) -> None:
         build = self.build
-        build.store(build.add(build.load(self.tried), INT(1)), self.tried)
+        tried = build.add(build.load(self.tried), INT(1))
+        build.store(tried, self.tried)
         self._goals()
+        if not any(isinstance(s, Complete) for s in self.task.stages):
+            self._complete()
+            return
+        many = build.icmp_unsigned("==", build.and_(tried, INT(MOST_IDLE - 1)), INT(0))
+        with build.if_then(many, likely=False):
+            self._give_up_if_too_many()
+            self._stop_if_told()
+
+    def _complete(self) -> None:
+        """A valuation that is complete: keep it unless it is quiet."""
+        build = self.build
         with build.if_then(outside(self.body, self.task.layout), likely=False):
             self.leave(Status.OUTSIDE)
-        after = packed(self.body, self.task, before)
+        after = packed(self.body, self.task, self.task.stages, self.before)
         if not self.task.shifts:
             self._keep(after)
             return
@@ -223,9 +244,7 @@ class _Search:
         self.put("filled", INT(BATCH))
         self.drain()
         build.store(INT(0), self.filled)
-        many = build.icmp_signed(">", build.load(self.tried), INT(MOST_SUCCESSORS))
-        with build.if_then(many, likely=False):
-            self.leave(Status.TOO_MANY)
+        self._give_up_if_too_many()
         self._stop_if_told()
 
     def _nothing_kept(self) -> None:
@@ -236,6 +255,12 @@ class _Search:
         many = build.icmp_unsigned("==", build.and_(idle, INT(MOST_IDLE - 1)), INT(0))
         with build.if_then(many, likely=False):
             self._stop_if_told()
+
+    def _give_up_if_too_many(self) -> None:
+        build = self.build
+        many = build.icmp_signed(">", build.load(self.tried), INT(MOST_SUCCESSORS))
+        with build.if_then(many, likely=False):
+            self.leave(Status.TOO_MANY)
 
     def _stop_if_told(self) -> None:
         """Back to Python if it says so; read anew each time, as another thread writes it."""
@@ -269,11 +294,11 @@ class _Search:
 # --- shared with the search for the inputs of a run ----------------------------------------------
 
 
-def begin(body: Body, task: Task, words: Sequence[Any]) -> None:
+def begin(body: Body, task: Task, program: PathProgram, words: Sequence[Any]) -> None:
     """Emit the start of a tick: the variables of the valuation unpacked, everything else reset."""
     build = body.builder
     fields = {f.var.name for f in task.layout.fields}
-    others = [v for v in _all_variables(task) if v.name not in fields]
+    others = [v for v in _all_variables(task, program) if v.name not in fields]
     body.declare([f.var for f in task.layout.fields])
     body.declare(others)
     for f in task.layout.fields:
@@ -288,21 +313,21 @@ def begin(body: Body, task: Task, words: Sequence[Any]) -> None:
     body.start()
 
 
-def _all_variables(task: Task) -> list[Var]:
-    found = {name: var for name, (var, _) in assigned(task.paths).items()}
+def _all_variables(task: Task, program: PathProgram) -> list[Var]:
+    found = {name: var for name, (var, _) in assigned(program).items()}
     system = task.system
     for var in (*system.inputs, *system.temps, *system.variables, *system.frozen, *task.goals):
         found.setdefault(var.name, var)
     return list(found.values())
 
 
-def packed(body: Body, task: Task, before: Sequence[Any]) -> list[Any]:
+def packed(body: Body, task: Task, program: PathProgram, before: Sequence[Any]) -> list[Any]:
     """The words of the valuation after the tick.
 
     Fields written early in the tick are joined first: LLVM then moves that out of the inner choices.
     """
     build = body.builder
-    written = assigned(task.paths)
+    written = assigned(program)
     result = []
     for number, word in enumerate(before):
         own = [f for f in task.layout.fields if f.word == number]

@@ -1,0 +1,109 @@
+"""Tests as files: the pytest file and the C program really run, and fail for a fault."""
+
+import csv
+import subprocess
+import sys
+from io import StringIO
+from pathlib import Path
+
+import pytest
+
+from checker.conform.cover import kept_text
+from checker.conform.cover.formats import FORMATS
+from checker.conform.cover.formats.expected import Expected, expected, rows
+from checker.conform.cover.keep import kept_of
+from checker.conform.cover.scripts import Script, unfolded
+from spec_model.abstraction import boards
+from tests.conform.cover_toys import TOY
+
+LAMP = """
+#include "cover_toy.h"
+static struct inputs now;
+static int lit, before, age;
+void reset(void) { lit = 0; before = 1; age = -1; }
+void set_inputs(const struct inputs *in) { now = *in; }
+void step(void)
+{
+    if (age < 0) { age = 0; }
+    else if (lit) { if (++age >= LEAST && !now.press) lit = 0; }
+    else if (now.press && !before && now.light_lx < 10) { lit = 1; age = 0; }
+    before = now.press;
+}
+void get_outputs(struct outputs *out) { out->lit = lit; }
+"""
+
+
+def toy_test(name: str, presses: str) -> Expected:
+    script: Script = tuple({"press": c == "1", "light_lx": 9} for c in presses)
+    return expected(TOY, name, ["a goal"], script)
+
+
+TESTS = [toy_test("toy_001", "0111000"), toy_test("toy_002", "01000011101000")]
+
+
+def written(folder: Path, files: dict[str, str]) -> None:
+    for name, text in files.items():
+        (folder / name).write_text(text, encoding="utf-8")
+
+
+def ran(*command: str, cwd: Path) -> subprocess.CompletedProcess[str]:
+    return subprocess.run(command, cwd=cwd, capture_output=True, text=True, timeout=300, check=False)
+
+
+def test_rows_stand_for_inputs_and_outputs_of_every_step() -> None:
+    for test in TESTS:
+        found = rows(TOY, test)
+        assert unfolded(TOY, [(row.held, row.inputs) for row in found]) == test.script
+        lit, outputs = None, []
+        for row in found:
+            lit = row.outputs.get("lit", lit)
+            outputs += [{"lit": lit}] * row.held
+        assert outputs == list(test.outputs)
+
+
+def test_a_csv_file_has_a_row_for_each_step() -> None:
+    files = FORMATS["csv"](TOY, TESTS)
+    assert sorted(files) == ["toy_001.csv", "toy_002.csv", "toy_goals.csv"]
+    table = list(csv.DictReader(StringIO(files["toy_001.csv"])))
+    assert [row["time_ms"] for row in table] == ["20", "40", "60", "80", "100", "120", "140"]
+    assert [row["lit"] for row in table] == ["0", "1", "1", "1", "0", "0", "0"]
+    assert {row["light_lx"] for row in table} == {"9"}
+
+
+def test_an_output_left_open_is_an_empty_cell() -> None:
+    board = boards()["board1"]
+    name, goals, script = kept_of(board, kept_text("board1")).tests[0]
+    files = FORMATS["csv"](board, [expected(board, name, goals, script)])
+    first = next(csv.DictReader(StringIO(files[f"{name}.csv"])))
+    assert first["targetAngle180"] == "" and first["v_ref"] != ""
+
+
+@pytest.mark.parametrize(("least", "code", "said"), [(3, 0, "2 of 2 tests passed"), (4, 1, "in toy_001 at")])
+def test_the_c_program_runs(tmp_path: Path, cc: str, least: int, code: int, said: str) -> None:
+    written(tmp_path, dict(FORMATS["c"](TOY, TESTS)) | {"lamp.c": LAMP})
+    strict = ("-std=c99", "-pedantic", "-Wall", "-Wextra", "-Werror", f"-DLEAST={least}")
+    made = ran(cc, *strict, "cover_toy.c", "lamp.c", "-lm", "-o", "cover", cwd=tmp_path)
+    assert made.returncode == 0, made.stderr
+    done = ran("./cover", cwd=tmp_path)
+    assert done.returncode == code and said in done.stdout, done.stdout
+
+
+@pytest.mark.parametrize("name", ["board1", "board2"])
+def test_the_c_program_of_a_board_compiles(tmp_path: Path, cc: str, name: str) -> None:
+    board = boards()[name]
+    test, goals, script = kept_of(board, kept_text(name)).tests[0]
+    written(tmp_path, dict(FORMATS["c"](board, [expected(board, test, goals, script[:5])])))
+    made = ran(cc, "-std=c99", "-pedantic", "-Wall", "-Werror", "-c", f"cover_{name}.c", cwd=tmp_path)
+    assert made.returncode == 0, made.stderr
+
+
+def test_the_pytest_file_runs_against_our_supervisor_and_fails_for_another(tmp_path: Path) -> None:
+    board = boards()["board1"]
+    kept = min(kept_of(board, kept_text("board1")).tests, key=lambda t: len(t[2]))
+    test = expected(board, *kept)
+    wrong = tuple({**o, "critical_mask": 255} for o in test.outputs)
+    faulty = Expected("faulty", test.goals, test.script, test.inputs, wrong)
+    written(tmp_path, dict(FORMATS["pytest"](board, [test, faulty])))
+    done = ran(sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(tmp_path), cwd=tmp_path)
+    assert "1 failed, 1 passed" in done.stdout, done.stdout + done.stderr
+    assert "step 1 (20 ms)" in done.stdout and "critical_mask" in done.stdout
