@@ -20,11 +20,13 @@ def measured(var: Var, low: float, high: float, *, whole: bool = False, name: st
 
 
 def discrete(var: Var, name: str = "") -> Signal:
-    """A boolean, an enumeration, or a mask: firmware holds the values of the domain."""
-    sort, initial = var.domain.sort, units(var.domain, var.init)
-    if isinstance(sort, Num):
-        return Signal(name or plain(var), var.domain, initial, var.doc, var.domain.low, var.domain.high, True)
-    return Signal(name or plain(var), var.domain, initial, var.doc)
+    """What firmware holds as values of the domain: a boolean, an enumeration, a mask, an output."""
+    domain, initial = var.domain, units(var.domain, var.init)
+    if isinstance(domain.sort, Num):
+        resolution = domain.sort.resolution
+        low, high = float(domain.low * resolution), float(domain.high * resolution)
+        return Signal(name or plain(var), domain, initial, var.doc, low, high, resolution == 1)
+    return Signal(name or plain(var), domain, initial, var.doc)
 
 
 def outputs(produced: Iterable[Var], unless: Expr = FALSE) -> tuple[Output, ...]:

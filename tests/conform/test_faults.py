@@ -54,7 +54,7 @@ BY_HAND = {
     "stale data, board1, MotionSupervision: the heading of the step before": "half turn",
     "swapped signals, board1, Fault_masks: front left and front right wheel": "wheels",
     "boundary, board2, Obstacles: 70 becomes 71": "near",
-    "swapped signals, board2, Actuation: the sides turn the other way round": "driving",
+    "swapped signals, board2, Actuation: each side is ramped from the other": "driving",
     "stale data, board2, Board2: the payload of the step before": "driving",
     "rounding, board2, Actuation: speeds cut to whole rpm": "driving",
 }

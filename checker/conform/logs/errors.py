@@ -1,0 +1,10 @@
+"""What is wrong with a log or a map, in one message that names the place."""
+
+
+class LogError(Exception):
+    """A log, a map or a cell that has no meaning here; the message says where, why, and what to write."""
+
+
+def at(line: int, message: str) -> LogError:
+    """The error with the line of the file, counted from 1."""
+    return LogError(f"line {line}: {message}")

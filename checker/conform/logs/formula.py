@@ -1,0 +1,190 @@
+"""Formulas over many rows at once, also those about the past, which remember where the rows before ended."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from spec_model.lang.domain import Bool
+from spec_model.lang.evaluate import operate as on_values
+from spec_model.lang.expr import COMPARISONS, Apply, Const, Expr, Named, Op, Temporal, Var, When
+from spec_model.lang.system import TICK_MS
+from spec_model.lang.walk import nodes, variables
+
+Array = NDArray[Any]
+"""A value for each row: booleans, or raw numbers."""
+
+FOREVER = 1 << 62
+ROUNDING = 1e-4
+"""Raw units by which outputs of 32-bit floats, and their differences, may be off."""
+
+
+@dataclass
+class Past:
+    """What formulas about the past remember between the rows of one stretch of a log.
+
+    After a gap nothing is remembered: ``blank`` rows, counted from the next one, cannot be judged.
+    """
+
+    memory: dict[int, Any] = field(default_factory=dict)
+    from_start: bool = True
+    blank: int = 0
+    about: dict[int, bool] = field(default_factory=dict)
+    after_gap: int | None = None
+
+    def speaks_in(self, expr: Expr) -> bool:
+        """Whether the formula is one about the past."""
+        if id(expr) not in self.about:
+            self.about[id(expr)] = any(isinstance(node, Temporal) for node in nodes(expr))
+        return self.about[id(expr)]
+
+    def forget(self, formulas: tuple[Expr, ...]) -> None:
+        """A gap: what was before the next row is not known."""
+        self.memory.clear()
+        self.from_start = False
+        if self.after_gap is None:
+            self.after_gap = max((_blank(node) for node in nodes(*formulas)), default=0)
+        self.blank = self.after_gap
+
+
+def _blank(node: Expr) -> int:
+    """The rows after a gap in which a formula about the past is not known."""
+    match node:
+        case Temporal(When.PREVIOUS | When.RISING):
+            return 1
+        case Temporal(When.HELD, _, span) if span is not None:
+            return span.ticks(TICK_MS)
+        case Temporal():
+            return FOREVER
+    return 0
+
+
+@dataclass
+class Rows:
+    """Successive rows: a column for each variable, and what was computed of them.
+
+    ``rounded``: variables that the firmware computed with floats, so that their values are not exact.
+    """
+
+    columns: Mapping[str, Array]
+    count: int
+    rounded: frozenset[str] = frozenset()
+    known: dict[tuple[int, int], Array] = field(default_factory=dict)
+
+    def value(self, expr: Expr, past: Past) -> Array:
+        """The formula in every row; each is computed once, one about the past once for each past."""
+        key = (id(past) if past.speaks_in(expr) else 0, id(expr))
+        if key not in self.known:
+            self.known[key] = self._compute(expr, past)
+        return self.known[key]
+
+    def truth(self, expr: Expr, past: Past) -> Array:
+        """The truth of a formula in every row."""
+        found = np.broadcast_to(self.value(expr, past), (self.count,))
+        return found if found.dtype == np.bool_ else found != 0
+
+    def _compute(self, expr: Expr, past: Past) -> Array:
+        match expr:
+            case Const(value, sort):
+                return np.asarray(bool(value) if isinstance(sort, Bool) else float(value))
+            case Var(name, domain):
+                column = self.columns[name]
+                return column != 0 if isinstance(domain.sort, Bool) else column
+            case Named(_, body):
+                return self.value(body, past)
+            case Apply(op, args, _):
+                values = [self.value(a, past) for a in args]
+                if op in COMPARISONS and self.rounded and not self.rounded.isdisjoint(variables(expr)):
+                    return compared(op, *values)
+                return operate(op, values)
+            case Temporal(_, arg) if arg is not None:
+                return self._temporal(expr, arg, past)
+        raise AssertionError(f"{expr} belongs to a chart")
+
+    def _temporal(self, word: Temporal, arg: Expr, past: Past) -> Array:
+        now = np.broadcast_to(self.value(arg, past), (self.count,))
+        match word.when:
+            case When.PREVIOUS:
+                return shifted(now, past, id(word), _initial(arg) if past.from_start else 0)
+            case When.RISING:
+                return now & ~shifted(now, past, id(word), 1)
+            case When.HELD:
+                assert word.span is not None
+                return run_lengths(now, past, id(word)) > word.span.ticks(TICK_MS)
+            case _:
+                seen = np.logical_or.accumulate(now) | past.memory.get(id(word), False)
+                past.memory[id(word)] = bool(seen[-1])
+                return np.asarray(seen)
+
+
+def _initial(expr: Expr) -> int:
+    """The value of a formula before the first tick, as ``properties.reduce`` has it."""
+    match expr:
+        case Const(value, _):
+            return value
+        case Var(init=init):
+            return init
+        case Named(_, body):
+            return _initial(body)
+        case Apply(op, args, _):
+            return on_values(op, *map(_initial, args))
+        case Temporal(When.PREVIOUS, arg) if arg is not None:
+            return _initial(arg)
+    return 0
+
+
+def shifted(now: Array, past: Past, key: int, first: int) -> Array:
+    """The value of the row before."""
+    before = past.memory.get(key, first)
+    past.memory[key] = now[-1]
+    found = np.empty_like(now)
+    found[0], found[1:] = before, now[:-1]
+    return found
+
+
+def run_lengths(now: Array, past: Past, key: int) -> Array:
+    """For how many rows up to each one, this one included, it has been true without a break."""
+    index = np.arange(1, len(now) + 1)
+    broken = np.maximum.accumulate(np.where(now, 0, index))
+    carried = np.where(broken == 0, past.memory.get(key, 0), 0)
+    found = np.where(now, index - broken + carried, 0)
+    past.memory[key] = int(found[-1])
+    return found
+
+
+def compared(op: Op, left: Array, right: Array) -> Array:
+    """A comparison in which values that differ by rounding alone are equal."""
+    apart = left.astype(np.float64) - right.astype(np.float64)
+    return np.asarray(_BINARY[op](np.where(abs(apart) < ROUNDING, 0.0, apart), 0.0))
+
+
+def operate(op: Op, v: list[Array]) -> Array:
+    """An operator on columns, as ``spec_model.lang.evaluate`` on values."""
+    match op:
+        case Op.NOT:
+            return np.asarray(~v[0])
+        case Op.AND | Op.OR:
+            fold = np.logical_and if op is Op.AND else np.logical_or
+            found = v[0]
+            for other in v[1:]:
+                found = fold(found, other)
+            return np.asarray(found)
+        case Op.ITE:
+            return np.where(v[0], v[1], v[2])
+        case Op.NEG:
+            return np.asarray(-v[0])
+        case Op.ABS:
+            return np.asarray(abs(v[0]))
+        case Op.BIT:
+            return np.asarray((v[0].astype(np.int64) >> v[1].astype(np.int64)) & 1 != 0)
+        case _:
+            return np.asarray(_BINARY[op](v[0], v[1]))
+
+
+_BINARY: Mapping[Op, Any] = {
+    Op.EQ: np.equal, Op.NE: np.not_equal, Op.LT: np.less, Op.LE: np.less_equal, Op.GT: np.greater,
+    Op.GE: np.greater_equal, Op.ADD: np.add, Op.SUB: np.subtract, Op.MUL: np.multiply,
+    Op.SCALE: np.multiply, Op.DIV: np.floor_divide, Op.MOD: np.mod, Op.MIN: np.minimum, Op.MAX: np.maximum,
+}  # fmt: skip

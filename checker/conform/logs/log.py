@@ -1,0 +1,280 @@
+"""A log as blocks of steps: raw values by signal, the number of each step, and where steps are missing."""
+
+from collections.abc import Generator, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import islice
+from pathlib import Path
+
+from checker.conform.logs.cells import Convert, Raw, converter
+from checker.conform.logs.errors import LogError, at
+from checker.conform.logs.files import BLOCK, Row, Rows, opened
+from checker.conform.logs.mapping import Column, Map
+from checker.conform.logs.signals import TIME, Vocabulary
+from spec_model.abstraction import Signal, boards
+from spec_model.lang.domain import boolean
+from spec_model.lang.errors import did_you_mean
+from spec_model.lang.system import TICK_MS
+
+TIMES = ("time_ms", "time", "t", "timestamp", "timestamp_ms")
+"""Columns that hold the time of the step where none is named ``now_ms``."""
+
+CLOCK = 1 << 32
+EARLY_MS = 2 * TICK_MS
+"""A log whose first step is not later begins at power-up."""
+
+Cells = list[Raw | None]
+_FLAG = Signal("update", boolean, False)
+
+
+@dataclass(frozen=True)
+class Block:
+    """Successive rows: the line and the step of each, from 1, and its values by signal.
+
+    ``missing[i]`` steps lie between row i and the one before it.
+    """
+
+    lines: Sequence[int]
+    ticks: Sequence[int]
+    missing: Sequence[int]
+    values: Mapping[str, Cells]
+
+    def __len__(self) -> int:
+        return len(self.lines)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """What the columns of a log are: of which board, which signal in which column, what is left over.
+
+    ``stated``: every column with a meaning, by its name in the log.
+    """
+
+    board: str
+    stated: Mapping[str, Column]
+    ignored: tuple[str, ...]
+
+    @property
+    def signals(self) -> frozenset[str]:
+        return frozenset(c.signal for c in self.stated.values())
+
+    @property
+    def timed(self) -> bool:
+        return TIME in self.signals
+
+
+@dataclass
+class Log:
+    """An open log; ``blocks`` reads it once.  ``start`` is known after the first block."""
+
+    name: str
+    layout: Layout
+    rows: Rows
+    how: Map
+    start: str = ""
+    converters: list[tuple[int, str, Convert]] = field(default_factory=list)
+
+    def blocks(self) -> Generator[Block, None, None]:
+        """The steps, block by block.  Raises ``LogError`` with the line of what is wrong."""
+        try:
+            yield from self._blocks()
+        finally:
+            self.rows.close()
+
+    def _blocks(self) -> Iterator[Block]:
+        clock, stamps = _Clock(self.how.start), _Stamps(self.layout)
+        while rows := list(islice(self.rows.rows, BLOCK)):
+            block = self._block(rows, clock)
+            self.start = clock.start
+            yield stamps.of(block)
+        if not clock.start:
+            raise LogError("has column names but no rows.")
+
+    def _block(self, rows: Sequence[Row], clock: "_Clock") -> Block:
+        lines = [line for line, _ in rows]
+        texts = list(zip(*(cells for _, cells in rows), strict=True))
+        values = {signal: _convert(texts[i], convert, lines, self.rows.header[i], signal)
+                  for i, signal, convert in self.converters}  # fmt: skip
+        ticks, missing = clock.steps(lines, values.get(TIME))
+        return Block(lines, ticks, missing, values)
+
+
+def _convert(texts: Sequence[str], convert: Convert, lines: Sequence[int], name: str, signal: str) -> Cells:
+    try:
+        return list(map(convert, texts))
+    except LogError:
+        pass
+    for line, text in zip(lines, texts, strict=True):
+        try:
+            convert(text)
+        except LogError as error:
+            shown = name if name == signal else f"{name} ({signal})"
+            raise at(line, f"column {shown}: {error}") from error
+    raise AssertionError(name)
+
+
+class _Clock:
+    """The step of each row: by its time, or one step a row where no time is logged."""
+
+    def __init__(self, start: str) -> None:
+        self.start = ""
+        self._asked = start
+        self._before: int | None = None
+        self._tick = 0
+
+    def steps(self, lines: Sequence[int], times: Cells | None) -> tuple[list[int], list[int]]:
+        """Numbers of the steps and of those missing before each.  Raises ``LogError``."""
+        if not self.start:
+            self._begin(lines[0], times)
+        missing = [0] * len(lines) if times is None else list(map(self._lost, lines, times))
+        ticks: list[int] = []
+        for lost in missing:
+            self._tick += 1 + lost
+            ticks.append(self._tick)
+        return ticks, missing
+
+    def _begin(self, line: int, times: Cells | None) -> None:
+        if times is None:
+            self.start = self._asked or "power-up"
+            return
+        if times[0] is None:
+            raise at(line, "the time of the step is empty.")
+        self.start = self._asked or ("power-up" if times[0] <= EARLY_MS else "any")
+
+    def _lost(self, line: int, time: Raw | None) -> int:
+        if time is None:
+            raise at(line, "the time of the step is empty.")
+        now, before = int(time), self._before
+        self._before = now
+        if before is None:
+            return 0
+        passed = (now - before) % CLOCK
+        if passed >= CLOCK // 2:
+            raise at(line, f"time runs backwards, from {before} ms to {now} ms; sort the rows by time.")
+        if passed < TICK_MS / 2:
+            raise at(
+                line,
+                f"{passed} ms after the row before; a step takes {TICK_MS} ms. Log one row for each step, "
+                "and its time in ms (or write unit = in the map).",
+            )
+        return round(passed / TICK_MS) - 1
+
+
+# --- stamps that are told in other ways -------------------------------------------------------
+
+
+class _Stamps:
+    """Updates and ages turned into the stamps they stand for."""
+
+    def __init__(self, layout: Layout) -> None:
+        self._told = [c for c in layout.stated.values() if c.kind != "value"]
+        self._latest: dict[str, Raw] = {}
+
+    def of(self, block: Block) -> Block:
+        values = dict(block.values)
+        for column in self._told:
+            make = self._from_updates if column.kind == "update" else self._from_ages
+            values[column.signal] = make(column.signal, values[TIME], values[column.signal])
+        return replace(block, values=values) if self._told else block
+
+    def _from_updates(self, signal: str, now: Cells, updates: Cells) -> Cells:
+        found: Cells = []
+        for time, update in zip(now, updates, strict=True):
+            if update and time is not None:
+                self._latest[signal] = time
+            found.append(None if update is None else self._latest.get(signal, 0))
+        return found
+
+    def _from_ages(self, signal: str, now: Cells, ages: Cells) -> Cells:
+        return [
+            None if age is None or time is None else int(time - age) % CLOCK
+            for time, age in zip(now, ages, strict=True)
+        ]
+
+
+# --- opening --------------------------------------------------------------------------------------
+
+
+def open_log(path: Path, how: Map, system: str = "") -> Log:
+    """The log of a file.  Raises ``LogError`` for what is no log of a board."""
+    rows = opened(path, how)
+    try:
+        return _log(path.name, rows, how, system)
+    except LogError:
+        rows.close()
+        raise
+
+
+def _log(name: str, rows: Rows, how: Map, system: str) -> Log:
+    layout = _layout(rows.header, how, system or how.system)
+    vocabulary = Vocabulary(boards()[layout.board])
+    log = Log(name, layout, rows, how)
+    for index, header in enumerate(rows.header):
+        if (column := layout.stated.get(header)) is not None:
+            convert = _converter(column, vocabulary, rows.decimal_comma)
+            log.converters.append((index, column.signal, convert))
+    return log
+
+
+def _converter(column: Column, vocabulary: Vocabulary, comma: bool) -> Convert:
+    signal = vocabulary.signals[column.signal]
+    if column.kind == "update":
+        return converter(replace(column, unit=""), _FLAG, True, comma)
+    return converter(column, signal, signal.name in vocabulary.inputs, comma)
+
+
+def _layout(header: Sequence[str], how: Map, system: str) -> Layout:
+    for name in how.columns:
+        if name not in header:
+            raise LogError(f"has no column {name!r}, which the map names. {did_you_mean(name, header)}")
+    board = system or _board_of(header, how)
+    if board not in boards():
+        raise LogError(
+            f"There is no system {board!r} of which logs are checked. {did_you_mean(board, boards())}"
+        )
+    vocabulary = Vocabulary(boards()[board])
+    stated = _stated(header, how, vocabulary)
+    if not any(c.signal not in vocabulary.inputs for c in stated.values()):
+        outputs = ", ".join(o.name for o in vocabulary.board.outputs[:6])
+        raise LogError(f"holds no output of {board}: {outputs} ...; rename a column, or write a map.")
+    ignored = tuple(name for name in header if name not in stated)
+    layout = Layout(board, stated, ignored)
+    if any(c.kind != "value" for c in stated.values()) and not layout.timed:
+        raise LogError(f"holds updates or ages but not the time of the step; map a column to {TIME}.")
+    return layout
+
+
+def _stated(header: Sequence[str], how: Map, vocabulary: Vocabulary) -> dict[str, Column]:
+    for name, column in how.columns.items():
+        if column.signal not in vocabulary.signals:
+            near = did_you_mean(column.signal, vocabulary.signals)
+            raise LogError(
+                f"The map: column {name!r}: {vocabulary.board.name} has no signal {column.signal!r}. {near}"
+            )
+        if column.kind != "value" and not vocabulary.signals[column.signal].stamp:
+            raise LogError(f"The map: column {name!r}: {column.signal} is no time stamp; leave `as` out.")
+    mapped = {c.signal for c in how.columns.values()}
+    found: dict[str, Column] = {}
+    for name in header:
+        if name in how.columns:
+            found[name] = how.columns[name]
+        elif name in vocabulary.signals and name not in mapped:
+            found[name] = Column(name)
+    if not any(c.signal == TIME for c in found.values()):
+        found |= {n: Column(TIME) for n in [t for t in TIMES if t in header and t not in found][:1]}
+    return found
+
+
+def _board_of(header: Sequence[str], how: Map) -> str:
+    names = {how.columns[name].signal if name in how.columns else name for name in header}
+    scores = {n: len(names & Vocabulary(b).signals.keys() - {TIME}) for n, b in boards().items()}
+    best = max(scores, key=lambda name: scores[name])
+    others = [n for n, score in scores.items() if n != best and score == scores[best]]
+    if not scores[best]:
+        some = ", ".join(list(Vocabulary(boards()["board1"]).signals)[:8])
+        raise LogError(
+            f"no column has the name of a signal ({some} ...): its columns are {', '.join(header[:8])}. "
+            "Write a map of the columns, and name it with --map."
+        )
+    if others:
+        raise LogError(f"may be of {best} or of {' or '.join(others)}; say which with --system.")
+    return best
