@@ -1,0 +1,85 @@
+"""``rovercheck testgen``: files, exact counts, exit codes."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from checker.cli import run
+from checker.commands.codes import Exit
+from checker.commands.generating import Saying
+
+
+def test_the_kept_tests_are_written_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    code = run(["testgen", "--kept", "--system", "Relay", "--cover", "pairs", "-o", str(tmp_path / "new")])
+    said = capsys.readouterr().out
+    assert code is Exit.AS_EXPECTED
+    assert "pairs 3: 3 covered" in said and "0 proved uncoverable, 0 unknown" in said
+    assert (tmp_path / "new" / "board1_goals.csv").exists()
+
+
+def test_the_document_names_every_goal(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    run(["testgen", "--kept", "--system", "Relay", "--json", "--format", "c", "-o", str(tmp_path)])
+    document = json.loads(capsys.readouterr().out)
+    (board,) = document["boards"]
+    assert board["board"] == "board1" and document["complete"]
+    assert [g["verdict"] for g in board["goals"]] == ["covered"] * 3
+    assert {g["test"] for g in board["goals"]} == {t["name"] for t in board["tests"]}
+    assert sorted(board["files"]) == ["cover_board1.c", "cover_board1.h"]
+
+
+def test_a_search_covers_a_block(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    arguments = ["--system", "checkStop", "--cover", "boundaries", "--ticks", "3000", "--format", "pytest"]
+    code = run(["testgen", *arguments, "--jobs", "1", "-o", str(tmp_path)])
+    said = capsys.readouterr().out
+    assert code is Exit.AS_EXPECTED, said
+    assert "boundaries 12: 12 covered" in said
+    assert {p.name for p in tmp_path.iterdir()} == {"test_cover_board1.py", "conftest.py"}
+
+
+def test_no_line_is_wider_than_the_terminal(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("COLUMNS", "80")
+    run(["testgen", "--kept", "--system", "board1", "-o", str(tmp_path)])
+    assert max(map(len, capsys.readouterr().out.splitlines())) <= 80
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        (["--system", "Rely"], "Relay"),
+        (["--cover", "everything"], "everything"),
+        (["--format", "xml"], "xml"),
+        (["--timeout", "0"], "--timeout"),
+    ],
+)
+def test_a_mistake_is_one_message(
+    arguments: list[str], said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["testgen", *arguments, "-o", str(tmp_path)]) is Exit.USAGE
+    assert said in capsys.readouterr().err
+
+
+def test_a_place_that_cannot_be_written_is_one_message(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").write_text("")
+    code = run(["testgen", "--kept", "--system", "Relay", "-o", str(tmp_path / "file" / "in")])
+    assert code in (Exit.USAGE, Exit.INCONCLUSIVE)
+    assert len(capsys.readouterr().err.strip().splitlines()) == 1
+
+
+def test_ctrl_c_writes_what_was_found(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def ctrl_c(say: Saying, doing: str) -> None:
+        if say.coverage.covered:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(Saying, "__call__", ctrl_c)
+    arguments = ["--system", "checkStop", "--cover", "boundaries", "--ticks", "3000", "--timeout", "0.1"]
+    assert run(["testgen", *arguments, "--jobs", "1", "-o", str(tmp_path)]) is Exit.INTERRUPTED
+    said = capsys.readouterr().out
+    assert "Interrupted: this is what was found so far." in said
+    assert (tmp_path / "board1_001.csv").exists()
