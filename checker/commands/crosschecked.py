@@ -1,0 +1,224 @@
+"""The report of a cross-check, for people in 80 columns and for machines."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from textwrap import fill
+
+from checker.commands.output import counted
+from checker.conform.cross.beside import Charts, Mismatch, author_of
+from checker.conform.cross.coverage import taken
+from checker.conform.cross.reproduce import stimulus_of
+from checker.conform.cross.result import Result
+from checker.conform.cross.smaller import columns
+from checker.conform.cross.stimulus import SILENT, Change, Every
+from checker.conform.cross.strategy import ENVIRONMENTS
+from spec_model.abstraction import Signal, Value
+from spec_model.lang.system import TICK_MS
+
+WIDTH = 80
+BEFORE = 3
+"""Steps before that of the mismatch of which the arrows are told."""
+
+
+@dataclass(frozen=True)
+class Report:
+    """A result, the implementation that it is about, and the tests written for its mismatches."""
+
+    result: Result
+    address: str
+    files: Sequence[Path] = ()
+
+
+def report(of: Report) -> str:
+    """The whole report of one board."""
+    result = of.result
+    lines = [*map(_wrapped, result.notes)]
+    for number, mismatch in enumerate(result.mismatches, 1):
+        lines += ["", *_mismatch(number, mismatch), *_test(of.files, number)]
+    for failure in result.failures:
+        lines += ["", _wrapped(f"In {failure.origin}: {failure.message}")]
+    return "\n".join([*lines, *([""] if lines else []), *_summary(result)])
+
+
+def _wrapped(text: str, indent: str = "") -> str:
+    return "\n".join(
+        fill(line, WIDTH, initial_indent=indent, subsequent_indent=indent + "  ", break_on_hyphens=False,
+             break_long_words=False)
+        for line in text.splitlines()
+    )  # fmt: skip
+
+
+# --- a mismatch ---------------------------------------------------------------------------------------
+
+
+def _mismatch(number: int, mismatch: Mismatch) -> Iterator[str]:
+    board = mismatch.board
+    first = mismatch.differences[0].name
+    time = f"{mismatch.tick * TICK_MS / 1000:g} s"
+    yield _wrapped(f"✗ {number}. {board.name}, step {mismatch.tick} = {time}: {first} differs.")
+    yield from _inputs(mismatch)
+    shown = {o.name: o.signal for o in board.outputs}
+    yield f"   {'output':<26}{'charts':<24}implementation"
+    for d in mismatch.differences:
+        actual = "missing" if d.actual is None else shown[d.name].show(d.actual)
+        yield f"   {d.name:<26}{shown[d.name].show(d.expected):<24}{actual}"
+    yield from _arrows(mismatch, author_of(board, first))
+
+
+def _inputs(mismatch: Mismatch) -> Iterator[str]:
+    """The inputs that are not calm in the step, and since when; then how the run got there."""
+    board = mismatch.board
+    run = columns(board, [step.inputs for step in mismatch.steps])
+    calm = dict(ENVIRONMENTS[board.name].at_rest)
+    signals = {s.name: s for s in board.inputs}
+    yield "   inputs that are not calm in that step:"
+    told = False
+    for name, column in run.columns.items():
+        last, rest = column[-1], calm[name]
+        at_rest = last == 0 if isinstance(rest, Every) else last == rest
+        if not at_rest:
+            since = next((k for k in range(len(column), 0, -1) if column[k - 1] != last), 0) + 1
+            value = _stamped(last) if isinstance(rest, Every) else signals[name].show(_known(last))
+            told = True
+            yield _wrapped(f"{name} = {value}, since step {since}", "     ")
+    if not told:
+        yield "     none"
+    yield "   and before it:"
+    yield from _history(mismatch)
+
+
+def _known(value: Value | None) -> Value:
+    assert value is not None
+    return value
+
+
+def _stamped(lag: Value | None) -> str:
+    return "no update" if lag is None else f"updated {lag} ms before the step"
+
+
+def _history(mismatch: Mismatch) -> Iterator[str]:
+    """What changes when, from calm inputs on."""
+    board = mismatch.board
+    signals = {s.name: s for s in board.inputs}
+    known: dict[str, Change] = dict(ENVIRONMENTS[board.name].at_rest)
+    step = 1
+    for block in stimulus_of(mismatch).blocks:
+        changed = []
+        for name, change in block.changes:
+            if known[name] != change:
+                changed.append(f"{name} = {_shown(signals, name, change)}")
+            known[name] = change
+        if changed or step == 1:
+            yield _wrapped(f"step {step}: {', '.join(changed) or 'everything calm'}", "     ")
+        step += block.steps
+
+
+def _shown(signals: Mapping[str, Signal], name: str, change: Change) -> str:
+    if isinstance(change, Every):
+        return "silent" if change == SILENT else f"updated {change.lags_ms[0]} ms before each step"
+    assert isinstance(change, bool | int | float)
+    return signals[name].show(change)
+
+
+def _arrows(mismatch: Mismatch, author: str) -> Iterator[str]:
+    """The arrow that decides the output; where none was taken, the states in which its chart stays."""
+    fired = [f for f in mismatch.steps[-1].fired if f.chart == author]
+    if fired:
+        yield "   the charts took"
+        for one in fired:
+            yield _wrapped(str(taken(one)), "     ")
+    else:
+        yield _wrapped(f"the charts took no arrow of {author} in that step{_states(mismatch, author)}", "   ")
+    for back in range(min(BEFORE, mismatch.tick - 1), 0, -1):
+        earlier = [f for f in mismatch.steps[-1 - back].fired if f.chart == author]
+        for one in earlier:
+            yield _wrapped(f"{counted(back, 'step', 'steps')} before: {taken(one)}", "     ")
+
+
+def _states(mismatch: Mismatch, author: str) -> str:
+    """Where a chart is after the step."""
+    chart = next((c for c in mismatch.board.system.charts if c.name == author), None)
+    if chart is None:
+        return ": it is a function block."
+    charts = Charts(mismatch.board)
+    for step in mismatch.steps:
+        charts.step(step.inputs)
+    at = charts.valuation()
+    places = [v.domain.show(at[v.name]) for v in chart.locations if at[v.name]]
+    return f"; it is in {', '.join(places)}." if places else "."
+
+
+def _test(files: Sequence[Path], number: int) -> Iterator[str]:
+    if number <= len(files):
+        yield f"   pytest {files[number - 1]}"
+
+
+# --- all of it ------------------------------------------------------------------------------------------
+
+
+def _summary(result: Result) -> Iterator[str]:
+    cover, (took, of) = result.coverage, result.arrows
+    met, sides = cover.boundaries()
+    yield _wrapped(
+        f"{_sign(result)} {result.board.name} {_verdict(result)}: {cover.steps:,} steps in "
+        f"{counted(cover.runs, 'run', 'runs')}; the charts took {took} of {of} arrows, "
+        f"and inputs met {met} of {sides} sides of boundaries."
+    )
+    if result.uncompared:
+        yield _wrapped(f"Not compared, because it never gave them: {', '.join(result.uncompared)}.", "  ")
+    if result.missing:
+        yield f"  Arrows that no run took ({len(result.missing)}; some cannot be):"
+        yield from (_wrapped(str(arrow), "    ") for arrow in result.missing)
+
+
+def _sign(result: Result) -> str:
+    return "✗" if result.mismatches else "✓" if result.conforms else "?"
+
+
+def _verdict(result: Result) -> str:
+    if result.mismatches:
+        shown = len(result.mismatches)
+        rest = f", the {shown} shortest of them shown" if shown < result.distinct else ""
+        return f"does not conform ({counted(result.distinct, 'mismatch', 'mismatches')}{rest})"
+    if result.conforms:
+        return "conforms"
+    if result.failures:
+        return f"is inconclusive ({counted(len(result.failures), 'run', 'runs')} not survived)"
+    return "is inconclusive (interrupted)" if result.interrupted else "is inconclusive (no output to compare)"
+
+
+def row(of: Report) -> dict[str, object]:
+    """The result of one board for machines."""
+    result, (took, every) = of.result, of.result.arrows
+    met, sides = result.coverage.boundaries()
+    return {
+        "system": result.board.name,
+        "implementation": of.address,
+        "verdict": "mismatch" if result.mismatches else "conforms" if result.conforms else "inconclusive",
+        "steps": result.coverage.steps,
+        "runs": result.coverage.runs,
+        "examples": result.examples,
+        "seed": result.seed,
+        "arrows": {"taken": took, "all": every, "missing": [str(a) for a in result.missing]},
+        "boundaries": {"met": met, "all": sides},
+        "uncompared": list(result.uncompared),
+        "distinct": result.distinct,
+        "mismatches": [
+            _row(m, str(of.files[k]) if k < len(of.files) else "") for k, m in enumerate(result.mismatches)
+        ],
+        "failures": [{"origin": f.origin, "message": f.message} for f in result.failures],
+    }
+
+
+def _row(mismatch: Mismatch, file: str) -> dict[str, object]:
+    return {
+        "step": mismatch.tick,
+        "origin": mismatch.origin,
+        "inputs": dict(mismatch.steps[-1].inputs),
+        "differences": [
+            {"output": d.name, "expected": d.expected, "actual": d.actual} for d in mismatch.differences
+        ],
+        "arrows": [str(taken(fired)) for fired in mismatch.arrows],
+        "test": file,
+    }

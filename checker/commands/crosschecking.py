@@ -1,0 +1,167 @@
+"""``rovercheck crosscheck``: an implementation and the charts side by side, under the same inputs."""
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from checker.commands.codes import Exit, UsageError
+from checker.commands.crosschecked import Report, report, row
+from checker.commands.output import counted, err, out, write
+from checker.commands.progress import Watch
+from checker.conform.adapters import start
+from checker.conform.cross import Result, cross_check, effort
+from checker.conform.cross.reproduce import file_name, pytest_file
+from checker.conform.cross.search import Search
+from checker.conform.implementation import ImplementationError
+from spec_model.abstraction import Board, boards
+from spec_model.lang.errors import did_you_mean
+
+SCHEMA = 1
+OURS: Mapping[str, str] = {
+    "board1": "python:supervisor.board1:Board1",
+    "board2": "python:supervisor.board2.board:Board2",
+}
+"""The supervisors of the project, which are checked unless another is named."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What the command line asks for."""
+
+    system: str | None
+    address: str | None
+    profile: str
+    examples: int | None
+    seed: int | None
+    tests: Path | None
+
+
+def crosscheck(asked: Asked, output: Path | None, as_json: bool) -> Exit:
+    """Compare one board, or both, and write a test for every mismatch that is shown.
+
+    Raises ``UsageError`` for a board that does not exist and an implementation that cannot be started.
+    """
+    named = _boards(asked)
+    seed = effort(asked.profile, asked.examples, asked.seed).seed  # one for all boards
+    reports: list[Report] = []
+    for board in named:
+        address = asked.address or OURS[board.name]
+        if not as_json:
+            _announce(asked, board, address, seed)
+        result = _checked(asked, board, address, seed)
+        files = _write_tests(result, address, output or Path())
+        reports.append(Report(result, address, files))
+        if not as_json:
+            out.print(report(reports[-1]), markup=False)
+        if result.interrupted:
+            err.print(f"Interrupted: {counted(len(reports), 'board', 'boards')} of {len(named)} begun.")
+            break
+    code = worst(reports)
+    if as_json:
+        print(json.dumps(document(reports, code), indent=2))
+    return code
+
+
+def _announce(asked: Asked, board: Board, address: str, seed: int) -> None:
+    runs = effort(asked.profile, asked.examples, seed).examples
+    out.print(
+        f"{board.name}: {address}\n"
+        f"  beside {counted(len(board.system.charts), 'chart', 'charts')}; "
+        f"{counted(runs, 'random run', 'random runs')} from seed {seed}.",
+        markup=False,
+    )
+
+
+def _boards(asked: Asked) -> list[Board]:
+    known = boards()
+    if asked.system is None:
+        if asked.address is not None:
+            raise UsageError(
+                f"--impl {asked.address} is the supervisor of one board; write --system board1 or board2 too."
+            )
+        return list(known.values())
+    if asked.system not in known:
+        raise UsageError(f"No board {asked.system!r}. {did_you_mean(asked.system, known)}")
+    return [known[asked.system]]
+
+
+def _checked(asked: Asked, board: Board, address: str, seed: int) -> Result:
+    if asked.tests is not None and not asked.tests.is_dir():
+        raise UsageError(f"{asked.tests} is no folder; write one with tests as CSV or JSON.")
+    try:
+        implementation = start(address, board)
+    except ImplementationError as error:
+        raise UsageError(str(error)) from error
+    try:
+        with _Line(board.name) as line:
+            return cross_check(
+                board.name,
+                implementation,
+                asked.profile,
+                examples=asked.examples,
+                seed=seed,
+                folder=asked.tests,
+                progress=line.show,
+            )
+    finally:
+        implementation.close()
+
+
+class _Line(Watch):
+    """The progress of one cross-check, on a terminal or every ten seconds in a log."""
+
+    def __init__(self, board: str) -> None:
+        super().__init__(err, 0)
+        self._board, self._said = board, ""
+
+    def __enter__(self) -> "_Line":
+        super().__enter__()
+        return self
+
+    def show(self, search: Search) -> None:
+        """What the search is doing."""
+        of = f" {search.tried} of {search.effort.examples}" if search.doing.startswith("random") else ""
+        found = counted(len(search.found), "mismatch", "mismatches")
+        self._said = (
+            f"{self._board}: {search.doing}{of} | {search.coverage.steps:,} steps, "
+            f"{len(search.coverage.taken)} arrows, {found}"
+        )
+        self._show()
+
+    def line(self, width: int | None = None) -> str:
+        """What is shown, cut to the width."""
+        return self._said[:width]
+
+
+def _write_tests(result: Result, address: str, folder: Path) -> list[Path]:
+    """A test for each mismatch that is shown."""
+    written = []
+    for mismatch in result.mismatches:
+        place = folder / file_name(mismatch)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise UsageError(f"Cannot make {folder}: {error.strerror}. Choose another --output.") from error
+        write(pytest_file(mismatch, address), place)
+        written.append(place)
+    return written
+
+
+def worst(reports: Sequence[Report]) -> Exit:
+    """A mismatch outweighs a search that is not finished."""
+    if any(r.result.mismatches for r in reports):
+        return Exit.CHANGED
+    if any(r.result.interrupted for r in reports):
+        return Exit.INTERRUPTED
+    return Exit.AS_EXPECTED if all(r.result.conforms for r in reports) else Exit.INCONCLUSIVE
+
+
+def document(reports: Sequence[Report], code: Exit) -> dict[str, object]:
+    """The results as JSON."""
+    return {
+        "schema": f"rovercheck/crosscheck/{SCHEMA}",
+        "complete": not any(r.result.interrupted for r in reports),
+        "exit": int(code),
+        "results": [row(r) for r in reports],
+    }

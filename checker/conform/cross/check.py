@@ -1,0 +1,119 @@
+"""Cross-checking from Python: one board, one implementation, one result."""
+
+from collections.abc import Iterable, Iterator
+from functools import cache
+from itertools import chain, count
+from pathlib import Path
+
+from checker.conform.adapters import start
+from checker.conform.cover import kept
+from checker.conform.cross.beside import Mismatch, compared, played, rerun
+from checker.conform.cross.environment import Environment
+from checker.conform.cross.fixed import fixed
+from checker.conform.cross.recorded import counterexamples, tests
+from checker.conform.cross.result import Result
+from checker.conform.cross.search import Progress, Run, Search, effort
+from checker.conform.cross.smaller import BUDGET
+from checker.conform.cross.stimulus import Stimulus
+from checker.conform.cross.strategy import ENVIRONMENTS
+from checker.conform.cross.suite import Suite, suite
+from checker.conform.implementation import Implementation
+from spec_model.abstraction import Board, boards
+
+
+def cross_check(
+    board: str,
+    implementation: Implementation,
+    profile: str = "ci",
+    *,
+    examples: int | None = None,
+    seed: int | None = None,
+    stop_early: bool = False,
+    folder: Path | None = None,
+    budget: int = BUDGET,
+    progress: Progress = lambda search: None,
+) -> Result:
+    """Compare an implementation of ``board1`` or ``board2`` with the charts.
+
+    ``profile`` is ``ci`` or ``nightly``; ``examples`` and ``seed`` replace what it says.  With ``stop_early``
+    the first mismatch ends the search, and is not made small.  ``folder`` holds further tests.
+    ``budget`` is how many steps may be spent on making one mismatch small.
+    """
+    search = Search(
+        ENVIRONMENTS[board],
+        implementation,
+        effort(profile, examples, seed),
+        stop_early,
+        budget=budget,
+        progress=progress,
+    )
+    return search.run(_known(board, folder))
+
+
+def quick_check(
+    board: str, implementation: Implementation, profile: str = "ci", *, examples: int | None = None
+) -> Mismatch | None:
+    """The first difference in the runs of a profile, or None if there is none.
+
+    The charts go through the runs at the first call only.  Raises ``ImplementationError``.
+    """
+    return recorded_suite(board, profile, examples).first_mismatch(implementation)
+
+
+@cache
+def recorded_suite(board: str, profile: str = "ci", examples: int | None = None) -> Suite:
+    """The runs of a profile on a board, with what the charts require."""
+    return suite(ENVIRONMENTS[board], effort(profile, examples), _known(board, None))
+
+
+def replay(board: str, address: str, stimulus: Stimulus) -> Mismatch | None:
+    """Run the implementation at an address ``KIND:WHAT`` and the charts under one stimulus.
+
+    The first step in which they differ, or None.  Raises ``ImplementationError``.
+    """
+    which = boards()[board]
+    implementation = start(address, which)
+    try:
+        return compared(which, played(which, {}, stimulus), implementation)
+    finally:
+        implementation.close()
+
+
+def _known(board: str, folder: Path | None) -> Iterable[Run]:
+    """The runs that are always tried: those of the project, then those of a folder."""
+    return chain(_of_the_project(board), tests(folder, boards()[board]) if folder else ())
+
+
+class Remembered:
+    """Runs that the charts go through once in a process, however often they are wanted."""
+
+    def __init__(self, runs: Iterator[Run]) -> None:
+        self._runs, self._made = runs, list[Run]()
+
+    def __iter__(self) -> Iterator[Run]:
+        for number in count():
+            if number == len(self._made):
+                following = next(self._runs, None)
+                if following is None:
+                    return
+                self._made.append(following)
+            yield self._made[number]
+
+
+@cache
+def _of_the_project(board: str) -> Remembered:
+    return Remembered(known_runs(ENVIRONMENTS[board]))
+
+
+def known_runs(env: Environment) -> Iterator[Run]:
+    """What is tried before anything random: counterexamples, covering tests, then the fixed runs."""
+    yield from counterexamples(env.board)
+    yield from _covering(env.board)
+    for label, stimulus in fixed(env):
+        yield label, played(env.board, env.fields, stimulus)
+
+
+def _covering(board: Board) -> Iterator[Run]:
+    """The tests that cover every arrow and boundary, kept with the project."""
+    for test in kept(board.name):
+        yield f"covering test {test.name}", rerun(board, test.steps)
