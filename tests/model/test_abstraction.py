@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from fractions import Fraction
 from random import Random
+from typing import cast
 
 import pytest
 from hypothesis import given
@@ -11,12 +12,15 @@ from hypothesis import strategies as st
 from checker.conform.adapters.python import start
 from spec_model.abstraction import Board, boards
 from spec_model.abstraction.stamps import CLOCK, MeanOfTen, Stamp, Updates, age, since
-from spec_model.lang.domain import Num
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Block
+from spec_model.lang.domain import Num, fixed
 from spec_model.lang.errors import ModelError
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Var
+from spec_model.lang.expr import Var, var
 from spec_model.lang.interpret import Interpreter
 from spec_model.lang.lower import lower
+from spec_model.lang.system import in_order
 from spec_model.rover import systems
 
 NAMES = ("board1", "board2")
@@ -27,10 +31,10 @@ def held(inputs: dict[str, Var], random: Random, ticks: int) -> Iterator[dict[st
     """Inputs that each keep their value for a while, arriving data nearly always."""
     values, left = {}, dict.fromkeys(inputs, 0)
     for _ in range(ticks):
-        for name, var in inputs.items():
+        for name, datum in inputs.items():
             if left[name] == 0:
                 usual = name.endswith("update") and random.random() < 0.7
-                values[name] = 1 if usual else random.choice(list(var.domain.values))
+                values[name] = 1 if usual else random.choice(list(datum.domain.values))
                 left[name] = random.choice([1, 1, 2, 5, 7, 50, 150])
             left[name] -= 1
         yield dict(values)
@@ -89,6 +93,17 @@ def test_a_number_between_representatives_is_itself() -> None:
     read = board.reader().step({**at_first(board), "temperature_degC": 54.25, "now_ms": 25})
     assert read["temperature_degC"] == Fraction(217, 4)
     assert read["temp_age"] == Fraction(5, 4)
+
+
+def test_what_is_computed_from_a_measurement_may_lie_beyond_the_last_representative() -> None:
+    """A half turn from a heading of 1.25 degrees is 178.75 long, and the grid of headings ends at 177.5."""
+    angle = var("angle", fixed(-180, "177.5", "2.5", "°"))
+    system = in_order("angles", Block("follow", [assign(angle, var("measured", angle.domain))]))
+    charts = Interpreter(system, measured=True)
+    charts.step({"measured": cast(int, Fraction(715, 10))})
+    assert charts.data["angle"] == Fraction(715, 10)
+    with pytest.raises(ModelError, match="leaves its domain"):
+        charts.step({"measured": 72})
 
 
 def test_a_decimal_on_a_limit_is_the_limit() -> None:

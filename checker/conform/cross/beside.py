@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
+from math import isclose
 
 from checker.conform.cross.stimulus import Player, Stimulus
 from checker.conform.implementation import Implementation, Value, Values, run
@@ -12,7 +13,8 @@ from spec_model.lang.domain import Num
 from spec_model.lang.interpret import Fired, Interpreter
 
 NEAR = 1e-6
-"""Numbers that differ by no more, in their unit, are equal."""
+"""Numbers that differ by no more, in their unit or as a part of the larger one, are equal: single precision
+keeps seven digits."""
 BATCH = 200
 """Steps that an implementation is given at once."""
 
@@ -139,7 +141,7 @@ def differences(board: Board, expected: Values, actual: Values, seen: set[str]) 
 
 def _close(expected: Value, actual: Value | None) -> bool:
     """Whether two numbers are equal; enumerations and truth values lie 1 apart."""
-    return actual is not None and abs(expected - actual) <= NEAR
+    return actual is not None and isclose(expected, actual, rel_tol=NEAR, abs_tol=NEAR)
 
 
 def author_of(board: Board, output: str) -> str:

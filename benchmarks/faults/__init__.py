@@ -1,0 +1,1 @@
+"""Detection power: mutants of the supervisors, and faults put by hand into the charts."""
