@@ -1,6 +1,6 @@
 """What surrounds a board in a stimulus: sources with their fields, calm values, and phases to draw from."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -33,6 +33,8 @@ class Environment:
     calm: Mapping[str, Value]
     themes: Mapping[str, tuple[Blocks, tuple[Phase, ...]]]
     means: tuple[int, ...] = ()
+    scenes: Callable[["Environment"], Iterator[tuple[str, Blocks, Blocks]]] = lambda env: iter(())
+    """Sequences that are always tried: what they are, blocks that begin a run of them, and one of them."""
 
     @cached_property
     def values(self) -> Values:

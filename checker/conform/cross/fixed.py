@@ -1,7 +1,7 @@
 """Runs that are tried before the random ones: every aimed value alone, flags in pairs, timers, old data."""
 
 from collections.abc import Iterator
-from itertools import combinations, zip_longest
+from itertools import combinations, groupby, zip_longest
 
 from checker.conform.cross.aims import formulas
 from checker.conform.cross.environment import AROUND, Blocks, Environment
@@ -33,6 +33,9 @@ def fixed(env: Environment) -> Iterator[Labelled]:
     yield from _in_runs(env, "silences", [], list(_silences(env)))
     yield from _in_runs(env, "rhythms", [], list(_rhythms(env)))
     yield from _in_runs(env, "old measurements", [], list(_aging(env)))
+    for label, scenes in groupby(env.scenes(env), key=lambda scene: scene[0]):
+        parts = list(scenes)
+        yield from _in_runs(env, label, parts[0][1], [part for _, _, part in parts])
 
 
 def _in_runs(env: Environment, label: str, begin: Blocks, parts: list[Blocks]) -> Iterator[Labelled]:

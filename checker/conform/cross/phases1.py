@@ -1,5 +1,7 @@
 """Phases that lead Board 1 into its deep states: manoeuvres, half turns, stops, hand-over and return."""
 
+from collections.abc import Iterator
+
 from hypothesis import strategies as st
 
 from checker.conform.cross.environment import Blocks, Environment
@@ -17,6 +19,7 @@ from checker.conform.cross.phases import (
     value,
     wait,
 )
+from checker.conform.cross.scenes import combinations
 from checker.conform.cross.stimulus import SILENT, Block, Change, Every, Toward
 from spec_model.abstraction import boards
 from spec_model.signals.board1 import WHEELS
@@ -125,6 +128,12 @@ def toggle(draw: st.DrawFn, env: Environment) -> Blocks:
     return draw(combination(env, ("btn1", "btn2"), ("x_norm", "y_norm")))
 
 
+def scenes(env: Environment) -> Iterator[tuple[str, Blocks, Blocks]]:
+    """Sequences in which one step counts."""
+    for scene in combinations(env, ("btn1", "btn2"), ("x_norm", "y_norm")):
+        yield "presses", [], scene
+
+
 BOARD1 = Environment(
     boards()["board1"],
     FIELDS,
@@ -140,5 +149,6 @@ BOARD1 = Environment(
         "sensors": ([], (disturb, age, wait, lose)),
     },
     means=(2,),
+    scenes=scenes,
 )
 """The mean of ten intervals, 40 ms, is computed by the abstraction and stands in no chart."""

@@ -1,5 +1,7 @@
 """Phases that lead Board 2 into its deep states: driving, obstacles that pass, deviations, half turns."""
 
+from collections.abc import Iterator
+
 from hypothesis import strategies as st
 
 from checker.conform.cross.environment import Blocks, Environment
@@ -16,6 +18,8 @@ from checker.conform.cross.phases import (
     value,
     wait,
 )
+from checker.conform.cross.scenes import braking, combinations, recovering
+from checker.conform.cross.scenes import passing as passing_in_time
 from checker.conform.cross.stimulus import SILENT, Block, Change, Every, Toward
 from spec_model.abstraction import boards
 from spec_model.signals.board1 import WHEELS
@@ -186,6 +190,20 @@ def toggle(draw: st.DrawFn, env: Environment) -> Blocks:
     return draw(combination(env, ("btn1", "btn2"), ("bx_norm", "ay_norm")))
 
 
+def scenes(env: Environment) -> Iterator[tuple[str, Blocks, Blocks]]:
+    """Sequences in which one step counts."""
+    rolling: Changes = tuple((speed, 60) for speed in SPEEDS)
+    driving = [Block(4, DRIVE)]
+    for scene in combinations(env, ("btn1", "btn2"), ("bx_norm", "ay_norm")):
+        yield "presses", driving, scene
+    for scene in passing_in_time(env, SONARS, ((1, 2), (2, 1), (2, 3), (3, 2))):
+        yield "obstacles that pass", [], scene
+    for scene in recovering(env):
+        yield "recoveries", [], scene
+    for scene in braking(DRIVE, rolling, FRAMES, 100):
+        yield "braking without the link", driving, scene
+
+
 BOARD2 = Environment(
     boards()["board2"],
     FIELDS,
@@ -200,4 +218,5 @@ BOARD2 = Environment(
         "authority": ([], (take_over, take_over, drive, toggle, stop)),
         "coherence": ([], (rotate, rotate, rotate, lose, rhythm)),
     },
+    scenes=scenes,
 )

@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from importlib.resources import files
 from pathlib import Path
+from typing import cast
 
 from checker.conform.cross.beside import Step, played, rerun
 from checker.conform.cross.search import Run
@@ -21,6 +22,9 @@ COUNTEREXAMPLES = "counterexamples.json"
 
 They are inputs only: what the charts do under them is computed anew.
 """
+
+
+_Blocks = Sequence[tuple[int, Mapping[str, Value | None]]]
 
 
 @dataclass(frozen=True)
@@ -69,7 +73,7 @@ def decoded(text: Mapping[str, Sequence[Mapping[str, object]]], board: Board) ->
     stamps = {s.name for s in board.inputs if s.stamp}
     for one in text.get(board.name, ()):
         blocks = []
-        for steps, changes in one["blocks"]:  # type: ignore[attr-defined]
+        for steps, changes in cast(_Blocks, one["blocks"]):
             changed = tuple((name, _change(name in stamps, value)) for name, value in changes.items())
             blocks.append(Block(steps, changed))
         yield Kept(str(one["origin"]), Stimulus(tuple(blocks), TICK_MS))
