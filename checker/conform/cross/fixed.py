@@ -16,6 +16,8 @@ from spec_model.lang.walk import nodes, variables
 
 CLOSE = 0.0011
 """How far from a moving boundary a value of a fixed run lies at most."""
+LATE_MS = (120, 140, 160, 500, 5_000, 70_000)
+"""When a first step may come that finds nothing measured or received since power-up."""
 LONG = 1500
 """Steps of a fixed run, about."""
 
@@ -59,6 +61,8 @@ def _first_steps(env: Environment) -> Iterator[Labelled]:
     for values in zip_longest(*(env.values.aimed[name] for name in names)):
         chosen = tuple((n, calm[n] if v is None else v) for n, v in zip(names, values, strict=True))
         yield "first step", Stimulus((Block(1, (*stamps, *chosen)), Block(2, env.at_rest)))
+    for late_ms in LATE_MS:
+        yield "late first step", Stimulus((Block(3), Block(3, env.at_rest)), late_ms)
     for flags in combinations(_flags(env), 2):
         yield "first step", Stimulus((Block(1, (*env.at_rest, *((f, not calm[f]) for f in flags))), Block(2)))
     for one in env.values.stamps:
