@@ -5,9 +5,9 @@ What is found with it counts once the interpreter has run it.
 
 from collections.abc import Callable, Iterator, MutableMapping, Sequence
 
+from checker.conform.python_text import text_of
 from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import Bool
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.expr import Const, Expr
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import plain
 
@@ -16,12 +16,6 @@ Step = Callable[[MutableMapping[str, int]], None]
 
 DEEPEST = 40
 """Python admits a hundred levels of indentation; what lies deeper becomes a function of its own."""
-
-INFIX = {
-    Op.EQ: "==", Op.NE: "!=", Op.LT: "<", Op.LE: "<=", Op.GT: ">", Op.GE: ">=", Op.ADD: "+", Op.SUB: "-",
-    Op.MUL: "*", Op.SCALE: "*", Op.DIV: "//", Op.MOD: "%", Op.AND: " and ", Op.OR: " or ",
-}  # fmt: skip
-CALLS = {Op.ABS: "abs", Op.MIN: "min", Op.MAX: "max"}
 
 
 def compiled(system: TransitionSystem) -> Step:
@@ -69,30 +63,4 @@ class _Source:
 
 
 def _text(expr: Expr) -> str:
-    match expr:
-        case Const(value, sort):
-            return str(bool(value)) if isinstance(sort, Bool) else str(value)
-        case Var(name):
-            return f"a[{name!r}]"
-        case Named(_, body):
-            return _text(body)
-        case Apply(op, args, _):
-            return _applied(op, [_text(a) for a in args])
-    raise AssertionError(f"{expr} speaks of the past")
-
-
-def _applied(op: Op, args: list[str]) -> str:
-    if op in INFIX:
-        return f"({INFIX[op].join(args)})"
-    if op in CALLS:
-        return f"{CALLS[op]}({', '.join(args)})"
-    match op:
-        case Op.NOT:
-            return f"(not {args[0]})"
-        case Op.NEG:
-            return f"(-{args[0]})"
-        case Op.ITE:
-            return f"({args[1]} if {args[0]} else {args[2]})"
-        case Op.BIT:
-            return f"({args[0]} >> {args[1]} & 1)"
-    raise AssertionError(op)
+    return text_of(expr, lambda var: f"a[{var.name!r}]")

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from typing import cast
 
 from checker.conform.logs.cells import Raw
+from checker.conform.python_text import text_of
 from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.expr import Expr, Named, Var
 from spec_model.lang.system import TransitionSystem
 
 Known = tuple[Raw | None, ...]
@@ -101,39 +102,8 @@ def _guards_a_domain(statement: If) -> bool:
 
 
 def _value(expr: Expr, names: _Names) -> str:
-    match expr:
-        case Const(value, _):
-            return f"({value})" if value < 0 else str(value)
-        case Var(name):
-            python = names.of(expr)
-            return f"({python} if {python} is not None else need({name!r}))"
-        case Named(_, body):
-            return _value(body, names)
-        case Apply(op, args, _):
-            return _operation(op, [_value(a, names) for a in args])
-    raise AssertionError(expr.__class__)
+    def read(var: Var) -> str:
+        name = names.of(var)
+        return f"({name} if {name} is not None else need({var.name!r}))"
 
-
-_BETWEEN = {
-    Op.AND: " and ", Op.OR: " or ", Op.EQ: " == ", Op.NE: " != ", Op.LT: " < ", Op.LE: " <= ",
-    Op.GT: " > ", Op.GE: " >= ", Op.ADD: " + ", Op.SUB: " - ", Op.MUL: " * ", Op.SCALE: " * ",
-    Op.DIV: " // ", Op.MOD: " % ",
-}  # fmt: skip
-
-
-def _operation(op: Op, args: list[str]) -> str:
-    """As ``spec_model.lang.evaluate`` has it; Python's truth values are as good as 0 and 1."""
-    if op in _BETWEEN:
-        joined = f"({_BETWEEN[op].join(args)})"
-        return joined if op not in (Op.AND, Op.OR) else f"(1 if {joined} else 0)"
-    match op:
-        case Op.NOT:
-            return f"(0 if {args[0]} else 1)"
-        case Op.ITE:
-            return f"({args[1]} if {args[0]} else {args[2]})"
-        case Op.NEG:
-            return f"(-{args[0]})"
-        case Op.BIT:
-            return f"({args[0]} >> {args[1]} & 1)"
-        case _:
-            return f"{op.value}({', '.join(args)})"
+    return text_of(expr, read)

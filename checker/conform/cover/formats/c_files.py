@@ -126,7 +126,7 @@ def _compare(board: Board) -> str:
     )
     return (
         "static int differs(const char *name, double required, double actual)\n{\n"
-        "    if (isnan(required) || fabs(required - actual) <= NEAR) return 0;\n"
+        "    if (isnan(required) || fabs(required - actual) <= NEAR * fmax(1.0, fabs(required))) return 0;\n"
         '    printf("    %s: required %.9g, actual %.9g\\n", name, required, actual);\n'
         "    return 1;\n}\n\n"
         "static int compare(const double *at, const struct outputs *out)\n{\n    int wrong = 0;\n"

@@ -21,7 +21,7 @@ from spec_model.abstraction import boards
 
 BOARD = boards()["{board}"]
 OURS = "{ours}"
-NEAR = 1e-9
+NEAR = 1e-6  # in the unit, or as a part of the value: single precision will do
 
 # A test is rows of steps with equal inputs: how many, the inputs that change (of a time stamp: whether the
 # datum is new in each of these steps), and the outputs required that change (None: any value will do).
@@ -49,7 +49,7 @@ def test_outputs(name, implementation):
         required |= row[2]
         actual = implementation.step(given)
         wrong = {n: (v, actual[n]) for n, v in required.items() if v is not None and n in actual
-                 and abs(actual[n] - v) > NEAR}
+                 and abs(actual[n] - v) > NEAR * max(1, abs(v))}
         assert not wrong, f"step {step} ({given['now_ms']} ms), output: (required, actual) {wrong}"
 """
 
