@@ -5,10 +5,16 @@
 """
 
 import os
+import signal
 
 from hypothesis import HealthCheck, settings
 
 os.environ["ROVERCHECK_CACHE"] = ""  # what is tested is compiled anew
+
+for name in ("SIGINT", "SIGHUP"):  # a job in the background ignores them, and so would all that it starts
+    number = getattr(signal, name, None)
+    if number is not None and signal.getsignal(number) is signal.SIG_IGN:
+        signal.signal(number, signal.default_int_handler if name == "SIGINT" else signal.SIG_DFL)
 
 settings.register_profile(
     "ci",

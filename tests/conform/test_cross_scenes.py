@@ -18,6 +18,7 @@ FAULTS = {
     "priority, board2, Obstacles: confirmation before the end of the window": "obstacles that pass",
     "priority, board2, Monitors_2: silence before recovery of the joystick": "recoveries",
     "timer, board2, Motion_Supervision_2: 2 s become 2.02 s": "braking without the link",
+    "reset, board2, Actuation: the ramp goes on after a pause": "driving again",
 }
 JOYSTICK = "ble_last_valid_ms"
 

@@ -18,7 +18,7 @@ from checker.conform.cross.phases import (
     value,
     wait,
 )
-from checker.conform.cross.scenes import braking, combinations, recovering
+from checker.conform.cross.scenes import braking, combinations, recovering, resuming
 from checker.conform.cross.scenes import passing as passing_in_time
 from checker.conform.cross.stimulus import SILENT, Block, Change, Every, Toward
 from spec_model.abstraction import boards
@@ -202,6 +202,8 @@ def scenes(env: Environment) -> Iterator[tuple[str, Blocks, Blocks]]:
         yield "recoveries", [], scene
     for scene in braking(DRIVE, rolling, FRAMES, 100):
         yield "braking without the link", driving, scene
+    for scene in resuming(DRIVE, HEALTHY, max(env.timers)):
+        yield "driving again", driving, scene
 
 
 BOARD2 = Environment(

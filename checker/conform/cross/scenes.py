@@ -82,3 +82,11 @@ def braking(
             Block(5, (("d2", 301),)),
             Block(60, (*((name, 0) for name, _ in rolling), (lost, Every()))),
         ]
+
+
+def resuming(
+    drive: tuple[tuple[str, Change], ...], over: tuple[tuple[str, Change], ...], pause: int
+) -> Iterator[Blocks]:
+    """Driving, a pause for as long as it takes to give the motors back, and driving again."""
+    for before in (QUICK, 2 * QUICK, 30):
+        yield [Block(before, drive), Block(pause + QUICK, over), Block(30, drive)]
