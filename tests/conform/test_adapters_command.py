@@ -104,9 +104,10 @@ def test_death_in_the_middle_of_a_line(tmp_path):
 
 
 def test_answers_that_nobody_asked_for(tmp_path):
-    """They are found at the next reset at the latest."""
+    """They are found at the next reset at the latest, whether or not they have arrived by then."""
     said = r"said '.*' without being asked|answered .* to the reset"
-    started = start(loop(tmp_path, f"{ANSWER}; {ANSWER}"), BOARD, LIMITS)
+    twice = f"{ANSWER}; 'step' in order and say('{{\"v_ref\": 0.5}}')"
+    started = start(loop(tmp_path, twice), BOARD, LIMITS)
     with closing(started), pytest.raises(ImplementationError, match=said):
         run(started, [AT_REST] * 3)
         started.reset()
