@@ -1,8 +1,9 @@
 """A trace: the replayed run, tick by tick, with what fired and what the property says."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
+from spec_model.lang.chart import Chart
 from spec_model.lang.expr import Expr, Var
 
 
@@ -38,6 +39,18 @@ class Tick:
 
 
 @dataclass(frozen=True)
+class Needed:
+    """An input that had to be so: in tick ``number``, ``name`` is one of ``values`` (raw).
+
+    All the needed inputs of a run together force its end, whatever the other inputs are.
+    """
+
+    number: int
+    name: str
+    values: frozenset[int]
+
+
+@dataclass(frozen=True)
 class Trace:
     """A run with everything a reader needs.
 
@@ -48,6 +61,10 @@ class Trace:
     ``loop`` is set for a run without end: after the last tick all that the property depends on is as
     after that tick (0: as before the first), and the ticks in between repeat for ever.  ``trapped``
     is set for a run after which something is out of reach: it counts the valuations still reached.
+
+    ``property`` and ``text`` are the id and the sentence of the property; ``statecharts`` are the charts
+    that executed, by name, as drawn.  ``needed`` are the inputs that force the end of the run, none for
+    a run whose inputs were not examined.
     """
 
     system: str
@@ -61,6 +78,10 @@ class Trace:
     charts: frozenset[str] = frozenset()
     loop: int | None = None
     trapped: int | None = None
+    property: str = ""
+    text: str = ""
+    statecharts: Mapping[str, Chart] = field(default_factory=dict, compare=False, repr=False)
+    needed: tuple[Needed, ...] | None = None
 
     def __len__(self) -> int:
         return len(self.ticks)

@@ -49,7 +49,8 @@ def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
     drawn = system.source.charts if system.source else ()
     charts = frozenset(c.name for c in drawn if _of(c) & relevant)
     return Trace(
-        system.name, system.tick_ms, table, names, before, tuple(ticks), false, relevant, charts
+        system.name, system.tick_ms, table, names, before, tuple(ticks), false, relevant, charts,
+        property=goal.property.id, text=goal.property.text, statecharts={c.name: c for c in drawn},
     )  # fmt: skip
 
 
