@@ -53,7 +53,10 @@ def page(title: str, parts: Iterable[Part]) -> str:
     )
 
 
+NONE = "'none'"
+
+
 def _policy(scripts: Iterable[str]) -> str:
     """Nothing is fetched; only these scripts run."""
     hashes = " ".join(f"'sha256-{b64encode(sha256(text.encode()).digest()).decode()}'" for text in scripts)
-    return f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src {hashes or chr(39) + 'none' + chr(39)}"
+    return f"default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src {hashes or NONE}"
