@@ -1,7 +1,7 @@
 """Runs that are tried before the random ones: every aimed value alone, flags in pairs, timers, old data."""
 
 from collections.abc import Iterator
-from itertools import combinations, groupby, zip_longest
+from itertools import combinations, groupby, pairwise, zip_longest
 
 from checker.conform.cross.aims import formulas
 from checker.conform.cross.environment import AROUND, Blocks, Environment
@@ -125,17 +125,34 @@ def _held(env: Environment) -> Iterator[Blocks]:
             ticks = word.span.ticks(env.board.system.step_ms)
             names = {plain(v) for v in variables(word.arg).values()} & env.values.signals.keys()
             for name in sorted(names):
-                for value in _that_hold(env, name, word)[:2]:
+                for value in _at_the_ends(env, name, word):
                     for more in AROUND:
                         yield [Block(ticks + more, ((name, value),)), Block(2, ((name, calm[name]),))]
+                for value in _beside_the_limits(env, name, word):
+                    yield [Block(ticks + max(AROUND), ((name, value),)), Block(2, ((name, calm[name]),))]
 
 
-def _that_hold(env: Environment, name: str, word: Temporal) -> list[Value]:
-    """The aimed values of an input for which the condition holds, the ends of their range."""
+def _at_the_ends(env: Environment, name: str, word: Temporal) -> list[Value]:
+    """The first and the last aimed value of an input for which the condition holds."""
+    found = [value for value, holds in _aimed(env, name, word) if holds]
+    return [found[0], found[-1]] if found else []
+
+
+def _beside_the_limits(env: Environment, name: str, word: Temporal) -> list[Value]:
+    """The aimed values of an input next to one another of which the condition holds for one only."""
+    found: dict[Value, None] = {}
+    for (one, first), (two, second) in pairwise(_aimed(env, name, word)):
+        if first != second:
+            found |= {one: None, two: None}
+    return list(found)
+
+
+def _aimed(env: Environment, name: str, word: Temporal) -> list[tuple[Value, bool]]:
+    """The aimed values of an input, and whether the condition holds for each."""
     assert word.arg is not None
-    found: list[Value] = []
+    found: list[tuple[Value, bool]] = []
     for value in env.values.aimed[name]:
         read = env.board.reader().step(env.board.at_power_up() | {name: value})
-        if variables(word.arg).keys() <= read.keys() and evaluate(word.arg, computed(read)):
-            found.append(value)
-    return [found[0], found[-1]] if found else []
+        if variables(word.arg).keys() <= read.keys():
+            found.append((value, bool(evaluate(word.arg, computed(read)))))
+    return found

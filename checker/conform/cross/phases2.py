@@ -18,7 +18,7 @@ from checker.conform.cross.phases import (
     value,
     wait,
 )
-from checker.conform.cross.scenes import braking, combinations, recovering, resuming
+from checker.conform.cross.scenes import braking, combinations, recovering, resuming, rotating, turning
 from checker.conform.cross.scenes import passing as passing_in_time
 from checker.conform.cross.stimulus import SILENT, Block, Change, Every, Toward
 from spec_model.abstraction import boards
@@ -198,6 +198,10 @@ def scenes(env: Environment) -> Iterator[tuple[str, Blocks, Blocks]]:
         yield "presses", driving, scene
     for scene in passing_in_time(env, SONARS, ((1, 2), (2, 1), (2, 3), (3, 2))):
         yield "obstacles that pass", [], scene
+    for scene in turning(SONARS):
+        yield "turns across north", [], scene
+    for scene in rotating(SPEEDS, HEARTBEATS, IMU):
+        yield "rotations", [], scene
     for scene in recovering(env):
         yield "recoveries", [], scene
     for scene in braking(DRIVE, rolling, FRAMES, 100):

@@ -55,6 +55,23 @@ def passing(env: Environment, sonars: Sequence[str], pairs: Sequence[tuple[int, 
             ]
 
 
+def turning(sonars: Sequence[str]) -> Iterator[Blocks]:
+    """A turn away from an obstacle across north, from either side, watched until it is made and beyond."""
+    for (first, second), headings, ahead in (
+        ((sonars[1], sonars[2]), (300, 330, 345, 359), -1),
+        ((sonars[1], sonars[0]), (0, 15, 30, 60), 1),
+    ):
+        for heading in headings:
+            yield [
+                Block(2, (("yaw", heading), *((sonar, 301) for sonar in sonars))),
+                Block(QUICK, ((first, 200),)),
+                Block(QUICK, ((first, 301),)),
+                Block(QUICK, ((second, 200),)),
+                *(Block(2, (("yaw", Toward("B2.targetAngle", ahead * off)),)) for off in (30, 15, 0)),
+                Block(QUICK, ((second, 301),)),
+            ]
+
+
 def recovering(env: Environment) -> Iterator[Blocks]:
     """Sources slow for long enough, quick again for about the second of recovery, and silent for good."""
     for stamp in env.values.stamps:
@@ -82,6 +99,24 @@ def braking(
             Block(5, (("d2", 301),)),
             Block(60, (*((name, 0) for name, _ in rolling), (lost, Every()))),
         ]
+
+
+def rotating(speeds: Sequence[str], wheels: str, imu: str) -> Iterator[Blocks]:
+    """Rotations by gyroscope and wheels that differ by nearly the limit of a window, or come nearly too late.
+
+    In 3 s a difference of 5 degrees is that of 1.8168 rpm, in 100 ms one of 1 degree that of 10 degrees/s.
+    """
+    still = tuple((name, 0) for name in speeds)
+    fresh: tuple[tuple[str, Change], ...] = ((wheels, Every()), (imu, Every()), ("gz_dps", 0), *still)
+    front, _, rear, _ = speeds
+    for one, other in ((1.816, 1.816), (1.816, 1.817), (1.817, 1.817), (7, 2), (1, 0)):
+        yield [Block(310, (*fresh, (front, one), (rear, other)))]
+    for speed in (0, 0.004, 0.005, 0.006):
+        yield [Block(80, (*fresh, ("gz_dps", 10), (front, speed), (rear, speed)))]
+    for gap in (4, 5, 6):
+        for rate in (60, 250):
+            yield [Block(320, (*fresh, ("gz_dps", rate), (imu, Every((gap,)))))]
+        yield [Block(320, (*fresh, *((name, 60) for name in speeds[::2]), (wheels, Every((gap,)))))]
 
 
 def resuming(
