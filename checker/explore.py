@@ -1,56 +1,29 @@
 """Every reachable valuation with every tick that leaves it, by plain breadth-first search.
 
-For graphs of small systems only: the step is interpreted, not compiled.  An input is chosen at the
-moment the step reads it, one value per cell (see ``checker.partition``), so inputs that a tick does
-not look at cost nothing.
+For small systems only: the step is interpreted, not compiled (``checker.graphs`` explores by compiled
+code).  An input is chosen at the moment the step reads it, one value per cell (see ``checker.partition``),
+so inputs that a tick does not look at cost nothing.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 
-from checker.engine import Progress, quiet
-from checker.graph import StateGraph, Step, Values, project
+from checker.engine import Progress
+from checker.graph import Values
 from checker.partition import partitions
-from checker.slice import sliced
-from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.lang.errors import ModelError
 from spec_model.lang.evaluate import evaluate, run
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 
-MOST_VALUATIONS = 20_000
-MOST_STEPS = 500_000
+Step = tuple[Values, Mapping[str, int]]
+"""The valuation after a tick, and the inputs it looked at in the order in which it did, raw."""
+
 _REPORT = 1000
 
 
 class TooLarge(ModelError):
     """More valuations or ticks than the limits allow."""
-
-
-def state_graph(
-    system: TransitionSystem,
-    onto: Sequence[str],
-    most: int = MOST_VALUATIONS,
-    steps: int = MOST_STEPS,
-    progress: Progress = quiet,
-) -> StateGraph:
-    """The reachable graph of the system projected on the variables named ``onto``.
-
-    Only the part of the system they depend on is explored.  Raises ``ModelError`` for an unknown
-    variable, ``TooLarge`` when more than ``most`` valuations or ``steps`` ticks would have to be tried: the
-    graph is whole or there is none.
-    """
-    known = {v.name: v for v in (*system.variables, *system.frozen)}
-    for name in onto:
-        if name in {v.name for v in system.inputs}:
-            raise ModelError(f"{name} is an input of {system.name}; project on what the system remembers.")
-        if name not in known:
-            raise ModelError(f"There is no variable {name!r} to project on. {did_you_mean(name, known)}")
-    part = sliced(system, [known[name] for name in onto])
-    kept = {v.name for v in part.variables} | {v.name for v in part.frozen} | set(onto)
-    variables = [v for v in (*system.frozen, *system.variables) if v.name in kept]
-    search = Search(part, variables, most, steps, progress)
-    inputs = {v.name: v for v in part.inputs}
-    return project(f"{system.name} on {', '.join(onto)}", variables, onto, search.initial(), search, inputs)
 
 
 class Search:
@@ -102,16 +75,23 @@ class Search:
     def _ticks(self, valuation: Values) -> Iterator[Step]:
         """Every tick from a valuation: one for each way in which the step can read its inputs."""
         before = dict(zip(self.names, valuation, strict=True))
-        script: list[int] = []
-        while True:
-            at = _Drawn(before, self.cells, script)
-            if evaluate(self.system.assume, at):
-                run(self.system.step, at)
-                after = tuple(at[name] for name in self.names)
-                yield after, at.drawn
-            script = at.following()
-            if not script:
-                return
+        for after, drawn in ticks(self.system, before, self.cells):
+            yield tuple(after[name] for name in self.names), drawn
+
+
+def ticks(
+    system: TransitionSystem, before: Mapping[str, int], cells: Mapping[str, Sequence[int]]
+) -> Iterator[tuple[Mapping[str, int], Mapping[str, int]]]:
+    """The valuation after each tick, with the inputs it looked at, which are among ``cells``."""
+    script: list[int] = []
+    while True:
+        at = _Drawn(before, cells, script)
+        if evaluate(system.assume, at):
+            run(system.step, at)
+            yield at, at.drawn
+        script = at.following()
+        if not script:
+            return
 
 
 class _Drawn(dict[str, int]):

@@ -2,6 +2,7 @@
 
 from checker.graph import GraphEdge, GraphNode, StateGraph
 from checker.render.statechart_dot import quoted
+from checker.render.stategraph.words import behind, example, ticks, values
 
 NAME = "dot"
 KIND = "graph"
@@ -21,9 +22,10 @@ def render(graph: StateGraph) -> str:
 
 
 def _node(graph: StateGraph, node: GraphNode) -> str:
-    values = [f"{n} = {v}" for n, v in zip(graph.variables, node.shown, strict=True)]
-    attributes = [f"label={quoted(chr(10).join([*values, f'×{node.valuations}']))}"]
+    shown = [*values(graph, node), behind(graph, node)]
+    attributes = [f"label={quoted(chr(10).join(shown))}"]
     attributes += ["penwidth=2"] if node.initial else []
+    attributes += ["peripheries=2"] if node.dead else []
     if node.number in graph.bad:
         attributes += ['color="#c3241c"', 'style="rounded,filled"', 'fillcolor="#ffd9d4"']
     elif node.number in graph.path:
@@ -32,7 +34,9 @@ def _node(graph: StateGraph, node: GraphNode) -> str:
 
 
 def _edge(graph: StateGraph, edge: GraphEdge) -> str:
-    attributes = [f"label={quoted(chr(10).join([*edge.example.split(', '), f'×{edge.steps}']))}"]
-    if (edge.source, edge.target) in zip(graph.path, graph.path[1:], strict=False):
-        attributes += ['color="#c3241c"', "penwidth=2"]
+    when = ticks(graph, edge.source, edge.target)
+    shown = [*example(edge), f"×{edge.steps:,}", *([when] if when else [])]
+    attributes = [f"label={quoted(chr(10).join(shown))}"]
+    attributes += [] if (edge.source, edge.target) in graph.sure else ["style=dashed"]
+    attributes += ['color="#c3241c"', "penwidth=2"] if when else []
     return f"s{edge.source} -> s{edge.target} [{', '.join(attributes)}];"

@@ -1,26 +1,29 @@
 """A projected state graph as a Mermaid flowchart, which GitHub shows in Markdown."""
 
-from checker.graph import StateGraph, drawable
+from checker.graph import MOST_NODES, StateGraph, drawable
 from checker.render.statechart_mermaid import escaped
+from checker.render.stategraph.words import behind, example, ticks, values
 
 NAME = "mermaid"
 KIND = "graph"
+PICTURE = True
 SUFFIX = ".mmd"
 SUMMARY = "Mermaid flowchart of a small projected graph"
 
 
-def render(graph: StateGraph) -> str:
-    """The diagram's source.  Raises ``ModelError`` when it has more nodes than can be read."""
-    drawable(graph)
+def render(graph: StateGraph, most: int = MOST_NODES) -> str:
+    """The diagram's source.  Raises ``ModelError`` when it has more than ``most`` nodes."""
+    drawable(graph, most)
     lines = ["flowchart LR", f"  %% {graph.title}: {graph.summary}"]
     for node in graph.nodes:
-        values = [f"{n} = {v}" for n, v in zip(graph.variables, node.shown, strict=True)]
-        shown = "<br>".join(map(escaped, [*values, f"×{node.valuations}"]))
+        shown = "<br>".join(map(escaped, [*values(graph, node), behind(graph, node)]))
         shape = ('(["', '"])') if node.initial else ('("', '")')
         lines.append(f"  s{node.number}{shape[0]}{shown}{shape[1]}")
     for edge in graph.edges:
-        label = "<br>".join(map(escaped, [*edge.example.split(", "), f"×{edge.steps}"]))
-        lines.append(f'  s{edge.source} -->|"{label}"| s{edge.target}')
+        when = ticks(graph, edge.source, edge.target)
+        label = "<br>".join(map(escaped, [*example(edge), f"×{edge.steps:,}", *([when] if when else [])]))
+        arrow = "-->" if (edge.source, edge.target) in graph.sure else "-.->"
+        lines.append(f'  s{edge.source} {arrow}|"{label}"| s{edge.target}')
     lines += [f"  style s{n} fill:#ffd9d4,stroke:#c3241c" for n in sorted(graph.bad)]
     lines += [f"  style s{n} stroke:#b86a00,stroke-width:3px" for n in sorted(set(graph.path) - graph.bad)]
     return "\n".join([*lines, ""])

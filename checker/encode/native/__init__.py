@@ -17,6 +17,7 @@ from checker.encode.native.layout import Field, Layout, OutsideDomain, layout
 from checker.encode.native.quiet import Shift, moved_on, shifts
 from checker.encode.native.retrace import LEAVE_DOMAIN, REACH_TARGET, UNREAD, add_retrace
 from checker.encode.native.search import BATCH, Status, Task, add_search
+from checker.encode.native.successors import Ended, add_successors
 from checker.encode.native.table import CONTEXT, Table
 
 Words = NDArray[np.uint64]
@@ -28,11 +29,13 @@ __all__ = [
     "LEAVE_DOMAIN",
     "REACH_TARGET",
     "UNREAD",
+    "Ended",
     "Field",
     "Layout",
     "Level",
     "NativeRetrace",
     "NativeSearch",
+    "NativeSuccessors",
     "OutsideDomain",
     "Shift",
     "Status",
@@ -96,7 +99,12 @@ class NativeSearch:
 
 
 _MANY = 1 << 14
-"""Combinations of cells from which on retracing a tick is worth code that runs fast."""
+"""Combinations of cells from which on single ticks are worth code that runs fast."""
+
+
+def _level(task: Task) -> Level:
+    """How well to compile code that runs all ways through some ticks."""
+    return Level.FAST if prod(len(p.cells) for p in task.cells.values()) >= _MANY else Level.QUICK
 
 
 @dataclass(frozen=True)
@@ -108,8 +116,7 @@ class NativeRetrace:
 
     @staticmethod
     def compile(task: Task) -> "NativeRetrace":
-        many = prod(len(p.cells) for p in task.cells.values()) >= _MANY
-        return NativeRetrace(task, Library(_code("retrace", task, Level.FAST if many else Level.QUICK)))
+        return NativeRetrace(task, Library(_code("retrace", task, _level(task))))
 
     def inputs(self, before: Words, target: Words, wanted: int) -> dict[str, int]:
         """The inputs read on a path from ``before`` that fits, by name.  Raises ``LookupError``."""
@@ -123,9 +130,33 @@ class NativeRetrace:
         return {v.name: int(raw) for v, raw in values if raw != UNREAD}
 
 
+@dataclass(frozen=True)
+class NativeSuccessors:
+    """The compiled ticks of a system, all of them."""
+
+    task: Task
+    library: Library
+
+    @staticmethod
+    def compile(task: Task) -> "NativeSuccessors":
+        """Compile for a task.  Raises ``TooWide`` where 64 bits do not suffice."""
+        return NativeSuccessors(task, Library(_code("successors", task, _level(task))))
+
+    def __call__(self, words: Words, room: int) -> tuple[Ended, int, Words, NDArray[np.int64]]:
+        """Why it ended, how many of the valuations are expanded, where their ticks lead, and from which."""
+        found = np.empty((room + 1, self.task.layout.words), dtype=np.uint64)
+        origins = np.empty(room + 1, dtype=np.int64)
+        state = np.zeros(2, dtype=np.int64)
+        types = [ctypes.c_void_p, *[ctypes.c_int64] * 2, *[ctypes.c_void_p] * 3]
+        call = self.library.function("successors", ctypes.c_int64, types)
+        rows = np.ascontiguousarray(words)
+        ended = call(_address(rows), len(rows), room, *map(_address, (found, origins, state)))
+        return Ended(ended), int(state[0]), found[: state[1]], origins[: state[1]]
+
+
 # --- compiling, or not again -------------------------------------------------------------------------
 
-Kind = Literal["search", "retrace"]
+Kind = Literal["search", "retrace", "successors"]
 
 
 def _kept(kind: Kind, task: Task, level: Level) -> bytes | None:
@@ -154,6 +185,8 @@ def assembly(kind: Kind, task: Task) -> str:
         table.rehash()
         table.known()
         add_search(module, task, table, store)
+    elif kind == "successors":
+        add_successors(module, task)
     else:
         add_retrace(module, task)
     return str(module)

@@ -57,15 +57,27 @@ class Runs:
         """A shortest run to a goal that was hit.  Checked by running it on the whole system."""
         last = self.found.hits[number]
         assert last is not None
-        chosen = self._chosen(self.line(last, self.found.levels[number]), number)
+        run, at = self._run(last, self._chosen(self.line(last, self.found.levels[number]), number))
+        if not at[goal.name]:
+            raise AssertionError(f"the run of {len(run)} ticks does not reach {goal.name}")
+        return run
+
+    def to_valuation(self, number: int) -> Run:
+        """A run that ends in a stored valuation, as short as the search found it."""
+        line = self.line(number, self.found.level(number))
+        run, at = self._run(number, self._ticks(line))
+        if any(at[name] != raw for name, raw in self.task.layout.unpack(line[-1]).items()):
+            raise AssertionError(f"the run of {len(run)} ticks does not end in valuation {number}")
+        return run
+
+    def _run(self, last: int, chosen: list[dict[str, int]]) -> tuple[Run, Mapping[str, int]]:
+        """The run of the whole system with the inputs that were read in each tick, and where it ends."""
         at = {**self.system.init, **self._frozen(last)}
         inputs: list[Mapping[str, int]] = []
         for read in chosen:
             inputs.append(self._completed(at, read, inputs[-1] if inputs else {}))
             at = step(self.system, at, inputs[-1])
-        if not at[goal.name]:
-            raise AssertionError(f"the run of {len(inputs)} ticks does not reach {goal.name}")
-        return Run(self._frozen(last), tuple(inputs))
+        return Run(self._frozen(last), tuple(inputs)), at
 
     def left_domain(self, last: Packed) -> OutsideDomain:
         """The error to raise when a tick from the last valuation breaks the model."""
@@ -101,9 +113,11 @@ class Runs:
         return along
 
     def _chosen(self, line: list[Packed], wanted: int) -> list[dict[str, int]]:
-        ticks = [self.native.inputs(_array(a), _array(b), REACH_TARGET) for a, b in pairwise(line)]
         last = _array(line[-1])
-        return [*ticks, self.native.inputs(last, last, wanted)]
+        return [*self._ticks(line), self.native.inputs(last, last, wanted)]
+
+    def _ticks(self, line: list[Packed]) -> list[dict[str, int]]:
+        return [self.native.inputs(_array(a), _array(b), REACH_TARGET) for a, b in pairwise(line)]
 
     def _frozen(self, last: int) -> dict[str, int]:
         packed = self.task.layout.unpack(self.found.words[last].tolist())

@@ -1,0 +1,17 @@
+"""A projected state graph as a page: to move about in, to search, and to ask for the way to a node."""
+
+from checker.graph import MOST_NODES, StateGraph, drawable
+from checker.render.page import page
+from checker.render.stategraph.fragment import part
+
+NAME = "html"
+KIND = "graph"
+PICTURE = True
+WAYS = True
+SUFFIX = ".html"
+SUMMARY = "page to pan, zoom and search; a click shows a valuation and a run to it"
+
+
+def render(graph: StateGraph, most: int = MOST_NODES) -> str:
+    """The page.  Raises ``ModelError`` when the graph has more than ``most`` nodes."""
+    return page(graph.title, [part(drawable(graph, most))])
