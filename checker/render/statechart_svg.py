@@ -1,6 +1,7 @@
 """A chart as an SVG picture a Stateflow user recognises."""
 
-from collections.abc import Collection
+from collections.abc import Collection, Sequence
+from functools import lru_cache
 
 from checker.render.drawing import svg
 from checker.render.drawing.highlight import Emphasis, emphasis
@@ -18,25 +19,27 @@ SUMMARY = "picture with nested boxes, labelled arrows and priorities; no outside
 
 MARGIN = 24
 STYLE = """
-.state{fill:#fffdf6;stroke:#5b5b66;stroke-width:1.3}
-.composite{fill:#f7f8fb;stroke:#5b5b66;stroke-width:1.3}
-.region{fill:#fdfdfd;stroke:#5b5b66;stroke-width:1.3;stroke-dasharray:6 4}
-.title{font-size:13px;font-weight:bold;fill:#1d2433}
-.chart{font-size:17px;font-weight:bold;fill:#1d2433}
-.order{font-size:12px;fill:#5b5b66}
-.action{fill:#333a48}
-.rule{stroke:#c9ccd6;stroke-width:1}
-.line{fill:none;stroke:#35507a;stroke-width:1.3}
-.head,.dot{fill:#35507a;stroke:none}
-.junction{fill:#ffffff;stroke:#35507a;stroke-width:1.3}
-.label{fill:#1f3558}
-.number{font-size:9.5px;fill:#35507a}
-.note{fill:#6a7080}
-.active{fill:#ffeeb8;stroke:#b86a00;stroke-width:2.2}
-.composite.active,.region.active{fill:#fffaf0}
-.fired .line{stroke:#c3241c;stroke-width:2.4}
-.fired .head,.fired .dot{fill:#c3241c}
-.fired .label,.fired .number{fill:#a81b14}
+.statechart .state>rect{fill:#fffdf6;stroke:#5b5b66;stroke-width:1.3}
+.statechart .composite>rect{fill:#f7f8fb;stroke:#5b5b66;stroke-width:1.3}
+.statechart .region>rect{fill:#fdfdfd;stroke:#5b5b66;stroke-width:1.3;stroke-dasharray:6 4}
+.statechart .title{font-size:13px;font-weight:bold;fill:#1d2433}
+.statechart .chart{font-size:17px;font-weight:bold;fill:#1d2433}
+.statechart .order{font-size:12px;fill:#5b5b66}
+.statechart .action{fill:#333a48}
+.statechart .rule{stroke:#c9ccd6;stroke-width:1}
+.statechart .line{fill:none;stroke:#35507a;stroke-width:1.3}
+.statechart .head,.statechart .dot{fill:#35507a;stroke:none}
+.statechart .junction{fill:#ffffff;stroke:#35507a;stroke-width:1.3}
+.statechart .label{fill:#1f3558}
+.statechart .number{font-size:9.5px;fill:#35507a}
+.statechart .note{fill:#6a7080}
+.statechart .active>rect{fill:#ffeeb8;stroke:#b86a00;stroke-width:2.2}
+.statechart .composite.active>rect,.statechart .region.active>rect{fill:#fffaf0}
+.statechart .taken .line{stroke:#d08a80;stroke-width:2}
+.statechart .taken .head,.statechart .taken .dot{fill:#d08a80}
+.statechart .fired .line{stroke:#c3241c;stroke-width:2.4}
+.statechart .fired .head,.statechart .fired .dot{fill:#c3241c}
+.statechart .fired .label,.statechart .fired .number{fill:#a81b14}
 """
 LEGEND = (
     "dashed box: parallel region, its number the order of execution",
@@ -52,34 +55,64 @@ def render(chart: Chart, active: Collection[str] = (), fired: Collection[Arrow] 
     arrows of a trace to be shown as taken.  Raises ``ModelError`` for an unknown name.
     """
     shown = emphasis(chart, arrows(chart), active, fired)
+    wide, high, body = _drawn(chart, shown)
+    return svg.document(wide, high, STYLE, _title(chart), body, class_="statechart")
+
+
+def inline(chart: Chart) -> str:
+    """The picture for a page that has ``STYLE`` and says what ``LEGEND`` says.
+
+    Its parts are found by attributes, as it has no ids: ``data-state`` is the dotted path of a state,
+    ``data-arrow`` the name of a ``ChartArrow`` (on every piece of its line).  The classes ``active``,
+    ``fired`` and ``taken`` emphasise them.
+    """
+    return _inline(chart)[2]
+
+
+def size(chart: Chart) -> tuple[int, int]:
+    """Width and height of the picture ``inline``, in pixels."""
+    return _inline(chart)[:2]
+
+
+@lru_cache(maxsize=64)
+def _inline(chart: Chart) -> tuple[int, int, str]:
+    wide, high, body = _drawn(chart, Emphasis(), legend=())
+    return wide, high, svg.figure(wide, high, _title(chart), body, class_="statechart", role="img")
+
+
+def _title(chart: Chart) -> str:
+    return f"{chart.name}: statechart"
+
+
+def _drawn(chart: Chart, shown: Emphasis, legend: Sequence[str] = LEGEND) -> tuple[int, int, list[str]]:
+    """Width, height and elements."""
     heading = [chart.name, *wrap(chart.text, 110)]
     top = MARGIN + 20 + LINE * (len(heading) - 1) + 10
     place = picture(chart).moved(MARGIN, top)
     wide = max(place.width, *(width(t, 17 if not i else 11) for i, t in enumerate(heading)), 420) + 2 * MARGIN
-    foot = _foot(chart, wide - 2 * MARGIN)
+    foot = _foot(chart, wide - 2 * MARGIN, legend)
     body = [svg.text(MARGIN, MARGIN + 14, heading[0], "chart")]
     body += svg.lines(MARGIN, MARGIN + 24, heading[1:], "note")
-    body += [part for box in place.boxes for part in _box(box, shown)]
+    body += [_box(box, shown) for box in place.boxes]
     body += [_piece(piece, shown) for piece in place.pieces]
     body += [_spot(spot) for spot in place.spots]
     body += svg.lines(MARGIN, top + place.height + 18, foot, "note")
-    high = top + place.height + 18 + LINE * len(foot) + MARGIN
-    return svg.document(wide, high, STYLE, f"{chart.name}: statechart", body)
+    return wide, top + place.height + (18 + LINE * len(foot) if foot else 0) + MARGIN, body
 
 
-def _foot(chart: Chart, room: int) -> list[str]:
+def _foot(chart: Chart, room: int, legend: Sequence[str]) -> list[str]:
     """What the names in labels stand for, and the legend."""
     limit = max(60, room // 7)
     names = [line for n, body in explained(chart).items() for line in wrap(f"{n} = {body}", limit, "    ")]
-    legend = wrap("; ".join(LEGEND), limit)
-    return [*names, *([""] if names else []), *legend]
+    rest = wrap("; ".join(legend), limit)
+    return [*names, *([""] if names and rest else []), *rest]
 
 
-def _box(box: Box, shown: Emphasis) -> list[str]:
+def _box(box: Box, shown: Emphasis) -> str:
     kind = "region" if box.order else "composite" if box.composite else "state"
     classes = f"{kind} active" if box.path in shown.states else kind
     radius = 10 if not box.order else 6
-    parts = [svg.tag("rect", x=box.x, y=box.y, width=box.width, height=box.height, rx=radius, class_=classes)]
+    parts = [svg.tag("rect", x=box.x, y=box.y, width=box.width, height=box.height, rx=radius)]
     parts.append(svg.text(box.x + 12, box.y + 17, box.path[-1], "title"))
     if box.order:
         parts.append(svg.text(box.x + box.width - 16, box.y + 17, str(box.order), "order"))
@@ -87,7 +120,7 @@ def _box(box: Box, shown: Emphasis) -> list[str]:
         y = box.y + 22
         parts.append(svg.tag("line", x1=box.x, x2=box.x + box.width, y1=y, y2=y, class_="rule"))
         parts += svg.lines(box.x + 12, y + 3, box.lines, "action")
-    return parts
+    return svg.tag("g", "".join(parts), class_=classes, data_state=".".join(box.path))
 
 
 def _piece(piece: Piece, shown: Emphasis) -> str:
@@ -98,16 +131,18 @@ def _piece(piece: Piece, shown: Emphasis) -> str:
         parts += svg.lines(*piece.label, piece.lines, "label")
         parts.append(_number(piece))
     classes = "arrow fired" if piece.arrow.name in shown.arrows else "arrow"
-    return svg.tag("g", "".join(parts), class_=classes)
+    return svg.tag("g", "".join(parts), class_=classes, data_arrow=piece.arrow.name)
 
 
 def _number(piece: Piece) -> str:
-    """The priority just above the start of the line; beyond the slanting start at a junction."""
-    (x, y), (x1, y1) = piece.points[0], piece.points[1]
-    right = x1 > x
-    if x1 != x and y1 != y:
-        x, y = x1, y1
-    return svg.text(x + (3 if right else -9), y - 3, piece.arrow.number, "number")
+    """The priority beside the start of the line; beyond the slanting start at a junction."""
+    (x, y), (x1, y1), *rest = piece.points
+    if x1 != x and y1 != y and rest:
+        (x, y), (x1, y1) = (x1, y1), rest[0]
+    across = (3 if x1 > x else -9, -3)
+    along = (4, 8 if y1 > y else -1)
+    dx, dy = along if x == x1 else across
+    return svg.text(x + dx, y + dy, piece.arrow.number, "number")
 
 
 def _spot(spot: Spot) -> str:

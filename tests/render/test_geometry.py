@@ -1,21 +1,26 @@
 """Nothing that must be read lies under something else."""
 
+import re
+from collections.abc import Iterator
 from itertools import combinations, pairwise
+from xml.etree import ElementTree
 
 import pytest
 
+from checker.render import statechart_svg
 from checker.render.drawing.graph import Point
 from checker.render.drawing.nested import picture
 from checker.render.drawing.picture import Box, Picture, Piece
-from checker.render.drawing.text import LINE, block, width, wrap
-from spec_model.rover import charts
+from checker.render.drawing.text import LINE, SIZE, block, width, wrap
+from spec_model.rover import charts_of, systems
 from tests.render.zoo import CHARTS
 
+SVG = "{http://www.w3.org/2000/svg}"
 Rectangle = tuple[int, int, int, int]
 """Left, top, right, bottom."""
 
 
-EVERY = {**CHARTS, **charts()}
+EVERY = {**CHARTS, **charts_of(systems())}
 
 
 @pytest.fixture(params=EVERY, scope="module")
@@ -100,4 +105,66 @@ def test_pieces_of_an_arrow_meet(drawn: Picture) -> None:
 def test_wrapping_keeps_words_and_indents() -> None:
     assert wrap("  a || b && c", 5, "  ") == ("  a", "    || b", "    && c")
     assert wrap("", 5) == ()
+    assert wrap("[now - then > 120 ms && it == HERE]", 14, "  ") == (
+        "[now - then",
+        "  > 120 ms",
+        "  && it",
+        "  == HERE]",
+    )
     assert " ".join(wrap("one two three four", 9)) == "one two three four"
+
+
+LETTERS = {"chart": 17, "title": 13, "order": 12, "number": 10}
+"""Heights of letters in pixels by class; all other texts have the usual one."""
+
+
+@pytest.fixture(params=EVERY, scope="module")
+def svg(request: pytest.FixtureRequest) -> ElementTree.Element:
+    return ElementTree.fromstring(statechart_svg.render(EVERY[request.param]))
+
+
+def texts(svg: ElementTree.Element) -> list[tuple[str, Rectangle]]:
+    """Each text with the area of its letters."""
+    found = []
+    for text in svg.iter(f"{SVG}text"):
+        size, words = LETTERS.get(text.get("class", ""), SIZE), "".join(text.itertext())
+        x, y = (round(float(text.get(name, ""))) for name in "xy")
+        wide = width(words, size, bold=text.get("class") in ("chart", "title"))
+        found.append((words, (x, y - 3 * size // 4, x + wide, y + size // 5)))
+    return found
+
+
+def lines(svg: ElementTree.Element) -> Iterator[tuple[Point, Point]]:
+    """The straight pieces of all arrows, those that slant cut into short ones."""
+    for path in svg.iter(f"{SVG}path"):
+        if path.get("class") == "line":
+            points = [(float(x), float(y)) for x, y in re.findall(r"([\d.]+) ([\d.]+)", path.get("d", ""))]
+            for (x0, y0), (x1, y1) in pairwise(points):
+                cuts = 1 if x0 == x1 or y0 == y1 else 8
+                at = [
+                    (round(x0 + (x1 - x0) * k / cuts), round(y0 + (y1 - y0) * k / cuts))
+                    for k in range(cuts + 1)
+                ]
+                yield from pairwise(at)
+
+
+def clashes(written: list[tuple[str, Rectangle]]) -> list[tuple[str, str]]:
+    return [(a, b) for (a, here), (b, there) in combinations(written, 2) if overlap(here, there)]
+
+
+def test_no_text_lies_on_another(svg: ElementTree.Element) -> None:
+    written = texts(svg)
+    assert not clashes(written)
+    moved = (written[0][0], written[-1][1])
+    assert clashes([moved, *written[1:]]), "the check sees a text that is moved onto another"
+
+
+def test_no_line_runs_through_a_text(svg: ElementTree.Element) -> None:
+    drawn = list(lines(svg))
+    assert not [(words, line) for words, area in texts(svg) for line in drawn if crosses(line, area)]
+
+
+def test_the_picture_holds_every_text_and_fits_a_window(svg: ElementTree.Element) -> None:
+    wide, high = (int(svg.get(name, "")) for name in ("width", "height"))
+    assert all(x >= 0 and y >= 0 and right <= wide and low <= high for _, (x, y, right, low) in texts(svg))
+    assert wide <= 1280

@@ -87,6 +87,14 @@ class TestDot(ChartSuite):
         balanced = re.sub(r'"(\\.|[^"\\])*"', "", document)
         assert balanced.count("{") == balanced.count("}") and '"' not in balanced
 
+    def test_one_edge_per_arrow_between_nodes_that_exist(self) -> None:
+        for name, chart in CHARTS.items():
+            edges = re.findall(r"^  (\w+) -> (\w+)", self.shown(name), re.MULTILINE)
+            nodes = set(re.findall(r"^ +(\w+) \[", self.shown(name), re.MULTILINE))
+            assert len(edges) == len(arrows(chart)) and nodes.issuperset(
+                end for edge in edges for end in edge
+            )
+
     def test_composites_are_clusters(self) -> None:
         composites = [p for p, s in parallel.states.items() if p and s.states]
         assert self.shown("Parallel").count("subgraph cluster_") == len(composites)
@@ -100,6 +108,13 @@ class TestMermaid(ChartSuite):
     def parse(self, document: str) -> None:
         assert document.startswith("stateDiagram-v2\n")
         assert document.count("{\n") == document.count("}\n")
+
+    def test_what_its_grammar_uses_is_written_as_codes(self) -> None:
+        for name in CHARTS.keys() - self.REFUSED:
+            for line in self.shown(name).splitlines():
+                _, colon, label = line.partition(" : ")
+                bare = re.sub(r"#(\d+|lt|gt|quot);", "", label)
+                assert not colon or not re.search(r"[:;<>\"{}#]", bare), line
 
     def test_says_which_construct_does_not_fit(self) -> None:
         with pytest.raises(ModelError, match=r"Run is a composite with actions.*Use svg"):

@@ -1,15 +1,14 @@
 """Cut arrows at the borders of composites: what of each arrow belongs to one level."""
 
+import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from checker.render.drawing.graph import Edge
 from checker.render.drawing.scheme import ChartArrow, label_parts
 from checker.render.drawing.text import block, wrap
 from spec_model.lang.chart import Path
-
-LABEL = 36
-"""Characters in a line of a label."""
 
 DOT = "*"
 """The member of a level that stands for the dot of its default transition."""
@@ -20,13 +19,17 @@ Sides = Mapping[str, bool]
 
 @dataclass(frozen=True)
 class Cut:
-    """The part of an arrow between two members of a level; an empty end lies on the level's border."""
+    """The part of an arrow between two members of a level; an empty end lies on the level's border.
+
+    ``limit`` is the number of characters in a line of its label.
+    """
 
     arrow: ChartArrow
     source: str
     target: str
     starts: bool
     ends: bool
+    limit: int
 
     @property
     def name(self) -> str:
@@ -51,24 +54,31 @@ class Cut:
         """The node in which a folded arrow bends, below its label."""
         return f"~{self.name}"
 
-    @property
+    @cached_property
     def lines(self) -> tuple[str, ...]:
         """The lines of the label, which is written where the arrow starts."""
         if not self.starts:
             return ()
-        return tuple(line for part in label_parts(self.arrow.transition) for line in wrap(part, LABEL, "  "))
+        parts = (each for part in label_parts(self.arrow.transition) for each in _apart(part, self.limit))
+        return tuple(line for part in parts for line in wrap(part, self.limit, "  "))
 
 
-def cuts(arrows: Sequence[ChartArrow], level: Path) -> Iterator[Cut]:
-    """The parts of the arrows that belong to a level, in order."""
+def _apart(part: str, limit: int) -> list[str]:
+    """A part of a label; actions that do not fit into one line stand on lines of their own."""
+    actions = re.split(r"(?<=;) ", part) if len(part) > limit else [part]
+    return [actions[0], *(f"  {action}" for action in actions[1:])]
+
+
+def cuts(arrows: Sequence[ChartArrow], level: Path, limit: int) -> Iterator[Cut]:
+    """The parts of the arrows that belong to a level, in order, labels in lines of ``limit`` characters."""
     for arrow in arrows:
         start = (*arrow.source, DOT) if arrow.default else arrow.source
-        cut = _cut(arrow, start, arrow.target, level)
+        cut = _cut(arrow, start, arrow.target, level, limit)
         if cut is not None:
             yield cut
 
 
-def _cut(arrow: ChartArrow, start: Path, end: Path, level: Path) -> Cut | None:
+def _cut(arrow: ChartArrow, start: Path, end: Path, level: Path, limit: int) -> Cut | None:
     depth = len(level)
     source, target = _member(start, level), _member(end, level)
     if not (source or target):
@@ -78,7 +88,7 @@ def _cut(arrow: ChartArrow, start: Path, end: Path, level: Path) -> Cut | None:
         return None
     starts = start[:-1] == level if source else start == level
     ends = end[:-1] == level if target else end == level
-    return Cut(arrow, source, target, starts, ends)
+    return Cut(arrow, source, target, starts, ends, limit)
 
 
 def _member(path: Path, level: Path) -> str:
@@ -89,16 +99,21 @@ def _member(path: Path, level: Path) -> str:
 @dataclass(frozen=True)
 class Way:
     """How a level is drawn: arrows that run from right to left, and arrows that leave their source to
-    the right and bend back to the right side of their target (``folded``)."""
+    the right and bend back to the right side of their target (``folded``).
+
+    With ``upright`` it is drawn from top to bottom; what is said of left and right here and in
+    ``Sides`` then means above and below.
+    """
 
     back: frozenset[str]
     folded: frozenset[str] = frozenset()
+    upright: bool = False
 
 
 def edges(cut: Cut, way: Way, sides: Sides) -> list[Edge]:
     """The cut as an edge from left to right; for a folded one also the edge that leads back."""
     source, target = cut.source or cut.port, cut.target or cut.port
-    label, weight = padded(cut.lines), 4 if cut.arrow.default else 1
+    label, weight = padded(cut.lines, way.upright), 4 if cut.arrow.default else 1
     if cut.name in way.folded:
         return [Edge(cut.name, source, cut.turn), Edge(cut.turn, target, cut.turn)]
     reverse = cut.name in way.back
@@ -109,10 +124,11 @@ def edges(cut: Cut, way: Way, sides: Sides) -> list[Edge]:
     return [Edge(cut.name, tail, head, label, weight)]
 
 
-def padded(lines: tuple[str, ...]) -> tuple[int, int]:
-    """The room a label takes: its text, a little air at its ends and above the line it stands on."""
+def padded(lines: tuple[str, ...], upright: bool = False) -> tuple[int, int]:
+    """The room a label takes: its text, a little air at its ends and before the line beside it."""
     wide, high = block(lines)
-    return (wide + 10, high + 3) if lines else (0, 0)
+    around = (8, 4) if upright else (10, 3)
+    return (wide + around[0], high + around[1]) if lines else (0, 0)
 
 
 def meetings(found: Sequence[Cut], member: str, way: Way) -> dict[str, bool]:

@@ -28,11 +28,11 @@ def emphasis(
         path = chart.path(name)
         states.update(path[:depth] for depth in range(1, len(path) + 1))
     every = tuple(every)
-    names = {a.name for f in fired if f.chart == chart.name for a in _path(chart, every, f)}
+    names = {a.name for f in fired if f.chart == chart.name for a in segments(chart, every, f)}
     return Emphasis(frozenset(states), frozenset(names))
 
 
-def _path(chart: Chart, every: Sequence[ChartArrow], fired: Arrow) -> tuple[ChartArrow, ...]:
+def segments(chart: Chart, every: Sequence[ChartArrow], fired: Arrow) -> tuple[ChartArrow, ...]:
     """The segments of the drawn path that fired; none when no path has its ends and its label."""
     leaving: dict[Path, list[ChartArrow]] = {}
     for arrow in every:

@@ -16,15 +16,21 @@ from checker.render.drawing.routing import MARGIN, TRACK, Jog, channel, tracks
 
 
 def layered(
-    nodes: Sequence[Node], edges: Sequence[Edge], first: Collection[str] = (), last: Collection[str] = ()
+    nodes: Sequence[Node],
+    edges: Sequence[Edge],
+    first: Collection[str] = (),
+    last: Collection[str] = (),
+    upright: bool = False,
 ) -> Placed:
     """Place the nodes and route the edges.
 
     The edges must be free of cycles; see ``ranking.backward``.  Nodes in ``first`` and ``last`` get
-    the leftmost and the rightmost rank to themselves.
+    the leftmost and the rightmost rank to themselves.  Nodes are made high enough for the lines that
+    meet them and for their labels above them.  With ``upright``, meant to be mirrored, labels lie below
+    their lines, and nodes are not made larger for them.
     """
-    nodes = [_roomy(node, edges) for node in nodes]
-    layers, links = chains(nodes, edges, ranks(nodes, edges, first, last))
+    nodes = [_roomy(node, edges, not upright) for node in nodes]
+    layers, links = chains(nodes, edges, ranks(nodes, edges, first, last), upright)
     layers = untangled(layers, links)
     y, met = heights(layers, links)
     jogs = _jogs(layers, links, y, met)
@@ -33,10 +39,10 @@ def layered(
     return _placed(nodes, layers, links, y, met, used, columns)
 
 
-def _roomy(node: Node, edges: Sequence[Edge]) -> Node:
-    """The node, made high enough for the lines that meet it, so that they can stay straight."""
-    leaving = [e.label[1] for e in edges if e.tail == node.name and e.name not in node.ports]
-    coming = [e.label[1] for e in edges if e.head == node.name and e.name not in node.ports]
+def _roomy(node: Node, edges: Sequence[Edge], straight: bool) -> Node:
+    """The node, made high enough for the lines that meet it."""
+    leaving = [straight * e.label[1] for e in edges if e.tail == node.name and e.name not in node.ports]
+    coming = [straight * e.label[1] for e in edges if e.head == node.name and e.name not in node.ports]
     if node.ports or (node.round and max(len(leaving), len(coming)) < 2):
         return node
     return replace(node, height=max(node.height, node.lead + max(room(leaving), room(coming))))

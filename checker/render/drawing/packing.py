@@ -1,6 +1,7 @@
 """Set boxes in rows or in columns, in reading order, so that the whole has a pleasant shape."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from itertools import combinations
 
 from checker.render.drawing.graph import Point
@@ -16,13 +17,25 @@ Cells = list[tuple[Point, Size]]
 Lines = list[range]
 
 
-def packed(sizes: Sequence[Size], gap: int, least: int = 0, one_column: bool = False) -> Cells:
-    """A corner and a new size for each box; boxes grow to leave no holes, at least ``least`` wide."""
+@dataclass(frozen=True)
+class Span:
+    """How wide something has to be at least, and should be at most, in pixels."""
+
+    least: int
+    most: int
+
+    def excess(self, wide: int) -> int:
+        """By how much something is too wide."""
+        return max(0, wide - self.most)
+
+
+def packed(sizes: Sequence[Size], gap: int, span: Span, one_column: bool = False) -> Cells:
+    """A corner and a new size for each box; boxes grow to leave no holes, as wide as ``span`` wants."""
     if one_column:
-        return rows(sizes, [range(i, i + 1) for i in range(len(sizes))], gap, least)
-    options = [rows(sizes, lines, gap, least) for lines in _divisions(len(sizes))]
-    options += [_columns(sizes, lines, gap, least) for lines in _divisions(len(sizes))]
-    return min(options, key=lambda cells: cost(extent(cells)))
+        return rows(sizes, [range(i, i + 1) for i in range(len(sizes))], gap, span.least)
+    options = [rows(sizes, lines, gap, span.least) for lines in _divisions(len(sizes))]
+    options += [_columns(sizes, lines, gap, span.least) for lines in _divisions(len(sizes))]
+    return min(options, key=lambda cells: (span.excess(extent(cells)[0]), cost(extent(cells))))
 
 
 def extent(cells: Cells) -> Size:

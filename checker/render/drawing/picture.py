@@ -49,7 +49,8 @@ class Piece:
 class Picture:
     """Everything to be drawn, from the top left corner.
 
-    ``ports`` are the heights at which arrows, known by name, cross the left or right border.
+    ``ports`` are the heights at which arrows, known by name, cross the left or right border; in a
+    picture drawn from top to bottom (``upright``) how far from the left they cross the upper or lower one.
     """
 
     width: int
@@ -58,6 +59,7 @@ class Picture:
     spots: tuple[Spot, ...] = ()
     pieces: tuple[Piece, ...] = ()
     ports: Mapping[str, int] = field(default_factory=dict)
+    upright: bool = False
 
     def moved(self, dx: int, dy: int) -> "Picture":
         """The same, shifted; its size stays, its ports shift with it."""
@@ -66,13 +68,18 @@ class Picture:
             boxes=tuple(replace(b, x=b.x + dx, y=b.y + dy) for b in self.boxes),
             spots=tuple(replace(s, x=s.x + dx, y=s.y + dy) for s in self.spots),
             pieces=tuple(_moved(p, dx, dy) for p in self.pieces),
-            ports={name: y + dy for name, y in self.ports.items()},
+            ports={name: at + (dx if self.upright else dy) for name, at in self.ports.items()},
         )
 
     def bordered(self, old: tuple[int, int], new: tuple[int, int]) -> "Picture":
-        """The same, with arrows that cross the border led on from the old left and right x to the new."""
+        """The same, with arrows that cross the border led on from the old left and right x to the new.
+
+        In an upright picture from the old upper and lower y.
+        """
         change = dict(zip(old, new, strict=True))
-        pieces = tuple(_led(p, change) if p.arrow.name in self.ports else p for p in self.pieces)
+        pieces = tuple(
+            _led(p, change, self.upright) if p.arrow.name in self.ports else p for p in self.pieces
+        )
         return replace(self, pieces=pieces)
 
 
@@ -81,7 +88,7 @@ def _moved(piece: Piece, dx: int, dy: int) -> Piece:
     return replace(piece, points=points, label=(piece.label[0] + dx, piece.label[1] + dy))
 
 
-def _led(piece: Piece, change: Mapping[int, int]) -> Piece:
+def _led(piece: Piece, change: Mapping[int, int], upright: bool) -> Piece:
     first, *middle, last = piece.points
-    ends = [(change.get(x, x), y) for x, y in (first, last)]
+    ends = [(x, change.get(y, y)) if upright else (change.get(x, x), y) for x, y in (first, last)]
     return replace(piece, points=(ends[0], *middle, ends[1]))

@@ -76,9 +76,12 @@ def _packed(values: list[int]) -> list[int]:
 
 
 def chains(
-    nodes: Sequence[Node], edges: Sequence[Edge], rank: Mapping[str, int]
+    nodes: Sequence[Node], edges: Sequence[Edge], rank: Mapping[str, int], under: bool = False
 ) -> tuple[list[list[Item]], dict[str, Chain]]:
-    """The items of each rank in a first order, and the chain of each edge by name."""
+    """The items of each rank in a first order, and the chain of each edge by name.
+
+    Labels lie above their lines, or ``under`` them.
+    """
     layers: list[list[Item]] = [[] for _ in range(max(rank.values(), default=-1) + 1)]
     item = {n.name: Item(rank[n.name], n.width, 0, n.height, node=n) for n in nodes}
     for node in nodes:
@@ -86,18 +89,19 @@ def chains(
     wide = [max((i.width for i in layer), default=0) for layer in layers]
     made: dict[str, Chain] = {}
     for edge in edges:
-        points = _points(edge, range(rank[edge.tail] + 1, rank[edge.head]), wide)
+        points = _points(edge, range(rank[edge.tail] + 1, rank[edge.head]), wide, under)
         for point in points:
             layers[point.rank].append(point)
         made[edge.name] = [item[edge.tail], *points, item[edge.head]]
     return layers, made
 
 
-def _points(edge: Edge, between: range, wide: Sequence[int]) -> list[Item]:
+def _points(edge: Edge, between: range, wide: Sequence[int], under: bool) -> list[Item]:
     """One item per rank passed; the label sits where a column is wide enough already, or midway."""
     points = [Item(r, 0, 0, 0, edge=edge) for r in between]
     if any(edge.label):
         middle = (between.start + between.stop - 1) / 2
         seat = min(points, key=lambda p: (wide[p.rank] < edge.label[0], abs(p.rank - middle), p.rank))
-        seat.width, seat.above, seat.labelled = edge.label[0], edge.label[1], True
+        seat.width, seat.labelled = edge.label[0], True
+        seat.above, seat.below = (0, edge.label[1]) if under else (edge.label[1], 0)
     return points

@@ -72,12 +72,17 @@ def arrow_head(points: Sequence[Point]) -> str:
     return f"M{x} {y}" + "".join(f"L{round(a, 1)} {round(b, 1)}" for a, b in corners) + "Z"
 
 
-def document(width: int, height: int, style: str, title: str, body: Iterable[str]) -> str:
+def document(
+    width: int, height: int, style: str, title: str, body: Iterable[str], **attributes: object
+) -> str:
     """A whole SVG file with white background."""
-    head = (
-        f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}" height="{height}" '
-        f'viewBox="0 0 {width} {height}" font-family="{FONT}" font-size="{SIZE}">'
-    )
-    parts = [head, tag("title", escape(title)), f"<style>{style}</style>"]
-    parts.append(tag("rect", width=width, height=height, fill="#ffffff"))
-    return "\n".join([*parts, *filter(None, body), "</svg>", ""])
+    return figure(width, height, title, [f"<style>{style}</style>", *body], **attributes) + "\n"
+
+
+def figure(width: int, height: int, title: str, body: Iterable[str], **attributes: object) -> str:
+    """A picture with white background as it may stand in a page, which brings the style."""
+    shown = tag("title", escape(title)) + tag("rect", width=width, height=height, fill="#ffffff")
+    content = "\n".join(["", shown, *filter(None, body), ""])
+    size = {"width": width, "height": height, "viewBox": f"0 0 {width} {height}"}
+    font = {"font_family": FONT, "font_size": SIZE}
+    return tag("svg", content, xmlns="http://www.w3.org/2000/svg", **size, **font, **attributes)

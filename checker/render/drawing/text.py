@@ -4,6 +4,8 @@ Widths are those of DejaVu Sans and Verdana, the widest of the usual sans-serif 
 in any other face stays inside the space reserved for it.
 """
 
+import re
+
 SIZE = 11
 """Height of the letters of labels and actions, in pixels."""
 
@@ -31,7 +33,7 @@ def _pieces(text: str) -> list[str]:
     words = text.split(" ")
     pieces: list[str] = []
     for word in words:
-        joined = pieces and (pieces[-1] in _LEADING or word in _TRAILING)
+        joined = pieces and (pieces[-1].split(" ")[-1] in _LEADING or _TRAILING.match(word))
         if joined:
             pieces[-1] += " " + word
         else:
@@ -39,8 +41,8 @@ def _pieces(text: str) -> list[str]:
     return pieces
 
 
-_LEADING = ("&&", "||", "else", "if")
-_TRAILING = (":=",)
+_LEADING = ("&&", "||", "else", "if", "==", "!=", "<", ">", "<=", ">=")
+_TRAILING = re.compile(r":=$|(ms|s|cm|ticks?)\b|\w{1,3}\)+;?$")
 
 
 def wrap(text: str, limit: int, indent: str = "") -> tuple[str, ...]:

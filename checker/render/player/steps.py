@@ -1,0 +1,85 @@
+"""A trace cut into the steps of its player: arrow by arrow, with what is active after each."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from checker.render.drawing.activity import Active, active, followed
+from checker.render.story import Event, Quiet, Repeats, rows
+from checker.trace import Arrow, Trace
+from spec_model.lang.chart import Chart
+
+States = Mapping[str, Active]
+"""The active states of each chart, by its name."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """Arrows ``first`` to ``last`` (exclusive) of an event, and what is active after them.
+
+    Several arrows are one step if all but the first are default transitions.  ``event`` is a position
+    among the events of the trace; it is None for the step before the first tick.
+    """
+
+    event: int | None
+    first: int
+    last: int
+    states: States
+
+
+@dataclass(frozen=True)
+class Script:
+    """What is played: the events of a trace, its quiet stretches, where it repeats, and the steps."""
+
+    events: tuple[Event, ...]
+    quiet: tuple[Quiet, ...]
+    repeats: Repeats | None
+    steps: tuple[Step, ...]
+
+
+def shown_charts(trace: Trace, *, everything: bool = False) -> tuple[Chart, ...]:
+    """The charts on which the property depends, as far as they are known; with ``everything`` all."""
+    every = tuple(trace.statecharts.values())
+    named = tuple(chart for chart in every if chart.name in trace.charts)
+    return every if everything else named or every
+
+
+def script(trace: Trace, *, everything: bool = False) -> Script:
+    """The steps of a trace and the words for them; ``everything`` tells also what does not matter."""
+    charts = shown_charts(trace, everything=everything)
+    told = list(rows(trace if everything else trace.focused()))
+    events = tuple(row for row in told if isinstance(row, Event))
+    quiet = tuple(row for row in told if isinstance(row, Quiet))
+    repeats = next((row for row in told if isinstance(row, Repeats)), None)
+    return Script(events, quiet, repeats, tuple(_steps(trace, charts, events)))
+
+
+def _steps(trace: Trace, charts: Sequence[Chart], events: Sequence[Event]) -> Iterator[Step]:
+    states = _states(charts, trace.before)
+    yield Step(None, 0, 0, states)
+    for number, event in enumerate(events):
+        after = _states(charts, trace.ticks[event.number - 1].after)
+        cuts = _cuts(event.arrows)
+        for first, last in cuts[:-1]:
+            states = _moved(charts, states, event.arrows[first:last])
+            yield Step(number, first, last, states)
+        states = after
+        yield Step(number, *cuts[-1], after)
+
+
+def _states(charts: Sequence[Chart], values: Mapping[str, int]) -> States:
+    return {chart.name: active(chart, values) for chart in charts}
+
+
+def _cuts(arrows: Sequence[Arrow]) -> list[tuple[int, int]]:
+    """Where each step starts and ends; an event without arrows is one step."""
+    starts = [i for i, arrow in enumerate(arrows) if i == 0 or arrow.order] or [0]
+    return list(zip(starts, [*starts[1:], len(arrows)], strict=True))
+
+
+def _moved(charts: Sequence[Chart], states: States, arrows: Sequence[Arrow]) -> States:
+    now = dict(states)
+    by_name = {chart.name: chart for chart in charts}
+    for arrow in arrows:
+        if arrow.chart in by_name:
+            now[arrow.chart] = followed(by_name[arrow.chart], now[arrow.chart], arrow)
+    return now

@@ -1,0 +1,23 @@
+"""A trace as an HTML page that plays it on the charts."""
+
+from markupsafe import Markup
+
+from checker.render.page import Part, page
+from checker.render.player import part
+from checker.trace import Trace
+
+NAME = "play"
+KIND = "trace"
+SUFFIX = ".html"
+SUMMARY = "page that plays the run on its charts, arrow by arrow; fetches nothing"
+
+
+def render(trace: Trace, *, everything: bool = False) -> str:
+    """The page; ``everything`` shows also charts and values that the property does not depend on."""
+    title = trace.property or trace.system
+    heading = Markup("<h1>{}</h1>{}").format(title, _sentence(trace))
+    return page(f"{title}: played on its charts", [Part(heading), part(trace, everything=everything)])
+
+
+def _sentence(trace: Trace) -> Markup:
+    return Markup("<p>{}</p>").format(trace.text) if trace.text else Markup("")
