@@ -3,8 +3,10 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
-from spec_model.lang.chart import Chart
+from checker.concrete import BoardRun
+from spec_model.lang.chart import Chart, Component
 from spec_model.lang.expr import Expr, Var
+from spec_model.lang.place import Place
 
 
 @dataclass(frozen=True)
@@ -13,6 +15,7 @@ class Arrow:
 
     ``order`` is its position among the arrows leaving ``source`` (1 is tested first; 0 for a
     default transition).  ``event`` is the local event during whose processing it fired, if any.
+    ``place`` is where it is written.
     """
 
     chart: str
@@ -21,6 +24,7 @@ class Arrow:
     label: str
     order: int
     event: str | None = None
+    place: Place | None = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         start = f"{self.source} -> {self.target}" if self.order else f"default -> {self.target}"
@@ -62,9 +66,14 @@ class Trace:
     after that tick (0: as before the first), and the ticks in between repeat for ever.  ``trapped``
     is set for a run after which something is out of reach: it counts the valuations still reached.
 
-    ``property`` and ``text`` are the id and the sentence of the property; ``statecharts`` are the charts
-    that executed, by name, as drawn.  ``needed`` are the inputs that force the end of the run, none for
-    a run whose inputs were not examined.
+    ``property`` and ``text`` are the id and the sentence of the property, which is written at ``place``;
+    ``statecharts`` are the charts that executed, by name, as drawn, and ``components`` all that executes in a
+    tick, in order.  ``concrete`` is the run as the boards see it, where it was asked for.  ``parts`` are all
+    conjuncts of the property, and ``truths`` has for each of them whether it is true after each tick.
+
+    ``needed`` are the inputs that force the end of the run, in any run of its length with its frozen values:
+    the others may be anything that is admissible.  It is None for a run whose inputs were not examined.
+    ``minimal``: none of those needed can be left out; otherwise the search for such a set was cut short.
     """
 
     system: str
@@ -81,10 +90,26 @@ class Trace:
     property: str = ""
     text: str = ""
     statecharts: Mapping[str, Chart] = field(default_factory=dict, compare=False, repr=False)
+    components: tuple[Component, ...] = field(default=(), compare=False, repr=False)
+    parts: tuple[Expr, ...] = ()
+    truths: tuple[tuple[bool, ...], ...] = ()
     needed: tuple[Needed, ...] | None = None
+    minimal: bool = False
+    place: Place | None = field(default=None, compare=False, repr=False)
+    concrete: tuple[BoardRun, ...] = field(default=(), compare=False, repr=False)
 
     def __len__(self) -> int:
         return len(self.ticks)
+
+    def since(self, part: Expr) -> int:
+        """The tick since which a conjunct of the property has been as it is after the last one.
+
+        Without ``truths``, the last tick.
+        """
+        if not self.truths:
+            return len(self)
+        values = next(v for p, v in zip(self.parts, self.truths, strict=True) if p is part)
+        return next((k + 1 for k in range(len(values) - 1, 0, -1) if values[k - 1] != values[-1]), 1)
 
     def focused(self) -> "Trace":
         """The same run with only what the property depends on, bookkeeping left out."""

@@ -11,6 +11,7 @@ from typing import Union
 
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Expr
+from spec_model.lang.place import Place, here
 from spec_model.lang.time import Span
 
 
@@ -160,7 +161,8 @@ class Property:
     """A requirement made precise: id, sentence, form, the requirements it covers, the system it is about.
 
     ``readings`` names the readings of ambiguous sentences under which it is stated.  ``costly``: it is
-    decided only on request and in the full profile, not in the default one.
+    decided only on request and in the full profile, not in the default one.  ``place`` is where it is
+    written.
     """
 
     id: str
@@ -172,6 +174,7 @@ class Property:
     readings: tuple[str, ...] = ()
     costly: bool = False
     area: str = field(default="", compare=False)
+    place: Place | None = field(default=None, compare=False, repr=False)
 
 
 def costly(prop: Property) -> Property:
@@ -184,7 +187,7 @@ def _property(
 ) -> Property:
     if not covers:
         raise ModelError(f"{id} covers no requirement; write covers=[...] with at least one requirement id.")
-    return Property(id, text, form, tuple(covers), on, from_tick, tuple(readings))
+    return Property(id, text, form, tuple(covers), on, from_tick, tuple(readings), place=here(__name__))
 
 
 def always(id: str, text: str, *, that: Expr, covers: Sequence[str], on: str,

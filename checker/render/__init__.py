@@ -3,6 +3,9 @@
 An exit has a ``NAME`` (what users type), a ``KIND`` ("statechart", "graph" or "trace"), a file
 ``SUFFIX``, a one-line ``SUMMARY`` and ``render(thing, **options)``, which returns text or bytes that
 are the same from run to run.  It raises ``ModelError`` for what its format cannot show.
+
+An exit of a trace may ask for more: ``CONCRETE = True`` for the run as the boards see it, and
+``BESIDE = "vcd"`` for a file of that format beside its own, whose name it is given as ``dump``.
 """
 
 import importlib

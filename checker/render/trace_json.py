@@ -8,16 +8,17 @@ from collections.abc import Mapping
 from typing import Any
 
 from checker.render.story import false_parts
-from checker.trace import Arrow, Tick, Trace
+from checker.trace import Arrow, Needed, Tick, Trace
 from spec_model.lang.domain import Bool, Enum
 from spec_model.lang.expr import Var
+from spec_model.lang.place import Place
 
 NAME = "json"
 KIND = "trace"
 SUFFIX = ".json"
 SUMMARY = "all values of all ticks, readable and raw, with schema version"
 
-VERSION = 1
+VERSION = 2
 
 
 def render(trace: Trace, indent: int = 1) -> str:
@@ -29,11 +30,13 @@ def document(trace: Trace) -> dict[str, Any]:
     """The trace as plain lists and dictionaries."""
     return {
         "#meta": {"format": "rovercheck-trace", "version": VERSION, "system": trace.system,
+                  "property": trace.property, "text": trace.text, "place": _place(trace.place),
                   "tick_ms": trace.tick_ms, "ticks": len(trace)},
         "params": [n for n in trace.before if trace.ticks and n not in trace.ticks[0].after],
         "vars": [_variable(n, v, n in trace.inputs) for n, v in trace.variables.items()],
         "before": _values(trace, trace.before),
         "states": [_state(trace, tick) for tick in trace.ticks],
+        "needed": None if trace.needed is None else [_needed(trace, one) for one in trace.needed],
         **({"loop": trace.loop} if trace.loop is not None else {}),
         **({"trapped": trace.trapped} if trace.trapped is not None else {}),
         "false": [
@@ -77,8 +80,22 @@ def _value(trace: Trace, name: str, raw: int) -> bool | int | str:
 def _arrow(arrow: Arrow) -> dict[str, Any]:
     return {
         "chart": arrow.chart, "source": arrow.source, "target": arrow.target,
-        "label": arrow.label, "order": arrow.order, "event": arrow.event,
+        "label": arrow.label, "order": arrow.order, "event": arrow.event, "place": _place(arrow.place),
     }  # fmt: skip
+
+
+def _needed(trace: Trace, one: Needed) -> dict[str, Any]:
+    """An input that had to be so, and the values that it may have had."""
+    return {
+        "tick": one.number,
+        "input": one.name,
+        "values": [{"value": _value(trace, one.name, raw), "raw": raw} for raw in sorted(one.values)],
+    }
+
+
+def _place(place: Place | None) -> dict[str, Any] | None:
+    """Where something is written, if that is known."""
+    return None if place is None else {"file": place.path, "line": place.line}
 
 
 _VALUE = {
@@ -89,12 +106,28 @@ _VALUE = {
 }
 _VALUES = {"type": "object", "additionalProperties": _VALUE}
 _TEXT = {"type": "string"}
+_PLACE = {
+    "type": ["object", "null"],
+    "required": ["file", "line"],
+    "properties": {"file": _TEXT, "line": {"type": "integer", "minimum": 1}},
+    "additionalProperties": False,
+}
+_NEEDED = {
+    "type": "object",
+    "required": ["tick", "input", "values"],
+    "properties": {
+        "tick": {"type": "integer", "minimum": 1}, "input": _TEXT,
+        "values": {"type": "array", "items": _VALUE},
+    },
+    "additionalProperties": False,
+}  # fmt: skip
 _FIRED = {
     "type": "object",
-    "required": ["chart", "source", "target", "label", "order", "event"],
+    "required": ["chart", "source", "target", "label", "order", "event", "place"],
     "properties": {
         "chart": _TEXT, "source": _TEXT, "target": _TEXT, "label": _TEXT,
         "order": {"type": "integer", "minimum": 0}, "event": {"type": ["string", "null"]},
+        "place": _PLACE,
     },
     "additionalProperties": False,
 }  # fmt: skip
@@ -103,12 +136,16 @@ SCHEMA: dict[str, Any] = {
     "$schema": "https://json-schema.org/draft/2020-12/schema",
     "title": "rovercheck trace",
     "type": "object",
-    "required": ["#meta", "params", "vars", "before", "states", "false"],
+    "required": ["#meta", "params", "vars", "before", "states", "needed", "false"],
     "properties": {
         "#meta": {
             "type": "object",
-            "required": ["format", "version", "system", "tick_ms", "ticks"],
-            "properties": {"format": {"const": "rovercheck-trace"}, "version": {"const": VERSION}},
+            "required": ["format", "version", "system", "property", "text", "place", "tick_ms", "ticks"],
+            "properties": {
+                "format": {"const": "rovercheck-trace"},
+                "version": {"const": VERSION},
+                "place": _PLACE,
+            },
         },
         "params": {"type": "array", "items": _TEXT},
         "vars": {"type": "array", "items": {"type": "object", "required": ["name", "input", "type"]}},
@@ -125,6 +162,7 @@ SCHEMA: dict[str, Any] = {
                 },
             },
         },
+        "needed": {"type": ["array", "null"], "items": _NEEDED},  # null: not examined
         "loop": {"type": "integer", "minimum": 0},  # after the last tick it is again as after this one
         "trapped": {"type": "integer", "minimum": 1},  # valuations that can follow, all false
         "false": {"type": "array", "items": {"type": "object", "required": ["name", "formula", "values"]}},

@@ -1,69 +1,74 @@
 """A trace as a value change dump, for GTKWave and other wave viewers.
 
 The valuation before the first tick is at time 0; the inputs and results of tick k are at k ticks.
-Enumerations are strings (GTKWave shows them), booleans wires, numbers integers in raw steps.
+Enumerations are texts, truth values wires, numbers are in their units.  ``property.violated`` rises where
+the property is broken; ``property.repeats`` marks ticks that repeat for ever.
 """
 
+import math
 import re
 from io import StringIO
-from typing import Any
 
 from vcd import VCDWriter
 
+from checker.render.waves import Group, Sort, Wave, outcome, waves
 from checker.trace import Trace
-from spec_model.lang.domain import Bool, Enum, show
-from spec_model.lang.expr import Var
+from spec_model.lang.domain import Num
 
 NAME = "vcd"
 KIND = "trace"
 SUFFIX = ".vcd"
 SUMMARY = "value change dump for wave viewers, time in ms"
 
+_UNKNOWN: dict[Sort, str | float] = {Sort.WIRE: "x", Sort.TEXT: "?", Sort.NUMBER: math.nan}
+"""What stands before the first tick for an input, which has no value yet."""
+
 
 def render(trace: Trace) -> str:
     """The dump as text."""
     out = StringIO()
-    comment = "\n".join([f"rovercheck trace of {trace.system}", *_scales(trace)])
-    with VCDWriter(out, timescale="1 ms", date="", version="rovercheck", comment=comment) as writer:
-        waves = {n: _register(writer, trace, n, v) for n, v in trace.variables.items()}
+    end = len(trace) * trace.tick_ms
+    with VCDWriter(out, timescale="1 ms", date="", version="rovercheck", comment=_comment(trace)) as writer:
+        found = [(w, writer.register_var(w.path[:-1], w.path[-1], w.sort.value, size=_size(w),
+                                         init=_first(trace, w))) for w in waves(trace)]  # fmt: skip
+        mark = writer.register_var(Group.PROPERTY.value, outcome(trace), "wire", size=1, init=0)
+        again = None
+        if trace.loop is not None:
+            again = writer.register_var(Group.PROPERTY.value, "repeats", "wire", size=1, init=0)
         for tick in trace.ticks:
-            for name, raw in {**tick.inputs, **tick.after}.items():
-                if name in waves:
-                    writer.change(waves[name], tick.number * trace.tick_ms, _value(trace, name, raw))
-        writer.close((len(trace) + 1) * trace.tick_ms)
+            now = tick.number * trace.tick_ms
+            at = {**tick.inputs, **tick.after}
+            for wave, variable in found:
+                if wave.name in at:
+                    writer.change(variable, now, _value(trace, wave, at[wave.name]))
+            if again is not None and tick.number - 1 == trace.loop:
+                writer.change(again, now, 1)
+        if trace.ticks:
+            writer.change(mark, end, 1)
+        writer.close(end + trace.tick_ms)
     return out.getvalue()
 
 
-def _scales(trace: Trace) -> list[str]:
-    """What one raw step of each number that is no whole number means."""
-    found = []
-    for name, variable in trace.variables.items():
-        sort = variable.sort
-        if not isinstance(sort, Bool | Enum) and (sort.resolution != 1 or str(sort.unit)):
-            found.append(f"{name}: steps of {show(sort.resolution)} {sort.unit}".rstrip())
-    return found
+def _comment(trace: Trace) -> str:
+    """What the dump shows, and the units of its numbers."""
+    sorts = {wave.full: trace.variables[wave.name].sort for wave in waves(trace)}
+    units = [f"{name} in {s.unit}" for name, s in sorts.items() if isinstance(s, Num) and str(s.unit)]
+    told = [f"rovercheck trace of {trace.system}", f"{trace.property}: {trace.text}"]
+    return "\n".join(line.replace("$", "S") for line in (*(told if trace.property else told[:1]), *units))
 
 
-def _register(writer: VCDWriter, trace: Trace, name: str, variable: Var) -> Any:
-    place, leaf = _place(name)
-    place = ".".join(filter(None, ("inputs" if name in trace.inputs else "rover", place)))
-    start = _value(trace, name, trace.before[name]) if name in trace.before else None
-    match variable.sort:
-        case Enum():
-            return writer.register_var(place, leaf, "string", init=start if start is not None else "")
-        case Bool():
-            return writer.register_var(place, leaf, "wire", size=1, init="x" if start is None else start)
-        case _:
-            return writer.register_var(place, leaf, "integer", size=64, init="x" if start is None else start)
+def _size(wave: Wave) -> int | None:
+    return 1 if wave.sort is Sort.WIRE else None
 
 
-def _place(name: str) -> tuple[str, str]:
-    """The scope and the leaf of a name; what is no identifier, such as ``previous(x > 3)``, is one leaf."""
-    if re.fullmatch(r"[\w.]+", name):
-        scope, _, leaf = name.rpartition(".")
-        return scope, leaf
-    return "", re.sub(r"\W+", "_", name)
+def _first(trace: Trace, wave: Wave) -> str | float:
+    return _value(trace, wave, trace.before[wave.name]) if wave.name in trace.before else _UNKNOWN[wave.sort]
 
 
-def _value(trace: Trace, name: str, raw: int) -> str | int:
-    return trace.show(name, raw) if isinstance(trace.variables[name].sort, Enum) else raw
+def _value(trace: Trace, wave: Wave, raw: int) -> str | float:
+    match trace.variables[wave.name].sort:
+        case Num(resolution, _):
+            return float(raw * resolution)
+    if wave.sort is Sort.WIRE:
+        return raw
+    return re.sub(r"[^!-~]+", "_", trace.show(wave.name, raw)) or "_"

@@ -4,7 +4,7 @@ The engines read the lowered system; the interpreter reads the charts.  They sha
 trace that both produce is evidence about the charts.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 
 from checker.slice import sliced
 from checker.trace import Arrow, Tick, Trace
@@ -28,30 +28,47 @@ def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
     Raises ``ReplayError`` when the run is not admissible, does not reach the goal, or when the
     interpreter of the charts computes another valuation or refuses a step.
     """
-    interpreter = Interpreter(system.source, run.frozen) if system.source is not None else None
-    at = {**system.init, **run.frozen}
-    before = dict(at)
-    ticks: list[Tick] = []
-    for number, inputs in enumerate(run.inputs, start=1):
-        if not admissible(system, at, inputs):
-            raise ReplayError(f"{goal.var.name}: the inputs of tick {number} are not admissible.")
-        after = step(system, at, inputs)
-        fired = _interpreted(interpreter, inputs, after, number) if interpreter else ()
-        ticks.append(Tick(number, dict(inputs), _visible(system, after), tuple(map(_arrow, fired))))
-        at = {n: v for n, v in after.items() if n not in inputs}
-        last = after
+    ticks, last = followed(system, run, goal.var.name)
     if not ticks or not last[goal.var.name]:
         raise ReplayError(f"{goal.var.name}: the run of {len(ticks)} ticks does not reach the goal.")
-    false = tuple(shown for shown, formula in goal.parts if not evaluate(formula, last))
+    shown, truths = tuple(part for part, _ in goal.parts), tuple(_truths(goal, ticks))
+    false = tuple(part for part, true in zip(shown, truths, strict=True) if not true[-1])
     table = {v.name: v for v in (*system.variables, *system.inputs, *system.frozen)}
     names = tuple(v.name for v in system.inputs)
     relevant = _relevant(system, goal)
     drawn = system.source.charts if system.source else ()
     charts = frozenset(c.name for c in drawn if _of(c) & relevant)
+    before = {**system.init, **run.frozen}
     return Trace(
-        system.name, system.tick_ms, table, names, before, tuple(ticks), false, relevant, charts,
+        system.name, system.tick_ms, table, names, before, ticks, false, relevant, charts,
         property=goal.property.id, text=goal.property.text, statecharts={c.name: c for c in drawn},
+        place=goal.property.place, components=system.source.components if system.source else (),
+        parts=shown, truths=truths,
     )  # fmt: skip
+
+
+def followed(system: TransitionSystem, run: Run, what: str) -> tuple[tuple[Tick, ...], Mapping[str, int]]:
+    """The ticks of a run, ``what`` it shows being named in errors, and the valuation after the last.
+
+    Raises ``ReplayError`` when the run is not admissible, or the interpreter of the charts disagrees.
+    """
+    interpreter = Interpreter(system.source, run.frozen) if system.source is not None else None
+    at: Mapping[str, int] = {**system.init, **run.frozen}
+    ticks: list[Tick] = []
+    for number, inputs in enumerate(run.inputs, start=1):
+        if not admissible(system, at, inputs):
+            raise ReplayError(f"{what}: the inputs of tick {number} are not admissible.")
+        after = step(system, at, inputs)
+        fired = _interpreted(interpreter, inputs, after, number) if interpreter else ()
+        ticks.append(Tick(number, dict(inputs), _visible(system, after), tuple(map(_arrow, fired))))
+        at = {n: v for n, v in after.items() if n not in inputs}
+    return tuple(ticks), after if ticks else at
+
+
+def _truths(goal: Goal, ticks: Sequence[Tick]) -> Iterator[tuple[bool, ...]]:
+    """For each conjunct of the property, whether it is true after each tick."""
+    for _, formula in goal.parts:
+        yield tuple(bool(evaluate(formula, {**tick.after, **tick.inputs})) for tick in ticks)
 
 
 def _relevant(system: TransitionSystem, goal: Goal) -> frozenset[str]:
@@ -87,7 +104,13 @@ def _interpreted(
 
 def _arrow(fired: Fired) -> Arrow:
     return Arrow(
-        fired.chart, _dotted(fired.source), _dotted(fired.target), fired.label, fired.order, fired.event
+        fired.chart,
+        _dotted(fired.source),
+        _dotted(fired.target),
+        fired.label,
+        fired.order,
+        fired.event,
+        fired.place,
     )
 
 

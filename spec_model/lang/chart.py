@@ -7,13 +7,14 @@ A ``Block`` is a function block: actions run once in every step, with no states.
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 from spec_model.lang.action import Action, expressions, reads, writes
 from spec_model.lang.domain import Domain, enumeration
 from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.expr import Const, Expr, Var, any_of
+from spec_model.lang.place import Place, here
 from spec_model.lang.walk import variables
 
 Path = tuple[str, ...]
@@ -25,13 +26,17 @@ NOWHERE = "-"
 
 @dataclass(frozen=True)
 class Transition:
-    """One segment of an arrow: ``event [guard] {condition action} / transition action -> target``."""
+    """One segment of an arrow: ``event [guard] {condition action} / transition action -> target``.
+
+    ``place`` is where it is written.
+    """
 
     target: str
     guard: Expr | None = None
     event: str | None = None
     do: tuple[Action, ...] = ()
     then: tuple[Action, ...] = ()
+    place: Place | None = field(default=None, compare=False, repr=False)
 
 
 def to(
@@ -46,7 +51,7 @@ def to(
     ``when`` is the guard, ``on`` the local event, ``do`` the condition action (run as soon as the
     segment is found valid) and ``then`` the transition action (run only on a complete path).
     """
-    return Transition(target, when, on, tuple(do), tuple(then))
+    return Transition(target, when, on, tuple(do), tuple(then), here())
 
 
 @dataclass(frozen=True)
@@ -64,12 +69,12 @@ class Junction:
 Default = tuple[Transition, ...]
 
 
-def _default(default: "str | Transition | Sequence[Transition] | None") -> Default:
+def _default(default: "str | Transition | Sequence[Transition] | None", place: Place | None) -> Default:
     match default:
         case None:
             return ()
         case str(name):
-            return (Transition(name),)
+            return (Transition(name, place=place),)
         case Transition():
             return (default,)
         case _:
@@ -81,7 +86,8 @@ class State:
     """A state and what is inside it.
 
     ``default`` is the default transition of an exclusive composite: a state's name, an arrow, or
-    several arrows in priority order.  Junctions belong to the composite they are drawn in.
+    several arrows in priority order.  Junctions belong to the composite they are drawn in.  ``place`` is
+    where it is written, unless given the line that makes it.
     """
 
     name: str
@@ -93,6 +99,7 @@ class State:
     junctions: tuple[Junction, ...]
     default: Default
     parallel: bool
+    place: Place | None = field(compare=False, repr=False)
 
     def __init__(
         self,
@@ -106,14 +113,16 @@ class State:
         junctions: Sequence[Junction] = (),
         default: str | Transition | Sequence[Transition] | None = None,
         parallel: bool = False,
+        place: Place | None = None,
     ) -> None:
+        place = place or here()
         fields = dict(
             name=name, entry=tuple(entry), during=tuple(during), exit=tuple(exit), states=tuple(states),
-            transitions=tuple(transitions), junctions=tuple(junctions), default=_default(default),
-            parallel=parallel,
+            transitions=tuple(transitions), junctions=tuple(junctions), default=_default(default, place),
+            parallel=parallel, place=place,
         )  # fmt: skip
-        for field, value in fields.items():
-            object.__setattr__(self, field, value)
+        for attribute, value in fields.items():
+            object.__setattr__(self, attribute, value)
 
     def walk(self, path: Path = ()) -> Iterator[tuple[Path, "State"]]:
         """This state and every state below it, with paths, parents first, in execution order."""
@@ -140,19 +149,27 @@ class Chart:
         parallel: bool = False,
         text: str = "",
         local_to: Sequence[tuple[Var, Sequence[str]]] = (),
+        place: Place | None = None,
     ) -> None:
         self.name = name
         self.text = text
         self.local_to = tuple((data, tuple(owners)) for data, owners in local_to)
-        self.root = State(name, states=states, junctions=junctions, default=default, parallel=parallel)
+        self.root = State(
+            name, states=states, junctions=junctions, default=default, parallel=parallel, place=place
+        )
 
     def with_local_data(self, local_to: Sequence[tuple[Var, Sequence[str]]]) -> "Chart":
         """The chart with other data that mean something only in some states."""
         level = self.root
         return Chart(
             self.name, level.states, default=level.default, junctions=level.junctions,
-            parallel=level.parallel, text=self.text, local_to=local_to,
+            parallel=level.parallel, text=self.text, local_to=local_to, place=level.place,
         )  # fmt: skip
+
+    @property
+    def place(self) -> Place | None:
+        """Where the chart is written."""
+        return self.root.place
 
     @cached_property
     def states(self) -> dict[Path, State]:
@@ -288,11 +305,15 @@ class Block:
 
 
 class Enabled:
-    """A subsystem that executes in a step iff ``by`` is true then; else everything in it is frozen (G12)."""
+    """A subsystem that executes in a step iff ``by`` is true then; else everything in it is frozen (G12).
 
-    def __init__(self, by: Expr, *components: "Component") -> None:
+    ``name`` says whose it is, where that matters to a reader: that of a board.
+    """
+
+    def __init__(self, by: Expr, *components: "Component", name: str = "") -> None:
         self.by = by
         self.components = components
+        self.name = name
 
     def __repr__(self) -> str:
         return f"Enabled({self.by}, {', '.join(map(repr, self.components))})"

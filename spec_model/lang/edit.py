@@ -20,7 +20,7 @@ __all__ = [
 def _rebuilt(chart: Chart, root: State) -> Chart:
     return Chart(
         chart.name, root.states, default=root.default, junctions=root.junctions,
-        parallel=root.parallel, text=chart.text, local_to=chart.local_to,
+        parallel=root.parallel, text=chart.text, local_to=chart.local_to, place=root.place,
     )  # fmt: skip
 
 
@@ -225,7 +225,8 @@ def in_system(system: System, part: str, change: Callable[[Chart | Block], Chart
     def walk(component: Component) -> Component:
         nonlocal hits
         if isinstance(component, Enabled):
-            return Enabled(component.by, *(walk(c) for c in component.components))
+            inside = (walk(c) for c in component.components)
+            return Enabled(component.by, *inside, name=component.name)
         if component.name == part:
             hits += 1
             return change(component)

@@ -84,7 +84,8 @@ def _components(components: Sequence[Component], charts: dict[int, Chart]) -> It
             case Chart():
                 yield charts[id(component)]
             case Enabled():
-                yield Enabled(component.by, *_components(component.components, charts))
+                inside = _components(component.components, charts)
+                yield Enabled(component.by, *inside, name=component.name)
             case _:
                 yield component
 
@@ -159,7 +160,7 @@ class Expiry:
         root = self._state((), self.original.root)
         return Chart(
             root.name, root.states, default=root.default, junctions=root.junctions, parallel=root.parallel,
-            text=self.original.text, local_to=self.original.local_to,
+            text=self.original.text, local_to=self.original.local_to, place=root.place,
         )  # fmt: skip
 
     def _state(self, path: Path, state: State) -> State:

@@ -120,7 +120,9 @@ class Fixing:
         never, always = (isinstance(by, Const) and bool(by.value) is known for known in (False, True))
         if never or not inside:
             return None
-        return inside[0] if always and len(inside) == 1 else Enabled(by, *inside)
+        if always and len(inside) == 1 and not enabled.name:
+            return inside[0]
+        return Enabled(by, *inside, name=enabled.name)
 
     def chart(self, chart: Chart) -> Chart:
         """The chart with the variables fixed: one chart for one chart, whatever systems hold it."""
@@ -144,6 +146,7 @@ class Fixing:
             junctions=[Junction(j.name, self.arrows(j.transitions)) for j in state.junctions],
             default=self.arrows(state.default),
             parallel=state.parallel,
+            place=state.place,
         )
 
     def _occur(self, exprs: Sequence[Expr]) -> bool:
@@ -186,6 +189,7 @@ def _chart(chart: Chart, root: State) -> Chart:
         junctions=root.junctions,
         parallel=root.parallel,
         text=chart.text,
+        place=root.place,
     )
     used = made.read | made.written
     return made.with_local_data([(data, owners) for data, owners in chart.local_to if data.name in used])
@@ -221,6 +225,7 @@ def _without(state: State, dead: set[Path], path: Path = ()) -> State:
         junctions=[j for j in state.junctions if (*path, j.name) not in dead],
         default=state.default,
         parallel=state.parallel,
+        place=state.place,
     )
 
 

@@ -1,11 +1,12 @@
 """What fired: a complete path taken in one execution of a chart, with its label as drawn."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from spec_model.lang.action import Action
 from spec_model.lang.chart import Path, Transition
 from spec_model.lang.label import text
+from spec_model.lang.place import Place
 
 
 @dataclass(frozen=True)
@@ -14,7 +15,7 @@ class Fired:
 
     ``source`` is empty for a default transition and ``order`` then 0; otherwise ``order`` is the
     position, from 1, of the path's first arrow among those leaving ``source``.  ``event`` is the
-    local event being processed.
+    local event being processed.  ``place`` is where that first arrow is written.
     """
 
     chart: str
@@ -23,6 +24,7 @@ class Fired:
     label: str
     order: int
     event: str | None = None
+    place: Place | None = field(default=None, compare=False, repr=False)
 
 
 def path_label(segments: Sequence[Transition]) -> str:

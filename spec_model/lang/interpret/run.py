@@ -143,7 +143,8 @@ class ChartRun:
         label = self._labels.get(key)
         if label is None:
             label = self._labels[key] = path_label(route.segments)
-        self._fired.append(Fired(self.chart.name, source, route.target, label, order, event))
+        place = route.segments[0].place
+        self._fired.append(Fired(self.chart.name, source, route.target, label, order, event, place))
 
     def _leave(self, path: Path, event: str | None) -> None:
         """Leave an active state and everything active in it; regions in reverse order."""

@@ -1,0 +1,126 @@
+"""What `check` tells machines: JUnit and SARIF files, annotations of a pull request."""
+
+import os
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from checker.certify.outcome import Rejected
+from checker.commands.check import Compared, evidence, length, recorded
+from checker.commands.codes import Exit, UsageError
+from checker.commands.output import write
+from checker.render.ci import Finding, Level, Report
+from checker.render.ci.github import annotations, summary
+from checker.render.ci.junit import junit
+from checker.render.ci.sarif import sarif
+from checker.trace import Trace
+from checker.verdict import Exhausted, Unknown, Violated
+from properties.english import definitions, sentence
+from spec_model.lang.system import System
+
+SUMMARY = "GITHUB_STEP_SUMMARY"
+"""The file, named by GitHub, to which a step adds its summary."""
+
+
+@dataclass(frozen=True)
+class Reports:
+    """The files and annotations that were asked for.
+
+    They are written whole, also when a run was interrupted: then they say so.
+    """
+
+    systems: Mapping[str, System]
+    junit: Path | None = None
+    sarif: Path | None = None
+    annotations: str = ""
+    variant: str = ""
+    options: str = ""
+    as_json: bool = False
+
+    def possible(self) -> None:
+        """Raises ``UsageError`` when a file cannot be written, before anything is decided."""
+        for file in filter(None, (self.junit, self.sarif)):
+            if not file.absolute().parent.is_dir():
+                raise UsageError(f"Cannot write {file}: {file.parent} is no folder. Make it first.")
+
+    def write(self, found: Sequence[Compared], wanted: int) -> None:
+        """Write all of them.  Raises ``UsageError`` for a place that cannot be written."""
+        findings = tuple(finding(c, self.systems, self.options) for c in found)
+        report = Report(findings, wanted, self.variant)
+        if self.annotations:
+            text = annotations(report)  # the runner reads both streams
+            if self.as_json:
+                print(text, end="", file=sys.stderr)
+            elif text:
+                write(text, None)
+            _summarised(report)
+        if self.junit:
+            write(junit(report), self.junit)
+        if self.sarif:
+            write(sarif(report), self.sarif)
+
+
+def _summarised(report: Report) -> None:
+    """Add the summary to that of the job, if this runs in one."""
+    file = os.environ.get(SUMMARY)
+    if file:
+        try:
+            with Path(file).open("a", encoding="utf-8") as stream:
+                stream.write(summary(report))
+        except OSError as error:
+            raise UsageError(f"Cannot write {file}: {error.strerror}. Unset {SUMMARY}.") from error
+
+
+def finding(compared: Compared, systems: Mapping[str, System], options: str = "") -> Finding:
+    """A verdict as every report shows it."""
+    prop, verdict = compared.result.property, compared.verdict
+    because = verdict.reason if isinstance(verdict, Unknown) else verdict.because
+    on_record = compared.verdict.word == compared.expected.verdict
+    system = systems.get(compared.result.system, systems.get(prop.on))
+    step = system.tick_ms if system is not None else 0
+    return Finding(
+        id=prop.id,
+        text=prop.text,
+        system=compared.result.system,
+        word=compared.word,
+        level=level(compared),
+        evidence=_rejected(compared) or evidence(compared.result),
+        recorded=recorded(compared.expected),
+        because=compared.expected.because if on_record else "",
+        help="\n".join([sentence(prop, step), *definitions(prop, step)]) if step else prop.text,
+        tags=prop.covers,
+        place=prop.place,
+        trace=because if isinstance(because, Trace) else None,
+        details=_details(compared),
+        options=f" {options}" if options else "",
+        variant=compared.variant,
+    )
+
+
+def _rejected(compared: Compared) -> str:
+    found = compared.result.certificate
+    return f"{found.obligation}: {found.shown}" if isinstance(found, Rejected) else ""
+
+
+def level(compared: Compared) -> Level:
+    """How the verdict counts: as the exit code has it."""
+    if isinstance(compared.result.certificate, Rejected):
+        return Level.REJECTED
+    match compared.code:
+        case Exit.AS_EXPECTED:
+            return Level.KNOWN if isinstance(compared.verdict, Violated | Unknown) else Level.PASSED
+        case Exit.INCONCLUSIVE:
+            return Level.OPEN
+    return Level.FAILED
+
+
+def _details(compared: Compared) -> dict[str, str]:
+    """Engine, states and bound."""
+    verdict, found = compared.verdict, {"engine": compared.verdict.engine}
+    if isinstance(verdict, Unknown):
+        return {**found, "bound": f"{verdict.depth} ticks without a counterexample"}
+    if isinstance(verdict.because, Exhausted):
+        found["states"] = str(verdict.because.states)
+    ticks = length(verdict)
+    return {**found, "ticks": str(ticks)} if ticks is not None else found

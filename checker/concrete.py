@@ -1,0 +1,79 @@
+"""A run as firmware sees it: the values given to a board in each step, and what it must then produce."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+
+Value = bool | int | float
+
+
+class Kind(StrEnum):
+    """What a signal holds: a truth value, a whole number (also of an enumeration), a number, a time."""
+
+    BOOL = "bool"
+    WHOLE = "whole"
+    NUMBER = "number"
+    CLOCK = "clock"
+    """The time of the step, in ms of the board's clock."""
+    STAMP = "stamp"
+    """An earlier time of that clock."""
+
+
+@dataclass(frozen=True)
+class Signal:
+    """An input or output of a board; ``initial`` is its value before the first step."""
+
+    name: str
+    kind: Kind
+    initial: Value
+    doc: str = ""
+
+
+@dataclass(frozen=True)
+class Step:
+    """All inputs of one execution but the clock, and the outputs required after it; others may be anything.
+
+    A stamp is given as the milliseconds that it lies before the step, or None where it is as before.
+    """
+
+    inputs: Mapping[str, Value | None]
+    outputs: Mapping[str, Value]
+
+
+@dataclass(frozen=True)
+class BoardRun:
+    """The steps of one board from power-up, ``tick_ms`` apart, the first at ``tick_ms``.
+
+    ``implementation`` is the one that is run unless another is named, ``KIND:WHAT``.
+    """
+
+    board: str
+    tick_ms: int
+    inputs: tuple[Signal, ...]
+    outputs: tuple[Signal, ...]
+    steps: tuple[Step, ...]
+    implementation: str
+
+
+Changes = tuple[int, Mapping[str, Value | None], Mapping[str, Value | None]]
+"""Equal steps in a row: how many, and the inputs and the outputs that differ from the step before."""
+
+
+def held(run: BoardRun) -> list[Changes]:
+    """The steps as few changes.  Before the first, inputs are as at power-up, stamps as they were, and
+    outputs may be anything (None)."""
+    inputs: Mapping[str, Value | None] = {
+        s.name: None if s.kind is Kind.STAMP else s.initial for s in run.inputs if s.kind is not Kind.CLOCK
+    }
+    outputs: Mapping[str, Value | None] = {s.name: None for s in run.outputs}
+    found: list[Changes] = []
+    for step in run.steps:
+        required = {name: step.outputs.get(name) for name in outputs}
+        given = {n: v for n, v in step.inputs.items() if v != inputs[n]}
+        wanted = {n: v for n, v in required.items() if v != outputs[n]}
+        if found and not given and not wanted:
+            found[-1] = (found[-1][0] + 1, *found[-1][1:])
+        else:
+            found.append((1, given, wanted))
+        inputs, outputs = step.inputs, required
+    return found

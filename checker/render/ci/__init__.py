@@ -1,0 +1,127 @@
+"""Verdicts for machines that build and review: what each format is told, whatever the command."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from textwrap import wrap
+
+from checker.render import trace_table
+from checker.render.waves import outcome
+from checker.trace import Trace
+from spec_model.lang.place import Place
+
+
+class Level(StrEnum):
+    """How a verdict counts: as it should be, a violation on record, not decided, or not as it should be."""
+
+    PASSED = "passed"
+    KNOWN = "known"
+    OPEN = "open"
+    FAILED = "failed"
+    REJECTED = "rejected"
+    """The proof does not hold: a fault of the checker, not of what it checks."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One property as it was decided.
+
+    ``word`` is its verdict, ``recorded`` the one on record (empty if there is no record), ``evidence`` what
+    the verdict rests on, and ``because`` the reason on record.  ``help`` says in words what is checked,
+    ``tags`` are the requirements, ``details`` what a machine may want to count.
+    """
+
+    id: str
+    text: str
+    system: str
+    word: str
+    level: Level
+    evidence: str
+    recorded: str = ""
+    because: str = ""
+    help: str = ""
+    tags: tuple[str, ...] = ()
+    place: Place | None = None
+    trace: Trace | None = None
+    details: Mapping[str, str] = field(default_factory=dict)
+    options: str = ""
+    variant: str = ""
+
+    @property
+    def headline(self) -> str:
+        """The verdict, and what is on record of it, in one sentence."""
+        if self.level is Level.REJECTED:
+            return f"The proof of {self.id} does not hold when it is checked again"
+        verdict = " ".join(filter(None, (self.id, "is", self.word, self.variant)))
+        if self.level is Level.KNOWN:
+            return f"{verdict}, as on record"
+        if self.level is Level.PASSED or not self.recorded:
+            return verdict
+        return (
+            f"{verdict}; as specified it is {self.recorded}"
+            if self.variant
+            else f"{verdict}, on record is {self.recorded}"
+        )
+
+    @property
+    def shown_with(self) -> str:
+        """The command that shows the run."""
+        return f"rovercheck trace {self.id}{self.options}"
+
+
+@dataclass(frozen=True)
+class Report:
+    """What was decided; ``wanted`` counts the properties asked for, more than are here if interrupted."""
+
+    findings: tuple[Finding, ...]
+    wanted: int
+    variant: str = ""
+
+    @property
+    def complete(self) -> bool:
+        return len(self.findings) >= self.wanted
+
+    @property
+    def missing(self) -> str:
+        """What an interruption left undecided, in a sentence."""
+        return f"Incomplete: {len(self.findings)} of {self.wanted} properties were decided."
+
+    def worst_first(self) -> list[Finding]:
+        """What failed first, then what is open, then what is known."""
+        order = [Level.REJECTED, Level.FAILED, Level.OPEN, Level.KNOWN, Level.PASSED]
+        return sorted(self.findings, key=lambda f: (order.index(f.level), f.id))
+
+
+def of_trace(trace: Trace) -> Report:
+    """The report about the one property of a trace; of a run that is on no record, a violation failed."""
+    broken = outcome(trace) == "violated"
+    count = len(trace)
+    evidence = f"{'counterexample' if broken else 'witness'} of {count} tick{'s' * (count != 1)}"
+    one = Finding(
+        id=trace.property or trace.system,
+        text=trace.text,
+        system=trace.system,
+        word="violated" if broken else "proved",
+        level=Level.FAILED if broken else Level.PASSED,
+        evidence=f"{evidence} on {trace.system}",
+        place=trace.place,
+        trace=trace,
+        details={"ticks": str(count)},
+    )
+    return Report((one,), 1)
+
+
+def explained(finding: Finding) -> str:
+    """All that a person wants to read below the headline, in lines of 80 columns."""
+    told = [finding.text, f"Why: {finding.because}" if finding.because else "", finding.evidence]
+    lines = [line for text in told for line in wrap(text, 80, break_long_words=False)]
+    if finding.trace is not None:
+        shown = finding.trace.focused() if finding.trace.relevant else finding.trace
+        lines += ["", trace_table.render(shown).rstrip("\n"), "", f"Again: {finding.shown_with}"]
+    return "\n".join(lines)
+
+
+def counts(findings: Sequence[Finding]) -> str:
+    """``400 proved, 93 violated``."""
+    words = [f.word.split()[0] for f in findings]
+    return ", ".join(f"{words.count(w):,} {w}" for w in ("proved", "violated", "unknown") if w in words)

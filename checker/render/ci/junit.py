@@ -1,0 +1,80 @@
+"""Verdicts as JUnit XML, as Jenkins, GitLab and others read it: a suite per system, a case per property."""
+
+import re
+from collections.abc import Callable, Iterator
+from io import BytesIO
+from itertools import groupby
+
+from junitparser import Error, Failure, JUnitXml, Skipped, TestCase, TestSuite
+from junitparser.junitparser import FinalResult
+
+from checker.render.ci import Finding, Level, Report, counts, explained
+
+FIRST = "rovercheck"
+_CONTROL = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+"""What XML cannot hold."""
+
+
+def junit(report: Report) -> str:
+    """The report as XML text.
+
+    A violation that is on record has passed and says so; what is not decided is an error, or skipped where
+    just that is on record, and never a pass.  An interruption is an error of its own.
+    """
+    xml = JUnitXml(FIRST)
+    found = sorted(report.findings, key=lambda f: (f.system, f.id))
+    for system, findings in groupby(found, key=lambda f: f.system):
+        xml.add_testsuite(_suite(system, list(findings), report.variant))
+    if not report.complete:
+        xml.add_testsuite(_interrupted(report))
+    count: Callable[[], None] = xml.update_statistics
+    count()
+    for element in (xml._elem, *xml._elem.iter("testsuite")):
+        element.attrib.pop("time", None)  # nothing was timed
+    xml._elem.attrib.pop("skipped", None)  # the schema of Jenkins has it for suites only
+    out = BytesIO()
+    xml.write(out, pretty=True)
+    return out.getvalue().decode() + "\n"
+
+
+def _suite(system: str, findings: list[Finding], variant: str) -> TestSuite:
+    suite = TestSuite(_clean(system))
+    suite.add_property("verdicts", counts(findings))
+    engines = sorted({f.details["engine"] for f in findings if f.details.get("engine")})
+    for name, value in (("engines", ", ".join(engines)), ("variant", variant)):
+        if value:
+            suite.add_property(name, _clean(value))
+    suite.add_testcases([_case(f) for f in findings])
+    return suite
+
+
+def _case(finding: Finding) -> TestCase:
+    case = TestCase(_clean(finding.id), classname=_clean(f"{FIRST}.{finding.system}"))
+    case.result = list(_results(finding))
+    lines = [finding.headline, explained(finding) if finding.level is Level.KNOWN else finding.evidence]
+    lines += [f"{name}: {value}" for name, value in finding.details.items()]
+    case.system_out = _clean("\n".join(lines))
+    return case
+
+
+def _results(finding: Finding) -> Iterator[FinalResult]:
+    """What makes a case no pass; nothing for one that passed."""
+    kinds = {Level.FAILED: Failure, Level.REJECTED: Error, Level.OPEN: Error}
+    kind = kinds.get(finding.level)
+    if kind is None and finding.level is Level.KNOWN and finding.word == "unknown":
+        kind = Skipped
+    if kind is not None:
+        result = kind(_clean(finding.headline), finding.level.value)
+        result.text = _clean(explained(finding))
+        yield result
+
+
+def _interrupted(report: Report) -> TestSuite:
+    suite, case = TestSuite("not decided"), TestCase("interrupted", classname=FIRST)
+    case.result = [Error(report.missing, "incomplete")]
+    suite.add_testcase(case)
+    return suite
+
+
+def _clean(text: str) -> str:
+    return _CONTROL.sub("\ufffd", text)

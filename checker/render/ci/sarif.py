@@ -1,0 +1,116 @@
+"""Verdicts as SARIF 2.1.0, the format of GitHub's code scanning and of many editors.
+
+Rules are the properties, results what is not simply proved; a counterexample is a code flow along the lines
+of the charts at which its arrows are written.
+"""
+
+import json
+from collections.abc import Sequence
+from hashlib import sha256
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any
+
+from checker.render.ci import Finding, Level, Report
+from checker.render.ci.sarif_flow import code_flow, located
+
+SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
+RESULTS = 5_000
+"""Results that GitHub shows of a file."""
+TAGS = 20
+"""Tags that GitHub takes of a rule."""
+_LEVELS = {Level.REJECTED: "error", Level.FAILED: "error", Level.OPEN: "none", Level.KNOWN: "note"}
+
+
+def sarif(report: Report, witnesses: bool = False) -> str:
+    """The report as JSON text; with ``witnesses`` also runs that show what is wanted."""
+    return json.dumps(document(report, witnesses), indent=1, ensure_ascii=False) + "\n"
+
+
+def document(report: Report, witnesses: bool = False) -> dict[str, Any]:
+    """The report as plain lists and dictionaries."""
+    rules = sorted(report.findings, key=lambda f: f.id)
+    told = [
+        f for f in report.worst_first() if f.level is not Level.PASSED or (witnesses and f.trace is not None)
+    ]
+    indices = {f.id: number for number, f in enumerate(rules)}
+    run = {
+        "tool": {"driver": {"name": "rovercheck", "version": _version(), "rules": [_rule(f) for f in rules]}},
+        "automationDetails": {"id": f"rovercheck/{report.variant}"},
+        "columnKind": "unicodeCodePoints",
+        "originalUriBaseIds": {"%SRCROOT%": {"description": {"text": "The folder with the sources."}}},
+        "invocations": [_invocation(report, told[RESULTS:])],
+        "results": [_result(f, indices[f.id]) for f in told[:RESULTS]],
+    }
+    return {"$schema": SCHEMA, "version": "2.1.0", "runs": [run]}
+
+
+def _version() -> str:
+    try:
+        return version("rovercheck")
+    except PackageNotFoundError:  # used from its sources
+        return "0"
+
+
+def _invocation(report: Report, left_out: Sequence[Finding]) -> dict[str, Any]:
+    told = [] if report.complete else [("error", report.missing)]
+    told += [
+        ("warning", f"{f.id} is unknown: {f.evidence}") for f in report.findings if f.level is Level.OPEN
+    ]
+    if left_out:
+        all_ = RESULTS + len(left_out)
+        told.append(("warning", f"{all_ - RESULTS} of {all_} results are left out: GitHub shows {RESULTS}."))
+    notes = [{"level": level, "message": {"text": text}} for level, text in told]
+    return {
+        "executionSuccessful": report.complete,
+        **({"toolExecutionNotifications": notes} if notes else {}),
+    }
+
+
+def _rule(finding: Finding) -> dict[str, Any]:
+    text = finding.text or finding.id
+    help_text = finding.help or text
+    tags = list(finding.tags[:TAGS])
+    return {
+        "id": finding.id,
+        "shortDescription": {"text": text},
+        "fullDescription": {"text": help_text},
+        "help": {"text": f"{help_text}\n\nShow its run, if it has one: {finding.shown_with}"},
+        "defaultConfiguration": {"level": "error"},
+        **({"properties": {"tags": tags}} if tags else {}),
+    }
+
+
+def _result(finding: Finding, index: int) -> dict[str, Any]:
+    open_ = finding.level is Level.OPEN or finding.word == "unknown"
+    kind = "open" if open_ else "informational" if finding.level is Level.PASSED else "fail"
+    reason = f" {finding.because}" if finding.because else ""
+    text = f"{finding.headline}: {finding.text} {finding.evidence[:1].upper()}{finding.evidence[1:]}.{reason}"
+    key = fingerprint(finding)
+    flows, cut = code_flow(finding) if finding.trace is not None else ([], "")
+    return {
+        "ruleId": finding.id,
+        "ruleIndex": index,
+        "kind": kind,
+        "level": _LEVELS[finding.level] if kind == "fail" else "none",
+        "message": {"text": f"{text} {cut}".rstrip()},
+        "locations": [located(finding.place, finding.id)],
+        "partialFingerprints": {
+            "primaryLocationLineHash": f"{key[:16]}:1",  # the one that GitHub reads
+            "rovercheckVerdict/v1": key,
+        },
+        **({"baselineState": _compared(finding)} if finding.recorded else {}),
+        **({"codeFlows": flows} if flows else {}),
+        **({"properties": dict(finding.details)} if finding.details else {}),
+    }
+
+
+def fingerprint(finding: Finding) -> str:
+    """What makes two results the same one: the property and its verdict, wherever it is written."""
+    return sha256(f"{finding.id}\0{finding.word}".encode()).hexdigest()
+
+
+def _compared(finding: Finding) -> str:
+    """How the result stands to the verdict on record."""
+    if finding.level is Level.KNOWN:
+        return "unchanged"
+    return "new" if finding.recorded.startswith("proved") else "updated"

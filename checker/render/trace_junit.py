@@ -1,0 +1,15 @@
+"""A trace as JUnit XML: one test case, which fails with the explained run; a witness passes."""
+
+from checker.render.ci import of_trace
+from checker.render.ci.junit import junit
+from checker.trace import Trace
+
+NAME = "junit"
+KIND = "trace"
+SUFFIX = ".junit.xml"
+SUMMARY = "JUnit XML: a test case that fails with the explained run"
+
+
+def render(trace: Trace) -> str:
+    """The XML text."""
+    return junit(of_trace(trace))

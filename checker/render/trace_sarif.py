@@ -1,0 +1,15 @@
+"""A trace as SARIF 2.1.0: a code flow through the lines of the charts, for code scanning and editors."""
+
+from checker.render.ci import of_trace
+from checker.render.ci.sarif import sarif
+from checker.trace import Trace
+
+NAME = "sarif"
+KIND = "trace"
+SUFFIX = ".sarif"
+SUMMARY = "SARIF 2.1.0: a code flow through the lines of the charts"
+
+
+def render(trace: Trace) -> str:
+    """The JSON text."""
+    return sarif(of_trace(trace), witnesses=True)

@@ -1,0 +1,97 @@
+"""Traces that every data exit must cope with: a loop, a witness, odd names, thousands of ticks."""
+
+from dataclasses import replace
+
+from checker.concrete import BoardRun, Kind, Signal, Step
+from checker.trace import Arrow, Needed, Tick, Trace
+from spec_model.lang.domain import enumeration, integer
+from spec_model.lang.expr import flag, var
+from spec_model.lang.place import Place
+from tests.render import zoo
+from tests.render.zoo import long_trace, relay
+
+HERE = Place("models/relay & co.py", 7)
+
+
+def told(trace: Trace) -> Trace:
+    """The trace with all that a property and charts add, its arrows in a file with an odd name."""
+    ticks = tuple(
+        replace(t, arrows=tuple(replace(a, place=Place(HERE.file, 10 + a.order)) for a in t.arrows))
+        for t in trace.ticks
+    )
+    return replace(
+        trace, ticks=ticks, property="TOY-1", text="It stays safe.", place=HERE, statecharts={"Relay": relay}
+    )
+
+
+def lasso() -> Trace:
+    """Comes back to what was after tick 2."""
+    return replace(told(long_trace(3)), loop=2)
+
+
+def witness() -> Trace:
+    return replace(told(long_trace(1)), false_parts=())
+
+
+def odd() -> Trace:
+    """Names that are no identifiers, that collide once they are made some, and text full of marks."""
+    place = var("Ätze.Ort", enumeration("O", ["so la", "né", "a,b", "$end"]))
+    word = flag("previous(x > 3)")
+    again = flag("previous(x < 3)")
+    count = var("#count", integer(-5, 5))
+    table = {v.name: v for v in (place, word, again, count)}
+    at = {v.name: v.init for v in (place, word, again)}
+    arrow = Arrow('Ätze "<&>"', "so la", "a,b", 'go [x > "3" && "%::*/" != \x1b\x00]', 1)
+    tick = Tick(1, {"#count": -3}, {**at, "Ätze.Ort": 3, "previous(x > 3)": 1}, (arrow,))
+    text = 'Nothing, 100% "of" it: <b>&\n::error::\\ */ is """so""".'
+    return Trace("sys/tem: 1", 20, table, ("#count",), at, (tick,), (word,), property='"ODD"/1%\n', text=text)
+
+
+def huge(ticks: int = 5_000) -> Trace:
+    """Something happens in every tick."""
+    at = {"Relay": 1}
+    arrow = Arrow("Relay", "Ours", "Theirs", "[level >= 100]", 1)
+    made = tuple(
+        Tick(k, {"level": 100 * (k % 2)}, {"Relay": 1 + k % 2}, (arrow,)) for k in range(1, ticks + 1)
+    )
+    table = {n: v for n, v in zoo.TRACES["long"].variables.items() if n in ("Relay", "level")}
+    return told(Trace("huge", 20, table, ("level",), at, made, (flag("never"),)))
+
+
+def needed() -> Trace:
+    return replace(told(long_trace(2)), needed=(Needed(2, "level", frozenset({100, 101})),))
+
+
+TRACES = {**zoo.TRACES, "lasso": lasso(), "witness": witness(), "odd": odd(), "needed": needed()}
+
+
+LAMP = BoardRun(
+    board="toy",
+    tick_ms=20,
+    inputs=(
+        Signal("now_ms", Kind.CLOCK, 0, "start of the step"),
+        Signal("seen_ms", Kind.STAMP, 0, "when the level was measured"),
+        Signal("level", Kind.NUMBER, 0.0),
+        Signal("on", Kind.BOOL, False),
+    ),
+    outputs=(
+        Signal("lit", Kind.BOOL, False),
+        Signal("age", Kind.WHOLE, 0, "ms since the level was measured"),
+    ),
+    steps=(
+        Step({"seen_ms": 5, "level": 0.5, "on": True}, {"lit": True, "age": 5}),
+        Step({"seen_ms": 5, "level": 0.5, "on": True}, {"lit": True, "age": 5}),
+        Step({"seen_ms": None, "level": 0.5, "on": True}, {"lit": True, "age": 25}),
+        Step({"seen_ms": None, "level": 0.25, "on": True}, {"age": 45}),
+        Step({"seen_ms": 0, "level": 0.25, "on": False}, {"lit": False, "age": 0}),
+    ),
+    implementation="python:nowhere:Lamp",
+)
+"""A lamp that is lit while it is on and the level high, and forgets the level in the fourth step."""
+
+CONCRETE = {
+    "one": replace(told(long_trace(1)), concrete=(LAMP,)),
+    "two": replace(told(long_trace(1)), concrete=(LAMP, replace(LAMP, board="other"))),
+    "odd": replace(odd(), concrete=(LAMP,)),
+    "unknown": told(long_trace(1)),
+}
