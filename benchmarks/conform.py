@@ -112,7 +112,8 @@ def _monitors(board: str, folder: Path, repetitions: int) -> None:
     reading, seeing, judging, number = (median(column) for column in zip(*found, strict=True))
     print(
         f"{board}: {number:.0f} monitors together: {LONG / judging:,.0f} ticks/s, with what the charts see "
-        f"of the log {LONG / (seeing + judging):,.0f}; reading the CSV {LONG / reading:,.0f} rows/s"
+        f"of the log {LONG / (seeing + judging):,.0f}; reading the CSV {LONG / reading:,.0f} rows/s, "
+        f"from the file to the verdicts {LONG / (reading + seeing + judging):,.0f} rows/s"
     )
 
 

@@ -2,34 +2,75 @@
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
 from checker.commands.codes import Exit, UsageError
 from checker.commands.conforming_json import as_json
 from checker.commands.conforming_text import page, summary
 from checker.commands.output import err, out
-from checker.conform.logs import LogError, Map, Result, examine, read_map
+from checker.commands.variant import Variant, pick_variant
+from checker.conform.logs import Against, LogError, Map, Result, examine, read_map
+from checker.conform.varied import varied
 
 SUFFIXES = (".csv", ".csv.gz", ".tsv", ".tsv.gz", ".parquet")
 Outcome = Result | LogError
 
 
-def conform(place: Path, map_file: Path | None, system: str | None, json_wanted: bool, verbose: bool) -> Exit:
-    """Check one log or all logs of a folder.
+@dataclass(frozen=True)
+class Asked:
+    """What the command line asks for; ``against``: the charts, with ``charts`` in words where changed."""
+
+    how: Map
+    system: str
+    as_json: bool
+    verbose: bool
+    charts: str = ""
+    against: Against | None = None
+
+    def examined(self, path: Path) -> Outcome:
+        """What one log says."""
+        try:
+            return examine(path, self.how, self.system, self.against)
+        except LogError as error:
+            return error
+
+
+def conform(
+    place: Path,
+    map_file: Path | None,
+    system: str | None,
+    json_wanted: bool,
+    verbose: bool,
+    chosen: tuple[str, ...] = (),
+    repair: str | None = None,
+) -> Exit:
+    """Check one log or all logs of a folder, under chosen readings and with a repair.
 
     Raises ``UsageError`` for a map without meaning, and for a single log that cannot be read.
     """
-    how = _map(map_file)
-    if place.is_dir():
-        return _folder(place, how, system or "", json_wanted)
-    found = _examined(place, how, system or "")
+    variant = pick_variant(chosen, repair, ())
+    against = _against(variant) if variant.name else None
+    asked = Asked(_map(map_file), system or "", json_wanted, verbose, variant.name, against)
+    return _folder(place, asked) if place.is_dir() else _log(place, asked)
+
+
+def _log(place: Path, asked: Asked) -> Exit:
+    found = asked.examined(place)
     if isinstance(found, LogError):
         raise UsageError(f"{place}: {found}")
-    if json_wanted:
-        print(json.dumps(as_json(found), indent=2, ensure_ascii=False))
+    if asked.as_json:
+        print(json.dumps(as_json(found, asked.charts), indent=2, ensure_ascii=False))
     else:
-        out.print(page(found, verbose), markup=False)
+        out.print(page(found, asked.verbose, asked.charts), markup=False)
     return _code([found])
+
+
+def _against(variant: Variant) -> Against:
+    """The boards, properties and verdicts on record of a variant."""
+    found = varied(variant.choices, variant.repair)
+    properties, systems = variant.properties(), variant.systems()
+    return Against(found, properties, systems, lambda id: variant.expected(id).verdict)
 
 
 def _map(file: Path | None) -> Map:
@@ -41,14 +82,7 @@ def _map(file: Path | None) -> Map:
         raise UsageError(str(error)) from error
 
 
-def _examined(path: Path, how: Map, system: str) -> Outcome:
-    try:
-        return examine(path, how, system)
-    except LogError as error:
-        return error
-
-
-def _folder(folder: Path, how: Map, system: str, json_wanted: bool) -> Exit:
+def _folder(folder: Path, asked: Asked) -> Exit:
     """Every log of a folder; one that cannot be read leaves the others' results."""
     logs = sorted(p for p in folder.iterdir() if p.is_file() and p.name.lower().endswith(SUFFIXES))
     if not logs:
@@ -58,16 +92,17 @@ def _folder(folder: Path, how: Map, system: str, json_wanted: bool) -> Exit:
     for number, log in enumerate(logs, 1):
         if err.is_terminal:
             err.print(f"{number} of {len(logs)}: {log.name}", markup=False)
-        found[log.name] = _examined(log, how, system)
-    if json_wanted:
-        print(json.dumps({"logs": [_entry(n, r) for n, r in found.items()]}, indent=2, ensure_ascii=False))
+        found[log.name] = asked.examined(log)
+    if asked.as_json:
+        entries = [_entry(n, r, asked.charts) for n, r in found.items()]
+        print(json.dumps({"logs": entries}, indent=2, ensure_ascii=False))
     else:
-        out.print(summary(found), markup=False)
+        out.print(summary(found, asked.charts), markup=False)
     return _code(list(found.values()))
 
 
-def _entry(name: str, found: Outcome) -> Mapping[str, object]:
-    return as_json(found) if isinstance(found, Result) else {"log": name, "error": str(found)}
+def _entry(name: str, found: Outcome, charts: str) -> Mapping[str, object]:
+    return as_json(found, charts) if isinstance(found, Result) else {"log": name, "error": str(found)}
 
 
 def _code(found: list[Outcome]) -> Exit:

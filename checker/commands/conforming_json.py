@@ -7,11 +7,12 @@ from checker.conform.logs.monitors import Verdict
 Entry = dict[str, object]
 
 
-def as_json(found: Result) -> Entry:
-    """Everything about one log."""
+def as_json(found: Result, charts: str = "") -> Entry:
+    """Everything about one log; ``charts``: how the charts differ from those specified, in words."""
     return {
         "log": found.name,
         "system": found.layout.board,
+        "charts": charts or "as specified",
         "start": found.start,
         "rows": found.rows,
         "ticks": found.ticks,

@@ -19,10 +19,10 @@ KINDS = {
 MOST_PAIRS = 6
 
 
-def page(found: Result, verbose: bool) -> str:
-    """All about one log."""
+def page(found: Result, verbose: bool, charts: str = "") -> str:
+    """All about one log; ``charts``: how the charts differ from those specified, in words."""
     return "\n\n".join(
-        "\n".join(part) for part in (_head(found), _properties(found, verbose), _behaviour(found))
+        "\n".join(part) for part in (_head(found, charts), _properties(found, verbose), _behaviour(found))
     )
 
 
@@ -36,10 +36,12 @@ def _lines(label: str, text: str, indent: int = 2, hang: int = 15) -> str:
 # --- the log ---------------------------------------------------------------------------------------
 
 
-def _head(found: Result) -> Iterator[str]:
+def _head(found: Result, charts: str) -> Iterator[str]:
     start = "from power-up" if found.start == "power-up" else "from some tick on"
     ticks = counted(found.ticks, "tick", "ticks")
     yield f"{found.name}: {found.layout.board} {start}, {ticks} = {found.seconds:g} s"
+    if charts:
+        yield _lines("charts", charts)
     if found.behaviour.inferred:
         yield _lines("inferred", ", ".join(found.behaviour.inferred))
     if found.layout.ignored:
@@ -91,7 +93,7 @@ def _outcome(verdict: Verdict) -> str:
             verdict.word, verdict.word
         )
     where = f"tick {verdict.first.tick}, line {verdict.first.line}"
-    record = "a known finding" if as_on_record(verdict) else "not expected: it is on record as proved"
+    record = "a known finding" if as_on_record(verdict) else "not expected: it should hold in every run"
     if verdict.word == "reached":
         return f"reached at {where}" + ("" if as_on_record(verdict) else ", on record as out of reach")
     return f"violated at {where}, in {counted(verdict.count, 'tick', 'ticks')}; {record}"
@@ -162,7 +164,7 @@ def _when(one: Deviation) -> str:
 # --- many logs -------------------------------------------------------------------------------------
 
 
-def summary(found: Mapping[str, Result | LogError]) -> str:
+def summary(found: Mapping[str, Result | LogError], charts: str = "") -> str:
     """A line for each log, then what is wrong with those that could not be read."""
     width = min(max(map(len, found)), 30)
     rows: list[tuple[str, ...]] = [("log", "board", "ticks", "violated", "known", "deviations", "unknown")]
@@ -172,7 +174,8 @@ def summary(found: Mapping[str, Result | LogError]) -> str:
     for name, one in found.items():
         if isinstance(one, LogError):
             lines.append(_lines("", f"{name}: not read: {one}", indent=0, hang=0))
-    return "\n".join([*lines, "", _total(list(found.values()))])
+    head = [_lines("charts", charts, indent=0, hang=8)] if charts else []
+    return "\n".join([*head, *lines, "", _total(list(found.values()))])
 
 
 def _row(name: str, one: Result, width: int) -> tuple[str, ...]:

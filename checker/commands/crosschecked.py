@@ -9,7 +9,8 @@ from checker.commands.output import counted
 from checker.conform.cross.beside import Charts, Mismatch, author_of
 from checker.conform.cross.coverage import taken
 from checker.conform.cross.reproduce import stimulus_of
-from checker.conform.cross.result import Result
+from checker.conform.cross.result import Failure, Result
+from checker.conform.cross.search import FAILURES
 from checker.conform.cross.smaller import columns
 from checker.conform.cross.stimulus import SILENT, Change, Every
 from checker.conform.cross.strategy import ENVIRONMENTS
@@ -28,17 +29,35 @@ class Report:
     result: Result
     address: str
     files: Sequence[Path] = ()
+    charts: str = ""
+    """How the charts differ from those specified, in words."""
 
 
 def report(of: Report) -> str:
     """The whole report of one board."""
     result = of.result
     lines = [*map(_wrapped, result.notes)]
-    for number, mismatch in enumerate(result.mismatches, 1):
-        lines += ["", *_mismatch(number, mismatch), *_test(of.files, number)]
+    for number, found in enumerate(shown(result), 1):
+        told = _mismatch(number, found) if isinstance(found, Mismatch) else _failure(number, found)
+        lines += ["", *told, *_test(of.files, number)]
     for failure in result.failures:
-        lines += ["", _wrapped(f"In {failure.origin}: {failure.message}")]
+        if not failure.steps:
+            lines += ["", _wrapped(f"✗ In {failure.origin}: {failure.message}")]
     return "\n".join([*lines, *([""] if lines else []), *_summary(result)])
+
+
+def shown(result: Result) -> Sequence[Mismatch | Failure]:
+    """What is told with inputs and a test: the mismatches, then each way to fail, where it is shortest."""
+    causes: dict[str, Failure] = {}
+    for failure in result.failures:
+        if failure.steps:
+            causes.setdefault(_cause(failure), failure)
+    return [*result.mismatches, *causes.values()]
+
+
+def _cause(failure: Failure) -> str:
+    """The message without the number of the step."""
+    return failure.message.replace(f"step {failure.tick}:", "", 1)
 
 
 def _wrapped(text: str, indent: str = "") -> str:
@@ -58,15 +77,24 @@ def _mismatch(number: int, mismatch: Mismatch) -> Iterator[str]:
     time = f"{mismatch.tick * TICK_MS / 1000:g} s"
     yield _wrapped(f"✗ {number}. {board.name}, step {mismatch.tick} = {time}: {first} differs.")
     yield from _inputs(mismatch)
-    shown = {o.name: o.signal for o in board.outputs}
+    signals = {o.name: o.signal for o in board.outputs}
     yield f"   {'output':<26}{'charts':<24}implementation"
     for d in mismatch.differences:
-        actual = "missing" if d.actual is None else shown[d.name].show(d.actual)
-        yield f"   {d.name:<26}{shown[d.name].show(d.expected):<24}{actual}"
+        actual = "missing" if d.actual is None else signals[d.name].show(d.actual)
+        yield f"   {d.name:<26}{signals[d.name].show(d.expected):<24}{actual}"
     yield from _arrows(mismatch, author_of(board, first))
 
 
-def _inputs(mismatch: Mismatch) -> Iterator[str]:
+def _failure(number: int, failure: Failure) -> Iterator[str]:
+    time = f"{failure.tick * TICK_MS / 1000:g} s"
+    yield _wrapped(
+        f"✗ {number}. {failure.board.name}, step {failure.tick} = {time}: it does not answer as it must."
+    )
+    yield _wrapped(failure.message, "   ")
+    yield from _inputs(failure)
+
+
+def _inputs(mismatch: Mismatch | Failure) -> Iterator[str]:
     """The inputs that are not calm in the step, and since when; then how the run got there."""
     board = mismatch.board
     run = columns(board, [step.inputs for step in mismatch.steps])
@@ -97,7 +125,7 @@ def _stamped(lag: Value | None) -> str:
     return "no update" if lag is None else f"updated {lag} ms before the step"
 
 
-def _history(mismatch: Mismatch) -> Iterator[str]:
+def _history(mismatch: Mismatch | Failure) -> Iterator[str]:
     """What changes when, from calm inputs on."""
     board = mismatch.board
     signals = {s.name: s for s in board.inputs}
@@ -167,25 +195,36 @@ def _summary(result: Result) -> Iterator[str]:
     )
     if result.uncompared:
         yield _wrapped(f"Not compared, because it never gave them: {', '.join(result.uncompared)}.", "  ")
-    if result.missing:
+    if result.missing and not _given_up(result):
         yield f"  Arrows that no run took ({len(result.missing)}; some cannot be):"
         yield from (_wrapped(str(arrow), "    ") for arrow in result.missing)
 
 
 def _sign(result: Result) -> str:
-    return "✗" if result.mismatches else "✓" if result.conforms else "?"
+    return "✗" if result.differs else "✓" if result.conforms else "?"
 
 
 def _verdict(result: Result) -> str:
-    if result.mismatches:
-        shown = len(result.mismatches)
-        rest = f", the {shown} shortest of them shown" if shown < result.distinct else ""
-        return f"does not conform ({counted(result.distinct, 'mismatch', 'mismatches')}{rest})"
+    if result.differs:
+        return f"does not conform ({', '.join(_differences(result))})"
     if result.conforms:
         return "conforms"
-    if result.failures:
-        return f"is inconclusive ({counted(len(result.failures), 'run', 'runs')} not survived)"
     return "is inconclusive (interrupted)" if result.interrupted else "is inconclusive (no output to compare)"
+
+
+def _differences(result: Result) -> Iterator[str]:
+    few = len(result.mismatches)
+    if few:
+        yield counted(result.distinct, "mismatch", "mismatches")
+    if few < result.distinct:
+        yield f"the {few} shortest of them shown"
+    if result.failures:
+        gave_up = ", then the search gave up" if _given_up(result) else ""
+        yield f"{counted(len(result.failures), 'run', 'runs')} not survived{gave_up}"
+
+
+def _given_up(result: Result) -> bool:
+    return len(result.failures) >= FAILURES
 
 
 def row(of: Report) -> dict[str, object]:
@@ -195,7 +234,8 @@ def row(of: Report) -> dict[str, object]:
     return {
         "system": result.board.name,
         "implementation": of.address,
-        "verdict": "mismatch" if result.mismatches else "conforms" if result.conforms else "inconclusive",
+        "charts": of.charts or "as specified",
+        "verdict": _word(result),
         "steps": result.coverage.steps,
         "runs": result.coverage.runs,
         "examples": result.examples,
@@ -204,11 +244,28 @@ def row(of: Report) -> dict[str, object]:
         "boundaries": {"met": met, "all": sides},
         "uncompared": list(result.uncompared),
         "distinct": result.distinct,
-        "mismatches": [
-            _row(m, str(of.files[k]) if k < len(of.files) else "") for k, m in enumerate(result.mismatches)
-        ],
-        "failures": [{"origin": f.origin, "message": f.message} for f in result.failures],
+        "mismatches": [_row(m, _file_of(m, of)) for m in result.mismatches],
+        "failures": [_failed(f, _file_of(f, of)) for f in result.failures],
     }
+
+
+def _file_of(found: Mismatch | Failure, of: Report) -> str:
+    """The test that was written for it, if any."""
+    return next(
+        (str(file) for one, file in zip(shown(of.result), of.files, strict=False) if one is found), ""
+    )
+
+
+def _word(result: Result) -> str:
+    if result.mismatches:
+        return "mismatch"
+    return "failure" if result.failures else "conforms" if result.conforms else "inconclusive"
+
+
+def _failed(failure: Failure, file: str) -> dict[str, object]:
+    inputs = dict(failure.steps[-1].inputs) if failure.steps else {}
+    place = {"origin": failure.origin, "step": failure.tick, "inputs": inputs}
+    return {**place, "message": failure.message, "test": file}
 
 
 def _row(mismatch: Mismatch, file: str) -> dict[str, object]:

@@ -3,18 +3,21 @@
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from pathlib import Path
 
 from checker.commands.codes import Exit, UsageError
-from checker.commands.crosschecked import Report, report, row
+from checker.commands.crosschecked import Report, report, row, shown
 from checker.commands.output import counted, err, out, write
 from checker.commands.progress import Watch
+from checker.commands.variant import Variant, pick_variant
 from checker.conform.adapters import start
 from checker.conform.cross import Result, cross_check, effort
 from checker.conform.cross.reproduce import file_name, pytest_file
 from checker.conform.cross.search import Search
 from checker.conform.implementation import ImplementationError
-from spec_model.abstraction import Board, boards
+from checker.conform.varied import varied
+from spec_model.abstraction import Board
 from spec_model.lang.errors import did_you_mean
 
 SCHEMA = 1
@@ -35,10 +38,17 @@ class Asked:
     examples: int | None
     seed: int | None
     tests: Path | None
+    chosen: tuple[str, ...] = ()
+    repair: str | None = None
+
+    @cached_property
+    def variant(self) -> Variant:
+        """How the charts are changed.  Raises ``UsageError`` or ``ModelError``."""
+        return pick_variant(self.chosen, self.repair, ())
 
 
 def crosscheck(asked: Asked, output: Path | None, as_json: bool) -> Exit:
-    """Compare one board, or both, and write a test for every mismatch that is shown.
+    """Compare one board, or both, and write a test for every mismatch and failure that is shown.
 
     Raises ``UsageError`` for a board that does not exist and an implementation that cannot be started.
     """
@@ -50,8 +60,8 @@ def crosscheck(asked: Asked, output: Path | None, as_json: bool) -> Exit:
         if not as_json:
             _announce(asked, board, address, seed)
         result = _checked(asked, board, address, seed)
-        files = _write_tests(result, address, output or Path())
-        reports.append(Report(result, address, files))
+        files = _write_tests(result, address, asked.variant, output or Path())
+        reports.append(Report(result, address, files, asked.variant.name))
         if not as_json:
             out.print(report(reports[-1]), markup=False)
         if result.interrupted:
@@ -67,14 +77,15 @@ def _announce(asked: Asked, board: Board, address: str, seed: int) -> None:
     runs = effort(asked.profile, asked.examples, seed).examples
     out.print(
         f"{board.name}: {address}\n"
-        f"  beside {counted(len(board.system.charts), 'chart', 'charts')}; "
+        f"  beside {counted(len(board.system.charts), 'chart', 'charts')}"
+        f"{f' {asked.variant.name}' if asked.variant.name else ''}; "
         f"{counted(runs, 'random run', 'random runs')} from seed {seed}.",
         markup=False,
     )
 
 
 def _boards(asked: Asked) -> list[Board]:
-    known = boards()
+    known = varied(asked.variant.choices, asked.variant.repair)
     if asked.system is None:
         if asked.address is not None:
             raise UsageError(
@@ -103,6 +114,7 @@ def _checked(asked: Asked, board: Board, address: str, seed: int) -> Result:
                 seed=seed,
                 folder=asked.tests,
                 progress=line.show,
+                charts=board if asked.variant.name else None,
             )
     finally:
         implementation.close()
@@ -134,23 +146,24 @@ class _Line(Watch):
         return self._said[:width]
 
 
-def _write_tests(result: Result, address: str, folder: Path) -> list[Path]:
-    """A test for each mismatch that is shown."""
+def _write_tests(result: Result, address: str, variant: Variant, folder: Path) -> list[Path]:
+    """A test for each mismatch and failure that is shown."""
     written = []
-    for mismatch in result.mismatches:
-        place = folder / file_name(mismatch)
+    for found in shown(result):
+        place = folder / file_name(found)
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise UsageError(f"Cannot make {folder}: {error.strerror}. Choose another --output.") from error
-        write(pytest_file(mismatch, address), place)
+        repair = variant.repair.name if variant.repair else ""
+        write(pytest_file(found, address, variant.choices, repair), place)
         written.append(place)
     return written
 
 
 def worst(reports: Sequence[Report]) -> Exit:
-    """A mismatch outweighs a search that is not finished."""
-    if any(r.result.mismatches for r in reports):
+    """What differs outweighs a search that is not finished."""
+    if any(r.result.differs for r in reports):
         return Exit.CHANGED
     if any(r.result.interrupted for r in reports):
         return Exit.INTERRUPTED

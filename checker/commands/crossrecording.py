@@ -1,9 +1,10 @@
 """Keeps the runs that the model checker found as inputs for the cross-check; run as a module after a change.
 
-``python -m checker.commands.crossrecording`` decides every violated property that is quick to decide, and
-writes its run on each board that it concerns.
+``python -m checker.commands.crossrecording [FILE]`` decides every violated property that is quick to decide,
+and writes its run on each board that it concerns; into another file than that of the project if one is named.
 """
 
+import sys
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
@@ -64,12 +65,14 @@ def counterexamples() -> Iterator[Found]:
             yield result.property.id, result.system, verdict.because
 
 
-def main() -> None:
+KEPT = Path(checker.conform.cross.__file__).parent / COUNTEREXAMPLES
+
+
+def main(place: Path = KEPT) -> None:
     """Write the file anew."""
     found = sorted(counterexamples(), key=lambda one: one[0])
-    place = Path(checker.conform.cross.__file__).parent / COUNTEREXAMPLES
     replaced(place, encoded(runs(found, systems())).encode())
 
 
 if __name__ == "__main__":
-    main()
+    main(*map(Path, sys.argv[1:2]))

@@ -4,18 +4,23 @@ import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from textwrap import wrap
 from time import monotonic
 
 from rich.status import Status
 
-from checker.commands.codes import Exit
+from checker.commands.codes import Exit, UsageError
 from checker.commands.output import counted, err, out, write
 from checker.commands.progress import PAUSE
 from checker.conform.cover import kept_text
 from checker.conform.cover.coverage import Coverage, Effort, cover
+from checker.conform.cover.fingerprint import fingerprint
 from checker.conform.cover.generate import Aim, aims, files, only
 from checker.conform.cover.goals import Goal, Kind
-from checker.conform.cover.keep import Kept, kept_of
+from checker.conform.cover.keep import Kept, kept_of, written
+from checker.conform.cover.watch import watched
+from spec_model.abstraction import Board
+from spec_model.lang.errors import ModelError
 from spec_model.rover import systems
 
 SCHEMA = 1
@@ -32,6 +37,8 @@ class Asked:
     format: str
     effort: Effort
     kept: bool
+    keep: Path | None = None
+    """The folder in which a set goes on from the tests it has."""
 
 
 @dataclass(frozen=True)
@@ -49,11 +56,13 @@ def testgen(asked: Asked, output: Path, as_json: bool) -> Exit:
 
     Raises ``ModelError`` for a name of no board or chart, ``UsageError`` where nothing can be written.
     """
+    if asked.kept and asked.keep:
+        raise UsageError("--kept writes tests without a search, --keep searches for more; leave one out.")
     found: list[Generated] = []
     for aim in aims(asked.names, asked.kinds):
-        found.append(_generated(aim, asked, output))
+        found.append(_kept(aim, asked, asked.keep) if asked.keep else _generated(aim, asked, output))
         if not as_json:
-            out.print("\n".join(report(found[-1], asked.format, output)), markup=False, soft_wrap=False)
+            out.print("\n".join(report(found[-1], asked, output)), markup=False, soft_wrap=False)
         if found[-1].interrupted:
             break
     if as_json:
@@ -62,27 +71,62 @@ def testgen(asked: Asked, output: Path, as_json: bool) -> Exit:
 
 
 def _generated(aim: Aim, asked: Asked, output: Path) -> Generated:
-    known, interrupted = _as_kept(aim) if asked.kept else _searched(aim, asked.effort)
+    if asked.kept:
+        known, interrupted = only(_set_of(aim.board, None), aim.goals), False
+    else:
+        coverage = Coverage(aim.board, aim.goals)
+        interrupted = _searched(coverage, aim, asked.effort)
+        known = coverage.kept()
     contents = files(aim, known, asked.format) if known.tests else {}
     for name, content in contents.items():
-        output.mkdir(parents=True, exist_ok=True)
-        write(content, output / name)
+        _write(content, output / name)
     return Generated(aim, known, tuple(contents), interrupted)
 
 
-def _as_kept(aim: Aim) -> tuple[Kept, bool]:
-    return only(kept_of(aim.board, kept_text(aim.board.name)), aim.goals), False
+def _kept(aim: Aim, asked: Asked, folder: Path) -> Generated:
+    """Go on from the set of a folder, or from that of the project, and keep all that is covered.
+
+    A set is always one of all goals of a board; only those of ``aim`` are searched for.
+    """
+    board, charts = aim.board, fingerprint(aim.board, systems()[aim.board.name])
+    coverage = Coverage(board, watched(board.system).goals)
+    coverage.go_on(_set_of(board, folder), charts)
+    interrupted = _searched(coverage, aim, asked.effort)
+    known = coverage.kept(charts)
+    name = f"{board.name}.json"
+    _write(written(board, known), folder / name)
+    return Generated(aim, only(known, aim.goals), (name,), interrupted)
 
 
-def _searched(aim: Aim, effort: Effort) -> tuple[Kept, bool]:
-    """Search until all is known or the user has seen enough."""
-    coverage = Coverage(aim.board, aim.goals)
+def _set_of(board: Board, folder: Path | None) -> Kept:
+    """The set kept in a folder; where there is none, that of the project."""
+    place = folder and folder / f"{board.name}.json"
+    if place is None or not place.exists():
+        return kept_of(board, kept_text(board.name))
+    try:
+        return kept_of(board, place.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, ModelError) as error:
+        raise UsageError(f"Cannot go on from {place}: {error}") from error
+
+
+def _write(content: str, place: Path) -> None:
+    """Write a file, and the folder that holds it.  Raises ``UsageError``."""
+    try:
+        place.parent.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"Cannot make the folder {place.parent}: {error.strerror}.") from error
+    write(content, place)
+
+
+def _searched(coverage: Coverage, aim: Aim, effort: Effort) -> bool:
+    """Search until all is known or the user has seen enough; whether that was so."""
+    wanted = {g.id for g in aim.goals}
     with Line() as line:
         try:
-            cover(coverage, systems()[aim.board.name], effort, line.say(coverage))
+            cover(coverage, systems()[aim.board.name], effort, line.say(coverage), wanted)
         except KeyboardInterrupt:
-            return coverage.kept(), True
-    return coverage.kept(), False
+            return True
+    return False
 
 
 class Line:
@@ -130,7 +174,7 @@ class Saying:
 # --- what is said --------------------------------------------------------------------------------------
 
 
-def report(found: Generated, format: str, output: Path) -> Iterator[str]:
+def report(found: Generated, asked: Asked, output: Path) -> Iterator[str]:
     """The counts of each kind, the goals without a test, and what was written, in 80 columns."""
     kept, goals = found.kept, found.aim.goals
     yield found.aim.board.name
@@ -140,11 +184,20 @@ def report(found: Generated, format: str, output: Path) -> Iterator[str]:
             yield f"  {counts(kept, kind, mine)}"
     yield from _listed("≈", "uncoverable", kept.uncoverable, goals)
     yield from _listed("?", "unknown", kept.unknown, goals)
-    steps = sum(len(script) for _, _, script in kept.tests)
-    tests = f"{counted(len(kept.tests), 'test', 'tests')} of {counted(steps, 'step', 'steps')} together"
-    yield f"  {tests}, as {format} in {output}" if found.files else "  no test was written"
+    yield from _wrapped(_tests(found, asked, output), "  ", "  ")
     if found.interrupted:
         yield "  Interrupted: this is what was found so far."
+
+
+def _tests(found: Generated, asked: Asked, output: Path) -> str:
+    tests = found.kept.tests
+    steps = sum(len(script) for _, _, script in tests)
+    number = f"{counted(len(tests), 'test', 'tests')} of {counted(steps, 'step', 'steps')} together"
+    if not found.files:
+        return "no test was written"
+    return (
+        f"{number}, in the set of {asked.keep}" if asked.keep else f"{number}, as {asked.format} in {output}"
+    )
 
 
 def counts(kept: Kept, kind: Kind, goals: Sequence[Goal]) -> str:
@@ -163,10 +216,14 @@ def counts(kept: Kept, kind: Kind, goals: Sequence[Goal]) -> str:
 def _listed(sign: str, word: str, why: Mapping[str, str], goals: Sequence[Goal]) -> Iterator[str]:
     texts = {g.id: g.text for g in goals}
     for id, reason in list(why.items())[:SHOWN]:
-        yield f"  {sign} {word}: {id}: {texts[id]}"
-        yield f"      {reason}"
+        yield from _wrapped(f"{sign} {word}: {id}: {texts[id]}", "  ", "      ")
+        yield from _wrapped(reason, "      ", "      ")
     if len(why) > SHOWN:
         yield f"  {sign} and {len(why) - SHOWN} more {word}; all of them with --json"
+
+
+def _wrapped(text: str, first: str, then: str) -> list[str]:
+    return wrap(text, out.width, initial_indent=first, subsequent_indent=then, break_on_hyphens=False)
 
 
 def document(found: Sequence[Generated]) -> dict[str, object]:

@@ -15,7 +15,12 @@ class ImplementationError(Exception):
     garbage.
 
     The message says what was tried, at which step, and what to look at; it is shown to the user as it is.
+    ``step`` is that step, counted from power-up, which is 0.
     """
+
+    def __init__(self, message: str, step: int = 0) -> None:
+        super().__init__(message)
+        self.step = step
 
 
 class Implementation(Protocol):

@@ -1,12 +1,31 @@
 """Verbs about implementations: run them, compare them and their logs with the charts, test them."""
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import click
 
 from checker.commands.codes import Exit
 from checker.commands.options import SECONDS, writing
 from checker.isolate import prepared
+
+
+def _changing(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The options that change the charts compared with; assumptions about the environment play no part."""
+    options: list[Callable[[Any], Any]] = [
+        click.option(
+            "--reading",
+            "chosen",
+            multiple=True,
+            metavar="ID=CHOICE",
+            help="Read a sentence otherwise: S43=AND.",
+        ),
+        click.option("--repair", metavar="NAME", help="With a proposed repair; see list repairs."),
+    ]
+    for option in reversed(options):
+        command = option(command)
+    return command
 
 
 @click.command(short_help="Run both boards in a scenario, and draw the run.")
@@ -33,11 +52,20 @@ def simulate(scenario: Path, log: Path | None, no_plot: bool, output: Path | Non
 @click.option("--system", metavar="NAME", help="The board: board1 or board2; by default the columns tell.")
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option("--verbose", "-v", is_flag=True, help="Every property, also those that say nothing.")
-def conform(place: Path, map_file: Path | None, system: str | None, as_json: bool, verbose: bool) -> Exit:
+@_changing
+def conform(
+    place: Path,
+    map_file: Path | None,
+    system: str | None,
+    as_json: bool,
+    verbose: bool,
+    chosen: tuple[str, ...],
+    repair: str | None,
+) -> Exit:
     """Check a log, or all logs of a folder: every property as a monitor, and as a run of the charts."""
     from checker.commands.conforming import conform as run
 
-    return run(place, map_file, system, as_json, verbose)
+    return run(place, map_file, system, as_json, verbose, chosen, repair)
 
 
 @click.command(short_help="Compare a supervisor with the charts, step by step.")
@@ -59,6 +87,7 @@ def conform(place: Path, map_file: Path | None, system: str | None, as_json: boo
     metavar="DIR",
     help="Write a test for each mismatch there, not here.",
 )
+@_changing
 def crosscheck(
     system: str | None,
     impl: str | None,
@@ -68,12 +97,14 @@ def crosscheck(
     tests: Path | None,
     as_json: bool,
     output: Path | None,
+    chosen: tuple[str, ...],
+    repair: str | None,
 ) -> Exit:
     """Run a supervisor and the charts side by side; exit code 1 where they differ."""
     from checker.commands.crosschecking import Asked
     from checker.commands.crosschecking import crosscheck as run
 
-    return run(Asked(system, impl, profile, examples, seed, tests), output, as_json)
+    return run(Asked(system, impl, profile, examples, seed, tests, chosen, repair), output, as_json)
 
 
 @click.command(short_help="Write tests that cover the charts, with expected outputs.")
@@ -85,9 +116,7 @@ def crosscheck(
     "kinds",
     multiple=True,
     type=click.Choice(["arrows", "boundaries", "pairs"]),
-    default=("arrows",),
-    show_default=True,
-    help="What the tests must reach; more than one may be given.",
+    help="What the tests must reach; more than one may be given.  [default: arrows; all with --keep]",
 )
 @click.option(
     "--format",
@@ -97,6 +126,12 @@ def crosscheck(
     help="CSV files, a pytest file or a C program.",
 )
 @click.option("--kept", is_flag=True, help="Write the tests that come with rovercheck, without a search.")
+@click.option(
+    "--keep",
+    type=click.Path(file_okay=False, path_type=Path),
+    metavar="FOLDER",
+    help="Go on from the tests kept there, and keep all there instead.",
+)
 @click.option(
     "--timeout",
     type=SECONDS,
@@ -132,6 +167,7 @@ def testgen(
     kinds: tuple[str, ...],
     format: str,
     kept: bool,
+    keep: Path | None,
     timeout: float,
     ticks: int,
     seed: int,
@@ -150,7 +186,6 @@ def testgen(
         from checker.conform.cover.coverage import Effort
         from checker.conform.cover.goals import Kind
 
-        asked = Asked(
-            names, tuple(Kind(kind) for kind in kinds), format, Effort(timeout, ticks, jobs, seed), kept
-        )
+        wanted = tuple(map(Kind, kinds)) or (tuple(Kind) if keep else (Kind.ARROWS,))
+        asked = Asked(names, wanted, format, Effort(timeout, ticks, jobs, seed), kept, keep)
         return run(asked, output, as_json)

@@ -54,6 +54,48 @@ def test_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert {"id", "verdict", "as_on_record", "ticks", "ticks_tested"} <= found["properties"][0].keys()
 
 
+def test_another_reading_explains_another_log(capsys: pytest.CaptureFixture[str]) -> None:
+    good = str(EXAMPLES / "good.csv")
+    assert conform(good, "--reading", "S43=AND") is Exit.CHANGED
+    printed = capsys.readouterr().out
+    assert (
+        "under S43=AND" in printed
+        and "1 distinct deviation" in printed
+        and "Relay: in B1_actuating" in printed
+    )
+    assert conform(good, "--reading", "S43=OR", "--json") is Exit.AS_EXPECTED
+    assert json.loads(capsys.readouterr().out)["charts"] == "under S43=OR"
+
+
+def test_a_repair_is_compared_with_and_its_promises_are_expected(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "one.csv").write_bytes((EXAMPLES / "good.csv").read_bytes())
+    assert conform(str(tmp_path), "--repair", "relay-without-delay") is Exit.CHANGED
+    assert "with relay-without-delay" in capsys.readouterr().out
+    conform(str(tmp_path), "--repair", "relay-without-delay", "--json")
+    [found] = json.loads(capsys.readouterr().out)["logs"]
+    [broken] = [p for p in found["properties"] if p["id"] == "PB1-15"]
+    assert broken["verdict"] == "violated" and not broken["as_on_record"]
+    assert [d["outputs"] for d in found["deviations"]] == [["give_b2_actuation"]]
+
+
+@pytest.mark.parametrize(
+    ("option", "value", "says"),
+    [
+        ("--reading", "S43=any", "leaves the sentence open"),
+        ("--reading", "S43=NAND", "has no choice 'NAND'"),
+        ("--reading", "S34=PARTIAL", "at the default readings only"),
+        ("--repair", "relay-with-delay", "Did you mean 'relay-without-delay'"),
+    ],
+)
+def test_charts_that_no_log_is_compared_with(
+    option: str, value: str, says: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert conform(str(EXAMPLES / "good.csv"), option, value) is Exit.USAGE
+    assert says in " ".join(capsys.readouterr().err.split())
+
+
 def test_what_cannot_be_decided_is_no_pass(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     inputs = [s.name for s in boards()["board1"].inputs if s.name != "now_ms"]
     log = written(tmp_path, copied(long_log("board1")[:400]), inputs)

@@ -9,6 +9,9 @@ import pytest
 
 from checker.cli import run
 from checker.commands.codes import Exit
+from checker.conform.cross import check
+from checker.conform.cross.recorded import counterexamples
+from spec_model.abstraction import boards
 from tests.conform import cross_faults
 
 FAULTS = Path(cross_faults.__file__)
@@ -58,19 +61,65 @@ def test_results_for_machines(capsys: pytest.CaptureFixture[str], tmp_path: Path
     assert result["arrows"]["taken"] + len(result["arrows"]["missing"]) == result["arrows"]["all"]
 
 
-def test_an_implementation_that_crashes_is_inconclusive(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path
-) -> None:
+def test_a_crash_is_a_finding_that_becomes_a_test(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     fault = f"python:{FAULTS}:Crashing"
     code = crosscheck("--system", "board2", "--impl", fault, "--examples", "0", "-o", str(tmp_path))
     said = capsys.readouterr().out
-    assert code is Exit.INCONCLUSIVE
-    assert "nobody steers" in said and "step" in said and "inconclusive" in said
+    assert code is Exit.CHANGED
+    assert "nobody steers" in said and "inputs that are not calm" in said
+    assert "does not conform (3 runs not survived, then the search gave up)" in " ".join(said.split())
+    [written] = tmp_path.glob("crosscheck_board2_*.py")
+    assert f"pytest {written}" in said
+    assert pytest.main(["-q", "-p", "no:cacheprovider", str(written)]) is pytest.ExitCode.TESTS_FAILED
+    assert "ImplementationError" in capsys.readouterr().out
+
+
+DYING = """
+import json, os, signal, sys
+for line in sys.stdin:
+    steps = 0 if "reset" in json.loads(line) else steps + 1
+    if steps > 20:
+        os.kill(os.getpid(), signal.SIGSEGV)
+    print(json.dumps({} if "reset" in json.loads(line) else {"stop_pin": False}), flush=True)
+"""
+
+
+def test_a_command_that_dies_is_a_finding_and_what_it_answered_before_counts(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    program, tests = tmp_path / "dying.py", tmp_path / "tests"
+    program.write_text(DYING, encoding="utf-8")
+    asked = ["--system", "board2", "--impl", f"command:{sys.executable} {program}"]
+    code = crosscheck(*asked, "--examples", "0", "--json", "-o", str(tests))
+    [result] = json.loads(capsys.readouterr().out)["results"]
+    assert code is Exit.CHANGED
+    assert all("SIGSEGV" in failure["message"] for failure in result["failures"])
+    assert {f["step"] for f in result["failures"]} == {21}
+    assert result["failures"][0]["inputs"].keys() == {s.name for s in boards()["board2"].inputs}
+    assert Path(result["failures"][0]["test"]).is_file()
+
+
+def test_other_charts_require_something_else(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On the recorded runs alone, which is quicker."""
+    monkeypatch.setattr(check, "known_runs", lambda env: counterexamples(env.board))
+    asked = ["--system", "board1", "--examples", "0", "--repair", "relay-without-delay"]
+    assert crosscheck(*asked, "-o", str(tmp_path)) is Exit.CHANGED
+    said = " ".join(capsys.readouterr().out.split())
+    assert "charts under S45=IMMEDIATE with relay-without-delay; 0 random runs" in said
+    assert "give_b2_actuation differs" in said
+    written = min(tmp_path.glob("crosscheck_board1_*.py"))
+    charts = 'readings={"S45": "IMMEDIATE"}, repair="relay-without-delay")'
+    assert charts in written.read_text(encoding="utf-8")
+    assert pytest.main(["-q", "-p", "no:cacheprovider", str(written)]) is pytest.ExitCode.TESTS_FAILED
 
 
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
+        (["--reading", "S43=any"], "leaves the sentence open"),
+        (["--repair", "relay-with-delay"], "relay-without-delay"),
         (["--system", "board3"], "No board 'board3'"),
         (["--impl", "python:a:B"], "write --system"),
         (["--system", "board1", "--impl", "nonsense"], "names no implementation"),

@@ -6,8 +6,14 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
+from checker.commands import generating
 from checker.commands.codes import Exit
 from checker.commands.generating import Saying
+from checker.conform.cover.fingerprint import fingerprint
+from checker.conform.cover.generate import Aim
+from checker.conform.cover.keep import Kept, kept_of, written
+from checker.conform.cover.watch import watched
+from tests.conform.cover_toys import SYSTEM, TOY
 
 
 def test_the_kept_tests_are_written_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -83,3 +89,43 @@ def test_ctrl_c_writes_what_was_found(
     said = capsys.readouterr().out
     assert "Interrupted: this is what was found so far." in said
     assert (tmp_path / "board1_001.csv").exists()
+
+
+# --- a kept set goes on --------------------------------------------------------------------------------
+
+
+@pytest.fixture
+def toy_kept(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The toy board in place of the rover's; nothing is kept of it yet."""
+    goals = watched(TOY.system).goals
+    monkeypatch.setattr(generating, "aims", lambda names, kinds: [Aim(TOY, goals)])
+    monkeypatch.setattr(generating, "systems", lambda: {TOY.name: SYSTEM})
+    monkeypatch.setattr(generating, "kept_text", lambda name: written(TOY, Kept(())))
+
+
+EFFORT = ["--ticks", "400", "--jobs", "1"]
+
+
+@pytest.mark.usefixtures("toy_kept")
+def test_a_set_is_kept_and_gone_on_from(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    place = tmp_path / "new" / "toy.json"
+    assert run(["testgen", "--keep", str(tmp_path / "new"), *EFFORT]) is Exit.AS_EXPECTED
+    first = place.read_text(encoding="utf-8")
+    assert kept_of(TOY, first).charts == fingerprint(TOY, SYSTEM)
+    said = capsys.readouterr().out
+    assert f"{len(kept_of(TOY, first).tests)} tests of" in said and "in the set of" in said
+    assert run(["testgen", "--keep", str(tmp_path / "new"), "--ticks", "0"]) is Exit.AS_EXPECTED
+    assert place.read_text(encoding="utf-8") == first
+
+
+@pytest.mark.usefixtures("toy_kept")
+def test_a_set_that_is_none_is_left_as_it_is(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    (tmp_path / "toy.json").write_text("{}", encoding="utf-8")
+    assert run(["testgen", "--keep", str(tmp_path), *EFFORT]) is Exit.USAGE
+    assert "Cannot go on from" in capsys.readouterr().err
+    assert (tmp_path / "toy.json").read_text(encoding="utf-8") == "{}"
+
+
+def test_to_keep_and_to_write_what_is_kept_are_two_things(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["testgen", "--kept", "--keep", "somewhere"]) is Exit.USAGE
+    assert "leave one out" in capsys.readouterr().err

@@ -1,24 +1,29 @@
 """Goals, searches and the choice of tests, on a toy board and on the boards as drawn."""
 
+from dataclasses import replace
 from random import Random
 
 import pytest
 
-from checker.conform.cover.coverage import Coverage, Effort, cover
+from checker.conform.cover.coverage import NOT_TRIED, Coverage, Effort, chosen, cover
 from checker.conform.cover.explore import Machine, Place, explored, first_reached, shortened
+from checker.conform.cover.fingerprint import fingerprint
 from checker.conform.cover.goals import Goal, Kind
-from checker.conform.cover.keep import kept_of, written
+from checker.conform.cover.keep import Kept, kept_of, written
 from checker.conform.cover.replay import first_reached as replayed
 from checker.conform.cover.replay import played
 from checker.conform.cover.scripts import Script, blocks, script, steps, unfolded
 from checker.conform.cover.search import Found, Uncoverable
 from checker.conform.cover.watch import watched
 from checker.conform.cover.weather import Weather
-from spec_model.abstraction import boards
+from spec_model.abstraction import Board, boards
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Block
 from spec_model.lang.errors import ModelError
 from spec_model.lang.interpret import Interpreter
+from spec_model.lang.system import System, in_order
 from spec_model.rover import systems
-from tests.conform.cover_toys import AFTER_NEVER, NEVER, SYSTEM, TOY
+from tests.conform.cover_toys import AFTER_NEVER, NEVER, SYSTEM, TOY, lamp, lit, press
 
 LOOKED = watched(TOY.system)
 BOTH = ["board1", "board2"]
@@ -191,6 +196,70 @@ def test_a_false_claim_is_not_kept() -> None:
 def test_without_a_search_all_is_unknown() -> None:
     goals: tuple[Goal, ...] = LOOKED.goals
     assert Coverage(TOY, goals).unknown.keys() == {g.id for g in goals}
+
+
+def test_a_test_takes_the_shortest_run_where_one_is_known(covered: Coverage) -> None:
+    tests = covered.kept().tests
+    for goal in covered.shortest:
+        (script,) = [script for _, goals, script in tests if goal in goals]
+        assert first_reached(covered.machine, script)[goal] == covered.covered[goal]
+
+
+def test_a_goal_reached_sooner_by_another_run_is_left_to_that_one() -> None:
+    coverage = Coverage(TOY, LOOKED.goals)
+    both, soon = toy("0001111"), toy("01")
+    on = "Lamp.arrow.2"
+    coverage.scripts += [(both, {on: 4, "Lamp.arrow.4": 7}), (soon, {on: 2})]
+    coverage.answers[on] = Found(on, soon, "bmc", shortest=True)
+    assert {goals for _, goals, _ in chosen(coverage)} == {("Lamp.arrow.4",), (on,)}
+
+
+# --- going on from what is kept -------------------------------------------------------------------------
+
+
+def test_going_on_asks_for_nothing_that_is_settled(
+    covered: Coverage, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    again = Coverage(TOY, LOOKED.goals)
+    again.go_on(covered.kept("as drawn"), "as drawn")
+    assert again.settled == again.wanted
+    asked: list[Goal] = []
+
+    def search(board: Board, model: System, goals: list[Goal], *limits: object) -> tuple[()]:
+        asked.extend(goals)
+        return ()
+
+    monkeypatch.setattr("checker.conform.cover.coverage.searched", search)
+    cover(again, SYSTEM, Effort(ticks=0), lambda line: None)
+    assert asked == [] and again.kept("as drawn") == covered.kept("as drawn")
+
+
+def test_proofs_and_shortest_runs_of_other_charts_are_not_taken_over(covered: Coverage) -> None:
+    again = Coverage(TOY, LOOKED.goals)
+    again.go_on(covered.kept("as drawn"), "drawn anew")
+    assert again.covered.keys() == covered.covered.keys()
+    assert not again.uncoverable and not again.shortest and NEVER in again.unknown
+
+
+def test_why_a_goal_is_unknown_is_remembered_until_something_else_is_known() -> None:
+    again = Coverage(TOY, LOOKED.goals)
+    again.go_on(Kept((), unknown={NEVER: "too long"}), "")
+    assert again.unknown[NEVER] == "too long" and again.unknown[AFTER_NEVER] == NOT_TRIED
+    again.answers[NEVER] = Uncoverable.of(NEVER, "Lamp alone: explicit, all 5 valuations, twice")
+    assert NEVER not in again.unknown
+    assert again.uncoverable[NEVER].because == "all 5 valuations, twice"
+    assert again.kept().uncoverable[NEVER] == "Lamp alone: explicit, all 5 valuations, twice"
+
+
+def test_a_fingerprint_is_of_the_charts_and_of_nothing_else() -> None:
+    told, more = (
+        replace(SYSTEM, text="In other words"),
+        in_order("toy", lamp, Block("More", [assign(lit, False)])),
+    )
+    assert fingerprint(TOY, SYSTEM) == fingerprint(TOY, told)
+    assert fingerprint(TOY, SYSTEM) != fingerprint(TOY, more)
+    assert fingerprint(TOY, SYSTEM) != fingerprint(replace(TOY, system=more), SYSTEM)
+    assert fingerprint(TOY, SYSTEM) != fingerprint(TOY, replace(SYSTEM, assume=~press))
 
 
 def test_answers_say_where_runs_come_from(covered: Coverage) -> None:

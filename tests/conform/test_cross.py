@@ -6,14 +6,16 @@ from pathlib import Path
 import pytest
 
 from checker.conform.adapters import python
-from checker.conform.cross import Mismatch, cross_check, quick_check, replay
+from checker.conform.cross import Mismatch, cross_check, effort, quick_check, replay
+from checker.conform.cross.beside import rerun
 from checker.conform.cross.check import recorded_suite
 from checker.conform.cross.coverage import arrows
 from checker.conform.cross.reproduce import file_name, pytest_file, stimulus_of
 from checker.conform.cross.result import SHOWN
+from checker.conform.cross.search import FAILURES, Search
 from checker.conform.cross.smaller import Budget, smaller
 from checker.conform.cross.strategy import ENVIRONMENTS
-from checker.conform.implementation import Implementation, Values
+from checker.conform.implementation import Implementation, ImplementationError, Values
 from spec_model.abstraction import boards
 from tests.conform import cross_faults
 from tests.conform.cross_faults import FAULTS
@@ -115,11 +117,50 @@ def test_an_implementation_without_outputs_is_inconclusive() -> None:
     assert len(result.uncompared) == len(boards()["board2"].outputs)
 
 
-def test_a_crash_names_the_step_and_other_runs_go_on() -> None:
+def test_a_crash_is_a_finding_with_its_step_and_other_runs_go_on() -> None:
     result = cross_check("board2", running("board2", f"{HERE}:Crashing"), examples=0)
-    assert result.failures and not result.conforms and not result.conclusive
-    assert "step" in result.failures[0].message and "nobody steers" in result.failures[0].message
+    assert result.failures and result.differs and not result.conforms
+    first = result.failures[0]
+    assert f"step {first.tick}:" in first.message and "nobody steers" in first.message
     assert result.coverage.runs > len(result.failures)
+    again = rerun(first.board, [step.inputs for step in first.steps])
+    assert again[-1].expected["esp_status"] == 2
+
+
+class Dying:
+    """Fails in the sixth step, after a wrong status in an earlier one, if any."""
+
+    def __init__(self, board: str, wrong: int = 0) -> None:
+        self._wrong = wrong
+        self._one = python.start(OURS[board], boards()[board], isolated=False)
+        self._steps = 0
+
+    def reset(self) -> None:
+        self._one.reset()
+        self._steps = 0
+
+    def step(self, inputs: Values) -> Values:
+        self._steps += 1
+        if self._steps == 6:
+            raise ImplementationError("broken", 6)
+        found = dict(self._one.step(inputs))
+        if self._steps == self._wrong:
+            found["rover_safety_state"] = 1 - int(found["rover_safety_state"])
+        return found
+
+    def close(self) -> None: ...
+
+
+def test_what_differs_before_a_crash_is_found_all_the_same() -> None:
+    result = cross_check("board1", Dying("board1", wrong=4), examples=0, budget=0)
+    assert len(result.failures) == FAILURES and {f.tick for f in result.failures} == {6}
+    assert result.mismatches and {m.tick for m in result.mismatches} == {4}
+
+
+def test_crashes_in_random_runs_alone_end_the_search() -> None:
+    search = Search(ENVIRONMENTS["board1"], Dying("board1"), effort("ci", 50), budget=0)
+    result = search.run()
+    assert len(result.failures) == FAILURES and search.tried <= 50
 
 
 def test_ctrl_c_keeps_what_was_found() -> None:

@@ -2,6 +2,7 @@
 
 from fractions import Fraction
 
+import numpy as np
 import pytest
 
 from checker.conform.cross.aims import aims
@@ -11,7 +12,8 @@ from checker.conform.cross.fixed import fixed
 from checker.conform.cross.smaller import columns
 from checker.conform.cross.stimulus import SILENT, Block, Every, Player, Stimulus, Toward
 from checker.conform.cross.strategy import ENVIRONMENTS
-from spec_model.abstraction import boards
+from checker.conform.cross.values import nearest
+from spec_model.abstraction import Value, boards
 from spec_model.abstraction.stamps import CLOCK
 from spec_model.lang.expr import Temporal
 from spec_model.lang.walk import nodes
@@ -80,6 +82,54 @@ def test_every_boundary_is_met_at_it_and_on_both_sides(board: str) -> None:
             assert value in put[b.signal]
             assert value <= signal.low or any(value - 1 <= v < value for v in put[b.signal])
             assert value >= signal.high or any(value < v <= value + 1 for v in put[b.signal])
+
+
+@pytest.mark.parametrize("board", BOARDS)
+def test_both_sides_of_every_boundary_have_several_values(board: str) -> None:
+    """The nearest that firmware may tell apart, others close to it, and some far away."""
+    env = ENVIRONMENTS[board]
+    for b in env.values.aims.boundaries:
+        if b.datum or b.source:
+            continue
+        signal, values = env.values.signals[b.signal], env.values.aimed[b.signal]
+        below, above = [v for v in values if v < b.value], [v for v in values if v > b.value]
+        sides: list[tuple[float, list[Value]]] = [(signal.low, below), (signal.high, above)]
+        for end, side in sides:
+            close = [v for v in side if abs(v - float(b.value)) <= 2]
+            room = abs(end - float(b.value))
+            assert len(close) >= (2 if room >= 2 else 1 if room else 0), (b, side)
+            assert b.value == end or any(abs(v - end) < 1 for v in side)
+
+
+@pytest.mark.parametrize(
+    ("signal", "boundary"), [("temperature_degC", "60"), ("temperature_degC", "-5"), ("battery_pct", "15"),
+                             ("wheel_speed_rpm_FL", "2.5"), ("y_norm", "-0.5"), ("x_norm", "0.1")],
+)  # fmt: skip
+def test_the_nearest_values_are_neighbours_in_single_precision(signal: str, boundary: str) -> None:
+    at = Fraction(boundary)
+    below, above = (float(v) for v in nearest(ENVIRONMENTS["board1"].values.signals[signal], at))
+    assert below < at < above
+    assert below == float(np.float32(below)) and above == float(np.float32(above))
+    between = np.nextafter(np.float32(below), np.float32(np.inf))
+    assert between == above or np.nextafter(between, np.float32(np.inf)) == above
+
+
+def test_next_to_zero_nothing_vanishes_that_is_multiplied() -> None:
+    below, above = nearest(ENVIRONMENTS["board1"].values.signals["y_norm"], Fraction(0))
+    assert -1e-6 < below < 0 < above < 1e-6 and np.float32(above) * np.float32(above) > 0
+
+
+def test_firmware_that_holds_whole_numbers_or_eighths_has_no_nearer_ones() -> None:
+    assert list(nearest(ENVIRONMENTS["board2"].values.signals["d2"], Fraction(70))) == []
+    assert list(nearest(ENVIRONMENTS["board2"].values.signals["yaw"], Fraction(45))) == []
+
+
+def test_ages_are_tried_a_millisecond_to_either_side_of_their_limit() -> None:
+    env = ENVIRONMENTS["board1"]
+    lags = {lag for rhythm in env.lags for lag in rhythm.lags_ms}
+    for stamp, limits in env.values.aims.silences.items():
+        ages = {lag + 20 * k for lag in lags for k in range(max(env.silences(stamp)) + 1)}
+        assert {20 * n + d for n in limits for d in (-20, -1, 0, 1, 20)} <= ages
 
 
 @pytest.mark.parametrize("board", BOARDS)

@@ -168,7 +168,7 @@ def test_verdicts_are_those_of_the_reduced_monitors(board: str, tmp_path: Path) 
 
 
 def _raw(output: Output, value: float) -> int:
-    raw = converter(Column(output.name), output.signal, False, False)(repr(float(value)))
+    (raw,) = converter(Column(output.name), output.signal, False, False)([repr(float(value))])
     assert raw is not None
     return computed({"": raw})[""]
 

@@ -127,7 +127,9 @@ def check_names(found: Mapping[str, Value], names: Collection[str]) -> None:
 def failure(address: str, step: int, what: str, more: str = "") -> ImplementationError:
     """What went wrong at a step, counted from power-up, which is 0."""
     where = f"step {step}" if step else "at power-up"
-    return ImplementationError(f"{address}: {where}: {what if what[-1:] in '.?!' else what + '.'}{more}")
+    return ImplementationError(
+        f"{address}: {where}: {what if what[-1:] in '.?!' else what + '.'}{more}", step
+    )
 
 
 def ours(module: str, options: Mapping[str, object], limits: Limits) -> Channel:

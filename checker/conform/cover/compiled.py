@@ -20,11 +20,16 @@ DEEPEST = 40
 
 def compiled(system: TransitionSystem) -> Step:
     """The step of a transition system as a function."""
-    source = _Source()
-    source.function("step", system.step)
     found: dict[str, Step] = {}
-    exec("\n".join(source.lines), found)
+    exec(source(system), found)
     return found["step"]
+
+
+def source(system: TransitionSystem) -> str:
+    """The text of that function."""
+    text = _Source()
+    text.function("step", system.step)
+    return "\n".join(text.lines)
 
 
 class _Source:

@@ -1,6 +1,6 @@
 """From goals to few short tests: searches in turn, what they leave open, and a greedy choice among runs."""
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from random import Random
 
@@ -17,8 +17,6 @@ from spec_model.abstraction import Board
 from spec_model.lang.system import System
 
 NOT_TRIED = "not searched: the time was over"
-REFUTED = 10.0
-"""Seconds that a proof about one part alone may take, at most."""
 SHORTENING = 3000
 """Ticks that are run to shorten one random run."""
 
@@ -41,6 +39,8 @@ class Coverage:
     goals: tuple[Goal, ...]
     scripts: list[tuple[Script, dict[str, int]]] = field(default_factory=list)
     answers: dict[str, Answer] = field(default_factory=dict)
+    before: Mapping[str, str] = field(default_factory=dict)
+    """Why goals were unknown in an earlier generation."""
 
     def __post_init__(self) -> None:
         self.machine = Machine(self.board, watched(self.board.system, {g.kind for g in self.goals}))
@@ -70,11 +70,18 @@ class Coverage:
         return {a.goal for a in exact if lengths.get(a.goal) == len(a.script)}
 
     @property
+    def settled(self) -> set[str]:
+        """The goals of which nothing is left to find out: arrows also want a run as short as any."""
+        loose = {g.id for g in self.goals if g.kind is Kind.ARROWS} - self.shortest
+        return (self.covered.keys() - loose) | self.uncoverable.keys()
+
+    @property
     def unknown(self) -> dict[str, str]:
         """The goals that are left, and why."""
         left = self.wanted - self.covered.keys() - self.uncoverable.keys()
         reasons = {id: a.reason for id, a in self.answers.items() if isinstance(a, Open)}
-        return {g.id: reasons.get(g.id, NOT_TRIED) for g in self.goals if g.id in left}
+        known = {**self.before, **reasons}
+        return {g.id: known.get(g.id, NOT_TRIED) for g in self.goals if g.id in left}
 
     def of(self, ids: Iterable[str]) -> list[Goal]:
         """The goals with these ids, as drawn."""
@@ -86,43 +93,59 @@ class Coverage:
         if all(script != known for known, _ in self.scripts):
             self.scripts.append((script, first_reached(self.machine, script)))
 
-    def kept(self) -> Kept:
+    def go_on(self, kept: Kept, charts: str) -> None:
+        """Begin with the tests of an earlier generation; with what it proved, if the charts are the same."""
+        for _, _, script in kept.tests:
+            self.add(script)
+        self.before = kept.unknown
+        if kept.charts == charts:
+            proved, shortest = kept.uncoverable.items(), self.covered.keys() & kept.shortest
+            self.answers |= {id: Uncoverable.of(id, how) for id, how in proved if id in self.wanted}
+            self.answers |= {id: self._as_before(id) for id in sorted(shortest)}
+
+    def _as_before(self, goal: str) -> Found:
+        length = self.covered[goal]
+        script = next(script for script, reached in self.scripts if reached.get(goal) == length)
+        return Found(goal, script[:length], "kept", True)
+
+    def kept(self, charts: str = "") -> Kept:
         """Few tests that reach what is covered, and what is known of the other goals.
 
         Raises ``ReplayError`` if the interpreter does not confirm that a test reaches its goals.
         """
         tests = tuple(chosen(self))
         _confirmed(self, tests)
-        proved = {id: f"{a.system}: {a.engine}, {a.because}" for id, a in self.uncoverable.items()}
-        shortest = tuple(g.id for g in self.goals if g.id in self.shortest)
-        return Kept(tests, shortest, proved, self.unknown)
+        proved = {id: a.text for id, a in self.uncoverable.items()}
+        shortest = self.shortest
+        return Kept(tests, tuple(g.id for g in self.goals if g.id in shortest), proved, self.unknown, charts)
 
 
 Tell = Callable[[str], None]
 
 
-def cover(coverage: Coverage, model: System, effort: Effort, tell: Tell) -> None:
-    """Search for all goals: short runs by engines to arrows, random runs, engines again for what is left.
+def cover(
+    coverage: Coverage, model: System, effort: Effort, tell: Tell, only: Collection[str] | None = None
+) -> None:
+    """Search for the goals not settled: engines for short runs to arrows, random runs, engines for the rest.
 
-    ``model`` is the board with its environment.  ``coverage`` holds what was found, also when this is
-    interrupted.
+    ``model`` is the board with its environment; ``only``: search for goals of these ids alone.  ``coverage``
+    holds what was found, also when this is interrupted.
     """
-    arrows = [g for g in coverage.goals if g.kind is Kind.ARROWS]
+    asked = [g for g in coverage.goals if only is None or g.id in only]
+    arrows = [g for g in asked if g.kind is Kind.ARROWS and g.id in coverage.unknown]
     _by_engines(coverage, model, arrows, effort, tell)
-    _by_weather(coverage, effort, tell)
-    left = coverage.of(coverage.unknown)
-    for answer in refuted(coverage.board, left, Limits(seconds=min(effort.seconds, REFUTED)), effort.jobs):
+    _by_weather(coverage, {g.id for g in asked}, effort, tell)
+    left = [g for g in asked if g.id in coverage.unknown]
+    for answer in refuted(coverage.board, left, Limits(seconds=effort.seconds), effort.jobs):
         _note(coverage, answer, tell)
-    _by_engines(coverage, model, [g for g in coverage.of(coverage.unknown) if g not in arrows], effort, tell)
+    loose = coverage.wanted - coverage.settled
+    rest = [g for g in asked if g.id in loose and g not in arrows]
+    _by_engines(coverage, model, sorted(rest, key=lambda g: g not in left), effort, tell)
 
 
 def _by_engines(coverage: Coverage, model: System, goals: Sequence[Goal], effort: Effort, tell: Tell) -> None:
-    for part in dict.fromkeys(g.part for g in goals):
-        left = coverage.unknown
-        mine = [g for g in goals if g.part == part and (g.id in left or g.kind is Kind.ARROWS)]
-        limits = Limits(seconds=effort.seconds)
-        for answer in searched(coverage.board, model, mine, limits, effort.jobs):
-            _note(coverage, answer, tell)
+    for answer in searched(coverage.board, model, goals, Limits(seconds=effort.seconds), effort.jobs):
+        _note(coverage, answer, tell)
 
 
 def _note(coverage: Coverage, answer: Answer | Saying, tell: Tell) -> None:
@@ -146,9 +169,9 @@ def _astray(found: Found) -> Open:
     return Open(found.goal, f"a run of {steps_} ticks by {found.engine} misses it with the board's inputs")
 
 
-def _by_weather(coverage: Coverage, effort: Effort, tell: Tell) -> None:
+def _by_weather(coverage: Coverage, asked: Collection[str], effort: Effort, tell: Tell) -> None:
     known = [script for script, _ in coverage.scripts]
-    wanted = coverage.unknown
+    wanted = coverage.unknown.keys() & asked
     for find in explored(coverage.machine, wanted, Random(effort.seed), effort.ticks, known):
         coverage.add(shortened(coverage.machine, find.script, find.goals, SHORTENING))
         tell(f"random runs: {len(coverage.covered)} of {len(coverage.goals)} goals reached")
@@ -176,13 +199,21 @@ def _confirmed(coverage: Coverage, tests: Iterable[tuple[str, tuple[str, ...], S
 
 
 def _greedy(coverage: Coverage) -> Iterator[tuple[Script, tuple[str, ...]]]:
-    left = set(coverage.covered)
+    left, scripts = set(coverage.covered), list(_as_short_as_known(coverage))
     while left:
-        script, reached = max(coverage.scripts, key=lambda found: _worth(found[1], left))
+        script, reached = max(scripts, key=lambda found: _worth(found[1], left))
         new = left & reached.keys()
         left -= new
         ordered = tuple(sorted(new, key=lambda id: (reached[id], id)))
         yield script[: reached[ordered[-1]]], ordered
+
+
+def _as_short_as_known(coverage: Coverage) -> Iterator[tuple[Script, dict[str, int]]]:
+    """The scripts; a goal whose shortest run is known counts only for those that reach it as soon."""
+    lengths = coverage.covered
+    soonest = {id: lengths[id] for id in coverage.shortest}
+    for script, reached in coverage.scripts:
+        yield script, {id: step for id, step in reached.items() if step <= soonest.get(id, step)}
 
 
 def _worth(reached: Mapping[str, int], left: set[str]) -> tuple[float, int]:

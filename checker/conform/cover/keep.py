@@ -15,13 +15,15 @@ FORMAT = 1
 class Kept:
     """What is kept of a generation: the tests, and what is known of the goals that none of them reaches.
 
-    ``shortest`` are goals reached by a test after as few steps as any run needs.
+    ``shortest`` are goals reached by a test after as few steps as any run needs; ``charts`` is the
+    fingerprint of the charts of which that and the proofs were found.
     """
 
     tests: tuple[tuple[str, tuple[str, ...], Script], ...]
     shortest: tuple[str, ...] = ()
     uncoverable: Mapping[str, str] = field(default_factory=dict)
     unknown: Mapping[str, str] = field(default_factory=dict)
+    charts: str = ""
 
 
 def written(board: Board, kept: Kept) -> str:
@@ -34,7 +36,8 @@ def written(board: Board, kept: Kept) -> str:
     rest = {"shortest": kept.shortest, "uncoverable": dict(kept.uncoverable), "unknown": dict(kept.unknown)}
     more = "".join(f',\n"{key}": {json.dumps(value, indent=1)}' for key, value in rest.items())
     tests = ",\n".join(shown)
-    return f'{{"format": {FORMAT}, "board": {json.dumps(board.name)}, "tests": [\n{tests}\n]{more}}}\n'
+    head = f'"format": {FORMAT}, "board": {json.dumps(board.name)}, "charts": {json.dumps(kept.charts)}'
+    return f'{{{head}, "tests": [\n{tests}\n]{more}}}\n'
 
 
 def kept_of(board: Board, text: str) -> Kept:
@@ -45,7 +48,8 @@ def kept_of(board: Board, text: str) -> Kept:
             raise ModelError(f"These are no tests of {board.name} in format {FORMAT}; generate them again.")
         tests = [(t["name"], tuple(t["goals"]), unfolded(board, t["held"])) for t in document["tests"]]
         shortest = tuple(document["shortest"])
-        return Kept(tuple(tests), shortest, document["uncoverable"], document["unknown"])
+        proved, unknown = document["uncoverable"], document["unknown"]
+        return Kept(tuple(tests), shortest, proved, unknown, document.get("charts", ""))
     except (ValueError, KeyError, TypeError) as error:
         raise ModelError(
             f"These are no tests that rovercheck keeps: {error}. Generate them again."

@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass
+from itertools import groupby
 
 from checker.conform.cover.goals import Goal, Kind, Watched
 from checker.conform.cover.scripts import Script, script
@@ -43,6 +44,18 @@ class Uncoverable:
     system: str
     engine: str
     because: str
+
+    @property
+    def text(self) -> str:
+        """``Relay alone: explicit, all 154 valuations``."""
+        return f"{self.system}: {self.engine}, {self.because}"
+
+    @staticmethod
+    def of(goal: str, text: str) -> "Uncoverable":
+        """What was written as ``text``."""
+        system, _, how = text.partition(": ")
+        engine, _, because = how.partition(", ")
+        return Uncoverable(goal, system, engine, because)
 
 
 @dataclass(frozen=True)
@@ -112,10 +125,9 @@ def _verdicts(
     found = {(g.id, g.text): g for g in looked.goals}
     same = [g for g in goals if (g.id, g.text) in found]
     yield from ((g.id, Unknown(OTHERWISE, 0, "none")) for g in goals if g not in same)
-    properties = [_property(found[g.id, g.text], system) for g in same]
     todo = [
-        Task(looked.system, tuple(properties[first : first + TOGETHER]))
-        for first in range(0, len(properties), TOGETHER)
+        Task(looked.system, tuple(_property(found[g.id, g.text], system) for g in together))
+        for together in _together(same)
     ]
     with closing(searches(todo, {system.name: looked.system}, AUTO, limits, jobs)) as heard:
         for one in heard:
@@ -126,6 +138,13 @@ def _verdicts(
                     pass
                 case _:
                     yield one.property.id, one.verdict
+
+
+def _together(goals: Sequence[Goal]) -> Iterator[Sequence[Goal]]:
+    """Some goals of one part at a time."""
+    for _, found in groupby(goals, lambda g: g.part):
+        mine = list(found)
+        yield from (mine[first : first + TOGETHER] for first in range(0, len(mine), TOGETHER))
 
 
 def _looked(system: System, goals: Sequence[Goal]) -> Watched:

@@ -42,8 +42,8 @@ class _Wanted:
 
 def _component(component: Component, wanted: _Wanted) -> Component:
     match component:
-        case Enabled(by=by, components=inside):
-            return Enabled(by, *(_component(c, wanted) for c in inside))
+        case Enabled(by=by, components=inside, name=name):
+            return Enabled(by, *(_component(c, wanted) for c in inside), name=name)
         case Block():
             goals = _Goals(component.name, wanted)
             return Block(component.name, goals.actions(component.do, component.name), text=component.text)

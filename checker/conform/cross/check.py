@@ -1,6 +1,7 @@
 """Cross-checking from Python: one board, one implementation, one result."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from functools import cache
 from itertools import chain, count
 from pathlib import Path
@@ -18,7 +19,10 @@ from checker.conform.cross.stimulus import Stimulus
 from checker.conform.cross.strategy import ENVIRONMENTS
 from checker.conform.cross.suite import Suite, suite
 from checker.conform.implementation import Implementation
-from spec_model.abstraction import Board, boards
+from checker.conform.varied import named
+from spec_model.abstraction import Board
+
+AS_READ: Mapping[str, str] = {}
 
 
 def cross_check(
@@ -32,22 +36,25 @@ def cross_check(
     folder: Path | None = None,
     budget: int = BUDGET,
     progress: Progress = lambda search: None,
+    charts: Board | None = None,
 ) -> Result:
     """Compare an implementation of ``board1`` or ``board2`` with the charts.
 
     ``profile`` is ``ci`` or ``nightly``; ``examples`` and ``seed`` replace what it says.  With ``stop_early``
     the first mismatch ends the search, and is not made small.  ``folder`` holds further tests.
-    ``budget`` is how many steps may be spent on making one mismatch small.
+    ``budget`` is how many steps may be spent on making one mismatch small.  ``charts`` is the board with
+    changed charts; kept runs are inputs only, of which it is computed anew what they require.
     """
+    env = ENVIRONMENTS[board] if charts is None else replace(ENVIRONMENTS[board], board=charts)
     search = Search(
-        ENVIRONMENTS[board],
+        env,
         implementation,
         effort(profile, examples, seed),
         stop_early,
         budget=budget,
         progress=progress,
     )
-    return search.run(_known(board, folder))
+    return search.run(_known(env, folder))
 
 
 def quick_check(
@@ -63,15 +70,18 @@ def quick_check(
 @cache
 def recorded_suite(board: str, profile: str = "ci", examples: int | None = None) -> Suite:
     """The runs of a profile on a board, with what the charts require."""
-    return suite(ENVIRONMENTS[board], effort(profile, examples), _known(board, None))
+    return suite(ENVIRONMENTS[board], effort(profile, examples), _known(ENVIRONMENTS[board], None))
 
 
-def replay(board: str, address: str, stimulus: Stimulus) -> Mismatch | None:
+def replay(
+    board: str, address: str, stimulus: Stimulus, readings: Mapping[str, str] = AS_READ, repair: str = ""
+) -> Mismatch | None:
     """Run the implementation at an address ``KIND:WHAT`` and the charts under one stimulus.
 
+    The charts are those under ``readings``, with a repair if one is named.
     The first step in which they differ, or None.  Raises ``ImplementationError``.
     """
-    which = boards()[board]
+    which = named(readings, repair)[board]
     implementation = start(address, which)
     try:
         return compared(which, played(which, {}, stimulus), implementation)
@@ -79,9 +89,12 @@ def replay(board: str, address: str, stimulus: Stimulus) -> Mismatch | None:
         implementation.close()
 
 
-def _known(board: str, folder: Path | None) -> Iterable[Run]:
+def _known(env: Environment, folder: Path | None) -> Iterable[Run]:
     """The runs that are always tried: those of the project, then those of a folder."""
-    return chain(_of_the_project(board), tests(folder, boards()[board]) if folder else ())
+    name = env.board.name
+    as_drawn = env is ENVIRONMENTS[name]
+    ours = _of_the_project(name) if as_drawn else known_runs(env)
+    return chain(ours, tests(folder, env.board) if folder else ())
 
 
 class Remembered:

@@ -1,13 +1,16 @@
 """A mismatch as a test that anyone can run: a pytest file with the inputs in held blocks."""
 
+from collections.abc import Iterator, Mapping
 from hashlib import sha256
 from json import dumps
 
 from checker.conform.cross.beside import Mismatch
+from checker.conform.cross.result import Failure
 from checker.conform.cross.smaller import columns
 from checker.conform.cross.stimulus import SILENT, Block, Change, Every, Stimulus
 
 WIDTH = 100
+AS_READ: Mapping[str, str] = {}
 
 TEMPLATE = '''"""{title}
 
@@ -27,45 +30,68 @@ STIMULUS = Stimulus(
 
 
 def test_{board}_{output}() -> None:
-    mismatch = replay("{board}", IMPLEMENTATION, STIMULUS)
+    mismatch = replay("{board}", IMPLEMENTATION, STIMULUS{charts})
     assert mismatch is None, f"step {{mismatch.tick}}: {{mismatch.differences}}"
 '''
 
 
-def stimulus_of(mismatch: Mismatch) -> Stimulus:
-    """The inputs of a mismatch in held blocks."""
-    return columns(mismatch.board, [step.inputs for step in mismatch.steps]).stimulus()
+def stimulus_of(found: Mismatch | Failure) -> Stimulus:
+    """The inputs of a mismatch or a failure in held blocks."""
+    return columns(found.board, [step.inputs for step in found.steps]).stimulus()
 
 
-def file_name(mismatch: Mismatch) -> str:
+def file_name(found: Mismatch | Failure) -> str:
     """``crosscheck_board1_0a1b2c3d.py``: the same name for the same inputs and output."""
-    text = repr((stimulus_of(mismatch), mismatch.differences[0].name))
-    return f"crosscheck_{mismatch.board.name}_{sha256(text.encode()).hexdigest()[:8]}.py"
+    text = repr((stimulus_of(found), _subject(found)))
+    return f"crosscheck_{found.board.name}_{sha256(text.encode()).hexdigest()[:8]}.py"
 
 
-def pytest_file(mismatch: Mismatch, address: str) -> str:
-    """The text of the test.  ``address`` is that of the implementation, ``KIND:WHAT``."""
-    stimulus = stimulus_of(mismatch)
-    first = mismatch.differences[0]
-    signal = {o.name: o.signal for o in mismatch.board.outputs}
-    lines = [
-        f"Step {mismatch.tick}: {d.name} must be {signal[d.name].show(d.expected)}, and was "
-        f"{'missing' if d.actual is None else signal[d.name].show(d.actual)}."
-        for d in mismatch.differences
-    ]
+def _subject(found: Mismatch | Failure) -> str:
+    """The output that differs first, or that there is no answer."""
+    return found.differences[0].name if isinstance(found, Mismatch) else "answers"
+
+
+def pytest_file(
+    found: Mismatch | Failure, address: str, readings: Mapping[str, str] = AS_READ, repair: str = ""
+) -> str:
+    """The text of the test.
+
+    ``address`` is that of the implementation, ``KIND:WHAT``; ``readings`` and ``repair`` are those of the
+    charts.
+    """
+    stimulus = stimulus_of(found)
+    what = "is not what the charts require" if isinstance(found, Mismatch) else "fail"
     blocks = "\n".join(_block(block) for block in stimulus.blocks)
     names = ["Block", "Stimulus", "replay"]
     names += [word for word in ("SILENT", "Every") if word in blocks]
     return TEMPLATE.format(
-        title=f"{mismatch.board.name}: {first.name} is not what the charts require in step {mismatch.tick}.",
-        expected="\n".join(lines),
+        title=f"{found.board.name}: {_subject(found)} {what} in step {found.tick}.",
+        expected="\n".join(_told(found)),
         names=", ".join(sorted(names, key=lambda n: (not n.isupper(), n))),
         address=dumps(address),
         start=stimulus.start_ms,
         blocks=blocks,
-        board=mismatch.board.name,
-        output="".join(c if c.isalnum() else "_" for c in first.name),
+        charts=_charts(readings, repair),
+        board=found.board.name,
+        output="".join(c if c.isalnum() else "_" for c in _subject(found)),
     )
+
+
+def _charts(readings: Mapping[str, str], repair: str) -> str:
+    parts = [f"readings={dumps(dict(readings))}"] if readings else []
+    parts += [f"repair={dumps(repair)}"] if repair else []
+    return "".join(f", {part}" for part in parts)
+
+
+def _told(found: Mismatch | Failure) -> Iterator[str]:
+    """What must be, and what was."""
+    if isinstance(found, Failure):
+        yield ascii(found.message.splitlines()[0])[1:-1]
+        return
+    signal = {o.name: o.signal for o in found.board.outputs}
+    for d in found.differences:
+        was = "missing" if d.actual is None else signal[d.name].show(d.actual)
+        yield f"Step {found.tick}: {d.name} must be {signal[d.name].show(d.expected)}, and was {was}."
 
 
 def _block(block: Block) -> str:

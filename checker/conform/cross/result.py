@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from checker.conform.cross.beside import Mismatch
+from checker.conform.cross.beside import Mismatch, Step
 from checker.conform.cross.coverage import Arrow, Coverage, arrows
 from spec_model.abstraction import Board
 
@@ -13,10 +13,20 @@ SHOWN = 5
 
 @dataclass(frozen=True)
 class Failure:
-    """A run that the implementation did not survive, and what is to be said of it."""
+    """A run in which the implementation crashed, hung or answered without meaning, in its last step.
 
+    It has no steps where that happened at power-up.
+    """
+
+    board: Board
     origin: str
     message: str
+    steps: tuple[Step, ...] = ()
+
+    @property
+    def tick(self) -> int:
+        """The number of the step, from 1; 0 at power-up."""
+        return len(self.steps)
 
 
 @dataclass(frozen=True)
@@ -40,14 +50,19 @@ class Result:
 
     @property
     def conclusive(self) -> bool:
-        """Whether the runs that were asked for were made, and something was compared in them."""
+        """Whether the search came to its end, and something was compared in it."""
         nothing = len(self.uncompared) == len(self.board.outputs)
-        return not (self.failures or self.interrupted or nothing)
+        return not (self.interrupted or nothing)
+
+    @property
+    def differs(self) -> bool:
+        """Whether the implementation does something else than the charts: other outputs, or no answer."""
+        return bool(self.mismatches or self.failures)
 
     @property
     def conforms(self) -> bool:
         """Whether every output compared was as the charts require, in every run that was asked for."""
-        return self.conclusive and not self.mismatches
+        return self.conclusive and not self.differs
 
     @property
     def arrows(self) -> tuple[int, int]:

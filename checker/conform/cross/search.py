@@ -13,7 +13,7 @@ from checker.conform.cross.environment import Environment
 from checker.conform.cross.result import SHOWN, Failure, Result
 from checker.conform.cross.smaller import BUDGET, Budget, smaller
 from checker.conform.cross.stimulus import Stimulus
-from checker.conform.cross.strategy import strategy
+from checker.conform.cross.strategy import stimuli
 from checker.conform.implementation import Implementation, ImplementationError, Values, notes, run
 
 CI_SEED = 5
@@ -49,8 +49,8 @@ Run = tuple[str, list[Step]]
 Progress = Callable[["Search"], None]
 
 
-class Enough(Exception):
-    """Nothing more is to be tried."""
+class Enough(BaseException):
+    """Nothing more is to be tried; Hypothesis lets it through at once."""
 
 
 class _Found(Exception):
@@ -100,7 +100,7 @@ class Search:
             self.coverage,
             tuple(shown[:SHOWN]),
             len(self.found),
-            tuple(self.failures),
+            tuple(sorted(self.failures, key=lambda f: f.tick)),
             tuple(o.name for o in self.env.board.outputs if o.name not in self._seen),
             notes(self.implementation),
             self.effort.examples,
@@ -127,17 +127,25 @@ class Search:
         self.coverage.add(steps)
         self.record(origin, steps)
         try:
-            mismatch = compared(self.env.board, steps, _Listening(self.implementation, self._seen))
+            mismatch = self._compared(steps)
         except ImplementationError as error:
-            self.failures.append(Failure(origin, str(error)))
-            if len(self.failures) == FAILURES or self.stop_early:
-                raise Enough from None
-            return None
+            mismatch = self._failed(origin, steps, error)
         if mismatch is not None:
             mismatch = self._keep(replace(mismatch, origin=origin))
-            if self.stop_early:
-                raise Enough
+        if len(self.failures) >= FAILURES or (self.stop_early and (self.failures or self.found)):
+            raise Enough
         return mismatch
+
+    def _compared(self, steps: list[Step]) -> Mismatch | None:
+        return compared(self.env.board, steps, _Listening(self.implementation, self._seen))
+
+    def _failed(self, origin: str, steps: list[Step], error: ImplementationError) -> Mismatch | None:
+        """Keep the failure; what differs in the steps before it, whose outputs were lost."""
+        failed = tuple(steps[: error.step])
+        self.failures.append(Failure(self.env.board, origin, str(error), failed))
+        with suppress(ImplementationError):  # it failed earlier this time
+            return self._compared(steps[: error.step - 1]) if error.step > 1 else None
+        return None
 
     def _keep(self, mismatch: Mismatch) -> Mismatch:
         known = self.found.get(mismatch.key)
@@ -166,7 +174,7 @@ class Search:
             print_blob=False,
             suppress_health_check=list(HealthCheck),
         )
-        test = seed(self.effort.seed)(drawing(given(strategy(self.env.board.name))(one)))
+        test = seed(self.effort.seed)(drawing(given(stimuli(self.env))(one)))
         try:
             test()
         except* _Found:

@@ -1,7 +1,6 @@
 """Random stimuli of a board, as Hypothesis draws and shrinks them."""
 
 from collections.abc import Mapping
-from functools import cache
 
 from hypothesis import strategies as st
 
@@ -56,9 +55,3 @@ def cut(blocks: Blocks) -> Blocks:
         kept.append(Block(min(block.steps, left), block.changes))
         left -= block.steps
     return kept
-
-
-@cache
-def strategy(board: str) -> st.SearchStrategy[Stimulus]:
-    """The stimuli of a board, by its name."""
-    return stimuli(ENVIRONMENTS[board])

@@ -6,6 +6,8 @@ from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 
+import numpy as np
+
 from checker.conform.cross.aims import Aims, Boundary, aims
 from checker.conform.cross.stimulus import NOW, Toward, clocked
 from spec_model.abstraction import Board, Signal, Value
@@ -15,6 +17,8 @@ from spec_model.lang.domain import Num, Unit
 DEGREES = Unit.of("°")
 TOP = Fraction(2879, 8)
 """The largest heading in use.  Headings are eighths of a degree, so that firmware subtracts them exactly."""
+SPACING = 2.0**-24
+"""Between numbers of single precision just below 1."""
 PARTS = 64
 """Between two boundaries a value divides the distance in so many parts."""
 
@@ -41,13 +45,14 @@ class Values:
 
     @cached_property
     def aimed(self) -> dict[str, tuple[Value, ...]]:
-        """Values of each input: those of the model, and at and beside each of its boundaries."""
+        """Values of each input: those of the model, and at, next to and beside each of its boundaries."""
         found: dict[str, set[Value]] = {}
         for name, signal in self.signals.items():
             limits = [
                 b.value for b in self.aims.boundaries if b.signal == name and not b.datum and not b.source
             ]
-            found[name] = set(_representatives(signal)) | {v for b in limits for v in around(signal, b)}
+            beside = {v for b in limits for v in (*around(signal, b), *nearest(signal, b))}
+            found[name] = set(_representatives(signal)) | beside
         return {name: tuple(sorted(values)) for name, values in found.items()}
 
     @cached_property
@@ -100,6 +105,25 @@ def around(signal: Signal, boundary: Fraction) -> Iterable[Value]:
             yield _concrete(signal, value)
 
 
+def nearest(signal: Signal, boundary: Fraction) -> Iterable[Value]:
+    """The numbers of single precision next to a boundary on both sides, as far as firmware can hold them.
+
+    Firmware may compute in single precision, to which the neighbours in double precision are the boundary
+    itself; at 0, whose neighbours vanish when they are multiplied, the spacing below 1 is used instead.
+    """
+    if signal.whole or _is_heading(signal):
+        return
+    at = np.float32(float(boundary))
+    for side in (-1, 1):
+        value = float(at)
+        if not boundary:
+            value = side * SPACING
+        elif (Fraction(value) - boundary) * side <= 0:
+            value = float(np.nextafter(at, np.float32(side * np.inf)))
+        if signal.low <= value <= signal.high:
+            yield value
+
+
 def _beside(signal: Signal) -> tuple[Fraction, ...]:
     """Distances from a boundary, those on one side after those on the other."""
     if signal.whole:
@@ -144,4 +168,4 @@ def _representatives(signal: Signal) -> Iterable[Value]:
     return values + ends if isinstance(sort, Num) else values
 
 
-__all__ = ["NOW", "PARTS", "Values", "around"]
+__all__ = ["NOW", "PARTS", "Values", "around", "nearest"]

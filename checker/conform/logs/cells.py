@@ -1,6 +1,6 @@
-"""From the text of a cell to the value that charts compute with, exactly, one converter for each column."""
+"""From the texts of cells to the values that charts compute with, exactly, one converter for each column."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 
 from checker.conform.logs.errors import LogError
@@ -12,9 +12,12 @@ from spec_model.lang.errors import ModelError, did_you_mean
 Raw = int | Fraction
 """A raw value, as in the charts; a fraction lies between two values of a domain."""
 
-Convert = Callable[[str], Raw | None]
-"""The raw value of a text, ``None`` of an empty cell.  Raises ``LogError`` for one without meaning."""
+Convert = Callable[[Sequence[str]], list[Raw | None]]
+"""The raw values of texts, ``None`` of an empty cell.  Raises ``LogError`` for one without meaning."""
 
+MOST_DIGITS = 40
+EXPONENT = 4
+"""Digits of an exponent, at most: exact arithmetic with more would never end."""
 TRUTH = {"true": 1, "false": 0, "yes": 1, "no": 0, "on": 1, "off": 0}
 
 
@@ -26,39 +29,54 @@ def converter(column: Column, signal: Signal, an_input: bool, comma: bool) -> Co
     scale, offset = conversion(column, _unit(signal))
     names = {**_names(signal), **_own_names(column, signal)}
     factor, shift = exact(scale), exact(offset)
-    most = signal.high if signal.stamp and factor == 1 and shift == 0 else -1
+    as_is = factor == 1 and shift == 0
+    most = signal.high if signal.stamp and as_is else -1
+    meaning = _input(signal, column.kind) if an_input else _output(signal)
 
     def read(text: str) -> Raw | None:
         cell = text.strip()
         if not cell:
             return None
-        if cell.isdecimal() and int(cell) <= most:  # a time, each of which is another
-            return int(cell)
         if cell in names:
             return names[cell]
         if cell.lower() in TRUTH and isinstance(signal.domain.sort, Bool):
             return TRUTH[cell.lower()]
-        number = _number(cell.replace(",", ".") if comma else cell, signal, names) * factor + shift
-        return _within(number, signal, column.kind) if an_input else _whole(number / _resolution(signal))
+        number = _number(cell.replace(",", ".") if comma else cell, signal, names)
+        return meaning(number if as_is else number * factor + shift)
 
-    return _remembering(read)
+    known = _Known(read)
+
+    def convert(texts: Sequence[str]) -> list[Raw | None]:
+        times = _times(texts, most)
+        return list(map(known.__getitem__, texts)) if times is None else times
+
+    return convert
 
 
-def _remembering(read: Convert) -> Convert:
+class _Known(dict[str, Raw | None]):
     """Cells repeat themselves: what was read once is looked up."""
-    known: dict[str, Raw | None] = {}
 
-    def look(text: str) -> Raw | None:
-        try:
-            return known[text]
-        except KeyError:
-            value = read(text)
-            if len(known) > 100_000:
-                known.clear()
-            known[text] = value
-            return value
+    def __init__(self, read: Callable[[str], Raw | None]) -> None:
+        super().__init__()
+        self._read = read
 
-    return look
+    def __missing__(self, text: str) -> Raw | None:
+        value = self._read(text)
+        if len(self) > 100_000:
+            self.clear()
+        self[text] = value
+        return value
+
+
+def _times(texts: Sequence[str], most: float) -> list[Raw | None] | None:
+    """Whole numbers, each of which is another one, if all texts are such and none is greater."""
+    if most < 0 or not "".join(texts).isdecimal():
+        return None
+    try:
+        times = list(map(int, texts))
+    except ValueError:  # one is empty, or longer than any
+        return None
+    return [*times] if max(times, default=0) <= most else None
 
 
 def _unit(signal: Signal) -> str:
@@ -89,6 +107,13 @@ def _own_names(column: Column, signal: Signal) -> dict[str, Raw]:
 
 
 def _number(cell: str, signal: Signal, names: dict[str, Raw]) -> Fraction:
+    whole, _, rest = cell.partition(".")
+    digits = whole.removeprefix("-") + rest
+    if whole and digits.isdecimal() and len(digits) < MOST_DIGITS:  # quicker than ``Fraction`` of a text
+        number = Fraction(int(digits), 10 ** len(rest))
+        return -number if whole[0] == "-" else number
+    if len(cell.lower().partition("e")[2].lstrip("+-")) > EXPONENT and not names:
+        raise LogError(f"{cell!r} is no number.")
     try:
         return Fraction(cell)
     except (ValueError, ZeroDivisionError):
@@ -100,27 +125,56 @@ def _number(cell: str, signal: Signal, names: dict[str, Raw]) -> Fraction:
     raise LogError(f"{cell!r} is no number.")
 
 
-def _within(number: Fraction, signal: Signal, kind: str) -> Raw:
-    """The raw value of an input.  Raises ``LogError`` outside what firmware can hold."""
-    if kind != "value":
-        if number < 0:
-            raise LogError(f"an age of {float(number):g} ms is negative.")
-        return _whole(number)
-    if signal.stamp:
-        if number.denominator != 1:
-            number = Fraction(round(number))
-        if not 0 <= number <= signal.high:
-            raise LogError(f"{float(number):g} ms is no time of a 32-bit clock (0..{signal.high:.0f}).")
-        return int(number)
+Meaning = Callable[[Fraction], Raw]
+"""The raw value of a number in the unit of a signal."""
+
+
+def _output(signal: Signal) -> Meaning:
+    resolution = _resolution(signal)
+    return _whole if resolution == 1 else lambda number: _whole(number / resolution)
+
+
+def _input(signal: Signal, kind: str) -> Meaning:
+    """What firmware can hold; ``LogError`` for anything else."""
     sort = signal.domain.sort
+    if kind != "value":
+        return _age
+    if signal.stamp:
+        return lambda number: _time(number, signal)
     if isinstance(sort, Num):
-        if not exact(signal.low) <= number <= exact(signal.high):
-            unit = f" {sort.unit}".rstrip()
-            raise LogError(
-                f"{float(number):g}{unit} is outside {signal.low:g}..{signal.high:g}{unit}; "
-                "is it in another unit? Write unit = or scale = in the map."
-            )
-        return _whole(number / sort.resolution)
+        return _measurement(signal, str(sort.unit))
+    return lambda number: _member(number, signal)
+
+
+def _age(number: Fraction) -> Raw:
+    if number < 0:
+        raise LogError(f"an age of {float(number):g} ms is negative.")
+    return _whole(number)
+
+
+def _time(number: Fraction, signal: Signal) -> Raw:
+    time = round(number)
+    if not 0 <= time <= signal.high:
+        raise LogError(f"{float(number):g} ms is no time of a 32-bit clock (0..{signal.high:.0f}).")
+    return time
+
+
+def _measurement(signal: Signal, unit: str) -> Meaning:
+    low, high, raw = exact(signal.low), exact(signal.high), _output(signal)
+
+    def read(number: Fraction) -> Raw:
+        if low <= number <= high:
+            return raw(number)
+        in_unit = f" {unit}".rstrip()
+        raise LogError(
+            f"{float(number):g}{in_unit} is outside {signal.low:g}..{signal.high:g}{in_unit}; "
+            "is it in another unit? Write unit = or scale = in the map."
+        )
+
+    return read
+
+
+def _member(number: Fraction, signal: Signal) -> Raw:
     if number.denominator != 1 or int(number) not in signal.domain:
         raise LogError(f"{float(number):g} is outside {signal.domain}.")
     return int(number)

@@ -3,22 +3,17 @@
 from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import dataclass
-from functools import lru_cache
 from pathlib import Path
 
+from checker.conform.logs.against import Against, as_drawn
 from checker.conform.logs.behaviour import Behaviour, Follow
-from checker.conform.logs.choosing import Choice, choose
-from checker.conform.logs.cones import Cone, cones
+from checker.conform.logs.choosing import Choice
 from checker.conform.logs.log import Block, Layout, Log, open_log
 from checker.conform.logs.mapping import Map
 from checker.conform.logs.monitors import Monitors, Verdict
 from checker.conform.logs.sight import Eyes
-from checker.conform.logs.signals import Vocabulary
-from properties.catalogue import catalogue, expected
 from properties.forms import Reachable
-from spec_model.abstraction import boards
 from spec_model.lang.system import TICK_MS
-from spec_model.rover import systems
 
 MOST_GAPS = 5
 
@@ -64,16 +59,19 @@ class Result:
 
 def as_on_record(verdict: Verdict) -> bool:
     """Whether what was met in the log is what the baseline leads to expect."""
-    violated = expected(verdict.prop.id).verdict == "violated"
+    violated = verdict.expected == "violated"
     return not violated if isinstance(verdict.prop.form, Reachable) else violated
 
 
-def examine(path: Path, how: Map, system: str = "") -> Result:
-    """Check one log.  Raises ``LogError`` for a file that is no log of the board, or not up to its end."""
+def examine(path: Path, how: Map, system: str = "", against: Against | None = None) -> Result:
+    """Check one log, against the charts as specified unless told otherwise.
+
+    Raises ``LogError`` for a file that is no log of the board, or not up to its end.
+    """
     log = open_log(path, how, system)
     with closing(log.blocks()) as blocks:
         first = next(blocks)
-        run = _Run(log)
+        run = _Run(log, against or as_drawn())
         run.block(first)
         for block in blocks:
             run.block(block)
@@ -83,16 +81,17 @@ def examine(path: Path, how: Map, system: str = "") -> Result:
 class _Run:
     """A log on its way through both checks."""
 
-    def __init__(self, log: Log) -> None:
-        self._log = log
+    def __init__(self, log: Log, against: Against) -> None:
+        self._log, self._against = log, against
         layout, from_power_up = log.layout, log.start == "power-up"
-        vocabulary = _vocabulary(layout.board)
+        vocabulary = against.vocabulary(layout.board)
         self._eyes = Eyes(vocabulary, layout.signals, from_power_up)
         seen, logged = self._eyes.seen, layout.signals - vocabulary.inputs
         known = seen | {o.var.name for o in vocabulary.board.outputs if o.name in logged}
-        self._choice = _choice(layout.board, known)
+        self._choice = against.choice(layout.board, known)
         self._monitors = Monitors(vocabulary, self._choice, known, from_power_up)
-        self._follow = Follow(_cones(layout.board, seen, logged), _tolerance(layout), seen, from_power_up)
+        parts = against.cones(layout.board, seen, logged)
+        self._follow = Follow(parts, _tolerance(layout), seen, from_power_up)
         self._rows = self._ticks = self._missing = 0
         self._gaps: list[Gap] = []
 
@@ -117,26 +116,15 @@ class _Run:
             self._log.start,
             self._missing,
             tuple(self._gaps),
-            self._monitors.verdicts(),
+            tuple(self._on_record(v) for v in self._monitors.verdicts()),
             self._choice,
             self._follow.end(),
         )
 
+    def _on_record(self, verdict: Verdict) -> Verdict:
+        verdict.expected = self._against.expected(verdict.prop.id)
+        return verdict
+
 
 def _tolerance(layout: Layout) -> Mapping[str, float]:
     return {c.signal: c.tolerance for c in layout.stated.values() if c.tolerance is not None}
-
-
-@lru_cache
-def _vocabulary(board: str) -> Vocabulary:
-    return Vocabulary(boards()[board])
-
-
-@lru_cache(maxsize=32)
-def _cones(board: str, seen: frozenset[str], logged: frozenset[str]) -> tuple[Cone, ...]:
-    return cones(_vocabulary(board).board, seen, logged)
-
-
-@lru_cache(maxsize=32)
-def _choice(board: str, known: frozenset[str]) -> Choice:
-    return choose(_vocabulary(board), known, catalogue().values(), systems().__getitem__)

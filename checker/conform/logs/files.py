@@ -1,13 +1,14 @@
-"""The rows of a log file as texts: CSV, compressed or not, and Parquet."""
+"""The rows of a log file as columns of texts, block by block: CSV, compressed or not, and Parquet."""
 
 import csv
 import gzip
 import io
 import zlib
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from importlib.util import find_spec
+from itertools import chain, islice
 from pathlib import Path
 from typing import Protocol
 
@@ -15,11 +16,20 @@ from checker.conform.logs.errors import LogError, at
 from checker.conform.logs.mapping import Map
 
 SEPARATORS = ",;\t|"
-Row = tuple[int, Sequence[str]]
-"""The line of a row and its cells."""
+BLOCK = 1024
+"""Rows that are read together: few enough for their texts to stay in the cache of a processor."""
+FIRST = 4096
+"""Bytes that tell what kind of file it is."""
+HEAD = 20
+"""Lines among which the column names are looked for."""
 
-BLOCK = 4096
-"""Rows that are treated together."""
+
+@dataclass(frozen=True)
+class Texts:
+    """Successive rows: the line of each, and the cells of each column."""
+
+    lines: Sequence[int]
+    columns: Sequence[Sequence[str]]
 
 
 @dataclass(frozen=True)
@@ -27,7 +37,7 @@ class Rows:
     """A log: the names of its columns, and its rows in the order of the file."""
 
     header: tuple[str, ...]
-    rows: Iterator[Row]
+    blocks: Iterator[Texts]
     close: Callable[[], None]
     decimal_comma: bool = False
 
@@ -36,7 +46,7 @@ def opened(path: Path, how: Map) -> Rows:
     """The rows of a file, read as they are asked for.  Raises ``LogError``, also while rows are read."""
     try:
         with path.open("rb") as file:
-            head = file.read(BLOCK)
+            head = file.read(FIRST)
     except OSError as error:
         raise LogError(f"cannot be read: {error.strerror}.") from error
     if not head:
@@ -58,44 +68,62 @@ def _text(file: io.TextIOWrapper, how: Map) -> Rows:
         raise
 
 
-def _lines(file: io.TextIOWrapper) -> Iterator[str]:
-    """The lines; broken bytes are named with the line they follow."""
+def _lines(file: io.TextIOWrapper) -> Iterator[list[str]]:
+    """The lines, many at a time; broken bytes are named with the line they follow."""
     count = 0
     while True:
-        try:
-            line = file.readline()
-        except EOFError as error:
-            raise at(count + 1, "the gzip file ends in the middle: it was cut off.") from error
-        except (gzip.BadGzipFile, zlib.error) as error:
-            raise at(count + 1, f"the gzip file is damaged ({error}).") from error
-        except UnicodeDecodeError as error:
-            raise at(count + 1, "the text is not in UTF-8; write the log in UTF-8.") from error
-        if not line:
+        lines, wrong = _some(file)
+        count += len(lines)
+        if lines:
+            yield lines
+        if wrong:
+            raise at(count + 1, wrong)
+        if not lines:
             return
-        if "\0" in line:
-            raise at(count + 1, "there are zero bytes, which no text has: the file is damaged.")
-        count += 1
-        yield line
 
 
-def _table(lines: Iterator[str], how: Map, close: Callable[[], None]) -> Rows:
-    ahead = [line for _, line in zip(range(20), lines, strict=False)]
+def _some(file: io.TextIOWrapper) -> tuple[list[str], str]:
+    """The next lines, and what is wrong with the one that follows them."""
+    lines: list[str] = []
+    wrong = ""
+    try:
+        lines.extend(islice(file, BLOCK))  # those before a broken one are there
+    except EOFError:
+        wrong = "the gzip file ends in the middle: it was cut off."
+    except (gzip.BadGzipFile, zlib.error) as error:
+        wrong = f"the gzip file is damaged ({error})."
+    except UnicodeDecodeError:
+        wrong = "the text is not in UTF-8; write the log in UTF-8."
+    damaged = next((i for i, line in enumerate(lines) if "\0" in line), None)
+    if damaged is None:
+        return lines, wrong
+    return lines[:damaged], "there are zero bytes, which no text has: the file is damaged."
+
+
+def _table(lines: Iterator[list[str]], how: Map, close: Callable[[], None]) -> Rows:
+    first = next(lines, [])
+    ahead = first[:HEAD]
     skipped = next((i for i, line in enumerate(ahead) if line.strip() and line[0] != "#"), len(ahead))
     if skipped == len(ahead):
         raise LogError("has no line of column names; write them in the first line.")
     separator = how.separator or max(SEPARATORS, key=ahead[skipped].count)
-    reader = csv.reader(_chained(ahead[skipped:], lines), delimiter=separator, skipinitialspace=True)
-    header = tuple(name.strip() for name in next(reader))
+    names, *rest = first[skipped:]
+    if '"' in names:
+        reader = _reader(chain([names, *rest], chain.from_iterable(lines)), separator)
+        header = _names(next(reader))
+        blocks = _read(reader, len(header), skipped)
+    else:
+        header = _names(next(_reader([names], separator)))
+        blocks = _blocks(chain([rest], lines), separator, len(header), skipped + 1)
     _distinct(header, skipped + 1)
     comma = how.decimal == "," or (
         not how.decimal and separator != "," and _commas(ahead[skipped + 1 :], separator)
     )
-    return Rows(header, _cells(reader, len(header), skipped), close, comma)
+    return Rows(header, blocks, close, comma)
 
 
-def _chained(ahead: Sequence[str], rest: Iterator[str]) -> Iterator[str]:
-    yield from ahead
-    yield from rest
+def _names(cells: Sequence[str]) -> tuple[str, ...]:
+    return tuple(name.strip() for name in cells)
 
 
 def _distinct(header: Sequence[str], line: int) -> None:
@@ -109,6 +137,35 @@ def _commas(lines: Sequence[str], separator: str) -> bool:
     return any(c.count(",") == 1 and c.replace(",", "").lstrip("+-").isdigit() for c in cells)
 
 
+# --- cells ---------------------------------------------------------------------------------------
+
+
+def _blocks(lines: Iterator[list[str]], separator: str, width: int, before: int) -> Iterator[Texts]:
+    """The rows of lines, which follow so many others.  Quotes may hold line ends: a reader goes on then."""
+    for some in lines:
+        if (columns := _split(some, separator, width)) is not None:
+            yield Texts(range(before + 1, before + len(some) + 1), columns)
+        elif any('"' in line for line in some):
+            reader = _reader(chain(some, chain.from_iterable(lines)), separator)
+            yield from _read(reader, width, before)
+            return
+        else:
+            yield from _read(_reader(some, separator), width, before)
+        before += len(some)
+
+
+def _split(lines: Sequence[str], separator: str, width: int) -> Sequence[Sequence[str]] | None:
+    """The columns of lines with as many cells each and no quotes, all at once; ``None`` of others."""
+    text = "".join(lines)
+    plain = width > 1 and '"' not in text and len(max(lines, key=len, default="")) < csv.field_size_limit()
+    if not plain or {line.count(separator) for line in lines} != {width - 1}:
+        return None
+    if "\r" in text:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+    cells = text.removesuffix("\n").replace("\n", separator).split(separator)
+    return [cells[i::width] for i in range(width)]
+
+
 class _Reader(Protocol):
     """A reader of the standard library, whose type has no name there."""
 
@@ -117,23 +174,34 @@ class _Reader(Protocol):
     def __next__(self) -> list[str]: ...
 
 
-def _cells(reader: "_Reader", width: int, skipped: int) -> Iterator[Row]:
+def _reader(lines: Iterable[str], separator: str) -> _Reader:
+    return csv.reader(lines, delimiter=separator, skipinitialspace=True)
+
+
+def _read(reader: _Reader, width: int, before: int) -> Iterator[Texts]:
+    rows = _rows(reader, width, before)
+    while some := list(islice(rows, BLOCK)):
+        yield Texts([line for line, _ in some], list(zip(*(cells for _, cells in some), strict=True)))
+
+
+def _rows(reader: _Reader, width: int, before: int) -> Iterator[tuple[int, list[str]]]:
+    """The line of each row, and its cells; blank lines are passed over."""
     while True:
         try:
             cells = next(reader)
         except StopIteration:
             return
         except csv.Error as error:
-            raise at(skipped + reader.line_num, f"{error}.") from error
+            raise at(before + reader.line_num, f"{error}.") from error
         if len(cells) != width:
             if not cells:
                 continue
             raise at(
-                skipped + reader.line_num,
+                before + reader.line_num,
                 f"the row has {len(cells)} cells, the line of column names {width}: it was cut off, or a "
                 "cell holds the separator.",
             )
-        yield skipped + reader.line_num, cells
+        yield before + reader.line_num, cells
 
 
 # --- Parquet -------------------------------------------------------------------------------------
@@ -151,12 +219,13 @@ def _parquet(path: Path) -> Rows:
     header = tuple(str(name) for name in file.schema_arrow.names)
     _distinct(header, 1)
     batches = (batch.to_pydict() for batch in file.iter_batches(BLOCK))
-    return Rows(header, _rows_of(batches, header), file.close)
+    return Rows(header, _texts_of(batches, header), file.close)
 
 
-def _rows_of(batches: Iterator[dict[str, list[object]]], header: Sequence[str]) -> Iterator[Row]:
-    number = 1
+def _texts_of(batches: Iterator[dict[str, list[object]]], header: Sequence[str]) -> Iterator[Texts]:
+    before = 1
     for batch in batches:
-        for cells in zip(*(batch[name] for name in header), strict=True):
-            number += 1
-            yield number, ["" if cell is None else str(cell) for cell in cells]
+        columns = [["" if cell is None else str(cell) for cell in batch[name]] for name in header]
+        count = len(columns[0]) if columns else 0
+        yield Texts(range(before + 1, before + count + 1), columns)
+        before += count

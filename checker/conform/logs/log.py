@@ -7,7 +7,7 @@ from pathlib import Path
 
 from checker.conform.logs.cells import Convert, Raw, converter
 from checker.conform.logs.errors import LogError, at
-from checker.conform.logs.files import BLOCK, Row, Rows, opened
+from checker.conform.logs.files import Rows, opened
 from checker.conform.logs.mapping import Column, Map
 from checker.conform.logs.signals import TIME, Vocabulary
 from spec_model.abstraction import Signal, boards
@@ -18,6 +18,8 @@ from spec_model.lang.system import TICK_MS
 TIMES = ("time_ms", "time", "t", "timestamp", "timestamp_ms")
 """Columns that hold the time of the step where none is named ``now_ms``."""
 
+TOGETHER = 8
+"""Blocks of texts that make one of values: monitors are quicker with many rows at a time."""
 CLOCK = 1 << 32
 EARLY_MS = 2 * TICK_MS
 """A log whose first step is not later begins at power-up."""
@@ -82,30 +84,41 @@ class Log:
 
     def _blocks(self) -> Iterator[Block]:
         clock, stamps = _Clock(self.how.start), _Stamps(self.layout)
-        while rows := list(islice(self.rows.rows, BLOCK)):
-            block = self._block(rows, clock)
+        while (read := self._read()).lines:
+            ticks, missing = clock.steps(read.lines, read.values.get(TIME))
             self.start = clock.start
-            yield stamps.of(block)
+            yield stamps.of(Block(read.lines, ticks, missing, read.values))
         if not clock.start:
             raise LogError("has column names but no rows.")
 
-    def _block(self, rows: Sequence[Row], clock: "_Clock") -> Block:
-        lines = [line for line, _ in rows]
-        texts = list(zip(*(cells for _, cells in rows), strict=True))
-        values = {signal: _convert(texts[i], convert, lines, self.rows.header[i], signal)
-                  for i, signal, convert in self.converters}  # fmt: skip
-        ticks, missing = clock.steps(lines, values.get(TIME))
-        return Block(lines, ticks, missing, values)
+    def _read(self) -> "_Values":
+        """The next rows."""
+        lines: list[int] = []
+        values: dict[str, Cells] = {signal: [] for _, signal, _ in self.converters}
+        for texts in islice(self.rows.blocks, TOGETHER):
+            lines += texts.lines
+            for i, signal, convert in self.converters:
+                name = self.rows.header[i]
+                values[signal] += _convert(texts.columns[i], convert, texts.lines, name, signal)
+        return _Values(lines, values)
+
+
+@dataclass(frozen=True)
+class _Values:
+    """The lines of successive rows, and their values by signal."""
+
+    lines: Sequence[int]
+    values: Mapping[str, Cells]
 
 
 def _convert(texts: Sequence[str], convert: Convert, lines: Sequence[int], name: str, signal: str) -> Cells:
     try:
-        return list(map(convert, texts))
+        return convert(texts)
     except LogError:
         pass
     for line, text in zip(lines, texts, strict=True):
         try:
-            convert(text)
+            convert([text])
         except LogError as error:
             shown = name if name == signal else f"{name} ({signal})"
             raise at(line, f"column {shown}: {error}") from error
@@ -121,16 +134,30 @@ class _Clock:
         self._before: int | None = None
         self._tick = 0
 
-    def steps(self, lines: Sequence[int], times: Cells | None) -> tuple[list[int], list[int]]:
+    def steps(self, lines: Sequence[int], times: Cells | None) -> tuple[Sequence[int], list[int]]:
         """Numbers of the steps and of those missing before each.  Raises ``LogError``."""
         if not self.start:
             self._begin(lines[0], times)
-        missing = [0] * len(lines) if times is None else list(map(self._lost, lines, times))
+        if times is None or self._regular(times):
+            first, self._tick = self._tick + 1, self._tick + len(lines)
+            return range(first, self._tick + 1), [0] * len(lines)
+        missing = list(map(self._lost, lines, times))
         ticks: list[int] = []
         for lost in missing:
             self._tick += 1 + lost
             ticks.append(self._tick)
         return ticks, missing
+
+    def _regular(self, times: Cells) -> bool:
+        """Whether each of the steps is exactly one after the one before."""
+        first = times[0]
+        if first is None or (self._before is not None and first != self._before + TICK_MS):
+            return False
+        last = int(first) + TICK_MS * (len(times) - 1)
+        if times != list(range(int(first), last + 1, TICK_MS)):
+            return False
+        self._before = last
+        return True
 
     def _begin(self, line: int, times: Cells | None) -> None:
         if times is None:

@@ -46,7 +46,8 @@ class Broken:
 class Verdict:
     """What a log says of a property.
 
-    ``count``: the ticks in which it is broken; ``tested``: those in which it was put to the test at all.
+    ``count``: the ticks in which it is broken; ``tested``: those in which it was put to the test at all;
+    ``expected``: the verdict on record.
     """
 
     prop: Property
@@ -54,6 +55,7 @@ class Verdict:
     count: int = 0
     tested: int = 0
     judged: int = 0
+    expected: str = "proved"
 
     @property
     def word(self) -> str:

@@ -41,20 +41,17 @@ def _age(sight: Sight, _from_power_up: bool) -> See:
 
     def see(block: Block) -> Cells:
         stamps, now = block.values[sight.signal.name], block.values[TIME]
-        return [
-            None if t is None or s is None else ages[int(t - s) % CLOCK]
-            for t, s in zip(now, stamps, strict=True)
-        ]
+        return [None if t is None or s is None else ages[t - s] for t, s in zip(now, stamps, strict=True)]
 
     return see
 
 
-class _Ages(dict[int, Raw]):
-    """Raw ages by milliseconds."""
+class _Ages(dict[Raw, Raw]):
+    """Raw ages by the milliseconds from a stamp to the clock, which may have wrapped in between."""
 
-    def __missing__(self, ms: int) -> Raw:
-        whole, rest = divmod(ms, TICK_MS)
-        self[ms] = age = Fraction(ms, TICK_MS) if rest else whole
+    def __missing__(self, ms: Raw) -> Raw:
+        whole, rest = divmod(int(ms) % CLOCK, TICK_MS)
+        self[ms] = age = Fraction(int(ms) % CLOCK, TICK_MS) if rest else whole
         return age
 
 

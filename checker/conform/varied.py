@@ -1,0 +1,32 @@
+"""Boards whose charts are changed: other readings of the document, a proposed repair."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+from spec_model.abstraction import Board, boards
+from spec_model.lang.errors import ModelError
+from spec_model.readings import ANY, fixed
+from spec_model.repairs import Repair, proposals, repaired
+
+
+def varied(choices: Mapping[str, str], repair: Repair | None = None) -> Mapping[str, Board]:
+    """Every board under chosen readings, with a repair.
+
+    Raises ``ModelError`` for readings that are left open or that boards cannot follow.
+    """
+    for id, choice in choices.items():
+        if choice == ANY:
+            raise ModelError(
+                f"{id}={ANY} leaves the sentence open, and what a board did is compared with charts that "
+                "read it in one way; write one of the choices that `rovercheck list readings` shows."
+            )
+    found = boards(choices)
+    if repair is None:
+        return found
+    fixing = fixed(choices)
+    return {n: replace(b, system=fixing.system(repaired(b.system, repair))) for n, b in found.items()}
+
+
+def named(choices: Mapping[str, str], repair: str = "") -> Mapping[str, Board]:
+    """The same, of a repair by its name.  Raises ``KeyError`` for an unknown one."""
+    return varied(choices, proposals()[repair] if repair else None)
