@@ -116,6 +116,7 @@ def test_a_mask_of_board_1_has_8_bits(at):
         ({"critical_mask": 256}, "8 bits"),
         ({"degraded_mask": -1}, "8 bits"),
         ({"alive_counter": 1 << 32}, "modulo"),
+        ({"alive_counter": -1}, "modulo"),
         ({"command": 8}, "8 is not a valid SupervisorCommand"),
         ({"btn2": 2}, "no truth value"),
     ],

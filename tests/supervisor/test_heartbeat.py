@@ -17,9 +17,14 @@ def test_the_counter_carries_the_number_of_the_execution():
 
 def test_the_counter_wraps_to_zero_and_the_wrap_is_an_update():
     counter, heartbeat = AliveCounter(2**32 - 2), Heartbeat()
-    seen = [heartbeat.update(counter.executed(), now) for now in (20, 40, 60)]
-    assert counter.value == 1
-    assert seen == [20, 40, 60]
+    sent = [counter.executed() for _ in range(3)]
+    assert sent == [2**32 - 1, 0, 1]
+    assert [heartbeat.update(n, now) for n, now in zip(sent, (20, 40, 60), strict=True)] == [20, 40, 60]
+
+
+@pytest.mark.parametrize("bits", range(32))
+def test_the_counter_has_all_its_bits(bits):
+    assert AliveCounter((1 << bits) - 1).executed() == 1 << bits
 
 
 @pytest.mark.parametrize("payload", [FromBoard1(), FromBoard2()])
