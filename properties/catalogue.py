@@ -3,10 +3,11 @@
 import importlib
 import pkgutil
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from properties.forms import Property, formulas
 from properties.requirements import requirement
@@ -14,6 +15,10 @@ from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.walk import variables
 from spec_model.readings import fixed, readings
 from spec_model.rover import readings_of
+
+EXCEPTIONS = ("violated", "unknown")
+FIELDS: dict[str, type] = {"verdict": str, "depth": int, "because": str, "no_repair": str}
+KINDS: dict[type, str] = {str: "text", int: "whole number"}
 
 
 @dataclass(frozen=True)
@@ -80,13 +85,26 @@ def baseline() -> dict[str, Expected]:
     Raises ``ModelError`` for an entry that names no property or has no reason.
     """
     table = tomllib.loads((Path(__file__).parent / "baseline.toml").read_text(encoding="utf-8"))
-    expected = {id: Expected(**row) for id, row in table.items()}
-    for id, entry in expected.items():
-        if id not in catalogue():
-            near = did_you_mean(id, catalogue())
-            raise ModelError(f"baseline.toml lists {id!r}, which is no property. {near}")
-        if entry.verdict not in ("violated", "unknown") or not entry.because:
-            raise ModelError(f"baseline.toml: {id} needs because = and verdict = 'violated' or 'unknown'.")
+    return on_record(table, catalogue(), "baseline.toml")
+
+
+def on_record(table: Mapping[str, Any], known: Collection[str], file: str) -> dict[str, Expected]:
+    """The verdicts that a baseline file states of the properties ``known``.
+
+    Raises ``ModelError`` for an entry that names no property, has no reason or says something else.
+    """
+    expected: dict[str, Expected] = {}
+    for id, row in table.items():
+        if id not in known:
+            raise ModelError(f"{file} lists {id!r}, which is no property. {did_you_mean(id, known)}")
+        if not isinstance(row, dict) or not row.get("because") or row.get("verdict") not in EXCEPTIONS:
+            raise ModelError(f"{file}: {id} needs because = and verdict = 'violated' or 'unknown'.")
+        for name, value in row.items():
+            if name not in FIELDS:
+                raise ModelError(f"{file}: {id} has no {name!r}. {did_you_mean(name, FIELDS)}")
+            if type(value) is not FIELDS[name]:
+                raise ModelError(f"{file}: {id} has {name} = {value!r}; write a {KINDS[FIELDS[name]]}.")
+        expected[id] = Expected(**row)
     return expected
 
 

@@ -13,6 +13,7 @@ from checker.commands.codes import Exit, UsageError
 from checker.commands.deriving import Deriving, Told
 from checker.commands.output import counted, out
 from checker.engine import Limits
+from checker.model.load import load
 from checker.pool import Order, Pool
 
 WORKERS = 2
@@ -20,17 +21,22 @@ SIGNS = {Accepted: "✓", Rejected: "✗", Undecided: "?"}
 _SHOWN = 300
 
 
-def certify(paths: Sequence[Path], effort: Effort, smt2: Path | None, verbose: bool) -> Exit:
+def certify(
+    paths: Sequence[Path], effort: Effort, smt2: Path | None, verbose: bool, model: Path | None = None
+) -> Exit:
     """One line for each property of the files, in no particular order of the files.
 
-    Each file is checked in a child process, which may die of it.  Raises ``UsageError`` for what holds no
-    certificates, and for a folder that cannot be written.
+    They are about the rover, or the model at a path.  Each file is checked in a child process, which may
+    die of it.  Raises ``UsageError`` for what holds no certificates, and for a folder that cannot be
+    written, ``ModelError`` for a model without meaning.
     """
+    if model is not None:
+        load(model)
     written = [(path, _read(path)) for path in files(paths)]
     if smt2 is not None:
         _folder(smt2)
     found: list[Told] = []
-    for told in _told(written, Deriving(effort, smt2)):
+    for told in _told(written, Deriving(effort, smt2, model)):
         out.print(line(told, verbose), markup=False)
         found.append(told)
     return summary(found, len(written))

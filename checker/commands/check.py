@@ -101,6 +101,14 @@ def _in_part(result: Result, system: System) -> bool:
     return system.under and not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace)
 
 
+Deliver = Callable[[Sequence[Compared], int], None]
+"""Takes what was decided, and how many properties were asked for."""
+
+
+def undelivered(found: Sequence[Compared], wanted: int) -> None:
+    """No report beside what is printed."""
+
+
 def check(
     properties: Sequence[Property],
     systems: Mapping[str, System],
@@ -111,10 +119,17 @@ def check(
     expect: Callable[[str], Expected] = expected,
     jobs: int | None = None,
     certifying: Certifying | None = None,
+    options: str = "",
+    deliver: Deliver = undelivered,
 ) -> Exit:
-    """Print every verdict with its evidence and what the baseline says of it."""
+    """Print every verdict with its evidence and what the baseline says of it.
+
+    ``options`` is what a command needs to speak of the same properties: ``--model heater.py``.  ``deliver``
+    is called once at the end, however that comes.
+    """
     if not properties:
         err.print("Nothing to check: the selection holds no property.")
+        deliver([], 0)
         return Exit.NOTHING
     found: list[Compared] = []
     try:
@@ -125,6 +140,7 @@ def check(
     except BaseException as error:
         if as_json:
             print(json.dumps(document(found, complete=False), indent=2))
+        deliver(found, len(properties))
         if isinstance(error, Unwritable):
             raise UsageError(str(error)) from error
         if not isinstance(error, KeyboardInterrupt):
@@ -134,7 +150,8 @@ def check(
     if as_json:
         print(json.dumps(document(found, complete=True), indent=2))
     else:
-        summary(found)
+        summary(found, options)
+    deliver(found, len(properties))
     return worst(found)
 
 
@@ -211,7 +228,7 @@ def ticks(trace: Trace) -> str:
     return f"{len(trace)} tick{'s' * (len(trace) != 1)} = {seconds:g} s{repeating(trace)}"
 
 
-def summary(found: Sequence[Compared]) -> None:
+def summary(found: Sequence[Compared], options: str = "") -> None:
     """Counts, and for each change what to do next."""
     words = [c.verdict.word for c in found]
     counts = ", ".join(f"{words.count(w)} {w}" for w in ("proved", "violated", "unknown") if w in words)
@@ -228,10 +245,10 @@ def summary(found: Sequence[Compared]) -> None:
         out.print(f"{len(changed)} of them differ {changed[0].variant}.", markup=False)
         return
     for compared in changed:
-        _explain(compared)
+        _explain(compared, options)
 
 
-def _explain(compared: Compared) -> None:
+def _explain(compared: Compared, options: str) -> None:
     prop, verdict = compared.result.property, compared.verdict
     out.print(f"\n{prop.id} is {verdict.word}, on record is {recorded(compared.expected)}.", markup=False)
     out.print(f"  {prop.text}", markup=False)
@@ -239,7 +256,8 @@ def _explain(compared: Compared) -> None:
         fired = [a for t in verdict.because.ticks for a in t.arrows if a.order]
         for arrow in fired[-3:]:
             out.print(f"  fired: {arrow}", markup=False)
-        out.print(f"  See it whole: rovercheck trace {prop.id}", markup=False)
+        command = " ".join(filter(None, ("rovercheck trace", prop.id, options)))
+        out.print(f"  See it whole: {command}", markup=False)
 
 
 def document(found: Sequence[Compared], complete: bool) -> dict[str, object]:

@@ -39,15 +39,19 @@ class Told:
 
 @dataclass(frozen=True)
 class Deriving:
-    """Derives the verdicts of files, in a child process; with a folder, writes their obligations first."""
+    """Derives the verdicts of files, in a child process; with a folder, writes their obligations first.
+
+    ``model`` is where the model is that they are about, None for the rover.
+    """
 
     effort: Effort
     folder: Path | None
+    model: Path | None = None
 
     def __call__(self, send: Send, stem: str, written: Written) -> None:
         """Send a ``Told`` for each property that the file is to prove, or ``Unwritable``."""
         try:
-            for one in told_of(written, Checking(stem, self.effort, self.folder)):
+            for one in told_of(written, Checking(stem, self.effort, self.folder), self.model):
                 send(one)
         except Unwritable as error:
             send(error)
@@ -89,11 +93,14 @@ class Checking:
                 ) from error
 
 
-def told_of(written: Written, checking: Checking) -> list[Told]:
-    """What the certificates of a file show of each property that it is to prove.  Raises ``Unwritable``."""
+def told_of(written: Written, checking: Checking, model: Path | None = None) -> list[Told]:
+    """What the certificates of a file show of each property that it is to prove.
+
+    ``model`` is the path of a model of the user's own.  Raises ``Unwritable``.
+    """
     reader, origin = Reader(written.certificates, checking), written.origin
     try:
-        variant = _variant(origin)
+        variant = _variant(origin, model)
         systems = variant.systems()
         results = _decided(origin, variant, systems, reader)
     except (UsageError, ModelError, ValueError) as error:
@@ -119,9 +126,9 @@ def _decided(
     return {r.property.id: r for r in decide(task, systems, reader, limits, quiet)}
 
 
-def _variant(origin: Origin) -> Variant:
+def _variant(origin: Origin, model: Path | None) -> Variant:
     readings = [f"{id}={choice}" for id, choice in origin.readings.items()]
-    return pick_variant(readings, origin.repair or None, origin.without)
+    return pick_variant(readings, origin.repair or None, origin.without, model)
 
 
 def _outcome(one: Result, reader: Reader) -> Outcome:

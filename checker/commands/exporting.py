@@ -27,7 +27,7 @@ def export(
     exporter = pick("export format", format, exporters())
     if not ids and system is None:
         raise UsageError("Nothing names what to export; write the ids of properties, or --system NAME.")
-    chosen = pick_properties(ids, system, variant.properties(), full=True)
+    chosen = pick_properties(ids, system, variant.properties(), True, variant.unchanged())
     if variant.name:
         chosen = variant.askable(chosen)
     if not chosen:

@@ -1,6 +1,7 @@
 """``rovercheck list``: what there is."""
 
 from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
 from textwrap import fill
 
 from rich.table import Table
@@ -11,12 +12,12 @@ from checker.commands.select import pick_properties
 from checker.commands.wording import in_english
 from checker.decide import ALL, AUTO
 from checker.engine import engines
-from properties.catalogue import catalogue, expected
+from checker.model import Model
+from checker.model.load import load
+from checker.model.rover import rover
 from properties.forms import Property
-from properties.requirements import requirements
 from spec_model.readings import readings
 from spec_model.repairs import proposals
-from spec_model.rover import charts, systems
 
 
 def _table(*columns: str) -> Table:
@@ -35,38 +36,38 @@ def _print(columns: Iterable[str], rows: Iterable[tuple[str, ...]]) -> None:
     out.print(table, soft_wrap=False)
 
 
-def list_properties(chosen: Iterable[Property]) -> None:
+def list_properties(chosen: Iterable[Property], model: Model) -> None:
     _print(
         ("id", "system", "on record", "requires"),
-        ((p.id, p.on, expected(p.id).verdict, p.text) for p in chosen),
+        ((p.id, p.on, model.expected(p.id).verdict, p.text) for p in chosen),
     )
 
 
-def list_systems() -> None:
+def list_systems(model: Model) -> None:
     _print(
         ("name", "charts", "what it is"),
         (
             (s.name, ", ".join(c.name for c in s.charts), " ".join((s.text, *s.notes)))
-            for s in systems().values()
+            for s in model.systems.values()
         ),
     )
 
 
-def list_charts() -> None:
+def list_charts(model: Model) -> None:
     _print(
         ("name", "states", "arrows", "what it is"),
-        ((c.name, str(len(c.states) - 1), str(len(c.arrows)), c.text) for c in charts().values()),
+        ((c.name, str(len(c.states) - 1), str(len(c.arrows)), c.text) for c in model.charts.values()),
     )
 
 
-def list_requirements() -> None:
+def list_requirements(model: Model) -> None:
     covered: dict[str, list[str]] = {}
-    for prop in catalogue().values():
+    for prop in model.properties.values():
         for id in prop.covers:
             covered.setdefault(id, []).append(prop.id)
     _print(
         ("id", "source", "requirement", "properties"),
-        ((r.id, r.source, r.text, ", ".join(covered.get(r.id, ["-"]))) for r in requirements().values()),
+        ((r.id, r.source, r.text, ", ".join(covered.get(r.id, ["-"]))) for r in model.requirements.values()),
     )
 
 
@@ -99,9 +100,9 @@ def list_repairs() -> None:
     )
 
 
-def list_assumptions() -> None:
+def list_assumptions(model: Model) -> None:
     holders: dict[tuple[str, str], list[str]] = {}
-    for system in systems().values():
+    for system in model.systems.values():
         for one in system.assumptions:
             holders.setdefault((one.id, one.text), []).append(system.name)
     _print(
@@ -117,30 +118,42 @@ def list_engines() -> None:
     _print(("name", "what it does"), rows)
 
 
-LISTS: dict[str, Callable[[], None]] = {
+LISTS: dict[str, Callable[[Model], None]] = {
     "systems": list_systems,
     "charts": list_charts,
     "requirements": list_requirements,
+    "assumptions": list_assumptions,
+}
+OTHERS: dict[str, Callable[[], None]] = {
     "readings": list_readings,
     "repairs": list_repairs,
-    "assumptions": list_assumptions,
     "engines": list_engines,
 }
 
 
-def listing(what: str, ids: Sequence[str] = (), english: bool = False) -> Exit:
-    """Print one of the lists; of the properties those of ``ids``, in words if ``english``.
+def listing(what: str, ids: Sequence[str] = (), english: bool = False, path: Path | None = None) -> Exit:
+    """Print one of the lists, of the rover or the model at a path; of the properties those of ``ids``.
 
-    Raises ``UsageError`` for ids or ``english`` with another list.
+    With ``english`` these are told in words.  Raises ``UsageError`` for ids or ``english`` with another
+    list, and for a list that only the rover has.
     """
     if what == "properties":
+        model = _model(path)
         show = in_english if english else list_properties
-        show(pick_properties(ids, None, catalogue(), full=True))
+        show(pick_properties(ids, None, model.stated(), full=True), model)
     elif ids or english:
         raise UsageError(
             f"Ids and --english choose among properties; write `rovercheck list {what}` without them, "
             "or `rovercheck list properties [ID]... --english`."
         )
+    elif what in LISTS:
+        LISTS[what](_model(path))
+    elif path is not None and what != "engines":
+        raise UsageError(f"No model of your own has {what}; write `rovercheck list {what}` without --model.")
     else:
-        LISTS[what]()
+        OTHERS[what]()
     return Exit.AS_EXPECTED
+
+
+def _model(path: Path | None) -> Model:
+    return rover() if path is None else load(path)

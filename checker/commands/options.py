@@ -55,6 +55,25 @@ def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
     return command
 
 
+class ModelPath(click.Path):
+    """Where a model is; an empty text, as of a variable that is not set, is no path."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if value == "":
+            self.fail("the path is empty; write a Python file, or a folder of them.", param, ctx)
+        return super().convert(value, param, ctx)
+
+
+def modelling(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The option of every verb that a user's own model can be given to."""
+    return click.option(
+        "--model",
+        type=ModelPath(path_type=Path),
+        metavar="PATH",
+        help="Your own model instead of the rover: a Python file, or a folder of them.",
+    )(command)
+
+
 def varying(command: Callable[..., Exit]) -> Callable[..., Exit]:
     """The options of every verb that looks at the charts: other readings, a proposed repair."""
     options: list[Callable[[Any], Any]] = [

@@ -2,6 +2,7 @@
 
 import json
 from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
 
 from rich.markup import escape
 from rich.table import Table
@@ -11,10 +12,10 @@ from checker.commands.codes import Exit
 from checker.commands.output import out
 from checker.decide import AUTO
 from checker.engine import Limits
-from properties.catalogue import catalogue, expected
+from checker.model.load import load
+from checker.model.rover import rover
 from properties.coverage import Coverage, matrix
 from properties.forms import Property, Reachable
-from spec_model.rover import systems
 
 SCHEMA = 1
 ON_RECORD = "Verdicts are those on record in the baseline; --check decides them now."
@@ -36,14 +37,19 @@ Verdicts = Mapping[str, str]
 """The word of the verdict of each property, by id."""
 
 
-def requirements(decide: bool, as_json: bool) -> Exit:
-    """Print the matrix; exit code 1 if a requirement has neither a property that covers it nor a reason."""
-    rows = matrix(catalogue().values())
+def requirements(decide: bool, as_json: bool, path: Path | None = None) -> Exit:
+    """Print the matrix of the rover, or of the model at a path.
+
+    Exit code 1 if a requirement has neither a property that covers it nor a reason.
+    """
+    model = rover() if path is None else load(path)
+    stated = model.stated()
+    rows = matrix(stated.values(), model.requirements)
     if not decide:
-        return show(rows, {id: expected(id).verdict for id in catalogue()}, ON_RECORD, as_json)
+        return show(rows, {id: model.expected(id).verdict for id in stated}, ON_RECORD, as_json)
     found = [
-        Compared(r, expected(r.property.id))
-        for r in results(list(catalogue().values()), systems(), AUTO, Limits())
+        Compared(r, model.expected(r.property.id))
+        for r in results(list(stated.values()), model.systems, AUTO, Limits())
     ]
     code = show(rows, words(found), DECIDED, as_json)
     return code if code != Exit.AS_EXPECTED else worst(found)

@@ -8,6 +8,7 @@ from checker.decide import ALL, AUTO
 from checker.engine import engines
 from properties.forms import Property
 from spec_model.lang.errors import did_you_mean
+from spec_model.lang.system import System
 from spec_model.rover import systems
 
 Thing = TypeVar("Thing")
@@ -28,12 +29,16 @@ def pick_engine(name: str) -> str:
 
 
 def pick_properties(
-    ids: Sequence[str], system: str | None, known: Mapping[str, Property], full: bool = False
+    ids: Sequence[str],
+    system: str | None,
+    known: Mapping[str, Property],
+    full: bool = False,
+    among: Mapping[str, System] | None = None,
 ) -> list[Property]:
     """Properties by id, or by the beginning that its forms share (PB1-16 is PB1-16a, PB1-16b...).
 
     All of them when no id is given, the costly ones only in ``full``; only those about ``system`` when
-    one is named.
+    one is named, a system ``among`` those given, by default the rover's.
     """
     chosen = (
         _distinct(p for id in ids for p in _matching(id, known))
@@ -42,7 +47,7 @@ def pick_properties(
     )
     if system is None:
         return chosen
-    pick("system", system, systems())
+    pick("system", system, systems() if among is None else among)
     return [p for p in chosen if p.on == system]
 
 

@@ -1,4 +1,7 @@
-"""What is checked instead of the charts as specified: other readings, a repair, fewer assumptions."""
+"""What is checked instead of the rover's charts as specified: other readings, a repair, fewer assumptions.
+
+It may also be a model of the user's own, which has no readings and no repairs.
+"""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -8,7 +11,10 @@ from checker.certifying import Certifying
 from checker.commands.codes import UsageError
 from checker.commands.output import err
 from checker.commands.select import pick
-from properties.catalogue import Expected, expected, read_by, under
+from checker.model import Model, names_of
+from checker.model.load import load
+from checker.model.rover import rover
+from properties.catalogue import Expected, read_by
 from properties.forms import Property, formulas
 from spec_model.lang.system import Assumption, System
 from spec_model.lang.walk import variables
@@ -19,11 +25,20 @@ from spec_model.rover import systems
 
 @dataclass(frozen=True)
 class Variant:
-    """Chosen readings, at most one repair, dropped assumptions; none means the charts as specified."""
+    """Chosen readings, at most one repair, dropped assumptions; none means the charts as specified.
+
+    ``own`` is the user's own model, None for the rover.
+    """
 
     choices: Mapping[str, str]
     repair: Repair | None = None
     without: frozenset[str] = frozenset()
+    own: Model | None = None
+
+    @property
+    def model(self) -> Model:
+        """What is changed: the user's own model, or the rover under the chosen readings."""
+        return rover(self.choices) if self.own is None else self.own
 
     @property
     def name(self) -> str:
@@ -33,29 +48,33 @@ class Variant:
         dropped = f"without {', '.join(sorted(self.without))}" if self.without else ""
         return " ".join(part for part in (chosen and f"under {chosen}", repair, dropped) if part)
 
+    def unchanged(self) -> Mapping[str, System]:
+        """Every system by name, under the chosen readings alone."""
+        return systems(self.choices) if self.own is None else self.own.systems
+
     def systems(self) -> Mapping[str, System]:
         """Every system by name, changed."""
         if not self.without and self.repair is None:
-            return systems(self.choices)
-        found = {name: system.without(self.without) for name, system in systems(self.choices).items()}
+            return self.unchanged()
+        found = {name: system.without(self.without) for name, system in self.unchanged().items()}
         if self.repair is None:
             return found
         fixing = fixed(self.choices)
         return {name: fixing.system(repaired(system, self.repair)) for name, system in found.items()}
 
     def properties(self) -> dict[str, Property]:
-        """Every property by id, under the chosen readings."""
-        return under(self.choices)
+        """Every property by id, under the chosen readings.  Raises ``ModelError`` if there is none."""
+        return dict(self.model.stated())
 
     def concerns(self) -> Callable[[Property], bool]:
         """Whether the variant can change the verdict on a property."""
-        by_name = systems(self.choices)
+        by_name = self.unchanged()
 
         def concerned(prop: Property) -> bool:
             system = by_name[prop.on]
             edited = self.repair is not None and touches(system, self.repair)
             freed = not self.without.isdisjoint(a.id for a in system.assumptions)
-            return edited or freed or not self.choices.keys().isdisjoint(read_by(prop))
+            return edited or freed or (self.own is None and bool(self.choices.keys() & read_by(prop)))
 
         return concerned
 
@@ -67,7 +86,7 @@ class Variant:
         by_name = self.systems()
         asked: list[Property] = []
         for prop in properties:
-            missing = sorted(_named(prop) - _known(by_name[prop.on]))
+            missing = sorted(_named(prop) - names_of(by_name[prop.on]))
             if missing:
                 lacks = f"{self.name}, {prop.on} has no {', '.join(missing)}"
                 err.print(f"{prop.id} is left out: {lacks}.", markup=False)
@@ -86,30 +105,41 @@ class Variant:
             return Expected()
         if self.repair is not None and id in self.repair.gives_up:
             return Expected("violated", None, self.repair.gives_up[id])
-        return expected(id)
+        return self.model.expected(id)
 
 
 def _named(prop: Property) -> set[str]:
     return set(variables(*formulas(prop.form)))
 
 
-def _known(system: System) -> set[str]:
-    places = {v.name for chart in system.charts for v in (*chart.locations, chart.entered)}
-    return places | {v.name for v in system.frozen} | system.written.keys() | system.inputs.keys()
+def pick_variant(
+    chosen: Sequence[str], repair: str | None, dropped: Sequence[str], path: Path | None = None
+) -> Variant:
+    """The variant that the command line asks for, of the rover or of the model at a path.
 
-
-def pick_variant(chosen: Sequence[str], repair: str | None, dropped: Sequence[str]) -> Variant:
-    """The variant that the command line asks for.  Raises ``UsageError`` or ``ModelError``."""
+    Raises ``UsageError`` or ``ModelError``.
+    """
+    if path is not None:
+        return _own(load(path), chosen, repair, dropped)
     choices = _choices(chosen)
-    without = frozenset(pick("assumption", id, _assumptions(choices)).id for id in dropped)
+    without = _dropped(dropped, systems(choices))
     if repair is None:
         return Variant(choices, None, without)
     found = pick("repair", repair, proposals())
     return Variant({**found.readings, **choices}, found, without)
 
 
-def _assumptions(choices: Mapping[str, str]) -> dict[str, Assumption]:
-    return {a.id: a for system in systems(choices).values() for a in system.assumptions}
+def _own(model: Model, chosen: Sequence[str], repair: str | None, dropped: Sequence[str]) -> Variant:
+    for option in ["--reading"] * bool(chosen) + ["--repair"] * (repair is not None):
+        raise UsageError(f"{option} changes the rover's charts, and {model.name} is a model of your own.")
+    return Variant({}, None, _dropped(dropped, model.systems), model)
+
+
+def _dropped(ids: Sequence[str], by_name: Mapping[str, System]) -> frozenset[str]:
+    if not ids:
+        return frozenset()
+    known: dict[str, Assumption] = {a.id: a for s in by_name.values() for a in s.assumptions}
+    return frozenset(pick("assumption", id, known).id for id in ids)
 
 
 def _choices(chosen: Sequence[str]) -> dict[str, str]:

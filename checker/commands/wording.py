@@ -5,7 +5,7 @@ from functools import cache
 from textwrap import fill
 
 from checker.commands.output import out
-from properties.catalogue import expected
+from checker.model import Model
 from properties.english import HOW_TO_READ, definitions, sentence
 from properties.forms import Property
 from spec_model.rover import systems
@@ -13,22 +13,27 @@ from spec_model.rover import systems
 COLUMNS = 80
 
 
-def in_english(properties: Sequence[Property]) -> None:
+def in_english(properties: Sequence[Property], model: Model) -> None:
     """Print each property with its formal sentence, and the formulas it names spelled out."""
     out.print(fill(HOW_TO_READ, COLUMNS), markup=False)
     for prop in properties:
-        out.print("\n" + paragraph(prop), markup=False)
+        out.print("\n" + paragraph(prop, model), markup=False)
 
 
-def paragraph(prop: Property) -> str:
+def paragraph(prop: Property, model: Model) -> str:
     """One property in lines of 80 columns."""
-    head = f"{prop.id} (on {prop.on}, on record {expected(prop.id).verdict})"
-    return "\n".join((head, fill(prop.text, COLUMNS), *map(_indented, formally(prop))))
+    head = f"{prop.id} (on {prop.on}, on record {model.expected(prop.id).verdict})"
+    return "\n".join(
+        (head, fill(prop.text, COLUMNS), *map(_indented, formally(prop, model.systems[prop.on].tick_ms)))
+    )
 
 
-def formally(prop: Property) -> tuple[str, ...]:
-    """What is checked, in a sentence, and a sentence for each formula that it names."""
-    tick_ms = _tick_ms()[prop.on]
+def formally(prop: Property, tick_ms: int | None = None) -> tuple[str, ...]:
+    """What is checked, in a sentence, and a sentence for each formula that it names.
+
+    ``tick_ms`` is the length of a step of the system, by default that of the rover's system.
+    """
+    tick_ms = tick_ms or _tick_ms()[prop.on]
     return f"Formally: {sentence(prop, tick_ms)}", *definitions(prop, tick_ms)
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from checker.commands.codes import Exit, UsageError
-from checker.commands.options import GIB, searching, varying
+from checker.commands.options import GIB, modelling, searching, varying
 from checker.decide import ALL, AUTO
 from checker.engine import Limits, Timers
 from checker.isolate import prepared
@@ -38,6 +38,24 @@ from checker.isolate import prepared
     metavar="DIR",
     help="Write the proofs into this folder.",
 )
+@click.option(
+    "--junit",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Write the verdicts as JUnit XML, for Jenkins, GitLab and others.",
+)
+@click.option(
+    "--sarif",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Write the findings as SARIF 2.1.0, for code scanning and editors.",
+)
+@click.option(
+    "--annotations",
+    type=click.Choice(["github"]),
+    help="Annotate the lines of a pull request.",
+)
+@modelling
 @varying
 @searching
 def check(
@@ -50,6 +68,10 @@ def check(
     all_engines: bool,
     certify: bool,
     certificates: Path | None,
+    junit: Path | None,
+    sarif: Path | None,
+    annotations: str | None,
+    model: Path | None,
     chosen: tuple[str, ...],
     repair: str | None,
     dropped: tuple[str, ...],
@@ -61,11 +83,12 @@ def check(
     """Check properties and compare the verdicts with the baseline."""
     with prepared("checker.searches"):
         from checker.commands.check import check as run
+        from checker.commands.check import undelivered
         from checker.commands.select import pick_engine, pick_properties
         from checker.commands.variant import pick_variant
 
-        variant = pick_variant(chosen, repair, dropped)
-        properties = pick_properties(ids, system, variant.properties(), full)
+        variant = pick_variant(chosen, repair, dropped, model)
+        properties = pick_properties(ids, system, variant.properties(), full, variant.unchanged())
         if variant.name and not ids:
             properties = list(filter(variant.concerns(), properties))
         if variant.name:
@@ -73,9 +96,19 @@ def check(
         limits = Limits(depth, timeout, int(memory * 2**30), timers=Timers(timers))
         asked = _asked(pick_engine(engine), all_engines)
         certifying = variant.certifying(certificates, certify) if certify or certificates else None
+        options = variant.model.options
+        systems = variant.systems()
+        deliver = undelivered
+        if junit or sarif or annotations:
+            from checker.commands.ci import Reports
+
+            again = _again(options, chosen, repair, dropped)
+            reports = Reports(systems, junit, sarif, annotations or "", variant.name, again, as_json)
+            reports.possible()
+            deliver = reports.write
         return run(
             properties,
-            variant.systems(),
+            systems,
             asked,
             limits,
             as_json,
@@ -83,7 +116,15 @@ def check(
             variant.expected,
             jobs,
             certifying,
+            options,
+            deliver,
         )
+
+
+def _again(options: str, chosen: tuple[str, ...], repair: str | None, dropped: tuple[str, ...]) -> str:
+    """The options that let another command speak of the same charts."""
+    readings, without = [f"--reading {c}" for c in chosen], [f"--without {d}" for d in dropped]
+    return " ".join(filter(None, [options, *readings, f"--repair {repair}" if repair else "", *without]))
 
 
 def _asked(engine: str, every: bool) -> str:

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from checker.commands.codes import Exit
-from checker.commands.options import SECONDS, varying, writing
+from checker.commands.options import SECONDS, modelling, varying, writing
 
 LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs", "assumptions", "engines")
 
@@ -22,35 +22,43 @@ LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs
 @click.option("--smt2", type=click.Path(path_type=Path), metavar="DIR", help="Write the obligations there.")
 @click.option("--timeout", type=SECONDS, metavar="SEC", help="Seconds per certificate.")
 @click.option("--verbose", "-v", is_flag=True, help="The whole valuation that refutes a certificate.")
+@modelling
 def certify(
-    paths: tuple[Path, ...], solver: str, smt2: Path | None, timeout: float | None, verbose: bool
+    paths: tuple[Path, ...],
+    solver: str,
+    smt2: Path | None,
+    timeout: float | None,
+    verbose: bool,
+    model: Path | None,
 ) -> Exit:
     """Check the certificates of proofs again, by other means than found them."""
     from checker.certify.check import By, Effort
     from checker.commands.certifying import certify as run
 
-    return run(paths, Effort(By(solver), timeout), smt2, verbose)
+    return run(paths, Effort(By(solver), timeout), smt2, verbose, model)
 
 
 @click.command("list", short_help="List properties, systems, engines and so on.")
 @click.argument("what", type=click.Choice(LISTS), metavar="WHAT")
 @click.argument("ids", nargs=-1, metavar="[ID]...")
 @click.option("--english", is_flag=True, help="What is checked of each property, in words.")
-def list_(what: str, ids: tuple[str, ...], english: bool) -> Exit:
+@modelling
+def list_(what: str, ids: tuple[str, ...], english: bool, model: Path | None) -> Exit:
     """List WHAT: properties, systems, charts, requirements, readings, repairs, assumptions or engines."""
     from checker.commands.listing import listing
 
-    return listing(what, ids, english)
+    return listing(what, ids, english, model)
 
 
 @click.command(short_help="Show which properties cover each requirement.")
 @click.option("--check", "decide", is_flag=True, help="Decide the verdicts now, instead of the baseline's.")
 @click.option("--json", "as_json", is_flag=True, help="The matrix as JSON.")
-def requirements(decide: bool, as_json: bool) -> Exit:
+@modelling
+def requirements(decide: bool, as_json: bool, model: Path | None) -> Exit:
     """Show which properties cover each requirement; exit code 1 if none does and no reason is given."""
     from checker.commands.requirements import requirements as run
 
-    return run(decide, as_json)
+    return run(decide, as_json, model)
 
 
 @click.command(short_help="Write properties for other model checkers.")
@@ -65,12 +73,14 @@ def requirements(decide: bool, as_json: bool) -> Exit:
     metavar="FORMAT",
     help="aiger, aag, btor2, smv or promela.",
 )
+@modelling
 @varying
 @writing
 def export(
     ids: tuple[str, ...],
     system: str | None,
     format: str,
+    model: Path | None,
     chosen: tuple[str, ...],
     repair: str | None,
     dropped: tuple[str, ...],
@@ -80,7 +90,7 @@ def export(
     from checker.commands.exporting import export as run
     from checker.commands.variant import pick_variant
 
-    return run(ids, system, format, pick_variant(chosen, repair, dropped), output)
+    return run(ids, system, format, pick_variant(chosen, repair, dropped, model), output)
 
 
 @click.command(short_help="Write the evidence: verdicts, diagrams, findings.")

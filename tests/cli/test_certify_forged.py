@@ -113,7 +113,7 @@ def test_nothing_is_counted_twice(made: Path, tmp_path: Path) -> None:
 def test_a_file_that_kills_its_reader_is_undecided(
     made: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def told(written: Written, checking: Checking) -> list[Told]:
+    def told(written: Written, checking: Checking, model: Path | None) -> list[Told]:
         raise MemoryError if written.origin.system == "counters" else AssertionError("what is this")
 
     monkeypatch.setattr(deriving, "told_of", told)

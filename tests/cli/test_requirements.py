@@ -2,6 +2,7 @@
 
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -13,6 +14,7 @@ from checker.commands.reporting import pages_of_verdicts
 from checker.commands.requirements import DECIDED, ON_RECORD, because, counts, page, show, words
 from checker.decide import AUTO
 from checker.engine import Limits
+from checker.model.rover import rover
 from properties.catalogue import catalogue, expected
 from properties.coverage import Coverage, matrix
 from properties.forms import Property, always, reachable
@@ -126,7 +128,8 @@ def test_verdicts_can_be_decided_now(
     monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     some = {id: catalogue()[id] for id in ("PB1-11", "PB2-12-first")}
-    monkeypatch.setattr("checker.commands.requirements.catalogue", lambda: some)
+    model = replace(rover(), properties=some)
+    monkeypatch.setattr("checker.commands.requirements.rover", lambda: model)
     code = run(["requirements", "--check", "--json"])
     found = json.loads(capfd.readouterr().out)
     assert (code, found["verdicts"]) == (Exit.CHANGED, DECIDED)

@@ -1,0 +1,72 @@
+"""What is checked: systems with properties, the verdicts on record and the requirements they cover.
+
+The rover is one model (``checker.model.rover``), a file or folder of a user's own is another
+(``checker.model.load``); commands do not care which.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from shlex import quote
+
+from properties.catalogue import Expected
+from properties.forms import Property
+from properties.requirements import Requirement
+from spec_model.lang.chart import Chart
+from spec_model.lang.errors import ModelError
+from spec_model.lang.system import System
+from spec_model.rover import charts_of
+
+EXAMPLE = "`rovercheck init FOLDER` writes an example."
+
+
+@dataclass(frozen=True)
+class Model:
+    """Systems and properties by name; ``on_record`` holds the verdicts expected not to be "proved".
+
+    ``path`` is where a user's own model was read from, None for the rover.
+    """
+
+    systems: Mapping[str, System]
+    properties: Mapping[str, Property]
+    on_record: Mapping[str, Expected] = field(default_factory=dict)
+    requirements: Mapping[str, Requirement] = field(default_factory=dict)
+    path: Path | None = None
+
+    @property
+    def name(self) -> str:
+        """What messages call it."""
+        return "the rover" if self.path is None else shown(self.path)
+
+    @property
+    def options(self) -> str:
+        """What a command needs to be about this model."""
+        return "" if self.path is None else f"--model {quote(shown(self.path))}"
+
+    @property
+    def charts(self) -> dict[str, Chart]:
+        """Every chart by name."""
+        return charts_of(self.systems)
+
+    def stated(self) -> Mapping[str, Property]:
+        """The properties, of which there is one at least.  Raises ``ModelError`` if there is none."""
+        if not self.properties:
+            forms = "Write one with a form of properties.forms"
+            raise ModelError(f"{self.name} holds no property: there is nothing to check. {forms}; {EXAMPLE}")
+        return self.properties
+
+    def expected(self, id: str) -> Expected:
+        """The verdict expected of a property."""
+        return self.on_record.get(id, Expected())
+
+
+def names_of(system: System) -> set[str]:
+    """What a property of the system may speak of: states, what is written, what is frozen, inputs."""
+    places = {v.name for chart in system.charts for v in (*chart.locations, chart.entered)}
+    return places | {v.name for v in system.frozen} | system.written.keys() | system.inputs.keys()
+
+
+def shown(file: Path) -> str:
+    """A path as short as it can be written from here."""
+    whole, here = file.absolute(), Path.cwd()
+    return str(whole.relative_to(here)) if whole.is_relative_to(here) and whole != here else str(file)

@@ -1,0 +1,79 @@
+"""Runs the files of a user's model; what goes wrong is told with file and line."""
+
+import linecache
+import traceback
+from collections.abc import Sequence
+from pathlib import Path
+from types import ModuleType
+
+from checker.model import shown
+from checker.model.neighbours import Neighbours
+from spec_model.lang.errors import ModelError
+from spec_model.lang.place import Place
+
+TESTS = ("test_*.py", "*_test.py", "conftest.py")
+
+
+def files_of(path: Path) -> list[Path]:
+    """The file, or the Python files of a folder, tests left out, in the order of their names.
+
+    Raises ``ModelError`` for what is no Python file and no folder with one.
+    """
+    if path.is_dir():
+        inside = [f for f in sorted(path.glob("*.py")) if not any(map(f.match, TESTS))]
+        if not inside:
+            raise ModelError(
+                f"{shown(path)} holds no Python file; a model is a .py file or a folder of them."
+            )
+        return inside
+    if not path.exists():
+        raise ModelError(f"There is no {shown(path)}; a model is a .py file or a folder of them.")
+    if path.suffix != ".py":
+        raise ModelError(f"{shown(path)} is no Python file; a model is a .py file or a folder of them.")
+    if "." in path.stem:
+        raise ModelError(f"{shown(path)} has a dot in its name, which no module can have; rename the file.")
+    return [path]
+
+
+def modules_of(files: Sequence[Path]) -> tuple[Neighbours, list[ModuleType]]:
+    """Run files of one folder.  Raises ``ModelError`` for an error in one of them, with file and line."""
+    neighbours = Neighbours(files[0].parent)
+    with neighbours.importing():
+        return neighbours, [_run(neighbours, file) for file in files]
+
+
+def _run(neighbours: Neighbours, file: Path) -> ModuleType:
+    try:
+        return neighbours.module(file)
+    except SyntaxError as error:
+        where = Place(error.filename or str(file), error.lineno) if error.lineno else shown(file)
+        raise ModelError(f"{where}: this is not Python: {error.msg}.") from error
+    except (Exception, SystemExit) as error:
+        raise ModelError(_told(error, neighbours, file)) from error
+
+
+def _told(error: BaseException, neighbours: Neighbours, file: Path) -> str:
+    """The error with the last line of the user's that led to it."""
+    frames = [f for f in traceback.extract_tb(error.__traceback__) if _within(f.filename, neighbours.folder)]
+    place, line = Place(str(file), 1), ""
+    if frames and frames[-1].lineno:
+        linecache.checkcache(frames[-1].filename)
+        place, line = Place(frames[-1].filename, frames[-1].lineno), frames[-1].line or ""
+    if isinstance(error, ModelError):
+        return f"{place}: {error}"
+    said = f"{type(error).__name__}{f': {error}' if str(error) else ''}"
+    return f"{place}: {said}{f', in `{line}`' if line else ''}.{_hint(error, neighbours)}"
+
+
+def _within(filename: str, folder: Path) -> bool:
+    return Path(filename).is_relative_to(folder)
+
+
+def _hint(error: BaseException, neighbours: Neighbours) -> str:
+    """For an import that finds an installed package although a neighbour bears the name."""
+    name = (getattr(error, "name", None) or "").partition(".")[0]
+    if isinstance(error, ImportError) and name in neighbours.hidden():
+        return (
+            f" An installed package is named {name} too: write `from .{name} import ...`, or rename the file."
+        )
+    return ""

@@ -1,0 +1,23 @@
+"""The rover as a model: the charts of this repository under chosen readings."""
+
+from collections.abc import Mapping
+from functools import cache
+
+from checker.model import Model
+from properties.catalogue import baseline, under
+from properties.requirements import requirements
+from spec_model.rover import AS_READ, systems
+
+
+def rover(choices: Mapping[str, str] = AS_READ) -> Model:
+    """The rover; a reading not mentioned takes its default.
+
+    Raises ``ModelError`` for an unknown reading or choice.
+    """
+    return _rover(tuple(sorted(choices.items())))
+
+
+@cache
+def _rover(chosen: tuple[tuple[str, str], ...]) -> Model:
+    choices = dict(chosen)
+    return Model(systems(choices), under(choices), baseline(), requirements())

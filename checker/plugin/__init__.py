@@ -1,0 +1,1 @@
+"""What the pytest plugin loads when a model is to be checked."""

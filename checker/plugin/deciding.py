@@ -1,0 +1,91 @@
+"""Verdicts for the items of a session: the properties of one system are decided together, once."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import pytest
+
+from checker.commands.check import Compared, results
+from checker.commands.codes import UsageError
+from checker.commands.select import pick_engine
+from checker.engine import Limits
+from checker.portfolio import Disagreement
+from checker.runs.replay import ReplayError
+from spec_model.lang.errors import ModelError
+
+if TYPE_CHECKING:
+    from checker.plugin.item import PropertyItem
+
+Key = tuple[int, str]
+"""A model, by identity, and a property of it."""
+
+
+class Failed(Exception):
+    """There is no verdict; the message says why."""
+
+
+@dataclass
+class Decider:
+    """Decides properties when the first of their system is asked for.
+
+    ``apart``: each alone, because the items of a system may be spread over several workers.
+    """
+
+    engine: str
+    limits: Limits
+    jobs: int | None = None
+    apart: bool = False
+    _found: dict[Key, Compared | Failed] = field(default_factory=dict)
+
+    @staticmethod
+    def of(config: pytest.Config) -> "Decider":
+        """What the options of pytest ask for.  Raises ``pytest.UsageError``."""
+        seconds = config.getoption("rovercheck_timeout")
+        if seconds is not None and not seconds > 0:
+            raise pytest.UsageError("--rovercheck-timeout needs seconds, more than 0.")
+        depth = config.getoption("rovercheck_depth")
+        if depth is not None and depth < 1:
+            raise pytest.UsageError("--rovercheck-depth needs ticks, at least 1.")
+        try:
+            engine = pick_engine(config.getoption("rovercheck_engine"))
+        except UsageError as error:
+            raise pytest.UsageError(f"--rovercheck-engine: {error}") from error
+        worker = hasattr(config, "workerinput")
+        apart = worker and not getattr(config.option, "loadgroup", False)  # xdist's own word for it
+        return Decider(engine, Limits(depth, seconds), 1 if worker else None, apart)
+
+    def compared(self, item: "PropertyItem") -> Compared:
+        """The verdict of an item beside the one on record.  Raises ``Failed``."""
+        key = _key(item)
+        if key not in self._found:
+            self._decide([item] if self.apart else _together(item))
+        found = self._found[key]
+        if isinstance(found, Failed):
+            raise found
+        return found
+
+    def _decide(self, items: Sequence["PropertyItem"]) -> None:
+        model, left = items[0].model, {item.prop.id: item for item in items}
+        properties = [item.prop for item in items]
+        try:
+            for one in results(properties, model.systems, self.engine, self.limits, self.jobs):
+                item = left.pop(one.property.id)
+                self._found[_key(item)] = Compared(one, model.expected(item.prop.id))
+        except (ModelError, Disagreement, ReplayError) as error:
+            self._found |= {_key(item): Failed(str(error)) for item in left.values()}
+
+
+def _key(item: "PropertyItem") -> Key:
+    return id(item.model), item.prop.id
+
+
+def _together(item: "PropertyItem") -> list["PropertyItem"]:
+    """The items of the session about the same system that are not to be skipped."""
+    others = (i for i in item.session.items if type(i) is type(item))
+    return [
+        other
+        for other in others
+        if (other.model is item.model and other.prop.on == item.prop.on)
+        and (other is item or not any(other.iter_markers("skip")))
+    ]

@@ -1,0 +1,24 @@
+"""The drive of the cabin: it moves only while the door is locked."""
+
+from signals import at_floor, locked, moving, ride
+
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Chart, State, to
+
+drive = Chart(
+    "Drive",
+    [
+        State(
+            "Standing",
+            entry=[assign(moving, False)],
+            transitions=[to("Moving", when=ride & locked)],
+        ),
+        State(
+            "Moving",
+            entry=[assign(moving, True)],
+            transitions=[to("Standing", when=at_floor & ~ride)],
+        ),
+    ],
+    default="Standing",
+    text="Rides to another floor while the door is locked.",
+)
