@@ -69,8 +69,8 @@ handover_fine = _chain(
     "handover_fine",
     "From the relay of Board 1 over the link to the authorisation and the motor commands of Board 2.",
     line12.receive,
-    Enabled(sup1.due, ask, relay),
-    Enabled(sup2.due, check_board1, actuation),
+    Enabled(sup1.due, ask, relay, name="Board 1"),
+    Enabled(sup2.due, check_board1, actuation, name="Board 2"),
     line12.send,
     tasks=(tx1, sup2),
     assume=implies(line12.busy, line12.intact),
@@ -119,7 +119,7 @@ silence_fine = _chain(
     "silence_fine",
     "The reception of Board 1, its relay and its control task, frames arriving at any millisecond.",
     reception_age,
-    Enabled(sup1.due, reception_status, relay),
+    Enabled(sup1.due, reception_status, relay, name="Board 1"),
     control,
     tasks=(control1,),
 )
@@ -183,7 +183,7 @@ heartbeat_fine = _chain(
     line21.receive,
     note,
     execute,
-    Enabled(sup1.due, compare, relay),
+    Enabled(sup1.due, compare, relay, name="Board 1"),
     line21.send,
     built,
     tasks=(sup2, tx2),
@@ -229,8 +229,8 @@ stop_fine = _chain(
     "stop_fine",
     "From a sonar snapshot over Board 2, the link and Board 1 to the linear reference.",
     line_cmd.receive,
-    Enabled(sup1.due, motion_contract),
-    Enabled(sup2.due, obstacle_contract),
+    Enabled(sup1.due, motion_contract, name="Board 1"),
+    Enabled(sup2.due, obstacle_contract, name="Board 2"),
     line_cmd.send,
     tasks=(sup2, tx2),
     assume=implies(line_cmd.busy, line_cmd.intact),
@@ -238,6 +238,11 @@ stop_fine = _chain(
 )
 
 # --- a critical fault of one board stops the other -------------------------------------------------
+
+
+def _board(supervisor: Task) -> str:
+    """The board whose supervisor this is."""
+    return "Board 1" if supervisor is sup1 else "Board 2"
 
 
 def _critical(name: str, text: str, sender: Task, transmit: Task, receiver: Task, proved: str) -> System:
@@ -260,8 +265,8 @@ def _critical(name: str, text: str, sender: Task, transmit: Task, receiver: Task
         name,
         text,
         link.receive,
-        Enabled(receiver.due, obey),
-        Enabled(sender.due, say),
+        Enabled(receiver.due, obey, name=_board(receiver)),
+        Enabled(sender.due, say, name=_board(sender)),
         link.send,
         tasks=(sender, transmit, receiver),
         assume=implies(link.busy, link.intact),

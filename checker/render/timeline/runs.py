@@ -1,0 +1,67 @@
+"""The values of a variable over time as runs: equal values in a row, and steady counts."""
+
+from collections.abc import Iterator, Sequence
+from fractions import Fraction
+
+from checker.render.lanes import Tone
+from checker.render.limits import timer
+from checker.render.story import value
+from checker.render.timeline.model import Kind, Run
+from checker.render.timeline.tones import tone
+from checker.trace import Trace
+from spec_model.lang.domain import Num
+
+STEADY = 3
+"""Ticks in a row with the same difference are one ramp."""
+
+Values = Sequence[int | None]
+"""A raw value for each tick; None where there is none."""
+
+
+def runs(trace: Trace, name: str, values: Values, kind: Kind) -> Iterator[Run]:
+    """Equal values in a row are one run; so is a steady count of a number."""
+    sort = trace.variables[name].sort
+    scale = sort.resolution if isinstance(sort, Num) else Fraction(1)
+    for first, last in stretches(values, steady=kind in (Kind.LINE, Kind.RAMP)):
+        start, end = values[first], values[last]
+        if start is None or end is None:
+            continue
+        shown, until = (_shown(trace, name, raw, kind) for raw in (start, end))
+        meaning = tone(shown) if kind is Kind.BAND else Tone.ACTION
+        until = until if start != end else ""
+        yield Run(first + 1, last + 1, shown, start * scale, end * scale, meaning, until)
+
+
+def _shown(trace: Trace, name: str, raw: int, kind: Kind) -> str:
+    if kind is not Kind.RAMP:
+        return value(trace, name, raw)
+    known = timer(trace, name)
+    return f"{raw * known.step_ms} ms" if known else f"{raw} steps"
+
+
+def stretches(values: Values, steady: bool) -> Iterator[tuple[int, int]]:
+    """The indices at which runs start and end."""
+    first = 0
+    while first < len(values):
+        last = _reach(values, first, 0)
+        if steady and last == first and last + 1 < len(values):
+            here, after = values[first], values[first + 1]
+            if here is not None and after is not None:
+                far = _reach(values, first, after - here)
+                last = far if far - first + 1 >= STEADY else first
+        yield first, last
+        first = last + 1
+
+
+def _reach(values: Values, first: int, step: int) -> int:
+    """How far values rise by this step from the first on."""
+    last = first
+    while last + 1 < len(values):
+        here, after = values[last], values[last + 1]
+        if here is None or after is None:
+            if here is not after:
+                break
+        elif after - here != step:
+            break
+        last += 1
+    return last

@@ -1,0 +1,26 @@
+"""The story of a trace as a part of a page: a table of what happened, and the inputs that force the end."""
+
+from itertools import groupby
+
+from markupsafe import Markup
+
+from checker.render.page import Part
+from checker.render.reasons import forced, reasons
+from checker.render.story import UNTOLD, rows, start_of, start_values
+from checker.render.timeline.fragment import TEMPLATES, own
+from checker.trace import Trace
+
+
+def told(trace: Trace, *, everything: bool = False) -> Part:
+    """The table with the same rows as that of the terminal, and the reasons where they were examined."""
+    shown = trace if everything or not trace.relevant else trace.focused()
+    by_ticks = groupby(reasons(trace, regular=True), key=lambda reason: f"{reason.when} ({reason.ms})")
+    body = TEMPLATES.get_template("story.html").render(
+        chosen=start_values(shown),
+        rows=list(rows(shown)),
+        start_of=start_of,
+        untold=UNTOLD,
+        forced=forced(trace),
+        reasons=[(ticks, [reason.what for reason in group]) for ticks, group in by_ticks],
+    )
+    return Part(Markup(body), (own("story.css"),))

@@ -1,0 +1,42 @@
+"""A trace as one HTML page: the sentence, the timeline with a cursor, the charts played, the story."""
+
+from markupsafe import Markup
+
+from checker.render import player, timeline
+from checker.render.page import Part, page
+from checker.render.story import heading
+from checker.trace import Trace
+
+NAME = "html"
+KIND = "trace"
+SUFFIX = ".html"
+SUMMARY = "page with a timeline to explore, the run played on its charts, and the story; fetches nothing"
+
+LANDSCAPE = "@page{size:landscape;margin:12mm}"
+
+
+def render(trace: Trace, everything: bool = False) -> str:
+    """The page; ``everything``: also what the property does not depend on."""
+    title = trace.property or trace.system
+    parts = [_head(trace, title), timeline.part(trace, everything=everything)]
+    parts += [_heading("What happened"), timeline.told(trace, everything=everything)]
+    if trace.statecharts:
+        parts += [_heading("Played on the charts"), player.part(trace, everything=everything)]
+    return page(f"{title}: {_verdict(trace)}", parts)
+
+
+def _head(trace: Trace, title: str) -> Part:
+    body = Markup("<h1>{}</h1><p>{}</p><p><b>{}</b> in {}</p>").format(
+        title, trace.text, _verdict(trace).capitalize(), heading(trace)
+    )
+    return Part(body, (LANDSCAPE,))
+
+
+def _verdict(trace: Trace) -> str:
+    """What the run shows."""
+    violated = trace.false_parts or trace.loop is not None or trace.trapped is not None
+    return "counterexample" if violated else "run"
+
+
+def _heading(text: str) -> Part:
+    return Part(Markup("<h2>{}</h2>").format(text))

@@ -1,0 +1,17 @@
+"""A trace as a message sequence: what boards, charts and the environment hand to each other, and when."""
+
+from checker.render.sequence import message_sequence, picture
+from checker.trace import Trace
+
+NAME = "sequence"
+KIND = "trace"
+SUFFIX = ".svg"
+SUMMARY = "a picture of the messages between boards or charts, time flowing down"
+
+
+def render(trace: Trace, everything: bool = False) -> str:
+    """The SVG document; ``everything``: also what the property does not depend on.
+
+    Raises ``ModelError`` for a run without any message.
+    """
+    return picture(trace, message_sequence(trace, everything=everything))

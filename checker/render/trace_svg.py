@@ -1,0 +1,14 @@
+"""A trace as a picture over time: lanes of values, limits and timers, readable on paper too."""
+
+from checker.render.timeline import picture, timeline
+from checker.trace import Trace
+
+NAME = "svg"
+KIND = "trace"
+SUFFIX = ".svg"
+SUMMARY = "a picture over time: states as bands, numbers as lines with their limits, timers as ramps"
+
+
+def render(trace: Trace, everything: bool = False) -> str:
+    """The SVG document; ``everything``: also what the property does not depend on."""
+    return picture(timeline(trace, everything=everything))
