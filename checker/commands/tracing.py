@@ -1,51 +1,157 @@
-"""``rovercheck trace ID``: the counterexample (or witness) of one property, in one of several forms."""
+"""``rovercheck trace``: the counterexample (or witness) of one property, in one of several forms."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
+from textwrap import fill
 
 from checker.commands.check import evidence, results
-from checker.commands.codes import Exit
+from checker.commands.codes import Exit, UsageError
+from checker.commands.examples import Wanted
+from checker.commands.exits import exit_written
+from checker.commands.explaining import Explaining
 from checker.commands.output import err, out, write
+from checker.commands.progress import Watch
 from checker.commands.select import pick
 from checker.engine import Limits
+from checker.explain.others import NoMore, Others
 from checker.render import renderers
+from checker.render.trace_markdown import SPECIAL
 from checker.trace import Trace
 from checker.verdict import Unknown
-from properties.catalogue import expected
-from properties.forms import Property
+from properties.forms import Property, Unbounded
 from spec_model.lang.system import System
 
 FOR_READERS = ("table", "markdown")
+SECONDS = 30.0
+"""For each further run, unless a time limit is given."""
 
 
-def trace(
-    prop: Property,
-    systems: Mapping[str, System],
-    engine: str,
-    limits: Limits,
-    format: str,
-    everything: bool,
-    output: Path | None,
-) -> Exit:
-    """Decide the property and show its trace; say so when its verdict rests on none.
+@dataclass(frozen=True)
+class Showing:
+    """How a run is shown, and how many runs.
 
     What people read shows only what the property depends on, unless ``everything`` is wanted.
     """
-    renderer = pick("trace format", format, renderers("trace"))
+
+    format: str = "table"
+    everything: bool = False
+    output: Path | None = None
+    explaining: Explaining = field(default_factory=Explaining)
+    runs: int = 1
+
+    def check(self, prop: Property) -> None:
+        """Raises ``UsageError`` for a format that there is not, or that cannot show several runs."""
+        pick("trace format", self.format, renderers("trace"))
+        if self.runs > 1 and self.format not in FOR_READERS:
+            raise UsageError(
+                f"--witnesses shows several runs, and a file of the format {self.format} holds one; "
+                f"write --format {' or '.join(FOR_READERS)}, or leave --witnesses out."
+            )
+        if self.runs > 1 and isinstance(prop.form, Unbounded):
+            raise UsageError(
+                f"{prop.id} is about runs without end, of which one is shown; leave --witnesses out."
+            )
+
+    def cut(self, trace: Trace) -> Trace:
+        """What is shown of a trace."""
+        return trace if self.everything or self.format not in FOR_READERS else trace.focused()
+
+
+def trace(
+    wanted: Wanted,
+    engine: str,
+    limits: Limits,
+    showing: Showing,
+) -> Exit:
+    """Decide a property and show its trace; say so when its verdict rests on none."""
+    prop, systems = wanted.property, wanted.systems
+    showing.check(prop)
     [result] = results([prop], systems, engine, limits)
     verdict = result.verdict
     if isinstance(verdict, Unknown):
         err.print(f"{prop.id} is unknown: {evidence(result)}", markup=False)
         return Exit.INCONCLUSIVE
     if not isinstance(verdict.because, Trace):
-        err.print(f"{prop.id} is {verdict.word} and has no trace: {evidence(result)}", markup=False)
+        missing = "in no run" if wanted.example else f"{verdict.word} and has no trace"
+        err.print(f"{prop.id} is {missing}: {evidence(result)}", markup=False)
         return Exit.AS_EXPECTED
-    if output is None and format == "table":
-        on_record = expected(prop.id)
-        reason = on_record.because if on_record.verdict == verdict.word else ""
-        out.print(f"{prop.id} is {verdict.word}: {prop.text}", markup=False, soft_wrap=False)
-        if reason:
-            out.print(f"Why: {reason}", markup=False, soft_wrap=False)
-    shown = verdict.because if everything or format not in FOR_READERS else verdict.because.focused()
-    write(renderer.render(shown), output)
+    if showing.output is None and showing.format == "table":
+        _print_heading(wanted, verdict.word)
+    first = wanted.drawn(showing.explaining(verdict.because, prop, systems))
+    if showing.runs > 1:
+        _show_several(prop, first, systems, engine, limits, showing)
+        return Exit.AS_EXPECTED
+    for other in exit_written(
+        renderers("trace")[showing.format], showing.cut(first), systems, showing.output
+    ):
+        err.print(f"Also written: {other}", markup=False)
     return Exit.AS_EXPECTED
+
+
+def _print_heading(wanted: Wanted, verdict: str) -> None:
+    prop, on_record = wanted.property, wanted.expected(wanted.property.id)
+    said = prop.text if wanted.example else f"{prop.id} is {verdict}: {prop.text}"
+    out.print(said, markup=False, soft_wrap=False)
+    if on_record.because and on_record.verdict == verdict:
+        out.print(f"Why: {on_record.because}", markup=False, soft_wrap=False)
+
+
+def _show_several(
+    prop: Property,
+    first: Trace,
+    systems: Mapping[str, System],
+    engine: str,
+    limits: Limits,
+    showing: Showing,
+) -> None:
+    """Show runs as they are found; into a file all of them together."""
+    told: list[str] = []
+    for text in _several(prop, first, systems, engine, limits, showing):
+        if showing.output is None:
+            write(text, None)
+        told.append(text)
+    if showing.output is not None:
+        write("".join(told), showing.output)
+
+
+def _several(
+    prop: Property,
+    first: Trace,
+    systems: Mapping[str, System],
+    engine: str,
+    limits: Limits,
+    showing: Showing,
+) -> Iterator[str]:
+    """The text of several runs, each with what makes it different."""
+    yield _heading("Run 1", [], showing) + _rendered(first, showing)
+    others = Others(first, prop, systems[first.system])
+    limits = limits if limits.seconds is not None else replace(limits, seconds=SECONDS)
+    for number in range(2, showing.runs + 1):
+        with Watch(err, 1) as watch:
+            other = others.next(engine, limits, partial(watch.say, f"{prop.id}: run {number}"))
+        if isinstance(other, NoMore):
+            yield _heading(f"No run {number}", [_no_more(other)], showing)
+            return
+        unlike = [f"Unlike run {i} it {d}." for i, d in enumerate(other.differences, 1)]
+        explained = showing.explaining(other.trace, prop, systems)
+        yield _heading(f"Run {number}", unlike, showing) + _rendered(explained, showing)
+
+
+def _no_more(found: NoMore) -> str:
+    if found.proved:
+        return f"Every other run to this end takes the same arrows as one of these: {found.reason}."
+    return f"No other was found that takes other arrows; that there is none is not proved: {found.reason}."
+
+
+def _rendered(trace: Trace, showing: Showing) -> str:
+    shown = renderers("trace")[showing.format].render(showing.cut(trace))
+    assert isinstance(shown, str), "formats for readers are text"
+    return shown
+
+
+def _heading(title: str, lines: Sequence[str], showing: Showing) -> str:
+    if showing.format == "markdown":
+        return "\n\n".join([f"### {title}", *(line.translate(SPECIAL) for line in lines)]) + "\n\n"
+    return "\n".join(["", f"--- {title} ---", *(fill(line, 80) for line in lines)]) + "\n"

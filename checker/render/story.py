@@ -9,6 +9,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from checker.render.limits import bounds, timer
 from checker.trace import Arrow, Tick, Trace
 from spec_model.lang.domain import Enum, Num
 from spec_model.lang.expr import Expr, Named
@@ -24,15 +25,21 @@ TIMER = re.compile(r"\.(after|duration\d*|held\d*)$")
 
 @dataclass(frozen=True)
 class Change:
-    """A value that differs from the tick before; ``old`` is empty for an input in the first tick."""
+    """A value that differs from the tick before; ``old`` is empty for an input in the first tick.
+
+    ``limit`` is what a guard compares a count with, and ``needed`` tells that the input had to be so.
+    """
 
     name: str
     old: str
     new: str
     is_input: bool
+    limit: str = ""
+    needed: bool = False
 
     def __str__(self) -> str:
-        return f"{self.name}: {self.old} → {self.new}" if self.old else f"{self.name} = {self.new}"
+        shown = f"{self.name}: {self.old} → {self.new}" if self.old else f"{self.name} = {self.new}"
+        return f"{shown}, limit {self.limit}" if self.limit else shown
 
 
 @dataclass(frozen=True)
@@ -69,12 +76,22 @@ class Quiet:
 
 
 @dataclass(frozen=True)
-class FalsePart:
-    """A conjunct of the property that is false at the end: its name, what that stands for, values."""
+class Conjunct:
+    """A conjunct of the property: its name, what that stands for, the values of its variables at the end.
+
+    It is ``true``, or false, in every tick from ``since`` on.
+    """
 
     name: str
     formula: str
     values: tuple[tuple[str, str], ...]
+    since: int
+    true: bool = False
+
+    @property
+    def verdict(self) -> str:
+        """``False since tick 7``."""
+        return f"{self.true} since tick {self.since}"
 
 
 @dataclass(frozen=True)
@@ -103,12 +120,13 @@ def value(trace: Trace, name: str, raw: int) -> str:
 
 def rows(trace: Trace) -> Iterator[Row]:
     """Events and quiet stretches in order, and the start of a loop; the last tick is always an event."""
-    at = [dict(trace.before), *({**t.after, **t.inputs} for t in trace.ticks)]
+    telling = _Telling(trace)
+    at = telling.at
     start: int | None = None
     for i, tick in enumerate(trace.ticks):
         if i == trace.loop:
             if start is not None:
-                yield _quiet(trace, at, start, i)
+                yield telling.quiet(start, i)
                 start = None
             yield Repeats(i + 1, len(trace))
         last = i == len(trace.ticks) - 1
@@ -120,9 +138,9 @@ def rows(trace: Trace) -> Iterator[Row]:
             start = i if start is None else start
             continue
         if start is not None:
-            yield _quiet(trace, at, start, i)
+            yield telling.quiet(start, i)
             start = None
-        yield _event(trace, at, i, arrows, news)
+        yield telling.event(i, arrows, news)
 
 
 def _changed(trace: Trace, old: Mapping[str, int], new: Mapping[str, int]) -> list[str]:
@@ -161,25 +179,44 @@ def _counts(trace: Trace, at: list[dict[str, int]], name: str, i: int) -> bool:
     return before or behind
 
 
-def _quiet(trace: Trace, at: list[dict[str, int]], start: int, end: int) -> Quiet:
-    old, new = at[start], at[end]
-    names = [n for n in _changed(trace, old, new) if n in old]
-    counters = tuple(_change(trace, n, old, new) for n in names)
-    return Quiet(start + 1, end, trace.tick_ms, counters)
+class _Telling:
+    """A trace with what is looked up again and again while it is told."""
 
+    def __init__(self, trace: Trace) -> None:
+        self.trace = trace
+        self.at = [dict(trace.before), *({**t.after, **t.inputs} for t in trace.ticks)]
+        """The valuations before the first tick and after each one."""
+        self._bounds = bounds(trace)
+        self._needed = {(one.number, one.name) for one in trace.needed or ()}
 
-def _event(
-    trace: Trace, at: list[dict[str, int]], i: int, arrows: tuple[Arrow, ...], names: list[str]
-) -> Event:
-    changes = [_change(trace, n, at[i], at[i + 1]) for n in names]
-    changes.sort(key=lambda change: not change.is_input)
-    number = trace.ticks[i].number
-    return Event(number, number * trace.tick_ms, tuple(changes), arrows)
+    def quiet(self, start: int, end: int) -> Quiet:
+        names = [n for n in _changed(self.trace, self.at[start], self.at[end]) if n in self.at[start]]
+        counters = tuple(self._counted(n, start, end) for n in names)
+        return Quiet(start + 1, end, self.trace.tick_ms, counters)
 
+    def event(self, i: int, arrows: tuple[Arrow, ...], names: list[str]) -> Event:
+        changes = [self._change(n, i) for n in names]
+        changes.sort(key=lambda change: not change.is_input)
+        number = self.trace.ticks[i].number
+        return Event(number, number * self.trace.tick_ms, tuple(changes), arrows)
 
-def _change(trace: Trace, name: str, old: Mapping[str, int], new: Mapping[str, int]) -> Change:
-    shown = value(trace, name, old[name]) if name in old else ""
-    return Change(name, shown, value(trace, name, new[name]), name in trace.inputs)
+    def _change(self, name: str, i: int) -> Change:
+        trace, old, new = self.trace, self.at[i], self.at[i + 1]
+        if TIMER.search(name) and name in old:
+            return self._counted(name, i, i + 1)
+        shown = value(trace, name, old[name]) if name in old else ""
+        needed = (trace.ticks[i].number, name) in self._needed
+        return Change(name, shown, value(trace, name, new[name]), name in trace.inputs, needed=needed)
+
+    def _counted(self, name: str, start: int, end: int) -> Change:
+        """A count that went on, with the limit that it has yet to pass; of a timer, as times."""
+        old, new = self.at[start][name], self.at[end][name]
+        known = timer(self.trace, name)
+        if known is not None:
+            return Change(name, known.shown(old), known.shown(new), False, known.limit if new else "")
+        ahead = [text for raw, text in self._bounds.get(name, ()) if raw >= new > old]
+        shown = value(self.trace, name, old), value(self.trace, name, new)
+        return Change(name, *shown, name in self.trace.inputs, ahead[0] if ahead else "")
 
 
 def start_values(trace: Trace) -> tuple[tuple[str, str], ...]:
@@ -188,17 +225,28 @@ def start_values(trace: Trace) -> tuple[tuple[str, str], ...]:
     return tuple((n, value(trace, n, trace.before[n])) for n in frozen)
 
 
-def false_parts(trace: Trace) -> tuple[FalsePart, ...]:
-    """Which conjuncts of the property are false after the last tick, and why."""
+def false_parts(trace: Trace) -> tuple[Conjunct, ...]:
+    """Which conjuncts of the property are false after the last tick, since when, and why."""
+    return tuple(part for part in conjuncts(trace) if not part.true)
+
+
+def conjuncts(trace: Trace) -> tuple[Conjunct, ...]:
+    """All conjuncts of the property, where more than those that are false are known."""
     at = {**trace.ticks[-1].after, **trace.ticks[-1].inputs} if trace.ticks else dict(trace.before)
-    return tuple(_false_part(trace, expr, at) for expr in trace.false_parts)
+    return tuple(_conjunct(trace, expr, at) for expr in trace.parts or trace.false_parts)
 
 
-def _false_part(trace: Trace, expr: Expr, at: Mapping[str, int]) -> FalsePart:
+def _conjunct(trace: Trace, expr: Expr, at: Mapping[str, int]) -> Conjunct:
     names = [n for n in variables(expr) if n in at and n in trace.variables]
     values = tuple((n, value(trace, n, at[n])) for n in names)
     shown = text(expr, unfold=True)
-    return FalsePart(expr.name if isinstance(expr, Named) else "", shown, values)
+    true = all(expr is not false for false in trace.false_parts)
+    return Conjunct(expr.name if isinstance(expr, Named) else "", shown, values, trace.since(expr), true)
+
+
+def counted_ticks(count: int) -> str:
+    """``1 tick``, ``8 ticks``."""
+    return f"{count} tick{'s' if count != 1 else ''}"
 
 
 UNTOLD = (
@@ -210,7 +258,7 @@ UNTOLD = (
 def heading(trace: Trace) -> str:
     """One line about the whole run."""
     count = len(trace)
-    ticks = f"{count} tick{'s' if count != 1 else ''} of {trace.tick_ms} ms"
+    ticks = f"{counted_ticks(count)} of {trace.tick_ms} ms"
     return f"{trace.system}: {ticks}, {count * trace.tick_ms} ms{repeating(trace)}"
 
 

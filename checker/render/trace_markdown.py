@@ -2,14 +2,15 @@
 
 from xml.sax.saxutils import escape
 
+from checker.render.reasons import forced, reasons
 from checker.render.story import (
     UNTOLD,
     Event,
     Quiet,
     Repeats,
     Row,
+    conjuncts,
     ending,
-    false_parts,
     heading,
     rows,
     start_of,
@@ -22,7 +23,7 @@ KIND = "trace"
 SUFFIX = ".md"
 SUMMARY = "Markdown table with the same rows as the terminal table"
 
-_SPECIAL = str.maketrans({c: f"\\{c}" for c in "\\`*_{}[]<>|#"})
+SPECIAL = str.maketrans({c: f"\\{c}" for c in "\\`*_{}[]<>|#"})
 
 
 def render(trace: Trace) -> str:
@@ -34,11 +35,25 @@ def render(trace: Trace) -> str:
     lines += map(_row, rows(trace))
     lines += ["", f"**{_plain(last)}**"] if (last := ending(trace)) else []
     lines += ["", UNTOLD]
-    for part in false_parts(trace):
-        lines += ["", f"**False after tick {len(trace)}:** {_code(part.name or part.formula)}"]
+    for part in conjuncts(trace):
+        lines += ["", f"**{part.verdict}:** {_code(part.name or part.formula)}"]
+        if part.true:
+            continue
         lines += ["", f"which stands for {_code(part.formula)}"] if part.name else []
         lines += ["", "with " + ", ".join(_code(f"{n} = {v}") for n, v in part.values)] if part.values else []
+    lines += _forced(trace)
     return "\n".join([*lines, ""])
+
+
+def _forced(trace: Trace) -> list[str]:
+    """The inputs that force the end, as a table."""
+    if not (said := forced(trace)):
+        return []
+    head = (
+        ["", "**What forces it**", "", "| Ticks | ms | Input |", "|---|---:|---|"] if trace.needed else [""]
+    )
+    rows = [f"| {r.when} | {r.ms} | {_code(r.what)} |" for r in reasons(trace, regular=True)]
+    return [*head, *rows, *([""] if rows else []), _plain(said)]
 
 
 def _row(row: Row) -> str:
@@ -52,7 +67,7 @@ def _row(row: Row) -> str:
 
 
 def _event(event: Event) -> str:
-    inputs = [_code(str(c)) for c in event.changes if c.is_input]
+    inputs = [_code(str(c)) + (" needed" if c.needed else "") for c in event.changes if c.is_input]
     others = [_code(str(c)) for c in event.changes if not c.is_input]
     arrows = [
         f"{_plain(a.chart)}: {_plain(start_of(a))}" + (f"<br>{_code(a.label)}" if a.label else "")
@@ -68,4 +83,4 @@ def _code(shown: str) -> str:
 
 
 def _plain(shown: str) -> str:
-    return shown.translate(_SPECIAL)
+    return shown.translate(SPECIAL)

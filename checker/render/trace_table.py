@@ -7,15 +7,16 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from checker.render.reasons import forced, reasons
 from checker.render.story import (
     UNTOLD,
     Change,
+    Conjunct,
     Event,
-    FalsePart,
     Quiet,
     Repeats,
+    conjuncts,
     ending,
-    false_parts,
     heading,
     rows,
     start_of,
@@ -27,6 +28,11 @@ NAME = "table"
 KIND = "trace"
 SUFFIX = ".txt"
 SUMMARY = "table for the terminal: per tick only what changed and what fired"
+
+
+INPUT, NEEDED = "in  ", "in* "
+"""The marks of inputs, and of those that the end of the run needs."""
+_STYLES = {False: "bold red", True: "dim"}
 
 
 def render(trace: Trace, width: int = 80, color: bool = False) -> str:
@@ -43,9 +49,14 @@ def render(trace: Trace, width: int = 80, color: bool = False) -> str:
     if last := ending(trace):
         console.print(Text(last, style="bold"))
     console.print(Text(UNTOLD, style="dim"))
-    for part in false_parts(trace):
-        console.print(Text(f"False after tick {len(trace)}: {part.name or part.formula}", style="bold red"))
-        console.print(Padding(Text("\n".join(_explained(part))), (0, 0, 0, 4)))
+    for part in conjuncts(trace):
+        console.print(Text(f"{part.verdict}: {part.name or part.formula}", style=_STYLES[part.true]))
+        if not part.true:
+            console.print(Padding(Text("\n".join(_explained(part))), (0, 0, 0, 4)))
+    if said := forced(trace):
+        console.print(Text("What forces it", style="bold"))
+        console.print(_reasons(trace)) if trace.needed else None
+        console.print(Text(said))
     return "\n".join(line.rstrip() for line in out.getvalue().splitlines()) + "\n"
 
 
@@ -65,15 +76,17 @@ def _table(trace: Trace) -> Table:
 
 
 def _event(table: Table, event: Event) -> None:
-    given = [c for c in event.changes if not c.old]
-    lines = [_hanging(", ".join(map(str, given)), "in  ", "cyan")] if given else []
+    lines: list[Table] = []
+    for needed in (True, False):
+        given = [str(c) for c in event.changes if not c.old and c.needed is needed]
+        lines += [_hanging(", ".join(given), NEEDED if needed else INPUT, "cyan")] if given else []
     lines += [_changed(c) for c in event.changes if c.old] + [_fired(a) for a in event.arrows]
     for i, line in enumerate(lines or [_hanging("nothing changes")]):
         table.add_row(str(event.number) if not i else "", str(event.ms) if not i else "", line)
 
 
 def _changed(change: Change) -> Table:
-    mark = "in  " if change.is_input else "    "
+    mark = (NEEDED if change.needed else INPUT) if change.is_input else "    "
     return _hanging(str(change), mark, "cyan" if change.is_input else "")
 
 
@@ -91,7 +104,17 @@ def _hanging(shown: str, mark: str = "    ", style: str = "") -> Table:
     return grid
 
 
-def _explained(part: FalsePart) -> list[str]:
+def _reasons(trace: Trace) -> Table:
+    table = Table.grid(padding=(0, 2))
+    table.add_column(no_wrap=True)
+    table.add_column(justify="right", no_wrap=True)
+    table.add_column(ratio=1)
+    for reason in reasons(trace, regular=True):
+        table.add_row(f"{NEEDED}{reason.when}", reason.ms, Text(reason.what, style="cyan", overflow="fold"))
+    return table
+
+
+def _explained(part: Conjunct) -> list[str]:
     formula = [part.formula] if part.name else []
     values = [", ".join(f"{name} = {shown}" for name, shown in part.values)] if part.values else []
     return [*formula, *values]

@@ -5,23 +5,49 @@ from pathlib import Path
 import click
 
 from checker.commands.codes import Exit
-from checker.commands.options import searching, varying, writing
+from checker.commands.options import modelling, searching, varying, writing
 from checker.engine import Limits, Timers
 
 
 @click.command(short_help="Show a counterexample or a witness, tick by tick.")
-@click.argument("id")
+@click.argument("id", required=False)
+@click.option("--state", metavar="CHART.STATE", help="Instead of a property: a run into a state of a chart.")
+@click.option("--arrow", metavar="'CHART: A -> B'", help="Instead of a property: a run through an arrow.")
+@click.option("--system", metavar="NAME", help="With --state or --arrow: on this system.")
 @click.option(
-    "--format", default="table", show_default=True, metavar="FORMAT", help="table, markdown, json or vcd."
+    "--format",
+    default="table",
+    show_default=True,
+    metavar="FORMAT",
+    help="How: table, markdown, html, svg, vcd, json and more.",
 )
 @click.option("--all", "everything", is_flag=True, help="Also what the property does not depend on.")
+@click.option(
+    "--explain/--no-explain",
+    default=None,
+    help="Which inputs force the end of the run; by default for ten seconds at most.",
+)
+@click.option(
+    "--witnesses",
+    type=click.IntRange(min=1),
+    default=1,
+    metavar="N",
+    help="So many runs, each with other arrows than those before.",
+)
+@modelling
 @varying
 @searching
 @writing
 def trace(
-    id: str,
+    id: str | None,
+    state: str | None,
+    arrow: str | None,
+    system: str | None,
     format: str,
     everything: bool,
+    explain: bool | None,
+    witnesses: int,
+    model: Path | None,
     chosen: tuple[str, ...],
     repair: str | None,
     dropped: tuple[str, ...],
@@ -31,12 +57,23 @@ def trace(
     timers: str,
     output: Path | None,
 ) -> Exit:
-    """Show the counterexample of a violated property, or the witness of a reachable one."""
-    from checker.commands.select import pick, pick_engine
+    """Show the counterexample of a violated property, or the witness of a reachable one.
+
+    \b
+    Examples:
+      rovercheck trace PB1-15 --witnesses 3
+      rovercheck trace --state Relay.B2_actuating
+      rovercheck trace --arrow 'Relay: B1_actuating -> B2_actuating'
+    """
+    from checker.commands.examples import asked
+    from checker.commands.explaining import Explaining
+    from checker.commands.select import pick_engine
+    from checker.commands.tracing import Showing
     from checker.commands.tracing import trace as run
     from checker.commands.variant import pick_variant
 
-    variant = pick_variant(chosen, repair, dropped)
-    prop = pick("property", id, variant.properties())
+    variant = pick_variant(chosen, repair, dropped, model)
+    wanted = asked(variant, id, state, arrow, system)
     limits = Limits(depth, timeout, timers=Timers(timers))
-    return run(prop, variant.systems(), pick_engine(engine), limits, format, everything, output)
+    showing = Showing(format, everything, output, Explaining.chosen(explain), witnesses)
+    return run(wanted, pick_engine(engine), limits, showing)

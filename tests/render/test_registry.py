@@ -7,8 +7,11 @@ from checker.render import KINDS, renderers
 
 def test_every_promised_exit_is_there() -> None:
     assert list(renderers("statechart")) == ["dot", "graphml", "mermaid", "svg"]
-    assert list(renderers("graph")) == ["dot", "graphml", "json", "mermaid", "svg"]
-    assert list(renderers("trace")) == ["json", "markdown", "table", "vcd"]
+    assert list(renderers("graph")) == ["dot", "graphml", "html", "json", "mermaid", "svg"]
+    assert list(renderers("trace")) == [
+        "c", "csv", "github", "gtkw", "html", "itf", "json", "junit", "markdown", "play", "pytest", "sarif",
+        "sequence", "svg", "table", "vcd",
+    ]  # fmt: skip
 
 
 def test_an_unknown_kind_names_the_known_ones() -> None:

@@ -2,12 +2,16 @@
 
 import json
 import re
+from collections.abc import Iterable
+from dataclasses import replace
 
 import pytest
 from jsonschema import validate
 
-from checker.render import trace_json, trace_table, trace_vcd
-from checker.render.story import Event, Quiet, false_parts, rows
+from checker.render import trace_json, trace_markdown, trace_table
+from checker.render.reasons import forced, reasons
+from checker.render.story import Event, Quiet, conjuncts, false_parts, rows
+from checker.trace import Needed, Trace
 from tests.render.conformance import Suite
 from tests.render.zoo import TRACES, long_trace
 
@@ -44,6 +48,69 @@ class TestStory:
         assert bare.name == "" and dict(bare.values) == {"speed": "0 m/s", "alarm": "false"}
 
 
+def explained(*needed: Needed, minimal: bool = True) -> Trace:
+    return replace(long_trace(2), needed=needed, minimal=minimal)
+
+
+LOW, HIGH = frozenset(range(5)), frozenset(range(100, 301))
+
+
+class TestReasons:
+    def test_neighbouring_ticks_are_one_line(self) -> None:
+        found = reasons(explained(*(Needed(k, "level", LOW) for k in (3, 4, 5)), Needed(2, "level", HIGH)))
+        assert [(r.when, r.ms, r.what) for r in found] == [
+            ("tick 2", "40 ms", "level >= 100"), ("ticks 3–5", "60–100 ms", "level <= 4")
+        ]  # fmt: skip
+
+    def test_ticks_at_one_distance_are_one_line_on_request(self) -> None:
+        trace = explained(*(Needed(k, "level", LOW) for k in (1, 3, 5)))
+        assert [r.when for r in reasons(trace)] == ["tick 1", "tick 3", "tick 5"]
+        assert [r.when for r in reasons(trace, regular=True)] == ["ticks 1, 3, ... 5"]
+
+    @pytest.mark.parametrize(
+        ("values", "what"),
+        [
+            ({7}, "level = 7"),
+            (range(3, 10), "level in 3..9"),
+            ([3, 4, 9], "level in {3..4, 9}"),
+            (set(range(301)) - {8}, "level != 8"),
+        ],
+    )
+    def test_values_in_few_words(self, values: Iterable[int], what: str) -> None:
+        assert [r.what for r in reasons(explained(Needed(1, "level", frozenset(values))))] == [what]
+
+    def test_what_is_said_of_them(self) -> None:
+        assert forced(long_trace()) == ""
+        assert "whatever its inputs" in forced(explained())
+        some = Needed(1, "level", LOW)
+        assert "None of them can be left out" in forced(explained(some))
+        assert "Not minimised" in forced(explained(some, minimal=False))
+
+    def test_needed_inputs_are_marked(self) -> None:
+        trace = explained(Needed(2, "level", HIGH))
+        table = trace_table.render(trace)
+        assert re.search(r"^ +2 +40 +in\* level: 0 → 100$", table, re.M)
+        assert re.search(r"^in\* tick 2 +40 ms +level >= 100$", table, re.M)
+        assert "<code>level: 0 → 100</code> needed" in trace_markdown.render(trace)
+        assert "| tick 2 | 40 ms | <code>level &gt;= 100</code> |" in trace_markdown.render(trace)
+
+
+class TestConjuncts:
+    def test_each_says_since_when(self) -> None:
+        trace = long_trace(2)
+        truths = ((True, True, False, False, False), (False, True, True, True, True))
+        trace = replace(trace, parts=trace.false_parts, truths=truths, false_parts=trace.false_parts[:1])
+        assert [c.verdict for c in conjuncts(trace)] == ["False since tick 3", "True since tick 2"]
+        assert [c.since for c in false_parts(trace)] == [3]
+        table = trace_table.render(trace)
+        assert "False since tick 3: never_critical" in table and "True since tick 2: speed > 0" in table
+
+    def test_what_never_changed_is_so_since_the_first_tick(self) -> None:
+        trace = long_trace(2)
+        trace = replace(trace, parts=trace.false_parts, truths=((False,) * 5,) * 2)
+        assert {c.since for c in conjuncts(trace)} == {1}
+
+
 class TraceSuite(Suite):
     KIND = "trace"
     ZOO = TRACES
@@ -61,7 +128,7 @@ class TestTable(TraceSuite):
         shown = self.shown("long")
         assert re.search(r"^ +2 +40 +in  level: 0 → 100$", shown, re.M)
         assert "▸ Relay: Ours → Theirs (arrow 1)  [level >= 100]" in shown
-        assert "False after tick 153: never_critical" in shown
+        assert "False since tick 153: never_critical" in shown
 
     def test_colour_on_request(self) -> None:
         assert "\x1b[" in trace_table.render(long_trace(), color=True)
@@ -91,39 +158,6 @@ class TestJson(TraceSuite):
         assert state["inputs"]["level"] == {"value": 100, "raw": 100}
         assert state["after"]["speed"] == {"value": "-0.5", "raw": -5}
         assert state["after"]["Relay"] == {"value": "Theirs", "raw": 2}
-
-
-def waves(document: str) -> dict[str, dict[int, str]]:
-    """The values of each wave by time, read from a value change dump."""
-    names = {m[1]: m[2] for m in re.finditer(r"\$var \w+ \d+ (\S+) (\S+)", document)}
-    found: dict[str, dict[int, str]] = {name: {} for name in names.values()}
-    now = 0
-    for line in document.partition("$enddefinitions $end")[2].splitlines():
-        if line.startswith("#"):
-            now = int(line[1:])
-        elif match := re.fullmatch(r"[bs](\S*) (\S+)|([01x])(\S+)", line):
-            value, key = (match[1], match[2]) if match[2] else (match[3], match[4])
-            found[names[key]][now] = value
-    return found
-
-
-class TestVcd(TraceSuite):
-    NAME = "vcd"
-    ZOO = TRACES
-
-    def parse(self, document: str) -> None:
-        assert set(waves(document)) == {"Relay", "level", "speed", "alarm", "mode", "duration1"}
-
-    def test_values_come_back_at_their_times(self) -> None:
-        found = waves(trace_vcd.render(long_trace()))
-        assert found["Relay"] == {0: "-", 20: "Ours", 40: "Theirs", 153 * 20: "Ours"}
-        assert found["alarm"] == {0: "0", 40: "1", 153 * 20: "0"}
-        assert int(found["level"][40], 2) == 100
-
-    def test_no_date_so_that_files_stay_the_same(self) -> None:
-        assert not re.search(
-            r"\$date\s+\S+\s+\$end", trace_vcd.render(long_trace()).replace("$date $end", "")
-        )
 
 
 @pytest.mark.parametrize("quiet", [0, 1, 2])

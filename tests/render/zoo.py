@@ -1,6 +1,8 @@
 """Toy charts, graphs and traces that every renderer must be able to show."""
 
-from checker.graph import StateGraph, project, with_trace
+from checker.graph import StateGraph, with_trace
+from checker.graphs.explored import tabulated
+from checker.graphs.projecting import project
 from checker.trace import Arrow, Tick, Trace
 from spec_model.lang.action import assign, send, when
 from spec_model.lang.chart import Chart, Junction, State, to
@@ -185,21 +187,17 @@ TRACES = {
 
 def _graph() -> StateGraph:
     """Four valuations of (mode, alarm); the projection on mode hides that alarm must come first."""
-    inputs = {"level": level}
-    quiet, loud = {"level": 0}, {"level": 250}
-    steps = [
-        ((0, 0), [((0, 0), quiet), ((0, 1), loud)]),
-        ((0, 1), [((1, 1), loud), ((0, 1), quiet)]),
-        ((1, 1), [((1, 1), quiet)]),
-    ]
-    return project("toy", [mode, alarm], ["mode"], [(0, 0)], steps, inputs)
+    loud = {(0, 1), (1, 2)}
+    steps = [((0, 0), [(0, 0), (0, 1)]), ((0, 1), [(1, 1), (0, 1)]), ((1, 1), [(1, 1)])]
+    explored = tabulated([mode, alarm], [(0, 0)], steps)
+    return project("toy", explored, ["mode"], lambda *ends: f"level = {250 if ends in loud else 0}")
 
 
 def ring(size: int) -> StateGraph:
     """A ring of ``size`` nodes, which is exact."""
     place = Var("place", integer(0, size), 0)
-    steps = [((i,), [(((i + 1) % size,), {"level": i % 300})]) for i in range(size)]
-    return project("ring <&>", [place], ["place"], [(0,)], steps, {"level": level})
+    explored = tabulated([place], [(0,)], [((i,), [((i + 1) % size,)]) for i in range(size)])
+    return project("ring <&>", explored, ["place"], lambda source, _: f"level = {source % 300}")
 
 
 GRAPHS = {"toy": _graph(), "ring": ring(12), "marked": with_trace(_graph(), long_trace())}

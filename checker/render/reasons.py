@@ -1,0 +1,126 @@
+"""What forces the end of a run, for people: which inputs, in which ticks, had to be so."""
+
+from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
+
+from checker.render.story import counted_ticks, start_values, value
+from checker.trace import Trace
+from spec_model.lang.domain import Num
+
+
+@dataclass(frozen=True)
+class Reason:
+    """An input that had to be so in each tick from ``first`` to ``last``, or in every so many of them.
+
+    ``what`` is ``d1 >= 71 cm``.
+    """
+
+    first: int
+    last: int
+    tick_ms: int
+    what: str
+    every: int = 1
+
+    @property
+    def when(self) -> str:
+        """``ticks 1–7``, ``ticks 6, 13, ... 160``."""
+        if self.first == self.last:
+            return f"tick {self.first}"
+        start = f"{self.first}–" if self.every == 1 else f"{self.first}, {self.first + self.every}, ... "
+        return f"ticks {start}{self.last}"
+
+    @property
+    def ms(self) -> str:
+        """``20–140 ms``: the ends of the first and of the last tick."""
+        first = f"{self.first * self.tick_ms}–" if self.last > self.first else ""
+        return f"{first}{self.last * self.tick_ms} ms"
+
+
+def reasons(trace: Trace, regular: bool = False) -> tuple[Reason, ...]:
+    """The inputs that force the end of the run, neighbouring ticks together, in order of their start.
+
+    With ``regular``, single ticks at one distance from each other are together, too.
+    """
+    ticks: dict[tuple[str, frozenset[int]], list[int]] = {}
+    for one in trace.needed or ():
+        ticks.setdefault((one.name, one.values), []).append(one.number)
+    order = {name: i for i, name in enumerate(trace.inputs)}
+    found = [
+        ((first, last, order.get(name, len(order))), Reason(first, last, trace.tick_ms, what, every))
+        for (name, values), numbers in ticks.items()
+        for what in [_allowed(trace, name, values)]
+        for first, last, every in _stretches(sorted(numbers), regular)
+    ]
+    return tuple(reason for _, reason in sorted(found, key=lambda pair: pair[0]))
+
+
+def _stretches(numbers: Sequence[int], regular: bool) -> Iterator[tuple[int, int, int]]:
+    """Ascending numbers as first, last and step: neighbours together, then at least three at one distance."""
+    runs: list[list[int]] = []
+    for number in numbers:
+        if runs and number == runs[-1][-1] + 1:
+            runs[-1].append(number)
+        else:
+            runs.append([number])
+    alone = [run[0] for run in runs if len(run) == 1]
+    yield from ((run[0], run[-1], 1) for run in runs if len(run) > 1)
+    while alone:
+        step = alone[1] - alone[0] if len(alone) > 1 else 0
+        count = next((i for i, n in enumerate(alone) if n != alone[0] + i * step), len(alone))
+        count = count if count > 2 and regular else 1
+        yield alone[0], alone[count - 1], step if count > 1 else 1
+        del alone[:count]
+
+
+def _allowed(trace: Trace, name: str, values: frozenset[int]) -> str:
+    """``d1 >= 71 cm``, ``mode = SAFE``, ``cmd != STOP``, ``y in 0.1..0.5``."""
+    var = trace.variables[name]
+    others = [v for v in var.domain.values if v not in values]
+    if len(values) == 1:
+        return f"{var.name} = {value(trace, var.name, min(values))}"
+    if len(others) == 1:
+        return f"{var.name} != {value(trace, var.name, others[0])}"
+    spans = list(_spans(var.domain.values, values)) if isinstance(var.sort, Num) else []
+    if len(spans) == 1 and spans[0][0] == var.domain.low:
+        return f"{var.name} <= {value(trace, var.name, spans[0][1])}"
+    if len(spans) == 1 and spans[0][1] == var.domain.high:
+        return f"{var.name} >= {value(trace, var.name, spans[0][0])}"
+    if len(spans) == 1:
+        return f"{var.name} in {next(_listed(trace, var.name, values, spans))}"
+    return f"{var.name} in {{{', '.join(_listed(trace, var.name, values, spans))}}}"
+
+
+def _listed(trace: Trace, name: str, values: frozenset[int], spans: list[tuple[int, int]]) -> Iterator[str]:
+    if not spans:
+        yield from (trace.show(name, v) for v in sorted(values))
+    for low, high in spans:
+        yield (
+            f"{trace.show(name, low)}..{value(trace, name, high)}" if low < high else value(trace, name, low)
+        )
+
+
+def _spans(domain: Sequence[int], values: Collection[int]) -> Iterator[tuple[int, int]]:
+    """The longest stretches of a domain that lie in a set of values."""
+    start: int | None = None
+    last = domain[0]
+    for v in domain:
+        if v in values:
+            start = v if start is None else start
+        elif start is not None:
+            yield start, last
+            start = None
+        last = v
+    if start is not None:
+        yield start, last
+
+
+def forced(trace: Trace) -> str:
+    """What the reasons mean, in one sentence; empty for a run whose inputs were not examined."""
+    if trace.needed is None:
+        return ""
+    fixed = " with what is fixed as here" if start_values(trace) else ""
+    runs = f"every run of {counted_ticks(len(trace))}{fixed}"
+    if not trace.needed:
+        return f"Nothing but time: {runs} ends like this, whatever its inputs."
+    least = "None of them can be left out." if trace.minimal else "Not minimised: some may not matter."
+    return f"Whatever the other inputs are, {runs} ends like this. {least}"

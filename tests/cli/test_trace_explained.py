@@ -1,0 +1,110 @@
+"""``rovercheck trace``: what forces the end, several runs, runs into states and through arrows."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from checker.cli import run
+from checker.commands import explaining
+from checker.commands.codes import Exit
+from checker.commands.examples import Wanted
+from checker.commands.explaining import Explaining
+from checker.commands.tracing import Showing, trace
+from checker.engine import Limits
+from checker.trace import Trace
+from properties.catalogue import Expected
+from properties.forms import Property, reachable
+from spec_model.rover import systems
+from tests.explain.test_others import ENDS, SYSTEM, first, left
+
+
+@pytest.mark.parametrize(
+    ("arguments", "said"),
+    [
+        ([], "Name one thing: the ID of a property, --state CHART.STATE or --arrow"),
+        (["PB1-15", "--state", "Relay.B1_actuating"], "Name one thing"),
+        (["--state", "Relay"], "'Relay' names no state; write CHART.STATE"),
+        (["--state", "Relai.B1_actuating"], "There is no chart 'Relai'. Did you mean 'Relay'"),
+        (["--state", "Relay.B1"], "Relay has no state 'B1'. Known: B1_actuating"),
+        (["--state", "Relay.B1_actuating", "--system", "board"], "There is no system 'board'. Did you mean"),
+        (
+            ["--state", "Relay.B1_actuating", "--system", "battery"],
+            "battery does not execute Relay; these do",
+        ),
+        (["PB1-15", "--system", "board1"], "--system goes with --state and --arrow"),
+        (["--arrow", "Relay"], "'Relay' names no arrow; write 'CHART: A -> B'"),
+        (["--arrow", "Relay: B1_actuating -> B1"], "has no arrow 'B1_actuating -> B1'. Did you mean"),
+        (["PB1-15", "--witnesses", "2", "--format", "json"], "write --format table or markdown"),
+        (["PSY-18", "--witnesses", "2"], "is about runs without end, of which one is shown"),
+        (["PB1-15", "--witnesses", "0"], "0 is not in the range"),
+    ],
+)
+def test_mistakes_are_explained(arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["trace", *arguments]) == Exit.USAGE
+    told = capsys.readouterr()
+    assert said in told.err and told.out == ""
+
+
+def test_a_state_is_reached_and_the_run_explained(capfd: pytest.CaptureFixture[str]) -> None:
+    assert run(["trace", "--state", "Monitor_battery.Batt_CRIT", "--engine", "bmc"]) == Exit.AS_EXPECTED
+    shown = capfd.readouterr().out
+    assert shown.startswith("The state Monitor_battery.Batt_CRIT can be reached.\nbattery: ")
+    assert "What forces it\n" in shown and "can be left out." in shown
+    assert max(map(len, shown.splitlines())) <= 80
+
+
+def test_an_arrow_is_taken_on_the_chart_as_drawn(capfd: pytest.CaptureFixture[str]) -> None:
+    arrow = "Monitor_battery: default → Batt_OK"
+    assert run(["trace", "--arrow", arrow, "--engine", "bmc", "--no-explain"]) == Exit.AS_EXPECTED
+    shown = capfd.readouterr().out
+    assert "Monitor_battery: default → Batt_OK" in shown
+    assert "goal" not in shown and "What forces it" not in shown
+
+
+def trace_of(explanation: Explaining) -> Trace:
+    return explanation(first(), ENDS, {"way": SYSTEM})
+
+
+def test_when_interrupted_the_run_is_shown_all_the_same(
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    def interrupted(*_: object) -> Trace:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(explaining, "explained", interrupted)
+    assert trace_of(Explaining()).needed is None
+    assert "Interrupted: the run is shown without what forces it." in capfd.readouterr().err
+
+
+def test_an_explanation_that_takes_too_long_is_left_out(capfd: pytest.CaptureFixture[str]) -> None:
+    assert trace_of(Explaining(seconds=-1)).needed is None
+    assert "Wait for it with --explain." in capfd.readouterr().err
+    assert trace_of(Explaining.chosen(True)).needed
+
+
+def test_a_run_without_end_says_why_it_is_not_explained(capfd: pytest.CaptureFixture[str]) -> None:
+    looped = replace(first(), loop=1)
+    assert Explaining()(looped, ENDS, systems()) is looped
+    assert "it repeats for ever" in capfd.readouterr().err
+
+
+def wanted(prop: Property, example: bool = False) -> Wanted:
+    return Wanted(prop, {"way": SYSTEM}, lambda _: Expected(), example)
+
+
+def test_several_runs_are_told_apart_until_there_is_no_more(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "runs.txt"
+    assert trace(wanted(ENDS), "bdd", Limits(), Showing(runs=3, output=file)) == Exit.AS_EXPECTED
+    told = " ".join(file.read_text(encoding="utf-8").split())
+    assert "--- Run 2 --- Unlike run 1 it takes Way: Start -> " in told
+    assert "--- No run 3 --- Every other run to this end takes the same arrows as one of these: all " in told
+    assert told.count("What forces it") == 2 and capfd.readouterr().out == ""
+
+
+def test_what_no_run_reaches_is_said_with_the_proof(capfd: pytest.CaptureFixture[str]) -> None:
+    nowhere = reachable("state Way.Nowhere", "", that=left & ~left, covers=["R"], on="way")
+    assert trace(wanted(nowhere, example=True), "bdd", Limits(), Showing()) == Exit.AS_EXPECTED
+    assert "state Way.Nowhere is in no run: bdd: in none of all " in capfd.readouterr().err

@@ -1,0 +1,190 @@
+"""The inputs that force the end of a run, against all runs of small systems."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import pytest
+from hypothesis import assume, given, settings
+
+from checker.explain.completions import check
+from checker.explain.needed import Forcing, forcing
+from checker.explain.unrolled import OutOfTime, Unrolled
+from checker.runs.replay import ReplayError
+from checker.trace import Needed
+from checker.verdict import Run
+from spec_model.lang.action import Assign
+from spec_model.lang.domain import chosen, integer
+from spec_model.lang.evaluate import admissible, step
+from spec_model.lang.expr import Var, flag, ite, var
+from spec_model.lang.system import TransitionSystem
+from spec_model.lang.words import minimum
+from tests.naive import vectors
+from tests.strategies_ts import goals, transition_systems
+from tests.toys import GOAL, counter, filling, once
+
+Allowed = dict[int, dict[str, frozenset[int]]]
+
+
+def ends(system: TransitionSystem, goal: Var, run: Run, needed: Sequence[Needed]) -> set[int]:
+    """Whether the goal is true after the last tick, for all runs with the needed inputs."""
+    at = [{**system.init, **run.frozen}]
+    for number in range(1, len(run) + 1):
+        allowed = {n.name: n.values for n in needed if n.number == number}
+        given = [i for i in vectors(system.inputs) if all(i[n] in of for n, of in allowed.items())]
+        found = [step(system, state, i) for state in at for i in given if admissible(system, state, i)]
+        at = list({tuple(sorted(state.items())): state for state in found}.values())
+    return {state[goal.name] for state in at}
+
+
+def some_run(system: TransitionSystem, goal: Var, most: int) -> Run | None:
+    """A run to the goal, of the most ticks up to ``most``."""
+    found: Run | None = None
+    for frozen in vectors(system.frozen):
+        layer: dict[tuple[tuple[str, int], ...], tuple[dict[str, int], Run]] = {
+            (): ({**system.init, **frozen}, Run(frozen, ()))
+        }
+        for _ in range(most):
+            following: dict[tuple[tuple[str, int], ...], tuple[dict[str, int], Run]] = {}
+            for at, run in layer.values():
+                for inputs in vectors(system.inputs):
+                    if admissible(system, at, inputs):
+                        after = step(system, at, inputs)
+                        longer = Run(frozen, (*run.inputs, inputs))
+                        found = longer if after[goal.name] else found
+                        following[tuple(sorted(after.items()))] = after, longer
+            layer = following
+    return found
+
+
+@settings(max_examples=40)
+@given(transition_systems(most=2))
+def test_what_is_needed_forces_the_end_and_nothing_of_it_can_be_left_out(system: TransitionSystem) -> None:
+    goal = goals(system)[0]
+    run = some_run(system, goal, 3)
+    assume(run is not None)
+    assert run is not None
+    found = forcing(system, goal, run)
+    assert found.minimal
+    assert ends(system, goal, run, found.needed) == {1}
+    assert all(run.inputs[n.number - 1][n.name] in n.values for n in found.needed)
+    for one in found.needed:
+        others = [n for n in found.needed if n is not one]
+        assert 0 in ends(system, goal, run, others), f"{one} is not needed"
+    check(system, goal, run, found)
+
+
+def held(ticks: int, before: int = 0) -> Run:
+    """Not held for some ticks, then held."""
+    return Run({}, ({"hold": 0},) * before + ({"hold": 1},) * ticks)
+
+
+def told(found: Forcing) -> dict[tuple[int, str], list[int]]:
+    return {(n.number, n.name): sorted(n.values) for n in found.needed}
+
+
+def test_only_the_last_ticks_count() -> None:
+    system = counter(3, top=3)
+    found = forcing(system, GOAL, held(3, before=4))
+    assert told(found) == {(k, "hold"): [1] for k in (5, 6, 7)} and found.minimal
+
+
+def test_an_input_that_must_not_come_too_early_is_needed_too() -> None:
+    system = counter(2, top=5)  # held for exactly two ticks
+    assert told(forcing(system, GOAL, held(2, before=2))) == {
+        (2, "hold"): [0],
+        (3, "hold"): [1],
+        (4, "hold"): [1],
+    }
+
+
+def test_an_end_that_nothing_avoids_needs_nothing() -> None:
+    found = forcing(once(), GOAL, Run({}, ({}, {})))
+    assert found == Forcing((), True)
+
+
+def sensor(low: int, high: int) -> TransitionSystem:
+    """The goal: a measurement within bounds after one below them, whatever the noise."""
+    level, noise, low_before = var("level", integer(-50, 300)), flag("noise"), flag("low_before")
+    step = (
+        Assign(GOAL, low_before & (level >= low) & (level <= high)),
+        Assign(low_before, level < low),
+    )
+    return TransitionSystem("sensor", (level, noise), (), (low_before, GOAL), (), step)
+
+
+def test_values_are_widened_to_the_whole_interval() -> None:
+    run = Run({}, ({"level": 0, "noise": 0}, {"level": 90, "noise": 1}))
+    found = told(forcing(sensor(70, 120), GOAL, run))
+    assert found == {(1, "level"): list(range(-50, 70)), (2, "level"): list(range(70, 121))}
+
+
+def copying() -> TransitionSystem:
+    """Every value of the input is a case of its own, as it is stored; the sum of two must reach 100."""
+    level, last = var("level", integer(0, 200)), var("last", integer(0, 200))
+    step = (Assign(GOAL, level + last >= 100), Assign(last, level))
+    return TransitionSystem("copying", (level,), (), (last, GOAL), (), step)
+
+
+def test_intervals_are_found_by_bisection_where_values_are_many() -> None:
+    found = told(forcing(copying(), GOAL, Run({}, ({"level": 60}, {"level": 50}))))
+    first, second = found[1, "level"], found[2, "level"]
+    assert first == list(range(min(first), 201)) and second == list(range(min(second), 201))
+    assert min(first) + min(second) == 100, "any two of them are enough, and one less is not"
+
+
+def test_values_that_the_assumption_excludes_are_not_offered() -> None:
+    system = replace(filling(2), assume=var("noise", chosen([3, 5, 40])) > 3)
+    noise = system.inputs[1]
+    system = replace(system, step=(*system.step, Assign(GOAL, (noise > 3) & flag("hold"))))
+    system = replace(system, variables=(*system.variables, GOAL))
+    assert told(forcing(system, GOAL, Run({}, ({"hold": 1, "noise": 5},)))) == {(1, "hold"): [1]}
+
+
+def test_a_set_that_does_not_force_the_end_is_noticed() -> None:
+    system, run = counter(3, top=3), held(3, before=2)
+    found = forcing(system, GOAL, run)
+    for one in found.needed:
+        less = Forcing(tuple(n for n in found.needed if n is not one), True)
+        with pytest.raises(ReplayError, match="does not force it"):
+            check(system, GOAL, run, less)
+
+
+def test_a_solver_that_takes_anything_for_forced_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
+    from checker.explain.unrolled import Answer
+
+    monkeypatch.setattr(Unrolled, "asked", lambda *_: Answer(True))
+    monkeypatch.setattr(Unrolled, "avoids", lambda _, changes: iter([False] * len(changes)))
+    system, run = counter(3, top=3), held(3)
+    with pytest.raises(ReplayError, match="does not force it"):
+        check(system, GOAL, run, forcing(system, GOAL, run))
+
+
+def test_a_run_that_does_not_reach_its_end_is_an_error() -> None:
+    with pytest.raises(ReplayError, match="do not lead to its end"):
+        forcing(counter(3, top=3), GOAL, held(2))
+
+
+def test_when_time_is_over_what_was_found_is_not_called_minimal() -> None:
+    system = replace(counter(3, top=3), inputs=(flag("hold"), flag("beside")))
+    beside, hold = flag("beside"), flag("hold")
+    count = var("count", integer(0, 3))
+    late = Assign(count, ite(hold | (beside & ~beside), minimum(count + 1, 3), 0))
+    system = replace(system, step=(late, *system.step[1:]))
+    moments = iter([False] * 6 + [True] * 1000)
+    run = Run({}, ({"hold": 1, "beside": 0},) * 6)
+    found = forcing(system, GOAL, run, over=lambda: next(moments))
+    assert not found.minimal
+    assert ends(system, GOAL, run, found.needed) == {1}
+
+
+def test_time_that_is_over_at_once() -> None:
+    with pytest.raises(OutOfTime, match="0 of 3 ticks"):
+        forcing(counter(3, top=3), GOAL, held(3), over=lambda: True)
+
+
+def test_frozen_values_are_kept() -> None:
+    limit, hold, count = var("limit", integer(1, 3)), flag("hold"), var("count", integer(0, 3))
+    step = (Assign(count, ite(hold, minimum(count + 1, 3), 0)), Assign(GOAL, count >= limit))
+    system = TransitionSystem("frozen", (hold,), (limit,), (count, GOAL), (), step)
+    run = Run({"limit": 2}, ({"hold": 1},) * 3)
+    assert told(forcing(system, GOAL, run)) == {(2, "hold"): [1], (3, "hold"): [1]}

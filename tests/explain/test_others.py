@@ -1,0 +1,72 @@
+"""Other runs to the same end, each through other arrows, until it is proved that there is no more."""
+
+from dataclasses import replace
+
+from checker.engine import Limits
+from checker.explain.explained import explained, unexplained
+from checker.explain.others import NoMore, Other, Others
+from checker.lowered import lowered
+from checker.result import result
+from checker.trace import Trace
+from checker.verdict import Reached, Run, Violated
+from properties.forms import Property, never
+from properties.reduce import reduce
+from spec_model.lang.chart import Chart, State, to
+from spec_model.lang.expr import flag
+from spec_model.lang.system import System, in_order
+
+left, right, quick = flag("left"), flag("right"), flag("quick")
+
+CHART = Chart(
+    "Way",
+    [
+        State("Start", transitions=[to("Left", when=left), to("Right", when=right)]),
+        State("Left", transitions=[to("End")]),
+        State("Right", transitions=[to("End", when=quick)]),
+        State("End"),
+    ],
+    default="Start",
+)
+SYSTEM = in_order("way", CHART)
+ENDS = never("T-1", "The end is not reached.", that=CHART.active("End"), covers=["R"], on="way")
+
+
+def first(system: System = SYSTEM, prop: Property = ENDS) -> Trace:
+    """By the left way, in the fewest ticks."""
+    question = reduce(lowered(system), [prop])
+    run = Run({}, tuple({"left": 1, "right": 0, "quick": 0} for _ in range(3)))
+    found = result(question.system, question.goals[0], Reached(run), "by hand").verdict
+    assert isinstance(found, Violated) and isinstance(found.because, Trace)
+    return found.because
+
+
+def test_both_ways_are_found_and_that_there_is_no_third() -> None:
+    others = Others(first(), ENDS, SYSTEM)
+    second = others.next("bdd", Limits())
+    assert isinstance(second, Other)
+    [difference] = second.differences
+    assert difference == (
+        "takes Way: Start -> Right (arrow 2) [right], Way: Right -> End (arrow 1) [quick]; "
+        "does not take Way: Start -> Left (arrow 1) [left], Way: Left -> End (arrow 1)"
+    )
+    assert [a.target for t in second.trace.ticks for a in t.arrows] == ["Start", "Right", "End"]
+    assert "goal" not in str(second.trace.ticks), "the run is replayed on the charts as drawn"
+    third = others.next("bdd", Limits())
+    assert isinstance(third, NoMore) and third.proved and "valuations" in third.reason
+
+
+def test_a_search_that_gives_up_proves_nothing() -> None:
+    others = Others(first(), ENDS, SYSTEM)
+    assert others.next("bmc", Limits(depth=2)) == NoMore(False, "none within 2 ticks")
+
+
+def test_explained_by_the_inputs_that_decide_the_way() -> None:
+    found = explained(first(), ENDS, SYSTEM)
+    assert [(n.number, n.name, set(n.values)) for n in found.needed or ()] == [(2, "left", {1})]
+    assert found.minimal
+
+
+def test_runs_without_an_end_are_left_as_they_are() -> None:
+    for trace in (replace(first(), loop=1), replace(first(), trapped=1)):
+        assert explained(trace, ENDS, SYSTEM) is trace
+        assert unexplained(trace)
