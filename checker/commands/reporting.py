@@ -54,9 +54,9 @@ def reports(folder: Path, stale: bool) -> Exit:
 
 def differences(folder: Path, made: Pages) -> Iterator[str]:
     """Files to write, and files under ``folder`` that nothing makes any more."""
-    for name, text in made.items():
+    for name in made:
         there = folder / name
-        if not there.is_file() or _settled(there.read_text(encoding="utf-8")) != _settled(text):
+        if not there.is_file() or not _agree(name, there.read_text(encoding="utf-8"), made):
             yield name
     if folder.is_dir():
         for there in sorted(p for p in folder.rglob("*") if p.is_file()):
@@ -70,12 +70,15 @@ LONG_RUN = "## A counterexample, not known to be a shortest one"
 """For runs whose length is not on record."""
 
 
-def _settled(text: str) -> str:
-    """What must not differ: of a page on a run that a solver chose among several, all but the run.
+def _agree(name: str, there: str, made: Pages) -> bool:
+    """Whether a file says what it should: of a run that a solver chose among several, all but the run.
 
     Builds of Z3 may choose differently; the verdict, the length and the reason stand above the run.
     """
-    return text.partition(RUN)[0] if "\n- bmc: counterexample" in text else text
+    page = made.get(str(Path(name).with_suffix(".md")), "")
+    if "\n- bmc: counterexample" not in page:
+        return there == made[name]
+    return name.endswith(".svg") or there.partition(RUN)[0] == page.partition(RUN)[0]
 
 
 def _put(folder: Path, name: str, made: Pages) -> None:
@@ -113,7 +116,17 @@ def pages_of_verdicts(found: Sequence[Compared], proved: Sequence[Proof] = ()) -
     for compared in ordered:
         if compared.verdict.word == "violated":
             made[_page(compared)] = _finding(compared, proved)
+            made |= _picture(compared)
     return made
+
+
+def _picture(compared: Compared) -> Pages:
+    """The run over time, for what is violated by a run."""
+    verdict = compared.verdict
+    if isinstance(verdict, Unknown) or not isinstance(verdict.because, Trace):
+        return {}
+    drawn = renderers("trace")["svg"].render(verdict.because)
+    return {str(Path(_page(compared)).with_suffix(".svg")): _text(drawn)}
 
 
 def _text(content: str | bytes) -> str:
@@ -207,6 +220,7 @@ def _finding(compared: Compared, proved: Sequence[Proof]) -> str:
     lines += sections(prop.id, compared.expected, proved)
     if isinstance(verdict.because, Trace):
         lines += [LONG_RUN if compared.expected.depth is None else RUN, ""]
+        lines += [f"![{prop.id} over time]({prop.id}.svg)", ""]
         lines.append(_text(renderers("trace")["markdown"].render(verdict.because.focused())))
         names = dict.fromkeys(a.chart for t in verdict.because.ticks for a in t.arrows)
         lines += ["", "## Charts", "", *(f"- [{n}](../charts/{n}.svg)" for n in names)]
