@@ -1,0 +1,140 @@
+"""The review page: one HTML file with every verdict, its evidence and how to get it again.
+
+It needs no network and no program but a browser.  Without scripts all of it can still be read, except
+the moving pictures of traces.
+"""
+
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from importlib.resources import files
+from itertools import groupby
+from typing import Any
+from urllib.parse import quote
+
+from markupsafe import Markup
+
+from checker.render import renderers
+from checker.render.page import Part, page, templates
+from checker.render.review import traces
+from checker.render.review.model import PROVED, Checked, Review
+from checker.render.review.packed import Packed
+from checker.render.story import ending, false_parts, heading
+from checker.trace import Trace
+
+TEMPLATES = templates("review")
+SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
+STATES = {
+    "open": "not covered",
+    "reached": "only reached",
+    "reason": "with a reason",
+    "violated": "violated",
+    "unknown": "unknown",
+    "proved": "proved",
+}
+"""What the matrix says of a requirement."""
+GALLERY = "*"
+"""The name of the fragment with the pictures of charts that all players share."""
+
+
+def render(review: Review) -> str:
+    """The page as HTML text; the same data give the same page."""
+    runs = traces.shared({p.id: p.trace for p in review.properties if p.trace is not None})
+    told = {p.id: traces.story(runs[p.id]) for p in review.findings if p.id in runs}
+    body = TEMPLATES.get_template("review.html").render(
+        review=review,
+        groups=grouped(review.findings),
+        areas=[(area, list(of)) for area, of in groupby(review.properties, key=_area)],
+        by_id={p.id: p for p in review.properties},
+        repairs=_by_property(review),
+        chart_images={name: _image(chart) for name, chart in review.charts.items()},
+        told={id: part.body for id, part in told.items()},
+        heading=heading,
+        ending=ending,
+        false_parts=false_parts,
+        gallery=GALLERY,
+        signs=SIGNS,
+        states=STATES,
+        sign=sign,
+        link=link,
+        title_of=title_of,
+    )
+    styles = dict.fromkeys(text for part in told.values() for text in part.styles)
+    parts = [Part(Markup(body), (*styles, own("review.css")), (own("review.js"),))]
+    return page(review.title, [*parts, *_pictures(runs, told).parts()])
+
+
+def own(name: str) -> str:
+    """The text of a file beside this one: a style sheet or a script."""
+    return files(__name__).joinpath(name).read_text(encoding="utf-8")
+
+
+def sign(prop: Checked) -> str:
+    """One character for a verdict."""
+    return "≈" if prop.in_part else SIGNS[prop.verdict]
+
+
+def link(kind: str, name: str) -> str:
+    """The address within the page of a thing of a kind; of a property, the plain id."""
+    return "#" + quote(f"{kind}-{name}" if kind else name)
+
+
+def title_of(area: str) -> str:
+    """``board2_motion`` as a heading: ``Board 2 motion``."""
+    return re.sub(r"(?<=[a-z])(?=\d)", " ", area.replace("_", " ")).capitalize()
+
+
+def _area(prop: Checked) -> str:
+    return prop.area or prop.system
+
+
+Group = tuple[str, list[tuple[str, list[Checked]]]]
+"""A heading, and under it the findings with the same cause together."""
+
+
+def grouped(findings: Iterable[Checked]) -> list[Group]:
+    """What is not as on record first, then area by area; findings with one cause are together."""
+    shown = list(findings)
+    surprising = [p for p in shown if not p.as_expected]
+    known = [p for p in shown if p.as_expected]
+    groups: list[Group] = [("Not as on record", [("", [p]) for p in surprising])] if surprising else []
+    for area, members in groupby(known, key=_area):
+        groups.append((title_of(area), list(_causes(members))))
+    return groups
+
+
+def _causes(findings: Iterable[Checked]) -> Iterator[tuple[str, list[Checked]]]:
+    by: dict[str, list[Checked]] = {}
+    for one in findings:
+        by.setdefault(one.cause or one.id, []).append(one)
+    yield from by.items()
+
+
+def _by_property(review: Review) -> Mapping[str, list[Any]]:
+    found: dict[str, list[Any]] = {}
+    for one in review.repairs:
+        for id, *_ in one.proofs:
+            found.setdefault(id, []).append(one)
+    return found
+
+
+def _pictures(runs: Mapping[str, Trace], told: Collection[str]) -> Packed:
+    """The moving pictures of traces, kept for when they are asked for; charts lie there once.
+
+    So do the stories that are not ``told`` in the page itself.
+    """
+    packed = Packed()
+    for id, trace in runs.items():
+        packed.add(id, [*traces.moving(trace), *([] if id in told else [traces.story(trace)])])
+    if runs:
+        packed.add(GALLERY, [traces.pictures(list(runs.values()))])
+    return packed
+
+
+def _image(chart: Any) -> str:
+    """The picture of a chart as an address that holds it."""
+    drawn = renderers("statechart")["svg"].render(chart)
+    text = drawn if isinstance(drawn, str) else drawn.decode()
+    return "data:image/svg+xml," + quote(text.strip(), safe=" /:=;,'()@!$&*+?-_.~[]{}|")
+
+
+__all__ = ["PROVED", "Review", "render"]

@@ -1,0 +1,201 @@
+"""What a review page shows, as plain data: it knows no rover, no engine and no property form.
+
+``checker.commands.reviewing`` makes it of the rover's verdicts; whoever checks a model of his own makes
+it of that.  Whatever is empty is left out of the page, or said to be missing.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from checker.trace import Trace
+from spec_model.lang.chart import Chart
+
+PROVED, VIOLATED, UNKNOWN = "proved", "violated", "unknown"
+
+
+@dataclass(frozen=True)
+class Checked:
+    """A property and its verdict.
+
+    ``english`` is what is checked in words, ``formula`` the same as written, part by part with its name.
+    ``record`` is the verdict on record ("" for none), ``certificate`` what came of checking the proof again
+    ("" where that was not asked for or there is no proof), ``premise`` whether the case it speaks of
+    occurs at all ("" where that was not examined), ``vacuous`` that it does not.  ``trace`` is the
+    counterexample or the witness.
+    """
+
+    id: str
+    text: str
+    area: str
+    verdict: str
+    system: str
+    engine: str
+    evidence: str
+    form: str
+    english: tuple[str, ...] = ()
+    formula: tuple[tuple[str, str], ...] = ()
+    in_part: bool = False
+    record: str = ""
+    as_expected: bool = True
+    certificate: str = ""
+    certified: bool | None = None
+    premise: str = ""
+    vacuous: bool = False
+    because: str = ""
+    no_repair: str = ""
+    cause: str = ""
+    """The id of the finding whose cause this one has too; its own where the cause is its own."""
+    requirements: tuple[str, ...] = ()
+    readings: tuple[str, ...] = ()
+    on: str = ""
+    """The system it is stated of, where the verdict is about another one."""
+    quiet: bool = False
+    """Whether valuations after quiet ticks were visited and not stored."""
+    again: str = ""
+    """The command that decides it again."""
+    trace: Trace | None = None
+
+    @property
+    def finding(self) -> bool:
+        """Whether a reviewer has to look at it: violated, undecided, not as on record, or about nothing."""
+        return self.verdict != PROVED or not self.as_expected or self.vacuous
+
+    @property
+    def word(self) -> str:
+        """The verdict for people."""
+        return f"{self.verdict} in part" if self.in_part else self.verdict
+
+
+@dataclass(frozen=True)
+class Demand:
+    """A row of the requirement matrix: ``state`` is the worst verdict, or why there is none."""
+
+    id: str
+    text: str
+    source: str
+    state: str
+    reason: str = ""
+    properties: tuple[str, ...] = ()
+    covered: bool = True
+
+
+@dataclass(frozen=True)
+class About:
+    """A system: what it is, how its runs compare with those of what it stands for, what it assumes."""
+
+    name: str
+    text: str
+    tick_ms: int
+    charts: tuple[str, ...] = ()
+    notes: tuple[str, ...] = ()
+    assumptions: tuple[str, ...] = ()
+    over: bool = False
+    under: bool = False
+    concrete: str = ""
+
+    @property
+    def runs(self) -> str:
+        """How its runs compare with those of what it stands for; empty for the same runs."""
+        words = {
+            (True, False): "more runs than the real system",
+            (False, True): "fewer runs than the real system",
+            (True, True): "some runs more and some fewer than the real system",
+        }
+        return words.get((self.over, self.under), "")
+
+
+@dataclass(frozen=True)
+class Ambiguity:
+    """A sentence that can be read in several ways, the choices and the one that is taken."""
+
+    id: str
+    about: str
+    says: str
+    taken: str
+    choices: tuple[tuple[str, str], ...]
+    scenario: str = ""
+    because: str = ""
+
+
+@dataclass(frozen=True)
+class Assumed:
+    """Something taken for granted of the environment, and the systems that do."""
+
+    id: str
+    text: str
+    systems: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Edit:
+    """A place of a chart that a repair changes: the lines before and after."""
+
+    part: str
+    place: str
+    before: tuple[str, ...]
+    after: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Remedy:
+    """A proposed repair: what it changes, what it repairs with which evidence, what it gives up."""
+
+    name: str
+    text: str
+    edits: tuple[Edit, ...]
+    proofs: tuple[tuple[str, str, str], ...]
+    """Id, verdict and evidence of each property that it repairs."""
+    gives_up: tuple[tuple[str, str], ...]
+    again: str
+    """The command that decides all that it concerns."""
+
+
+@dataclass(frozen=True)
+class Covered:
+    """How much of one kind of goal a set of tests reaches."""
+
+    board: str
+    kind: str
+    goals: int
+    reached: int
+    unreachable: int
+    unknown: int
+
+
+@dataclass(frozen=True)
+class Origin:
+    """How the page was made: enough to make it again and to compare it."""
+
+    command: str
+    code: int
+    meaning: str
+    versions: tuple[tuple[str, str], ...] = ()
+    digests: tuple[tuple[str, str], ...] = ()
+    date: str = ""
+    variant: str = ""
+
+
+@dataclass(frozen=True)
+class Review:
+    """Everything on the page."""
+
+    title: str
+    subject: str
+    properties: tuple[Checked, ...]
+    origin: Origin
+    systems: Mapping[str, About]
+    charts: Mapping[str, Chart]
+    demands: tuple[Demand, ...] = ()
+    readings: tuple[Ambiguity, ...] = ()
+    assumptions: tuple[Assumed, ...] = ()
+    repairs: tuple[Remedy, ...] = ()
+    coverage: tuple[Covered, ...] = ()
+    how_to_read: str = ""
+    """How the sentences on what is checked are meant."""
+    left_out: tuple[tuple[str, str], ...] = ()
+    """Properties that were not decided, and why."""
+
+    @property
+    def findings(self) -> tuple[Checked, ...]:
+        """What a reviewer has to look at."""
+        return tuple(p for p in self.properties if p.finding)

@@ -1,0 +1,41 @@
+"""A trace on the review page: its story to read, and the pictures that move."""
+
+import pickle
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from checker.render import player, timeline
+from checker.render.page import Part
+from checker.trace import Trace
+from spec_model.lang.chart import Chart
+
+
+def shared(runs: Mapping[str, Trace]) -> dict[str, Trace]:
+    """The same traces, in which charts that are equal are one object.
+
+    Charts come with each trace from the process that found it; a picture is drawn once for each object.
+    """
+    known: dict[bytes, Chart] = {}
+
+    def one(chart: Chart) -> Chart:
+        return known.setdefault(pickle.dumps(chart), chart)
+
+    return {
+        id: replace(run, statecharts={name: one(chart) for name, chart in run.statecharts.items()})
+        for id, run in runs.items()
+    }
+
+
+def story(trace: Trace) -> Part:
+    """What happened, only what the property depends on."""
+    return timeline.told(trace)
+
+
+def moving(trace: Trace) -> list[Part]:
+    """The timeline, and the charts on which the run is played."""
+    return [timeline.part(trace), player.part(trace, pictures=False)]
+
+
+def pictures(traces: Sequence[Trace]) -> Part:
+    """The charts of all these traces, each once, for their players."""
+    return player.gallery(traces)

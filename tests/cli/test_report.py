@@ -1,0 +1,199 @@
+"""The verb ``report``: the same verdicts and exit codes as ``check``, and a page that says so, or none."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from checker.cli import run
+from checker.commands import reviewing
+from checker.commands.codes import Exit
+from checker.commands.reviewed import by_number, cause, named, occurs, written
+from checker.commands.reviewing_rover import coverage
+from checker.result import Result
+from checker.verbs.report import command
+from checker.verbs.report import report as verb
+from checker.verdict import Unknown
+from properties.catalogue import catalogue, expected
+from tests.render.test_page import Reader
+
+ROOT = Path(__file__).parents[2]
+CHEAP = ["PB1-15", "PB1-11"]
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> tuple[Exit, str]:
+    """The page on two cheap properties, one violated and one proved and certified."""
+    file = tmp_path_factory.mktemp("report") / "review.html"
+    code = run(["report", *CHEAP, "--certify", "--explain", "--no-repairs", "-o", str(file)])
+    return code, file.read_text(encoding="utf-8")
+
+
+def entry(document: str, id: str) -> str:
+    start = document.index(f'<details class="entry property{"" if id == "PB1-11" else " finding"}" id="{id}"')
+    return document[start : document.index("</details>", start)]
+
+
+def test_a_violation_on_record_is_as_expected(made: tuple[Exit, str]) -> None:
+    code, document = made
+    assert code == Exit.AS_EXPECTED
+    assert "Exit code 0: every verdict is as on record." in document
+
+
+def test_a_finding_has_reason_formula_requirement_and_readings(made: tuple[Exit, str]) -> None:
+    finding = entry(made[1], "PB1-15")
+    assert expected("PB1-15").because.replace(">", "&gt;") in finding
+    assert "in every step in which rx_status is RX_OK and b2_sup_status is SUP_OK" in finding
+    assert "!(rx_status == RX_OK &amp;&amp; b2_sup_status == SUP_OK) || !give_b2_actuation" in finding
+    assert 'href="#requirement-B1-REL-04"' in finding
+    assert 'href="#reading-S45"' in finding
+    assert "B1_actuating → B2_actuating (arrow 1)" in finding
+    assert 'stated of <a href="#system-relay">relay</a>' in finding
+    assert "told-reasons" in finding
+
+
+def test_a_proof_says_who_checked_it_again(made: tuple[Exit, str]) -> None:
+    proof = entry(made[1], "PB1-11")
+    assert "<dt>Certificate</dt>" in proof and "accepted: " in proof
+
+
+def test_a_selection_shows_only_what_concerns_it(made: tuple[Exit, str]) -> None:
+    ids = {a.get("id") or "" for _, a in Reader(made[1]).elements}
+    asked = {covered for id in CHEAP for covered in catalogue()[id].covers}
+    assert {id.removeprefix("requirement-") for id in ids if id.startswith("requirement-")} == asked
+    assert "chart-Relay" in ids and "chart-Obstacles" not in ids
+    assert "Not decided here" not in made[1]
+
+
+def test_the_page_shows_how_it_was_made_but_no_place_and_no_time(made: tuple[Exit, str]) -> None:
+    document = made[1]
+    assert "rovercheck report PB1-15 PB1-11 --output FILE --certify --no-repairs --explain" in document
+    assert "z3-solver" in document and "sha256 " in document
+    assert "pytest" not in document and "Made on" not in document
+
+
+def test_the_command_holds_what_differs_from_the_defaults() -> None:
+    line = ["B-1", "-o", "x.html", "--reading", "S43=AND", "--reading", "S44=any", "--timeout", "5", "--full"]
+    with verb.make_context("report", line) as context:
+        shown = command(context)
+    assert shown == (
+        "rovercheck report B-1 --output FILE --full --reading S43=AND --reading S44=any --timeout 5.0"
+    )
+
+
+def test_nowhere_to_write_is_said_before_anything_is_searched(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(reviewing, "results", None)
+    assert run(["report", "PB1-15", "-o", str(tmp_path / "missing" / "x.html")]) == Exit.USAGE
+    assert run(["report", "PB1-15", "-o", str(tmp_path)]) == Exit.USAGE
+    assert capsys.readouterr().err.count("Choose another --output.") == 2
+
+
+def test_without_a_file_nothing_is_done(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["report", "PB1-15"]) == Exit.USAGE
+    assert "--output" in capsys.readouterr().err
+
+
+def test_nothing_selected_is_nothing_to_report_on(tmp_path: Path) -> None:
+    file = tmp_path / "x.html"
+    assert run(["report", "PB1-15", "--system", "obstacles", "-o", str(file)]) == Exit.NOTHING
+    assert not file.exists()
+
+
+def test_after_an_interruption_nothing_is_written(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def interrupted(*_: object) -> list[Result]:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(reviewing, "results", interrupted)
+    file = tmp_path / "x.html"
+    assert run(["report", "PB1-15", "-o", str(file)]) == Exit.INTERRUPTED
+    assert not file.exists()
+    assert "0 of 1 properties decided; nothing was written" in capsys.readouterr().err
+
+
+def test_an_unfinished_search_is_a_finding_and_no_pass(tmp_path: Path) -> None:
+    file = tmp_path / "x.html"
+    code = run(["report", "PB1-15", "--engine", "bmc", "--depth", "2", "--no-repairs", "-o", str(file)])
+    document = file.read_text(encoding="utf-8")
+    assert code == Exit.INCONCLUSIVE
+    assert "Not as on record" in document
+    assert "On record is <b>violated after 8 ticks</b>" in entry(document, "PB1-15")
+
+
+def test_of_a_case_that_nobody_reproduced_the_limits_are_not_listed() -> None:
+    reason = "reached after 2 ticks on x_free; not reproduced on x: bmc: the time limit of 11.9 s is reached"
+    case = Result(catalogue()["PB1-11"], Unknown(reason, 3, "bmc"), "x")
+    assert occurs(case) == "not known: reached after 2 ticks on x_free; not reproduced on x within the limits"
+    assert occurs(replace(case, verdict=Unknown("gave up", 3, "bmc"))) == "not known: gave up"
+
+
+def test_the_reason_of_another_finding_is_followed_to_the_first() -> None:
+    reasons = {
+        "A-1": "The arrow.",
+        "A-2b": "As A-1: again.",
+        "A-3": "As A-2b.",
+        "A-4": "As Z-9.",
+        "A-5": "As A-5.",
+    }
+    assert [cause(id, reasons) for id in reasons] == ["A-1", "A-1", "A-1", "A-4", "A-5"]
+
+
+def test_a_model_of_the_user_gets_the_same_page(tmp_path: Path) -> None:
+    file, model = tmp_path / "x.html", ROOT / "examples" / "models" / "lift"
+    code = run(["report", "--model", str(model), "-o", str(file)])
+    document = file.read_text(encoding="utf-8")
+    assert code in (Exit.AS_EXPECTED, Exit.CHANGED)
+    ids = {a.get("id") or "" for _, a in Reader(document).elements}
+    assert {"section-summary", "section-requirements", "section-charts", "chart-Drive"} <= ids
+    assert not [id for id in ids if id.startswith(("reading-", "repair-"))]
+    assert "B1-" not in document and "rover" not in document.replace("rovercheck", "")
+
+
+def test_ids_are_sorted_by_their_numbers() -> None:
+    ids = ["PB1-15", "PB1-2", "PB1-15-b", "REACH", "PB1-2a"]
+    assert sorted(ids, key=by_number) == ["PB1-2", "PB1-2a", "PB1-15", "PB1-15-b", "REACH"]
+
+
+def test_a_property_is_written_part_by_part() -> None:
+    prop = replace(catalogue()["PB1-16a"], from_tick=2)
+    assert [name for name, _ in written(prop)] == ["that", "from"]
+    assert dict(named(prop.form))["Board 1 actuates ="] == "!give_b2_actuation"
+
+
+def test_the_figures_of_the_covering_tests_add_up() -> None:
+    rows = list(coverage())
+    assert {(r.board, r.kind) for r in rows} == {
+        (b, k) for b in ("board1", "board2") for k in ("arrows", "boundaries", "pairs")
+    }
+    assert all(r.goals == r.reached + r.unreachable + r.unknown for r in rows)
+
+
+EMPTY = """
+from properties.forms import always
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Chart, State, to
+from spec_model.lang.expr import flag, implies
+from spec_model.lang.system import in_order
+
+button, lamp = flag("button"), flag("lamp")
+on = State("On", entry=[assign(lamp, True)], transitions=[to("Off", when=button)])
+off = State("Off", entry=[assign(lamp, False)], transitions=[to("On", when=button)])
+chart = Chart("Lamp", [off, on], default="Off")
+hall = in_order("hall", chart, text="A lamp & a button.")
+EMPTY = always("EMPTY", "Nothing.", that=implies(chart.active("On") & ~lamp, button), covers=["R"], on="hall")
+FULL = always("FULL", "Something.", that=implies(chart.active("On"), lamp), covers=["R"], on="hall")
+"""
+
+
+def test_a_proof_about_nothing_is_a_finding(tmp_path: Path) -> None:
+    model, file = tmp_path / "hall.py", tmp_path / "x.html"
+    model.write_text(EMPTY, encoding="utf-8")
+    run(["report", "--model", str(model), "--premises", "-o", str(file)])
+    document = file.read_text(encoding="utf-8")
+    assert "it NEVER occurs, so nothing is said" in entry(document, "EMPTY")
+    start = document.index('id="FULL"')
+    assert "it occurs: " in document[start : document.index("</details>", start)]
+    assert 'It never does for <a class="violated" href="#EMPTY">EMPTY</a>.' in document

@@ -1,0 +1,132 @@
+"""The review page: all that was found is there, every link leads somewhere, no text breaks out."""
+
+import json
+import pickle
+import re
+import zlib
+from base64 import b64decode
+from collections import Counter
+from dataclasses import replace
+from urllib.parse import unquote
+
+import pytest
+
+from checker.render.review import grouped, render, title_of
+from checker.render.review.packed import TOGETHER, Packed
+from checker.render.review.traces import shared
+from tests.render.test_page import Reader
+from tests.render.toy_review import ALL, BROKEN, CHANGED, EVIL, FINE, OPEN, RUN, SAME, checked, review
+
+
+@pytest.fixture(scope="module")
+def document() -> str:
+    return render(review())
+
+
+@pytest.fixture(scope="module")
+def page(document: str) -> Reader:
+    return Reader(document)
+
+
+def test_the_same_data_give_the_same_page(document: str) -> None:
+    assert render(review()) == document
+
+
+def test_every_thing_has_an_address_of_its_own(page: Reader) -> None:
+    ids = [a["id"] for _, a in page.elements if "id" in a]
+    assert [id for id, count in Counter(ids).items() if count > 1] == []
+    kinds = {"requirement-R-0", "reading-S1", "repair-mend", "chart-Nested", "system-toy", "assumption-A1"}
+    assert {*kinds, *(p.id for p in ALL)} <= set(ids)
+
+
+def test_every_link_leads_to_something_on_the_page(page: Reader) -> None:
+    ids = {a["id"] for _, a in page.elements if "id" in a}
+    links = [a["href"] or "" for tag, a in page.elements if tag == "a"]
+    assert len(links) > 20
+    assert [x for x in links if not x.startswith("#") or unquote(x[1:]) not in ids] == []
+
+
+def test_no_text_of_a_model_becomes_markup(page: Reader) -> None:
+    assert "document.title='broken into'" not in "".join(t for k, t in page.scripts if not k)
+    assert all("onerror" not in attributes for _, attributes in page.elements)
+    assert {a["src"][:19] for tag, a in page.elements if tag == "img" and a["src"]} == {"data:image/svg+xml,"}
+
+
+def test_nothing_is_fetched(page: Reader, document: str) -> None:
+    sources = [a[name] for _, a in page.elements for name in ("src", "href", "action", "data") if a.get(name)]
+    assert [s for s in sources if s and not s.startswith(("#", "data:"))] == []
+    assert "url(" not in document and "@import" not in document
+
+
+def test_findings_come_first_and_with_the_same_cause_together() -> None:
+    groups = grouped(review().findings)
+    assert groups == [
+        ("Not as on record", [("", [CHANGED])]),
+        ("Relay", [("T-1", [BROKEN, SAME])]),
+        ("Link", [("T-4", [OPEN])]),
+    ]
+
+
+def test_of_a_finding_the_story_is_there_to_read_without_scripts(document: str) -> None:
+    start = document.index('id="T-1"')
+    section = document[start : document.index("</details>", start)]
+    assert "duration(level &lt; 5) &gt; 3 s" in section
+    assert "False after tick 153" in section
+    assert "Proposed repair" in section and "bdd: all 4 valuations" in section
+
+
+def test_a_finding_without_a_repair_says_why(document: str) -> None:
+    assert "There is none." in document[document.index('id="T-2"') :]
+
+
+def test_what_is_missing_is_said_or_left_out() -> None:
+    bare = replace(
+        review((FINE,)), demands=(), readings=(), repairs=(), charts={}, assumptions=(), coverage=()
+    )
+    shown = render(bare)
+    ids = {a.get("id") for _, a in Reader(shown).elements}
+    assert ids.isdisjoint({f"section-{s}" for s in ("findings", "requirements", "repairs", "readings")})
+    assert "no generated tests" in shown
+    assert "not examined" not in shown
+    assert "not examined" in render(replace(bare, properties=(replace(FINE, premise=""),)))
+
+
+def test_headings_are_written_as_people_write_them() -> None:
+    assert title_of("board2_motion") == "Board 2 motion"
+
+
+def unpacked(document: str) -> dict[str, str]:
+    """The fragments that the page keeps, as the browser unpacks them."""
+    [block] = re.findall(r'<script type="application/json" class="packed">(.*?)</script>', document)
+    found: dict[str, str] = {}
+    for parcel in json.loads(block):
+        columns = json.loads(zlib.decompress(b64decode(parcel["parts"]), -zlib.MAX_WBITS))
+        found |= {name: "".join(c[i] for c in columns) for i, name in enumerate(parcel["names"])}
+    return found
+
+
+def test_moving_pictures_are_kept_for_every_trace_and_each_chart_once(document: str) -> None:
+    fragments = unpacked(document)
+    assert set(fragments) == {"T-1", "T-2", "T-7", "*"}
+    assert all(fragments[id].count('<section class="player') == 1 for id in ("T-1", "T-2", "T-7"))
+    assert fragments["*"].count("<template") == 1
+    assert "told" in fragments["T-7"] and "told" not in fragments["T-1"]
+
+
+def test_many_fragments_are_kept_in_several_parcels() -> None:
+    many = tuple(checked(f"T-{i}", "proved", trace=RUN) for i in range(TOGETHER + 2))
+    document = render(review(many))
+    assert set(unpacked(document)) == {"*", *(p.id for p in many)}
+    assert len(Packed().parts()) == 0
+
+
+def test_equal_charts_become_one_object() -> None:
+    other = pickle.loads(pickle.dumps(RUN))
+    assert other.statecharts["Relay"] is not RUN.statecharts["Relay"]
+    runs = shared({"a": other, "b": pickle.loads(pickle.dumps(other))})
+    assert runs["a"].statecharts["Relay"] is runs["b"].statecharts["Relay"]
+
+
+def test_the_page_escapes_what_it_shows(document: str) -> None:
+    assert EVIL not in document
+    assert "&lt;img src=x onerror=alert(1)&gt;" in document
