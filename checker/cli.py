@@ -14,6 +14,8 @@ import click
 
 from checker import verbs
 from checker.commands.codes import Exit, UsageError
+from checker.commands.completing import completed
+from checker.commands.helping import helped
 from checker.commands.output import err
 from checker.decide import Disagreement
 from checker.isolate import collect_seldom
@@ -52,7 +54,7 @@ def _found() -> Iterator[click.Command]:
 
 
 for verb in _found():
-    app.add_command(verb)
+    app.add_command(helped(completed(verb)))
 
 
 def main() -> None:

@@ -74,15 +74,18 @@ def results(
     limits: Limits,
     jobs: int | None = None,
     certifying: Certifying | None = None,
+    quiet: bool = False,
 ) -> Iterator[Result]:
     """Decide the properties, several searches at a time; results come as they are found.
+
+    With ``quiet``, nothing is said meanwhile.
 
     On Ctrl-C the searches under way are ended and ``KeyboardInterrupt`` is raised.
     """
     # The largest first, so that no long search is left for the end; those of one system together.
     todo = sorted(tasks(properties, systems), key=lambda t: (-t.size, t.system.name, t.title))
     heard = searches(todo, systems, engine, limits, jobs, certifying)
-    with Watch(err, len(todo)) as watch, closing(heard):
+    with Watch(err, len(todo), quiet) as watch, closing(heard):
         for one in heard:
             match one:
                 case Doing(task, line):
@@ -121,11 +124,12 @@ def check(
     certifying: Certifying | None = None,
     options: str = "",
     deliver: Deliver = undelivered,
+    quiet: bool = False,
 ) -> Exit:
     """Print every verdict with its evidence and what the baseline says of it.
 
     ``options`` is what a command needs to speak of the same properties: ``--model heater.py``.  ``deliver``
-    is called once at the end, however that comes.
+    is called once at the end, however that comes.  With ``quiet``, only what is not as expected is printed.
     """
     if not properties:
         err.print("Nothing to check: the selection holds no property.")
@@ -133,9 +137,9 @@ def check(
         return Exit.NOTHING
     found: list[Compared] = []
     try:
-        for result in results(properties, systems, engine, limits, jobs, certifying):
+        for result in results(properties, systems, engine, limits, jobs, certifying, quiet):
             found.append(Compared(result, expect(result.property.id), variant))
-            if not as_json:
+            if not as_json and not (quiet and found[-1].code is Exit.AS_EXPECTED):
                 out.print(line(found[-1]), markup=False)
     except BaseException as error:
         if as_json:
@@ -149,7 +153,7 @@ def check(
         return Exit.INTERRUPTED
     if as_json:
         print(json.dumps(document(found, complete=True), indent=2))
-    else:
+    elif not quiet:
         summary(found, options)
     deliver(found, len(properties))
     return worst(found)

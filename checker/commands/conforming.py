@@ -13,6 +13,9 @@ from checker.commands.variant import Variant, pick_variant
 from checker.conform.logs import Against, LogError, Map, Result, examine, read_map
 from checker.conform.varied import varied
 
+SCHEMA = "rovercheck/conform/1"
+"""The format of the JSON documents, and its version."""
+
 SUFFIXES = (".csv", ".csv.gz", ".tsv", ".tsv.gz", ".parquet")
 Outcome = Result | LogError
 
@@ -60,7 +63,7 @@ def _log(place: Path, asked: Asked) -> Exit:
     if isinstance(found, LogError):
         raise UsageError(f"{place}: {found}")
     if asked.as_json:
-        print(json.dumps(as_json(found, asked.charts), indent=2, ensure_ascii=False))
+        print(json.dumps({"schema": SCHEMA, **as_json(found, asked.charts)}, indent=2, ensure_ascii=False))
     else:
         out.print(page(found, asked.verbose, asked.charts), markup=False)
     return _code([found])
@@ -95,7 +98,7 @@ def _folder(folder: Path, asked: Asked) -> Exit:
         found[log.name] = asked.examined(log)
     if asked.as_json:
         entries = [_entry(n, r, asked.charts) for n, r in found.items()]
-        print(json.dumps({"logs": entries}, indent=2, ensure_ascii=False))
+        print(json.dumps({"schema": SCHEMA, "logs": entries}, indent=2, ensure_ascii=False))
     else:
         out.print(summary(found, asked.charts), markup=False)
     return _code(list(found.values()))

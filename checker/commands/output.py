@@ -3,7 +3,8 @@
 import sys
 from pathlib import Path
 
-from rich.console import Console
+from rich.console import Console, RenderableType
+from rich.text import Text
 
 from checker.commands.codes import UsageError
 from checker.files import replaced
@@ -40,6 +41,16 @@ def write(content: str | bytes, target: Path | None) -> None:
     except OSError as error:
         place = target or "to standard output"
         raise UsageError(f"Cannot write {place}: {error.strerror}. Choose another --output.") from error
+
+
+def trimmed(console: Console, thing: RenderableType) -> None:
+    """Print without the blanks with which tables are filled up to the width."""
+    with console.capture() as captured:
+        console.print(thing, soft_wrap=False)
+    for line in captured.get().splitlines():
+        shown = Text.from_ansi(line)
+        shown.rstrip()
+        console.print(shown)
 
 
 def counted(number: int, one: str, many: str) -> str:

@@ -13,15 +13,18 @@ NARROW = 20
 
 
 class Watch:
-    """Shows what each search under way is doing; ``with`` it around the work."""
+    """Shows what each search under way is doing, unless ``quiet``; ``with`` it around the work."""
 
-    def __init__(self, console: Console, total: int) -> None:
+    def __init__(self, console: Console, total: int, quiet: bool = False) -> None:
         self._console = console
+        self._quiet = quiet
         self._total = total
         self._done = 0
         self._doing: dict[str, str] = {}
         self._last = monotonic()
-        self._status: Status | None = Status("starting", console=console) if console.is_terminal else None
+        self._status: Status | None = (
+            Status("starting", console=console) if console.is_terminal and not quiet else None
+        )
 
     def __enter__(self) -> "Watch":
         if self._status:
@@ -48,7 +51,7 @@ class Watch:
     def _show(self) -> None:
         if self._status:
             self._status.update(self.line(max(NARROW, self._console.width - 4)))
-        elif monotonic() - self._last >= PAUSE:
+        elif not self._quiet and monotonic() - self._last >= PAUSE:
             self._last = monotonic()
             self._console.print(self.line(), markup=False)
 

@@ -16,6 +16,7 @@ from checker.isolate import prepared
 @click.option("--system", metavar="NAME", help="Only properties about this system.")
 @click.option("--full", is_flag=True, help="Also the properties that take long.")
 @click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
+@click.option("--quiet", "-q", is_flag=True, help="Only what is not as expected, and no progress.")
 @click.option(
     "--jobs",
     type=click.IntRange(min=1),
@@ -63,6 +64,7 @@ def check(
     system: str | None,
     full: bool,
     as_json: bool,
+    quiet: bool,
     jobs: int | None,
     memory: float,
     all_engines: bool,
@@ -118,6 +120,7 @@ def check(
             certifying,
             options,
             deliver,
+            quiet,
         )
 
 

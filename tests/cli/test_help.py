@@ -1,6 +1,7 @@
 """What the command line says of itself: whole words in 80 columns, every verb and every engine named."""
 
 import re
+import shlex
 import textwrap
 from pathlib import Path
 
@@ -9,7 +10,9 @@ import pytest
 from click.testing import CliRunner
 
 from checker.cli import app, run
+from checker.commands.helping import EXAMPLES
 from checker.commands.listing import LISTS as LISTED
+from checker.commands.listing import OTHERS
 from checker.commands.output import counted
 from checker.engine import engines
 from checker.verbs.properties import LISTS
@@ -50,8 +53,30 @@ def test_the_documents_show_every_verb_and_its_options(verb: str) -> None:
     assert [o.name for o in options if not any(map(shown, o.opts))] == []
 
 
+def examples(verb: str) -> list[list[str]]:
+    """The command lines below "Examples" in the help of a verb, without what the shell does with them."""
+    _, found, text = said(verb).partition("Examples:\n")
+    assert found, "the help shows no example"
+    block = text.partition("\n\n")[0]
+    return [shlex.split(line) for line in re.findall(r"rovercheck ((?:'[^'\n]*'|[^'\n()<>|])+)", block)]
+
+
+@pytest.mark.parametrize("verb", app.commands)
+def test_help_shows_examples_that_can_be_typed(verb: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(ROOT)
+    found = examples(verb)
+    assert found and verb in {words[0] for words in found}
+    for name, *rest in found:
+        with app.commands[name].make_context(name, rest):
+            pass
+
+
+def test_no_example_is_left_of_a_verb_that_is_gone() -> None:
+    assert EXAMPLES.keys() <= app.commands.keys()
+
+
 def test_list_names_its_lists_and_every_engine(capsys: pytest.CaptureFixture[str]) -> None:
-    assert set(LISTS) == {*LISTED, "properties"}
+    assert set(LISTS) == {*LISTED, *OTHERS, "properties"}
     assert all(name in textwrap.fill(said("list")) for name in LISTS)
     run(["list", "engines"])
     names = [line.split()[0] for line in capsys.readouterr().out.splitlines() if line[0] != " "]

@@ -53,7 +53,7 @@ def _seal(key: str, contents: bytes) -> bytes:
 
 def _folder(make: bool) -> Path:
     """The folder.  Raises ``OSError`` when there is none that is safe to use."""
-    folder = _chosen()
+    folder = chosen()
     if make:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     if hasattr(os, "getuid"):
@@ -63,7 +63,8 @@ def _folder(make: bool) -> Path:
     return folder
 
 
-def _chosen() -> Path:
+def chosen() -> Path:
+    """The folder, which need not exist yet.  Raises ``FileNotFoundError`` when the cache is switched off."""
     named = os.environ.get(VARIABLE)
     if named is not None:
         if not named:

@@ -2,18 +2,23 @@
 
 from collections.abc import Callable, MutableMapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 from spec_model.lang.action import Action, Assign, If, Send
 from spec_model.lang.chart import NOWHERE, Chart, Path, State, Transition
 from spec_model.lang.domain import Bool, Enum, Num
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Var
+from spec_model.lang.expr import Expr, Var
 from spec_model.lang.interpret.fired import Fired, path_label
 from spec_model.lang.interpret.words import Words
 
 Values = MutableMapping[str, int]
 Admits = Callable[[Var, int], bool]
 """Whether a variable may hold a raw value."""
+ValueOf = Callable[[Expr], int]
+"""The value of a part of a guard at the moment it is tested."""
+Testing = Callable[[str, Path | None, Transition, bool, ValueOf], None]
+"""Told of every arrow tested: its chart, the state left (None: a default one), itself, whether valid."""
 
 
 @dataclass(frozen=True)
@@ -28,13 +33,20 @@ class ChartRun:
     """The run of one chart over values shared with the other components.
 
     ``at`` holds all data; the chart keeps its own location variables there up to date.  ``fired``
-    receives every path taken, in order.
+    receives every path taken, in order, and ``tested`` is told of every arrow tested.
     """
 
     def __init__(
-        self, chart: Chart, at: Values, fired: list[Fired], tick_ms: int, admits: Admits | None = None
+        self,
+        chart: Chart,
+        at: Values,
+        fired: list[Fired],
+        tick_ms: int,
+        admits: Admits | None = None,
+        tested: Testing | None = None,
     ) -> None:
         self.chart = chart
+        self._tested = tested
         self._at = at
         self._admits = admits or contains
         self._fired = fired
@@ -94,7 +106,10 @@ class ChartRun:
     ) -> _Route | None:
         """The first complete path; condition actions run as soon as their segment is valid (G6 to G8)."""
         for arrow in arrows:
-            if not self._valid(arrow, source, event):
+            valid = self._valid(arrow, source, event)
+            if self._tested is not None:
+                self._tested(self.chart.name, source, arrow, valid, partial(self._part, source))
+            if not valid:
                 continue
             self._run(arrow.do, event)
             target, segments = self._resolve(level, arrow), (*so_far, arrow)
@@ -110,6 +125,9 @@ class ChartRun:
         if arrow.event is not None and arrow.event != event:
             return False
         return arrow.guard is None or bool(self._words.value(arrow.guard, self._at, source))
+
+    def _part(self, source: Path | None, part: Expr) -> int:
+        return self._words.part(part, self._at, source)
 
     def _resolve(self, level: Path, arrow: Transition) -> Path:
         target = self.chart.resolve(level, arrow.target)

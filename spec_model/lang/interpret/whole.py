@@ -9,7 +9,7 @@ from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Var
 from spec_model.lang.interpret.fired import Fired
-from spec_model.lang.interpret.run import Admits, ChartRun, contains, store, within
+from spec_model.lang.interpret.run import Admits, ChartRun, Testing, contains, store, within
 from spec_model.lang.system import System
 from spec_model.lang.wellformed import check_system
 
@@ -19,11 +19,18 @@ class Interpreter:
 
     ``frozen`` gives raw values of frozen variables; those left out have their initial value.  With
     ``measured``, numbers may lie between the values of their domains: inputs are any numbers, and what is
-    computed from them stays between the ends of its domain.
+    computed from them stays between the ends of its domain.  ``tested`` is told of every arrow tested.
     Raises ``ModelError`` for an ill-formed system.
     """
 
-    def __init__(self, system: System, frozen: Mapping[str, int] = {}, *, measured: bool = False) -> None:
+    def __init__(
+        self,
+        system: System,
+        frozen: Mapping[str, int] = {},
+        *,
+        measured: bool = False,
+        tested: Testing | None = None,
+    ) -> None:
         check_system(system)
         self.system = system
         self._admits: Admits = within if measured else contains
@@ -33,7 +40,8 @@ class Interpreter:
         self._fired: list[Fired] = []
         self._places = {v.name for c in system.charts for v in (*c.locations, c.entered)}
         self._runs = {
-            id(c): ChartRun(c, self._at, self._fired, system.step_ms, self._admits) for c in system.charts
+            id(c): ChartRun(c, self._at, self._fired, system.step_ms, self._admits, tested)
+            for c in system.charts
         }
 
     @property

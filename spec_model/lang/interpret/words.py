@@ -88,6 +88,10 @@ class Words:
         """The value of a formula of the chart; ``source`` is the state that its path leaves."""
         return evaluate(self._known(expr, source) if id(expr) in self._temporal else expr, at)
 
+    def part(self, expr: Expr, at: Mapping[str, int], source: Path | None) -> int:
+        """The value of a part of a formula of the chart."""
+        return evaluate(self._known(expr, source), at)
+
     def _known(self, expr: Expr, source: Path | None) -> Expr:
         """The formula with each temporal word replaced by its truth value."""
         match expr:

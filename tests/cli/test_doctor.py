@@ -1,0 +1,98 @@
+"""``rovercheck doctor``: every part is named, what is missing is told with what it adds."""
+
+import json
+import tomllib
+from importlib.metadata import PackageNotFoundError
+from pathlib import Path
+
+import pytest
+
+from checker.cli import run
+from checker.commands import doctor
+from checker.commands.codes import Exit
+from checker.engine import engines
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_it_knows_every_package_that_rovercheck_requires() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    assert {one.partition(">")[0] for one in project["dependencies"]} == set(doctor.REQUIRED)
+    extras = {one.partition(">")[0] for some in project["optional-dependencies"].values() for one in some}
+    assert extras <= set(doctor.OPTIONAL)
+
+
+@pytest.fixture
+def untried(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(doctor, "tried", lambda engine: "")
+
+
+def test_all_is_well_here_and_every_engine_was_tried(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(["doctor", "--json"]) is Exit.AS_EXPECTED
+    seen = json.loads(capsys.readouterr().out)
+    trials = {f["name"]: f for f in seen["findings"] if f["kind"] == "trial"}
+    assert seen["ok"] and set(trials) == {f"engine {name}" for name in engines()}
+    assert all(f["ok"] and f["found"].startswith("works") for f in trials.values())
+
+
+def test_what_is_optional_and_missing_is_told_with_what_it_adds(
+    untried: None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("shutil.which", lambda name: None)
+    assert run(["doctor"]) is Exit.AS_EXPECTED
+    seen = capsys.readouterr().out
+    assert "– spin" in seen and "missing; a judge of export --format promela" in seen
+    assert "All that is required works." in seen
+    assert max(map(len, seen.splitlines())) <= 80
+
+
+def test_a_missing_requirement_is_told_and_fails(
+    untried: None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def without_oxidd(name: str) -> str:
+        if name == "oxidd":
+            raise PackageNotFoundError(name)
+        return "1.0"
+
+    monkeypatch.setattr(doctor, "version", without_oxidd)
+    monkeypatch.setattr(doctor, "find_spec", lambda name: None)
+    assert run(["doctor"]) is Exit.CHANGED
+    seen = capsys.readouterr().out
+    assert "✗ oxidd" in seen and "Broken: oxidd." in seen
+
+
+@pytest.mark.parametrize("raised", [ImportError("no library"), KeyError("x"), MemoryError()])
+def test_an_engine_that_fails_is_told_and_fails(
+    raised: Exception, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def fails(engine: str) -> str:
+        if engine == "bdd":
+            raise raised
+        return "says proved of what is violated" if engine == "bmc" else ""
+
+    monkeypatch.setattr(doctor, "tried", fails)
+    assert run(["doctor"]) is Exit.CHANGED
+    seen = capsys.readouterr().out
+    assert type(raised).__name__ in seen and "Broken: engine bdd, engine bmc." in seen
+
+
+def test_a_wrong_engine_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    true, false = doctor.properties()
+    assert doctor.tried("explicit") == ""
+    monkeypatch.setattr(doctor, "properties", lambda: (_renamed(false, "true"), _renamed(true, "false")))
+    assert "of what is violated in the third tick" in doctor.tried("explicit")
+
+
+def _renamed(prop: object, id: str) -> object:
+    from dataclasses import replace
+
+    return replace(prop, id=id)  # type: ignore[type-var]
+
+
+def test_a_cache_that_is_switched_off_is_no_fault(
+    untried: None, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setenv("ROVERCHECK_CACHE", "")
+    run(["doctor", "--json"])
+    [cache] = [f for f in json.loads(capsys.readouterr().out)["findings"] if f["name"] == "cache"]
+    assert cache["ok"] and "switched off" in cache["found"]

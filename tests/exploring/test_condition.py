@@ -1,0 +1,63 @@
+"""Conditions as people type them: read as meant, or refused with what to write; never executed."""
+
+import pytest
+
+from checker.exploring.condition import Names, condition
+from checker.exploring.simulation import Refused
+from spec_model.lang.evaluate import evaluate
+from tests.render import zoo
+
+NAMES = Names({**zoo.VARIABLES, "level": zoo.level}, {"Relay": zoo.relay, "Nested": zoo.nested})
+AT = {"Relay": 2, "level": 150, "speed": -5, "alarm": 1, "mode": 1, "Relay.Theirs.duration1": 7}
+
+
+@pytest.mark.parametrize(
+    ("written", "true"),
+    [
+        ("Relay.Theirs", True),
+        ("Relay.Ours or alarm", True),
+        ("Relay.Theirs and not alarm", False),
+        ("level > 100", True),
+        ("100 < level <= 150", True),
+        ("mode == CRITICAL", True),
+        ("SAFE == mode", False),
+        ("mode != 'SAFE'", True),
+        ("speed == -0.5", True),
+        ("speed + 1 > 0.4 and 1 < 2", True),
+        ("level - 50 == 100", True),
+        ("alarm == true", True),
+        ("Relay == Theirs", True),
+        ("Relay.Theirs.duration1 >= 7", True),
+        ("level > 200 || !(alarm && mode == SAFE)", True),
+    ],
+)
+def test_a_condition_means_what_it_says(written: str, true: bool) -> None:
+    assert bool(evaluate(condition(written, NAMES), AT)) is true
+
+
+@pytest.mark.parametrize(
+    ("written", "said"),
+    [
+        ("", "is no condition"),
+        ("level >", "is no condition"),
+        ("level = 3", "is no condition"),
+        ("levle > 3", "Did you mean 'level'"),
+        ("Relay.Their", "no state 'Their'.*Did you mean"),
+        ("Relay and alarm", "condition, such as a comparison"),
+        ("Nested", "is a chart; write one of its states, such as Nested.Run"),
+        ("level", "needs a condition"),
+        ("mode == LOUD", "no member of Mode"),
+        ("mode < CRITICAL", "has no order"),
+        ("level == speed", "mixes"),
+        ("level in speed", "have no meaning"),
+        ("__import__('os').system('true')", "has no meaning in a condition"),
+        ("[x for x in level]", "has no meaning in a condition"),
+        ("level if alarm else speed", "has no meaning"),
+        ("level ** 2 > 3", "has no meaning"),
+        ("(" * 500 + "alarm" + ")" * 500, "no condition|nested too deeply"),
+        ("not " * 3000 + "alarm", "no condition|nested too deeply"),
+    ],
+)
+def test_what_has_no_meaning_is_refused(written: str, said: str) -> None:
+    with pytest.raises(Refused, match=said):
+        condition(written, NAMES)
