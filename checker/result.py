@@ -1,7 +1,7 @@
 """Results: an answer about a goal taken home as a verdict on a property."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Protocol
 
 from checker.certify.outcome import Outcome
@@ -50,8 +50,8 @@ def result(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Res
 
 def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Verdict:
     match answer:
-        case Reached(run):
-            trace = replay(system, goal, calmed(system, goal.var, run))
+        case Reached(run, shortest):
+            trace = replace(replay(system, goal, calmed(system, goal.var, run)), shortest=shortest)
             return Proved(trace, by) if goal.reach else Violated(trace, by)
         case Unreachable(because):
             return Violated(because, by) if goal.reach else Proved(because, by)

@@ -74,6 +74,10 @@ class Trace:
     ``needed`` are the inputs that force the end of the run, in any run of its length with its frozen values:
     the others may be anything that is admissible.  It is None for a run whose inputs were not examined.
     ``minimal``: none of those needed can be left out; otherwise the search for such a set was cut short.
+
+    ``violated`` tells whether the run breaks the property; it is None for a run of no property, and for one
+    of which only the parts that it makes false are known.  ``shortest``: no shorter run ends so.
+    ``again`` is the command that shows the run, where it is known.
     """
 
     system: str
@@ -97,9 +101,18 @@ class Trace:
     minimal: bool = False
     place: Place | None = field(default=None, compare=False, repr=False)
     concrete: tuple[BoardRun, ...] = field(default=(), compare=False, repr=False)
+    violated: bool | None = None
+    shortest: bool = False
+    again: str = field(default="", compare=False, repr=False)
 
     def __len__(self) -> int:
         return len(self.ticks)
+
+    def breaks(self) -> bool:
+        """Whether it is a counterexample, not a witness nor a run of no property."""
+        if self.violated is not None:
+            return self.violated
+        return bool(self.false_parts) or self.loop is not None or self.trapped is not None
 
     def since(self, part: Expr) -> int:
         """The tick since which a conjunct of the property has been as it is after the last one.

@@ -185,6 +185,8 @@ def costly(prop: Property) -> Property:
 def _property(
     id: str, text: str, form: Form, covers: Sequence[str], on: str, from_tick: int, readings: Sequence[str]
 ) -> Property:
+    if isinstance(covers, str):
+        raise ModelError(f"{id}: covers={covers!r} is one text; write covers=[{covers!r}].")
     if not covers:
         raise ModelError(f"{id} covers no requirement; write covers=[...] with at least one requirement id.")
     return Property(id, text, form, tuple(covers), on, from_tick, tuple(readings), place=here(__name__))

@@ -2,11 +2,12 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from shlex import quote
 
 from checker.commands.codes import UsageError
 from checker.commands.select import pick
 from checker.commands.variant import Variant
-from checker.conform.cover.goals import Goal, Kind
+from checker.conform.cover.goals import Goal, Kind, Watched
 from checker.conform.cover.watch import watched
 from checker.decide import Task
 from checker.lowered import lowered
@@ -27,7 +28,8 @@ class Wanted:
     """A property, the systems that it is decided on, and the verdicts on record.
 
     An ``example`` is no property that somebody stated, but something of which a user wants to see a run.
-    ``plain`` is the system as drawn, where charts had to be changed so that the property could be stated.
+    ``plain`` is the system as drawn, where charts had to be changed so that the property could be stated,
+    and ``watched`` that change.  ``again`` is the command that asks for it.
     """
 
     property: Property
@@ -35,9 +37,12 @@ class Wanted:
     expected: Callable[[str], Expected]
     example: bool = False
     plain: System | None = None
+    watched: Watched | None = None
+    again: str = ""
 
     def drawn(self, trace: Trace) -> Trace:
-        """A trace of the property on the charts as drawn."""
+        """A trace of the property on the charts as drawn, with the command that shows it."""
+        trace = replace(trace, again=self.again)
         if self.plain is None:
             return trace
         system = lowered(self.plain)
@@ -64,13 +69,24 @@ def asked(
             "Name one thing: the ID of a property, --state CHART.STATE or --arrow 'CHART: A -> B'."
         )
     systems = variant.systems()
+    again = _again(variant, id, state, arrow, system)
     if id is not None:
         if system is not None:
             raise UsageError(
                 f"--system goes with --state and --arrow; {id} names its own system. Leave it out."
             )
-        return Wanted(pick("property", id, variant.properties()), systems, variant.model.expected)
-    return of_state(named[0], systems, system) if arrow is None else of_arrow(arrow, systems, system)
+        return Wanted(
+            pick("property", id, variant.properties()), systems, variant.model.expected, again=again
+        )
+    wanted = of_state(named[0], systems, system) if arrow is None else of_arrow(arrow, systems, system)
+    return replace(wanted, again=again)
+
+
+def _again(variant: Variant, id: str | None, state: str | None, arrow: str | None, system: str | None) -> str:
+    """The command that asks for the same."""
+    given = [("--state", state), ("--arrow", arrow), ("--system", system)]
+    options = [f"{option} {quote(value)}" for option, value in given if value is not None]
+    return " ".join(filter(None, ["rovercheck trace", id, *options, variant.options]))
 
 
 def _unrecorded(_: str) -> Expected:
@@ -98,11 +114,12 @@ def of_arrow(wanted: str, systems: Mapping[str, System], system: str | None) -> 
     if not (colon and arrow):
         raise UsageError(f"{wanted!r} names no arrow; write 'CHART: A -> B', as traces show it.")
     on = _system(name, systems, system)
-    goal = _arrow(name, _plainly(arrow), watched(on, (Kind.ARROWS,)).goals)
-    looked = watched(on, (Kind.ARROWS,), {goal.id}).system
+    looked = watched(on, (Kind.ARROWS,))
+    goal = _arrow(name, _plainly(arrow), looked.goals)
     id = f"arrow {name}: {goal.text}"
     found = reachable(id, f"The {id} can be taken.", that=goal.flag, covers=COVERS, on=on.name)
-    return Wanted(found, {**systems, on.name: looked}, _unrecorded, example=True, plain=on)
+    there = {**systems, on.name: looked.system}
+    return Wanted(found, there, _unrecorded, example=True, plain=on, watched=looked)
 
 
 def _arrow(chart: str, wanted: str, goals: Sequence[Goal]) -> Goal:

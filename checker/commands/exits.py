@@ -1,20 +1,27 @@
 """Writing a trace in a format: what the format asks for beside the trace, and files that go together."""
 
 from collections.abc import Mapping
+from functools import partial
+from inspect import signature
 from pathlib import Path
 from typing import Any
 
 from checker.commands.output import write
-from checker.render import Renderer, renderers
+from checker.render import Renderer, named
 from checker.trace import Trace
 from spec_model.lang.system import System
 
 
 def exit_written(
-    renderer: Renderer, trace: Trace, systems: Mapping[str, System], output: Path | None
+    renderer: Renderer,
+    trace: Trace,
+    systems: Mapping[str, System],
+    output: Path | None,
+    everything: bool = False,
 ) -> list[Path]:
     """Write the trace to a file or to standard output; the further files that this made, if any.
 
+    ``everything``: also what the property does not depend on, where the format would leave it out.
     A format with ``CONCRETE`` is given the run as the boards see it, one with ``BESIDE`` writes a file of
     that format under the same name.  Raises ``ModelError`` for a run that the format cannot show.
     """
@@ -22,14 +29,18 @@ def exit_written(
         from checker.commands.concrete import concrete
 
         trace = concrete(trace, systems[trace.system])
-    other = renderers("trace").get(getattr(renderer, "BESIDE", ""))
-    if other is None or output is None:
-        write(renderer.render(trace), output)
-        return []
-    beside = output.with_suffix(other.SUFFIX)
-    if beside == output:
-        beside = output.with_name(output.name + other.SUFFIX)
     render: Any = renderer.render
-    write(other.render(trace), beside)
-    write(render(trace, dump=beside.name), output)
-    return [beside]
+    if "everything" in signature(render).parameters:
+        render = partial(render, everything=everything)
+    beside = getattr(renderer, "BESIDE", "")
+    other = named("trace", beside) if beside else None
+    if other is None or output is None:
+        write(render(trace), output)
+        return []
+    there = output.with_suffix(other.SUFFIX)
+    if there == output:
+        there = output.with_name(output.name + other.SUFFIX)
+    contents = other.render(trace), render(trace, dump=there.name)
+    for place, content in zip((there, output), contents, strict=True):
+        write(content, place)
+    return [there]

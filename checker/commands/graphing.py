@@ -55,18 +55,22 @@ def graph(name: str, view: View, format: str, variant: Variant, output: Path | N
         if given:
             raise UsageError(f"{option} needs --project VAR,VAR. See: rovercheck graph {name}")
     if name in by_name and name not in drawn:
-        return _offer(by_name[name], view.limits, output)
+        return _offer(by_name[name], view.limits, output, _options(variant))
     chart = pick("chart or system", name, dict.fromkeys(by_name) | drawn)
     renderer = pick("chart format", format, renderers("statechart"))
     write(renderer.render(chart), output)
     return Exit.AS_EXPECTED
 
 
-def _offer(system: System, limits: Limits, output: Path | None) -> Exit:
+def _options(variant: Variant) -> str:
+    return f" {variant.options}" if variant.options else ""
+
+
+def _offer(system: System, limits: Limits, output: Path | None, options: str) -> Exit:
     with Watch(err, 1) as watch:
         found = suggestions(lower(system), limits, lambda line: watch.say(system.name, line))
-    charts = "".join(f"rovercheck graph {c.name} draws its chart.\n" for c in system.charts[:4])
-    write(offered(system.name, found) + ("\n" + charts if charts else ""), output)
+    charts = "".join(f"rovercheck graph {c.name}{options} draws its chart.\n" for c in system.charts[:4])
+    write(offered(system.name, found, options) + ("\n" + charts if charts else ""), output)
     return Exit.INCONCLUSIVE if found.cut else Exit.AS_EXPECTED
 
 
@@ -88,7 +92,7 @@ def _states(system: System, view: View, format: str, variant: Variant, output: P
     if view.summary:
         write(told(shown, min(out.width, 100)), output)
     else:
-        write(_picture(renderer, found, shown, view), output)
+        write(_picture(renderer, found, shown, view, _options(variant)), output)
         err.print(told(shown, min(err.width, 100)), markup=False, end="")
     return Exit.INCONCLUSIVE if shown.cut else Exit.AS_EXPECTED
 
@@ -135,7 +139,7 @@ def _shown(found: Made, trace: Trace | None, renderer: Renderer, view: View) -> 
     return with_trace(graph, trace) if trace else graph
 
 
-def _picture(renderer: Renderer, found: Made, graph: StateGraph, view: View) -> str | bytes:
+def _picture(renderer: Renderer, found: Made, graph: StateGraph, view: View, options: str) -> str | bytes:
     """What the renderer makes of it.  Raises ``UsageError`` that shows how to project a graph too large."""
     if not getattr(renderer, "PICTURE", False):
         return renderer.render(graph)
@@ -146,6 +150,8 @@ def _picture(renderer: Renderer, found: Made, graph: StateGraph, view: View) -> 
         places = [v.name for c in system.source.charts for v in c.locations] if system.source else []
         smaller = among(found.exploration.explored, places, view.most)
         more = f"Or draw as many with --max-nodes {len(graph.nodes)}."
-        raise UsageError("\n".join([f"{error} {more}", *projections(system.name, smaller)])) from None
+        raise UsageError(
+            "\n".join([f"{error} {more}", *projections(system.name, smaller, options)])
+        ) from None
     picture: str | bytes = renderer.render(graph, **{"most": view.most})
     return picture

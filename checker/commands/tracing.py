@@ -1,6 +1,6 @@
 """``rovercheck trace``: the counterexample (or witness) of one property, in one of several forms."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
@@ -16,7 +16,7 @@ from checker.commands.progress import Watch
 from checker.commands.select import pick
 from checker.engine import Limits
 from checker.explain.others import NoMore, Others
-from checker.render import renderers
+from checker.render import Renderer, named, renderers
 from checker.render.trace_markdown import SPECIAL
 from checker.trace import Trace
 from checker.verdict import Unknown
@@ -43,7 +43,8 @@ class Showing:
 
     def check(self, prop: Property) -> None:
         """Raises ``UsageError`` for a format that there is not, or that cannot show several runs."""
-        pick("trace format", self.format, renderers("trace"))
+        if named("trace", self.format) is None:
+            pick("trace format", self.format, renderers("trace"))
         if self.runs > 1 and self.format not in FOR_READERS:
             raise UsageError(
                 f"--witnesses shows several runs, and a file of the format {self.format} holds one; "
@@ -53,6 +54,13 @@ class Showing:
             raise UsageError(
                 f"{prop.id} is about runs without end, of which one is shown; leave --witnesses out."
             )
+
+    @property
+    def renderer(self) -> Renderer:
+        """The exit of the format, which there is."""
+        found = named("trace", self.format)
+        assert found is not None, "the format was checked"
+        return found
 
     def cut(self, trace: Trace) -> Trace:
         """What is shown of a trace."""
@@ -76,18 +84,25 @@ def trace(
     if not isinstance(verdict.because, Trace):
         missing = "in no run" if wanted.example else f"{verdict.word} and has no trace"
         err.print(f"{prop.id} is {missing}: {evidence(result)}", markup=False)
+        if result.in_part:
+            err.print(_only_some(result.system), markup=False)
         return Exit.AS_EXPECTED
     if showing.output is None and showing.format == "table":
         _print_heading(wanted, verdict.word)
-    first = wanted.drawn(showing.explaining(verdict.because, prop, systems))
+    if not verdict.because.shortest and wanted.example:
+        err.print("Not known to be a shortest run: a shorter one may do the same.", markup=False)
     if showing.runs > 1:
-        _show_several(prop, first, systems, engine, limits, showing)
+        _show_several(wanted, verdict.because, engine, limits, showing)
         return Exit.AS_EXPECTED
-    for other in exit_written(
-        renderers("trace")[showing.format], showing.cut(first), systems, showing.output
-    ):
+    first = wanted.drawn(showing.explaining(verdict.because, prop, systems))
+    renderer = showing.renderer
+    for other in exit_written(renderer, showing.cut(first), systems, showing.output, showing.everything):
         err.print(f"Also written: {other}", markup=False)
     return Exit.AS_EXPECTED
+
+
+def _only_some(system: str) -> str:
+    return f"{system} has only some of the runs there are: this says nothing of the others."
 
 
 def _print_heading(wanted: Wanted, verdict: str) -> None:
@@ -98,17 +113,10 @@ def _print_heading(wanted: Wanted, verdict: str) -> None:
         out.print(f"Why: {on_record.because}", markup=False, soft_wrap=False)
 
 
-def _show_several(
-    prop: Property,
-    first: Trace,
-    systems: Mapping[str, System],
-    engine: str,
-    limits: Limits,
-    showing: Showing,
-) -> None:
+def _show_several(wanted: Wanted, first: Trace, engine: str, limits: Limits, showing: Showing) -> None:
     """Show runs as they are found; into a file all of them together."""
     told: list[str] = []
-    for text in _several(prop, first, systems, engine, limits, showing):
+    for text in _several(wanted, first, engine, limits, showing):
         if showing.output is None:
             write(text, None)
         told.append(text)
@@ -116,37 +124,36 @@ def _show_several(
         write("".join(told), showing.output)
 
 
-def _several(
-    prop: Property,
-    first: Trace,
-    systems: Mapping[str, System],
-    engine: str,
-    limits: Limits,
-    showing: Showing,
-) -> Iterator[str]:
+def _several(wanted: Wanted, first: Trace, engine: str, limits: Limits, showing: Showing) -> Iterator[str]:
     """The text of several runs, each with what makes it different."""
-    yield _heading("Run 1", [], showing) + _rendered(first, showing)
-    others = Others(first, prop, systems[first.system])
+    prop, system = wanted.property, wanted.systems[first.system]
+
+    def shown(trace: Trace) -> str:
+        return _rendered(wanted.drawn(showing.explaining(trace, prop, wanted.systems)), showing)
+
+    yield _heading("Run 1", [], showing) + shown(first)
+    others = Others(first, prop, system, wanted.watched)
     limits = limits if limits.seconds is not None else replace(limits, seconds=SECONDS)
     for number in range(2, showing.runs + 1):
         with Watch(err, 1) as watch:
             other = others.next(engine, limits, partial(watch.say, f"{prop.id}: run {number}"))
         if isinstance(other, NoMore):
-            yield _heading(f"No run {number}", [_no_more(other)], showing)
+            yield _heading(f"No run {number}", _no_more(other, system), showing)
             return
         unlike = [f"Unlike run {i} it {d}." for i, d in enumerate(other.differences, 1)]
-        explained = showing.explaining(other.trace, prop, systems)
-        yield _heading(f"Run {number}", unlike, showing) + _rendered(explained, showing)
+        yield _heading(f"Run {number}", unlike, showing) + shown(other.trace)
 
 
-def _no_more(found: NoMore) -> str:
-    if found.proved:
-        return f"Every other run to this end takes the same arrows as one of these: {found.reason}."
-    return f"No other was found that takes other arrows; that there is none is not proved: {found.reason}."
+def _no_more(found: NoMore, system: System) -> list[str]:
+    if not found.proved:
+        none = "No other was found that takes other arrows; that there is none is not proved"
+        return [f"{none}: {found.reason}."]
+    every = f"Every other run to this end takes the same arrows as one of these: {found.reason}."
+    return [every, _only_some(system.name)] if system.under else [every]
 
 
 def _rendered(trace: Trace, showing: Showing) -> str:
-    shown = renderers("trace")[showing.format].render(showing.cut(trace))
+    shown = showing.renderer.render(showing.cut(trace))
     assert isinstance(shown, str), "formats for readers are text"
     return shown
 

@@ -6,6 +6,7 @@ It may also be a model of the user's own, which has no readings and no repairs.
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from shlex import quote
 
 from checker.certifying import Certifying
 from checker.commands.codes import UsageError
@@ -47,6 +48,15 @@ class Variant:
         repair = f"with {self.repair.name}" if self.repair else ""
         dropped = f"without {', '.join(sorted(self.without))}" if self.without else ""
         return " ".join(part for part in (chosen and f"under {chosen}", repair, dropped) if part)
+
+    @property
+    def options(self) -> str:
+        """What a command needs to be about the same charts: ``--reading S43=AND``, ``--model heater.py``."""
+        given = [("--reading", f"{id}={choice}") for id, choice in self.choices.items()]
+        given += [("--repair", self.repair.name)] if self.repair else []
+        given += [("--without", assumption) for assumption in sorted(self.without)]
+        options = [f"{option} {quote(value)}" for option, value in given]
+        return " ".join(filter(None, [*options, self.model.options]))
 
     def unchanged(self) -> Mapping[str, System]:
         """Every system by name, under the chosen readings alone."""

@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from checker.conform.cover.goals import Goal as Arrow
-from checker.conform.cover.goals import Kind
+from checker.conform.cover.goals import Kind, Watched
 from checker.conform.cover.watch import watched
 from checker.decide import Asking
 from checker.engine import Limits, Progress, quiet
@@ -51,11 +51,14 @@ class NoMore:
 
 
 class Others:
-    """Runs that break a property, or reach what it wants reached, from one that is known."""
+    """Runs that break a property, or reach what it wants reached, from one that is known.
 
-    def __init__(self, first: Trace, prop: Property, system: System) -> None:
+    ``looked`` is the system with flags for all its arrows, where the property already speaks of these.
+    """
+
+    def __init__(self, first: Trace, prop: Property, system: System, looked: Watched | None = None) -> None:
         self._plain = reduce(lowered(system), [replace(prop, on=system.name)])
-        looked = watched(system, (Kind.ARROWS,))
+        looked = looked or watched(system, (Kind.ARROWS,))
         self.arrows = tuple(arrow for arrow in looked.goals if arrow.part in first.charts)
         question = reduce(lowered(looked.system), [replace(prop, on=system.name)])
         self._question, self._memories = _remembering(question, self.arrows)

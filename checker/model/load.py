@@ -9,6 +9,7 @@ from checker.model import EXAMPLE, Model, shown
 from checker.model.checks import check_meaning, check_portable
 from checker.model.execute import files_of, modules_of
 from checker.model.records import REGISTER, recorded, register
+from checker.model.texts import check_texts, one_line
 from properties.forms import Property
 from spec_model.lang.chart import Chart
 from spec_model.lang.errors import ModelError, did_you_mean
@@ -28,6 +29,7 @@ def load(path: Path) -> Model:
     found = _found(zip(files, modules, strict=True))
     systems, properties = _systems(found, path), _properties(found)
     _meant(found, systems)
+    check_texts(systems.values(), properties.values())
     check_meaning(systems.values(), properties.values())
     check_portable((systems, properties), neighbours.package, path)
     beside = files[0].parent / f"{REGISTER.lower()}.toml"
@@ -98,7 +100,8 @@ def _alone(chart: Chart) -> System:
 
 def _properties(found: _Found) -> dict[str, Property]:
     by_id: dict[str, Property] = {}
-    for prop, file in found.properties:
+    for written, file in found.properties:
+        prop = one_line(written)
         if prop.id in by_id:
             first = by_id[prop.id].place
             also = f", here and in {first}" if first else ""

@@ -33,8 +33,21 @@ def renderers(kind: str) -> dict[str, Renderer]:
         raise ValueError(f"{kind!r} is no kind of thing to render; write one of {', '.join(KINDS)}.")
     found: dict[str, Renderer] = {}
     for entry in sorted(pkgutil.iter_modules(__path__), key=lambda e: e.name):
-        if entry.name.startswith(f"{kind}_"):
-            module: Any = importlib.import_module(f"{__name__}.{entry.name}")
-            if getattr(module, "KIND", None) == kind:
-                found[module.NAME] = module
+        module = _loaded(entry.name, kind) if entry.name.startswith(f"{kind}_") else None
+        if module is not None:
+            found[module.NAME] = module
     return found
+
+
+def named(kind: str, name: str) -> Renderer | None:
+    """The exit of that name, None if there is none; the others, and what they need, are not loaded."""
+    if f"{kind}_{name}" in (entry.name for entry in pkgutil.iter_modules(__path__)):
+        module = _loaded(f"{kind}_{name}", kind)
+        if module is not None and name == module.NAME:
+            return module
+    return renderers(kind).get(name)
+
+
+def _loaded(name: str, kind: str) -> Renderer | None:
+    module: Any = importlib.import_module(f"{__name__}.{name}")
+    return module if getattr(module, "KIND", None) == kind else None

@@ -33,9 +33,10 @@ def _head(trace: Trace, title: str) -> Part:
 
 
 def _verdict(trace: Trace) -> str:
-    """What the run shows."""
-    violated = trace.false_parts or trace.loop is not None or trace.trapped is not None
-    return "counterexample" if violated else "run"
+    """What the run is: of a property one of two, or a run of nothing in particular."""
+    if trace.breaks():
+        return "counterexample"
+    return "witness" if trace.violated is False else "run"
 
 
 def _heading(text: str) -> Part:

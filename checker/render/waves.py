@@ -62,8 +62,7 @@ def waves(trace: Trace) -> tuple[Wave, ...]:
 
 def outcome(trace: Trace) -> str:
     """``violated`` for a counterexample, ``reached`` for a witness."""
-    broken = trace.false_parts or trace.loop is not None or trace.trapped is not None
-    return "violated" if broken else "reached"
+    return "violated" if trace.breaks() else "reached"
 
 
 def _group(trace: Trace, name: str) -> Group:

@@ -43,7 +43,7 @@ def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
         system.name, system.tick_ms, table, names, before, ticks, false, relevant, charts,
         property=goal.property.id, text=goal.property.text, statecharts={c.name: c for c in drawn},
         place=goal.property.place, components=system.source.components if system.source else (),
-        parts=shown, truths=truths,
+        parts=shown, truths=truths, violated=not goal.reach,
     )  # fmt: skip
 
 
@@ -60,7 +60,7 @@ def followed(system: TransitionSystem, run: Run, what: str) -> tuple[tuple[Tick,
             raise ReplayError(f"{what}: the inputs of tick {number} are not admissible.")
         after = step(system, at, inputs)
         fired = _interpreted(interpreter, inputs, after, number) if interpreter else ()
-        ticks.append(Tick(number, dict(inputs), _visible(system, after), tuple(map(_arrow, fired))))
+        ticks.append(Tick(number, dict(inputs), _visible(system, after), tuple(map(arrow_of, fired))))
         at = {n: v for n, v in after.items() if n not in inputs}
     return tuple(ticks), after if ticks else at
 
@@ -102,7 +102,8 @@ def _interpreted(
     return fired
 
 
-def _arrow(fired: Fired) -> Arrow:
+def arrow_of(fired: Fired) -> Arrow:
+    """An arrow taken by the interpreter, as traces hold it."""
     return Arrow(
         fired.chart,
         _dotted(fired.source),

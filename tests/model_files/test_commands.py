@@ -2,6 +2,7 @@
 
 import json
 from pathlib import Path
+from shlex import quote
 
 import pytest
 
@@ -84,3 +85,10 @@ def test_the_matrix_of_requirements_is_that_of_the_model(capfd: pytest.CaptureFi
 def test_charts_and_properties_leave_in_other_forms(capfd: pytest.CaptureFixture[str]) -> None:
     assert "stateDiagram" in said(capfd, "graph", "Heater", "--format", "mermaid", "--model", str(START))
     assert said(capfd, "export", "HEAT-1", "--format", "btor2", "--model", str(START)).startswith("; ")
+
+
+def test_what_graph_offers_can_be_typed_as_it_stands(capfd: pytest.CaptureFixture[str]) -> None:
+    lift = str(EXAMPLES / "models" / "lift")
+    told = said(capfd, "graph", "lift", "--model", lift)
+    offered = [line for line in told.splitlines() if "rovercheck graph" in line]
+    assert len(offered) > 4 and all(f"--model {quote(lift)}" in line for line in offered)

@@ -66,7 +66,8 @@ class Finding:
     @property
     def shown_with(self) -> str:
         """The command that shows the run."""
-        return f"rovercheck trace {self.id}{self.options}"
+        known = self.trace.again if self.trace is not None else ""
+        return known or f"rovercheck trace {self.id}{self.options}"
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,138 @@
+"""Every run says what it is: a counterexample or a witness, a shortest run or not, of all runs or of some."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from checker.commands import tracing
+from checker.commands.codes import Exit
+from checker.commands.examples import Wanted, asked, of_arrow
+from checker.commands.exits import exit_written
+from checker.commands.explaining import Explaining
+from checker.commands.tracing import Showing, trace
+from checker.commands.variant import pick_variant
+from checker.engine import Limits
+from checker.lowered import lowered
+from checker.render import renderers
+from checker.render.ci import Level, of_trace
+from checker.render.waves import outcome
+from checker.result import Result, result
+from checker.trace import Trace
+from checker.verdict import Reached, Run, Unknown, Violated
+from properties.catalogue import Expected
+from properties.forms import Property, reachable
+from properties.reduce import reduce
+from spec_model.lang.system import System
+from tests.explain.test_others import CHART, ENDS, SYSTEM, first, left
+
+PARTLESS = replace(first(), false_parts=(), parts=(), truths=())
+"""Of a violated property of which no part is false after the last tick, such as one about several ticks."""
+QUIET = Explaining(wanted=False)
+
+
+def test_a_counterexample_without_a_false_part_is_one_in_every_exit() -> None:
+    assert PARTLESS.violated and PARTLESS.breaks() and outcome(PARTLESS) == "violated"
+    [finding] = of_trace(PARTLESS).findings
+    assert (finding.word, finding.level) == ("violated", Level.FAILED)
+    shown = {name: str(renderers("trace")[name].render(PARTLESS)) for name in ("junit", "sarif", "html")}
+    assert 'failures="1"' in shown["junit"]
+    assert '"kind": "fail"' in shown["sarif"]
+    assert "<title>T-1: counterexample</title>" in shown["html"]
+
+
+LEFT = tuple({"left": 1, "right": 0, "quick": 0} for _ in range(3))
+
+
+def test_a_witness_is_no_counterexample() -> None:
+    prop = reachable("T-2", "The end can be reached.", that=CHART.active("End"), covers=["R"], on="way")
+    found = reached(Reached(Run({}, LEFT), shortest=True), prop)
+    assert found.violated is False and not found.breaks() and outcome(found) == "reached"
+    assert of_trace(found).findings[0].level is Level.PASSED
+    assert "<title>T-2: witness</title>" in str(renderers("trace")["html"].render(found))
+
+
+def reached(answer: Reached, prop: Property = ENDS) -> Trace:
+    question = reduce(lowered(SYSTEM), [prop])
+    found = result(question.system, question.goals[0], answer, "by hand").verdict
+    assert not isinstance(found, Unknown) and isinstance(found.because, Trace)
+    return found.because
+
+
+@pytest.mark.parametrize("shortest", [True, False])
+def test_a_trace_says_whether_it_is_known_to_be_shortest(shortest: bool) -> None:
+    assert reached(Reached(Run({}, LEFT), shortest)).shortest is shortest
+
+
+def test_an_example_that_may_not_be_shortest_says_so(
+    monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    for shortest in (True, False):
+        found = Result(ENDS, Violated(replace(first(), shortest=shortest), ""), "way")
+        monkeypatch.setattr(tracing, "results", lambda *_, found=found: [found])
+        trace(example(ENDS), "bdd", Limits(), Showing(explaining=QUIET))
+        assert ("Not known to be a shortest run" in capfd.readouterr().err) is not shortest
+
+
+def example(prop: Property, system: System = SYSTEM) -> Wanted:
+    return Wanted(prop, {"way": system}, lambda _: Expected(), example=True)
+
+
+def test_what_only_some_runs_were_searched_for_is_said_to_be_so(capfd: pytest.CaptureFixture[str]) -> None:
+    nowhere = reachable("state Way.Nowhere", "", that=left & ~left, covers=["R"], on="way")
+    some = "way has only some of the runs there are: this says nothing of the others."
+    for system in (SYSTEM, replace(SYSTEM, under=True)):
+        assert trace(example(nowhere, system), "bdd", Limits(), Showing()) == Exit.AS_EXPECTED
+        assert (some in capfd.readouterr().err) is system.under
+
+
+def test_that_there_is_no_other_among_some_runs_is_no_word_on_the_rest(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    part = replace(SYSTEM, under=True)
+    trace(example(ENDS, part), "bdd", Limits(), Showing(runs=3, explaining=QUIET))
+    told = " ".join(capfd.readouterr().out.split())
+    assert "No run 3" in told and "way has only some of the runs there are" in told
+
+
+def test_several_runs_through_an_arrow_are_shown_on_the_chart_as_drawn(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    wanted = of_arrow("Way: Right -> End", {"way": SYSTEM}, None)
+    assert trace(wanted, "bdd", Limits(), Showing(runs=2, explaining=QUIET)) == Exit.AS_EXPECTED
+    told = capfd.readouterr().out
+    assert "--- Run 1 ---" in told and "--- No run 2 ---" in told
+    assert "goal" not in told
+
+
+def test_what_a_property_does_not_depend_on_is_shown_by_exits_that_can(tmp_path: Path) -> None:
+    asked_for: list[bool] = []
+
+    class Whole:
+        NAME, KIND, SUFFIX, SUMMARY = "whole", "trace", ".txt", "for this test"
+
+        @staticmethod
+        def render(_: Trace, /, everything: bool = False) -> str:
+            asked_for.append(everything)
+            return "shown"
+
+    for everything in (True, False):
+        exit_written(Whole(), first(), {}, tmp_path / "shown.txt", everything)
+    exit_written(renderers("trace")["csv"], first(), {}, tmp_path / "shown.csv", everything=True)
+    assert asked_for == [True, False]
+
+
+@pytest.mark.parametrize(
+    ("named", "again"),
+    [
+        (("PB1-15", None, None, None), "rovercheck trace PB1-15"),
+        (
+            (None, "Relay.B2_actuating", None, "relay"),
+            "rovercheck trace --state Relay.B2_actuating --system relay",
+        ),
+    ],
+)
+def test_a_file_says_how_its_run_was_asked_for(named: tuple[str | None, ...], again: str) -> None:
+    wanted = asked(pick_variant(["S43=AND"], None, []), *named)
+    [finding] = of_trace(wanted.drawn(first())).findings
+    assert finding.shown_with == f"{again} --reading S43=AND"

@@ -1,0 +1,64 @@
+"""Names and sentences of a user's model that no screen, shell or test runner could take."""
+
+from pathlib import Path
+
+import pytest
+
+from checker.cli import run
+from checker.commands.codes import Exit
+from checker.model.load import load
+from spec_model.lang.errors import ModelError
+
+MODEL = """
+from properties.forms import always
+from spec_model.lang.chart import Chart, State, to
+from spec_model.lang.expr import flag
+
+go = flag({input!r})
+chart = Chart("C", [State({state!r}, transitions=[to("B", when=go)]), State("B")], default={state!r})
+P = always({id!r}, {text!r}, that=~chart.active("B"), covers={covers!r}, on="C")
+"""
+GOOD = {"input": "go", "state": "A", "id": "P-1", "text": "It stays.", "covers": ["R1"]}
+
+REFUSED: dict[str, tuple[dict[str, object], str]] = {
+    "an id with a blank": ({"id": "P 1"}, "m.py:8: 'P 1' can be no id of a property"),
+    "an id for the shell": ({"id": "P>x"}, "'P>x' can be no id of a property"),
+    "an option": ({"id": "-P"}, "'-P' can be no id of a property"),
+    "no id": ({"id": ""}, "'' can be no id of a property"),
+    "no sentence": ({"text": " \n"}, "m.py:8: P-1 has no sentence. Write in words what is meant."),
+    "none": ({"text": None}, "P-1 has no sentence."),
+    "a control sign": ({"text": "It \x1b[31mstays."}, "has signs that cannot be shown"),
+    "right to left": ({"text": "It \u202estays."}, "has signs that cannot be shown"),
+    "a line in an input": ({"input": "g\no"}, "'C': 'g\\no' has signs that cannot be shown"),
+    "a bell in a state": ({"state": "A\x07"}, "has signs that cannot be shown"),
+    "requirements as one text": ({"covers": "R1"}, "P-1: covers='R1' is one text; write covers=['R1']."),
+}
+
+
+def model(folder: Path, **changes: object) -> Path:
+    file = folder / "m.py"
+    file.write_text(MODEL.format(**{**GOOD, **changes}), encoding="utf-8")
+    return file
+
+
+@pytest.mark.parametrize("wrong", REFUSED)
+def test_what_cannot_be_shown_is_refused(
+    wrong: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    changes, said = REFUSED[wrong]
+    file = model(tmp_path, **changes)
+    with pytest.raises(ModelError) as refused:
+        load(file)
+    assert said in str(refused.value)
+    assert run(["list", "properties", "--model", str(file)]) == Exit.USAGE
+    assert "Traceback" not in capfd.readouterr().err
+
+
+def test_a_sentence_in_several_lines_is_put_on_one(tmp_path: Path) -> None:
+    found = load(model(tmp_path, text="It stays\n::error::\r\n   where it is.\n")).properties["P-1"]
+    assert found.text == "It stays ::error:: where it is."
+
+
+def test_other_scripts_and_markup_are_names_as_well(tmp_path: Path) -> None:
+    found = load(model(tmp_path, id="温度-1", input="ünï</script>", text='<b>🚒</b> "it\'s" ]]> --> $end */'))
+    assert "温度-1" in found.properties
