@@ -25,7 +25,7 @@ def crosscheck(*arguments: str) -> Exit:
 def test_a_board_conforms(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert crosscheck("--system", "board2", "--examples", "1", "-o", str(tmp_path)) is Exit.AS_EXPECTED
     said = capsys.readouterr().out
-    assert "✓ board2 conforms: " in said and "of boundaries" in said and "Arrows that no run took" in said
+    assert "✓ board2 conforms: " in said and "of boundaries" in said
     assert list(tmp_path.iterdir()) == []
     assert all(len(line) <= WIDTH for line in said.splitlines()[1:])
 

@@ -21,6 +21,8 @@ MOST_READS = 32
 """A pipe holds 1 MiB at most; more would come from a process that has run away."""
 GRACE = 1.0
 """Seconds to end, once there is nothing more to do."""
+PAUSE = 0.005
+"""Seconds between two looks whether it has ended."""
 
 
 class Broken(Exception):
@@ -79,8 +81,7 @@ class Channel:
         """Tell the process that nothing more will come, and kill it if that does not end it."""
         with suppress(OSError):
             _pipes(self._process)[0].close()
-        with suppress(subprocess.TimeoutExpired):
-            self._process.wait(GRACE)
+        _ended(self._process, GRACE)
         self.kill()
 
     def kill(self) -> None:
@@ -143,9 +144,8 @@ class Channel:
     def _cause(self) -> str:
         """Why nothing more comes."""
         where = f" in the middle of the line {shown(bytes(self._inbox))}" if self._inbox else ""
-        try:
-            status = self._process.wait(GRACE)
-        except subprocess.TimeoutExpired:
+        status = _ended(self._process, GRACE)
+        if status is None:
             return f"closed its standard output{where}"
         if status < 0:
             return f"was ended by {_signal(-status)}{where}"
@@ -177,7 +177,29 @@ def _signal(number: int) -> str:
     return named.get(number, f"signal {number}") + (f" ({said})" if said else "")
 
 
+def _ended(process: subprocess.Popen[bytes], seconds: float) -> int | None:
+    """Its status if it ends in that time; all that it started is killed while its number is still its own."""
+    until = time.monotonic() + seconds
+    while process.returncode is None:
+        if _has_ended(process):
+            _killed(process)
+        elif time.monotonic() >= until:
+            return None
+        else:
+            time.sleep(PAUSE)
+    return process.returncode
+
+
+def _has_ended(process: subprocess.Popen[bytes]) -> bool:
+    """Whether it has ended; where the system can tell, without giving its number away to another process."""
+    if hasattr(os, "waitid"):
+        return os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOHANG | os.WNOWAIT) is not None
+    return process.poll() is not None
+
+
 def _killed(process: subprocess.Popen[bytes]) -> None:
+    if process.returncode is not None:  # its number may belong to another process by now
+        return
     with suppress(ProcessLookupError, PermissionError):
         os.killpg(process.pid, signal.SIGKILL)
     with suppress(OSError):
