@@ -3,6 +3,7 @@
 import csv
 import json
 import math
+import signal
 from dataclasses import replace
 from importlib import import_module
 from io import BytesIO, StringIO
@@ -18,7 +19,16 @@ from tests.render.conformance import Suite
 from tests.render.exits_zoo import TRACES, huge, lasso, needed, odd, witness
 from tests.render.zoo import long_trace
 
-VCDVCD: Any = import_module("vcdvcd").VCDVCD
+
+def _reader() -> Any:
+    """The class of vcdvcd, whose import would let a closed pipe end this process: that is undone."""
+    on_closed_pipe = signal.getsignal(signal.SIGPIPE)
+    found = import_module("vcdvcd").VCDVCD
+    signal.signal(signal.SIGPIPE, on_closed_pipe)
+    return found
+
+
+VCDVCD = _reader()
 
 
 class TraceSuite(Suite):
