@@ -56,6 +56,18 @@ class Terminal:
                 raise AssertionError(f"{text!r} was not shown after:\n{self.seen}")
         self._read = self.seen.index(text, self._read) + len(text)
 
+    def interrupt(self, text: str) -> None:
+        """Press Ctrl-C until this is shown: readline misses one that comes just before it waits for keys."""
+        end = monotonic() + PATIENCE
+        while text not in self.seen[self._read :]:
+            assert monotonic() < end, f"{text!r} was not shown after:\n{self.seen}"
+            self.type("\x03")
+            again = monotonic() + 5
+            while text not in self.seen[self._read :] and (left := again - monotonic()) > 0:
+                if select.select([self._ours], [], [], left)[0] and not self._more():
+                    break
+        self.until(text)
+
     def ended(self) -> int:
         """The exit code, once the program has ended."""
         while self._more():
