@@ -21,7 +21,7 @@ VERSION := $(shell "$(PYTHON)" -c 'import sys; print("%d.%d.%d" % sys.version_in
 STAMP   := $(VENV)/installed-for-$(VERSION)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup check check-full check-repairs test lint types reports bench format lock clean
+.PHONY: help setup check check-full check-repairs test lint types reports docs bench format lock clean
 .DELETE_ON_ERROR:
 
 help:
@@ -30,6 +30,7 @@ help:
 	@echo "make check-repairs  every property that a proposed repair concerns (hours)"
 	@echo "make test           lint, types, import contracts and the whole test suite"
 	@echo "make reports        write the evidence in reports/ anew"
+	@echo "make docs           build the documentation site in site/"
 	@echo "make lint           ruff only            make types     mypy only"
 	@echo "make format         lay the code out     make bench     time the engines"
 	@echo "make lock           choose new versions of the dependencies, with hashes"
@@ -37,6 +38,9 @@ help:
 
 check: $(STAMP)
 	@$(RUN) -m checker check $(ARGS)
+
+docs: $(STAMP)
+	@$(RUN) -m mkdocs build --strict --quiet
 
 check-full: $(STAMP)
 	@$(RUN) -m checker check --full --certify --memory 3 $(ARGS)

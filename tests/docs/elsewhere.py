@@ -1,0 +1,135 @@
+"""What the pages show and the tests do not run as it stands: each with the reason, and what is done instead.
+
+A command that is in no table is run as it is written; a table may not name one that no page shows.
+"""
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Instead:
+    """Why a command is not run as written, and the one that is; None: its words are only understood."""
+
+    because: str
+    command: str | None = None
+
+
+INSTALLS = Instead("fetches packages; `make test` itself runs in an environment that was so installed")
+MAKES = Instead("runs everything; the test looks whether the Makefile has the target")
+CROSSCHECKS = Instead(
+    "20 s and more for a board; tests/conform runs cross-checks, and tests/cli their command line"
+)
+COVERS = Instead("searches for minutes; tests/cli/test_testgen.py runs the command on small charts")
+OUTSIDE = Instead("a program that pip does not install; tests/export asks it where there is one")
+PICKS = Instead("the line `pytest` runs the same tests; tests/plugin picks some of them in these ways")
+
+FAULTY = "c:examples/board1_c_faulty,map=examples/board1_c/map.toml"
+
+COMMANDS = {
+    "mkdir tank": INSTALLS,
+    "cd tank": INSTALLS,
+    "python3 -m venv .venv": INSTALLS,
+    ". .venv/bin/activate": INSTALLS,
+    "pip install ../rovercheck": INSTALLS,
+    "make check": Instead(MAKES.because, "rovercheck check PB1-11 PB1-15 PB2-01"),
+    "make test": MAKES,
+    "make check-full": MAKES,
+    "rovercheck crosscheck": CROSSCHECKS,
+    "rovercheck crosscheck --system board1 --impl python:mine.py:Board1": CROSSCHECKS,
+    "rovercheck crosscheck --system board1 --impl c:supervisor.toml --profile nightly": CROSSCHECKS,
+    "rovercheck crosscheck --system board1 --reading S43=AND": CROSSCHECKS,
+    "rovercheck crosscheck --system board1 --impl c:FOLDER": CROSSCHECKS,
+    "rovercheck crosscheck --system board1 --impl c:examples/board1_c": CROSSCHECKS,
+    f"rovercheck crosscheck --system board1 --impl {FAULTY}": CROSSCHECKS,
+    "rovercheck testgen": COVERS,
+    "rovercheck testgen --system board1 --cover arrows --cover pairs": COVERS,
+    "rovercheck testgen --system Relay --cover boundaries": COVERS,
+    "rovercheck testgen --format pytest -o tests_b1": COVERS,
+    "rovercheck testgen --format c -o tests_c": COVERS,
+    "rovercheck testgen --keep FOLDER": COVERS,
+    "rovercheck testgen --keep checker/conform/cover/kept": COVERS,
+    "rovercheck simulate SCENARIO.toml -o run.png": Instead(
+        "any scenario", "rovercheck simulate examples/scenarios/link_loss.toml -o run.svg"
+    ),
+    "rovercheck simulate SCENARIO.toml --log logs": Instead(
+        "any scenario", "rovercheck simulate examples/scenarios/link_loss.toml --log logs --no-plot"
+    ),
+    "rovercheck simulate SCENARIO.toml --no-plot": Instead("any scenario; the first line is run so"),
+    "rovercheck simulate examples/scenarios/link_loss.toml": Instead(
+        "draws the picture that `-o run.svg` draws below",
+        "rovercheck simulate examples/scenarios/link_loss.toml --no-plot",
+    ),
+    "rovercheck report --output review.html": Instead(
+        "decides everything", "rovercheck report PB1-11 --no-repairs --output review.html"
+    ),
+    "rovercheck report PB1-15 PB1-16 --output relay.html": Instead(
+        "8 s: decides the repairs of both, too; the line before it writes the page of one property"
+    ),
+    "rovercheck report --full --certify --explain --premises --output review.html": Instead(
+        "decides everything",
+        "rovercheck report PB1-11 --no-repairs --full --certify --explain --premises --output review.html",
+    ),
+    "rovercheck check --junit verdicts.xml --sarif verdicts.sarif --annotations github": Instead(
+        "decides everything",
+        "rovercheck check PB1-11 --junit verdicts.xml --sarif verdicts.sarif --annotations github",
+    ),
+    "rovercheck trace PB1-15 --witnesses 3": Instead(
+        "35 s; tests/cli/test_trace_kinds.py asks for several runs"
+    ),
+    "rovercheck trace --state Relay.B2_actuating": Instead(
+        "on the board it takes longer", "rovercheck trace --state Relay.B2_actuating --system relay"
+    ),
+    "rovercheck trace --arrow 'Relay: B2_actuating -> B1_actuating'": Instead(
+        "12 s; tests/cli/test_trace_kinds.py runs through an arrow"
+    ),
+    r"printf 'step 3\nwhy\n' | rovercheck explore Relay": Instead(
+        "a pipe of the shell", "rovercheck explore Relay --script session.txt"
+    ),
+    "cc -std=c99 pb1_15.c your_supervisor.c -lm": Instead(
+        "needs a supervisor; tests/render compiles such a file with one"
+    ),
+    "ROVERCHECK_IMPL=c:FOLDER pytest test_pb1_15.py": Instead(
+        "needs a supervisor in C; the line before it runs ours"
+    ),
+    'berkeley-abc -q "read_aiger PB1-15.aig; fold; pdr"': OUTSIDE,
+    'berkeley-abc -q "read_aiger PB1-15.aig; fold; bmc3"': OUTSIDE,
+    "spin -a PB1-15.pml && gcc -O2 -DSAFETY -o pan pan.c && ./pan -m1000000": OUTSIDE,
+    "nuXmv: read_model -i PB1-15.smv; go; check_invar": OUTSIDE,
+    "pytest -k HEAT-3": PICKS,
+    "pytest -k Heater": PICKS,
+    "pytest -m \"rovercheck(system='Heater')\"": PICKS,
+    "pytest heater.py::HEAT-3": PICKS,
+    "pytest -rA": PICKS,
+}
+
+BEFORE = {
+    "docs/ci.md": ["rovercheck init heater", "cd heater"],
+}
+"""What a page takes for granted, done before its first command."""
+
+GIVEN = {
+    "docs/explore.md": {"session.txt": "step 3\nwhy\n"},
+    "docs/ci.md": {"heater/pyproject.toml": '[tool.pytest.ini_options]\nrovercheck_models = ["heater.py"]\n'},
+}
+"""Files that a page takes for granted."""
+
+MADE = "made by the search that the page speaks of, which takes minutes"
+SHOWN = {
+    (
+        "docs/certificates.md",
+        "✓ PSY-21a               accepted  proved of counters: 4 obligations by Bitwuzla 0.9.1",
+    ): ("tests/cli/test_certify.py has the line"),
+    ("docs/testgen.md", "board1"): MADE,
+    ("docs/timers.md", "all 425 valuations of references                                exact"): (
+        "three ways to count, of three systems; tests/checker has the texts"
+    ),
+}
+"""Listings that are no command, no file and no program, by page and first line, and why."""
+
+PROGRAMS = {
+    ("docs/adapters.md", "class Supervisor:"): "python",
+    ("docs/adapters.md", "import json, sys"): "python",
+    ("docs/crosscheck.md", "from checker.conform.cross import cross_check, quick_check"): "imports",
+    ("docs/models.md", "from properties.forms import always"): "model",
+}
+"""Python of a page: compiled; its imports executed; or read as a model."""
