@@ -26,7 +26,7 @@ def test_a_board_conforms(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """On the recorded runs and a random one; tests/conform has the other runs."""
-    monkeypatch.setattr(check, "known_runs", lambda env: counterexamples(env.board))
+    monkeypatch.setattr(check, "_known", lambda env, folder: counterexamples(env.board))
     assert crosscheck("--system", "board2", "--examples", "1", "-o", str(tmp_path)) is Exit.AS_EXPECTED
     said = capsys.readouterr().out
     assert "✓ board2 conforms: " in said and "of boundaries" in said
@@ -107,7 +107,7 @@ def test_other_charts_require_something_else(
     capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """On the recorded runs alone, which is quicker."""
-    monkeypatch.setattr(check, "known_runs", lambda env: counterexamples(env.board))
+    monkeypatch.setattr(check, "_known", lambda env, folder: counterexamples(env.board))
     asked = ["--system", "board1", "--examples", "0", "--repair", "relay-without-delay"]
     assert crosscheck(*asked, "-o", str(tmp_path)) is Exit.CHANGED
     said = " ".join(capsys.readouterr().out.split())

@@ -1,6 +1,7 @@
 """The cross-check: our supervisors conform, planted faults are found and become tests."""
 
 import importlib.util
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
@@ -8,11 +9,11 @@ import pytest
 from checker.conform.adapters import python
 from checker.conform.cross import Mismatch, cross_check, effort, quick_check, replay
 from checker.conform.cross.beside import rerun
-from checker.conform.cross.check import recorded_suite
+from checker.conform.cross.check import Remembered, recorded_suite
 from checker.conform.cross.coverage import arrows
 from checker.conform.cross.reproduce import file_name, pytest_file, stimulus_of
 from checker.conform.cross.result import SHOWN
-from checker.conform.cross.search import FAILURES, Search
+from checker.conform.cross.search import FAILURES, Run, Search
 from checker.conform.cross.smaller import Budget, smaller
 from checker.conform.cross.strategy import ENVIRONMENTS
 from checker.conform.implementation import Implementation, ImplementationError, Values
@@ -169,6 +170,21 @@ def test_ctrl_c_keeps_what_was_found() -> None:
 
     result = cross_check("board1", running("board1", OURS["board1"]), progress=interrupt)
     assert result.interrupted and not result.conforms and result.coverage.runs == 1
+
+
+def test_ctrl_c_while_runs_are_made_leaves_none_out_the_next_time() -> None:
+    ends = [KeyboardInterrupt()]
+
+    def runs() -> Iterator[Run]:
+        yield "first", []
+        if ends:
+            raise ends.pop()
+        yield "second", []
+
+    remembered = Remembered(runs)
+    with pytest.raises(KeyboardInterrupt):
+        list(remembered)
+    assert [name for name, _ in remembered] == [name for name, _ in remembered] == ["first", "second"]
 
 
 def test_distinct_mismatches_are_told_apart_up_to_a_number_that_is_said() -> None:

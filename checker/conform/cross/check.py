@@ -1,9 +1,9 @@
 """Cross-checking from Python: one board, one implementation, one result."""
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache
-from itertools import chain, count
+from itertools import chain, count, islice
 from pathlib import Path
 
 from checker.conform.adapters import start
@@ -100,22 +100,29 @@ def _known(env: Environment, folder: Path | None) -> Iterable[Run]:
 class Remembered:
     """Runs that the charts go through once in a process, however often they are wanted."""
 
-    def __init__(self, runs: Iterator[Run]) -> None:
-        self._runs, self._made = runs, list[Run]()
+    def __init__(self, runs: Callable[[], Iterator[Run]]) -> None:
+        self._again, self._runs, self._made = runs, runs(), list[Run]()
 
     def __iter__(self) -> Iterator[Run]:
         for number in count():
             if number == len(self._made):
-                following = next(self._runs, None)
+                following = self._next()
                 if following is None:
                     return
                 self._made.append(following)
             yield self._made[number]
 
+    def _next(self) -> Run | None:
+        try:
+            return next(self._runs, None)
+        except BaseException:  # a generator that was interrupted has ended: the rest would be missing in silence
+            self._runs = islice(self._again(), len(self._made), None)
+            raise
+
 
 @cache
 def _of_the_project(board: str) -> Remembered:
-    return Remembered(known_runs(ENVIRONMENTS[board]))
+    return Remembered(lambda: known_runs(ENVIRONMENTS[board]))
 
 
 def known_runs(env: Environment) -> Iterator[Run]:
