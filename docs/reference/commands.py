@@ -53,4 +53,4 @@ def _kept(paragraph: str) -> str:
 
 
 def _cell(text: str) -> str:
-    return " ".join(text.split()).replace("|", "\\|")
+    return " ".join(text.split()).replace("|", "\\|")  # as in the other pages: see the hooks

@@ -21,6 +21,8 @@ VENDOR = Path(__file__).parent / "vendor" / "iframe-worker"
 SHIM = "assets/iframe-worker.js"
 FETCHED = "https://unpkg.com/iframe-worker/shim"
 LINK = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)#\s]+)(#[^)\s]*)?(?=\))")
+ROW = re.compile(r"(?m)^\|.*$")
+CODE = re.compile(r"`[^`\n]+`")
 GENERATED: dict[str, Callable[[], str]] = {
     "reference/language.md": language.page,
     "reference/properties.md": forms.page,
@@ -43,14 +45,18 @@ def on_files(files: Files, config: Any) -> Files:
 
 
 def on_page_markdown(markdown: str, page: Any, **_: object) -> str:
-    """Links as the site needs them."""
+    """Links as the site needs them, and in tables code whose bars need no backslash here."""
     here = page.file.src_uri
 
     def rewritten(link: re.Match[str]) -> str:
         target = _on_site(_target(_in_repository(here), link[1]))
         return posixpath.relpath(target, posixpath.dirname(here) or ".") + (link[2] or "").lower()
 
-    return LINK.sub(rewritten, markdown)
+    return ROW.sub(_plain_bars, LINK.sub(rewritten, markdown))
+
+
+def _plain_bars(row: re.Match[str]) -> str:
+    return CODE.sub(lambda code: code[0].replace("\\|", "|"), row[0])
 
 
 def on_post_page(output: str, page: Any, **_: object) -> str:

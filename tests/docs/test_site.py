@@ -10,6 +10,7 @@ from pathlib import Path
 from types import ModuleType
 
 import pytest
+from playwright.sync_api import Page
 
 from checker.cli import app
 from checker.commands.codes import Exit
@@ -61,6 +62,22 @@ def test_files_beside_the_documents_are_on_the_site(site: Path) -> None:
     workflow = "examples/ci/github-actions.yml"
     assert (site / "project" / workflow).read_bytes() == (ROOT / workflow).read_bytes()
     assert f'href="project/{workflow}"' in (site / "ci.html").read_text(encoding="utf-8")
+
+
+def test_in_a_browser_from_the_disk_it_is_searched_and_fits_a_phone(site: Path, page: Page) -> None:
+    page.goto((site / "index.html").as_uri())
+    page.get_by_placeholder("Search").fill("counterexample")
+    page.locator(".md-search-result__link", has_text="Read the counterexample").first.click()
+    page.wait_for_url("**/tutorial.html*")
+    page.set_viewport_size({"width": 390, "height": 800})
+    for name in ("tutorial", "verdicts", "reference/language", "reference/commands", "simulate"):
+        page.goto((site / f"{name}.html").as_uri())
+        assert page.evaluate("document.documentElement.scrollWidth") == 390
+
+
+def test_code_in_tables_shows_no_backslash(site: Path) -> None:
+    assert "<code>|x@0|</code>" in (site / "certificates.html").read_text(encoding="utf-8")
+    assert "bitwuzla|enumeration|both" in (site / "reference" / "commands.html").read_text(encoding="utf-8")
 
 
 def test_the_script_of_others_is_the_one_it_says_it_is() -> None:

@@ -115,7 +115,7 @@ class Remembered:
     def _next(self) -> Run | None:
         try:
             return next(self._runs, None)
-        except BaseException:  # a generator that was interrupted has ended: the rest would be missing in silence
+        except BaseException:  # an interrupted generator has ended: the rest would be missing in silence
             self._runs = islice(self._again(), len(self._made), None)
             raise
 
