@@ -7,6 +7,7 @@
 import os
 import signal
 
+import pytest
 from hypothesis import HealthCheck, settings
 
 os.environ["ROVERCHECK_CACHE"] = ""  # what is tested is compiled anew
@@ -32,3 +33,8 @@ settings.register_profile(
     suppress_health_check=[HealthCheck.too_slow],
 )
 settings.load_profile("ci")
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Long tests first: one that begins late keeps the other processes waiting."""
+    items.sort(key=lambda item: item.get_closest_marker("long") is None)

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import pytest
+
 from checker.commands.check import Compared, line, results
 from checker.commands.reporting import differences, pages
 from checker.decide import AUTO
@@ -12,6 +14,8 @@ from spec_model.rover import systems
 REPORTS = Path(__file__).parent.parent / "reports"
 
 
+@pytest.mark.long
+@pytest.mark.timeout(1800)
 def test_verdicts_are_as_on_record_and_the_committed_reports_show_them() -> None:
     # One test, so that the properties are decided once however many processes run the suite.
     affordable = [prop for prop in catalogue().values() if not prop.costly]

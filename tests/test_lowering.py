@@ -32,7 +32,8 @@ def compare(system: System, ticks: Sequence[Mapping[str, int]], frozen: Mapping[
         assert not any(at[check.name] for check, _ in lowered.checks)
 
 
-@settings(max_examples=2000, suppress_health_check=list(HealthCheck))
+@pytest.mark.long
+@settings(max_examples=1200, suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_lowered_systems_step_as_the_interpreter_does(data: st.DataObject) -> None:
     system = data.draw(systems())

@@ -33,19 +33,22 @@ def test_every_engine_is_compared() -> None:
     assert set(engines()) == {"bdd", "bmc", "explicit", "kinduction", "pdr"}
 
 
-@examples(800)
+@pytest.mark.long
+@examples(600)
 @given(transition_systems())
 def test_no_two_engines_disagree(system: TransitionSystem) -> None:
     agree(system)
 
 
-@examples(150)
+@pytest.mark.long
+@examples(120)
 @given(transition_systems(most=5))
 def test_nor_on_larger_systems(system: TransitionSystem) -> None:
     agree(system)
 
 
-@examples(350)
+@pytest.mark.long
+@examples(220)
 @given(timed_systems())
 def test_nor_on_charts_with_timers(system: TransitionSystem) -> None:
     agree(system)

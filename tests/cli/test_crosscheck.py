@@ -3,14 +3,16 @@
 import json
 import subprocess
 import sys
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
 from checker.cli import run
 from checker.commands.codes import Exit
-from checker.conform.cross import check
-from checker.conform.cross.recorded import counterexamples
+from checker.conform.cross import check, recorded
+from checker.conform.cross.environment import Environment
+from checker.conform.cross.search import Run
 from spec_model.abstraction import boards
 from tests.conform import cross_faults
 
@@ -18,15 +20,22 @@ FAULTS = Path(cross_faults.__file__)
 WIDTH = 80
 
 
+@pytest.fixture(autouse=True)
+def _on_counterexamples_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """On the recorded counterexamples and the tests of a folder; tests/conform has the other runs."""
+
+    def known(env: Environment, folder: Path | None) -> Iterator[Run]:
+        yield from recorded.counterexamples(env.board)
+        yield from recorded.tests(folder, env.board) if folder else ()
+
+    monkeypatch.setattr(check, "_known", known)
+
+
 def crosscheck(*arguments: str) -> Exit:
     return run(["crosscheck", *arguments])
 
 
-def test_a_board_conforms(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """On the recorded runs and a random one; tests/conform has the other runs."""
-    monkeypatch.setattr(check, "_known", lambda env, folder: counterexamples(env.board))
+def test_a_board_conforms(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     assert crosscheck("--system", "board2", "--examples", "1", "-o", str(tmp_path)) is Exit.AS_EXPECTED
     said = capsys.readouterr().out
     assert "✓ board2 conforms: " in said and "of boundaries" in said
@@ -65,7 +74,11 @@ def test_results_for_machines(capsys: pytest.CaptureFixture[str], tmp_path: Path
     assert result["arrows"]["taken"] + len(result["arrows"]["missing"]) == result["arrows"]["all"]
 
 
-def test_a_crash_is_a_finding_that_becomes_a_test(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+def test_a_crash_is_a_finding_that_becomes_a_test(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """On all runs, of which it does not survive the 50th."""
+    monkeypatch.undo()
     fault = f"python:{FAULTS}:Crashing"
     code = crosscheck("--system", "board2", "--impl", fault, "--examples", "0", "-o", str(tmp_path))
     said = capsys.readouterr().out
@@ -103,11 +116,7 @@ def test_a_command_that_dies_is_a_finding_and_what_it_answered_before_counts(
     assert Path(result["failures"][0]["test"]).is_file()
 
 
-def test_other_charts_require_something_else(
-    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    """On the recorded runs alone, which is quicker."""
-    monkeypatch.setattr(check, "_known", lambda env, folder: counterexamples(env.board))
+def test_other_charts_require_something_else(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     asked = ["--system", "board1", "--examples", "0", "--repair", "relay-without-delay"]
     assert crosscheck(*asked, "-o", str(tmp_path)) is Exit.CHANGED
     said = " ".join(capsys.readouterr().out.split())
