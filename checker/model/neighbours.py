@@ -25,7 +25,10 @@ class _Source(SourceFileLoader):
 
     def get_code(self, fullname: str) -> CodeType:
         path = self.get_filename(fullname)
-        code: CodeType = self.source_to_code(self.get_data(path), path)
+        source = self.get_data(path)
+        if b"\0" in source:  # a ValueError before Python 3.11.4
+            raise SyntaxError("source code string cannot contain null bytes", (path, None, None, None))
+        code: CodeType = self.source_to_code(source, path)
         return code
 
 
