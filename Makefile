@@ -40,7 +40,7 @@ check: $(STAMP)
 	@$(RUN) -m checker check $(ARGS)
 
 docs: $(STAMP)
-	@$(RUN) -m mkdocs build --strict --quiet
+	@NO_MKDOCS_2_WARNING=1 $(RUN) -m mkdocs build --strict --quiet
 
 check-full: $(STAMP)
 	@$(RUN) -m checker check --full --certify --memory 3 $(ARGS)

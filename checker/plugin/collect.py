@@ -8,14 +8,16 @@ from typing import Any
 
 import pytest
 
+from checker.commands.failing import told
 from checker.model import Model
 from checker.model.execute import files_of
 from checker.model.load import load
 from checker.model.rover import rover
 from checker.plugin.deciding import Decider
 from checker.plugin.item import PropertyItem
-from checker.pytest_plugin import whole
 from properties.forms import Property
+from rovercheck import own
+from rovercheck.pytest_plugin import whole
 from spec_model.lang.errors import ModelError
 
 ROVER = "rover"
@@ -34,8 +36,8 @@ class Source:
         try:
             model = rover() if self.path is None else load(self.path)
             model.stated()
-        except ModelError as error:
-            return error
+        except Exception as error:
+            return error if isinstance(error, ModelError) else ModelError(told(error))
         return model
 
     @cached_property
@@ -68,6 +70,11 @@ class Models:
     patterns: Sequence[str]
     decider: Decider
     _met: dict[Path, Source] = field(default_factory=dict)
+
+    def hold(self, file: Path) -> bool:
+        """Whether the file may belong to a model that is wanted."""
+        named = any(source.path in (file, file.parent) for source in self.configured if source.path)
+        return named or any(map(file.match, self.patterns))
 
     def met(self, file: Path, parent: pytest.Collector) -> pytest.Collector | None:
         """The node of a file that pytest comes across, if it belongs to a model that is wanted."""
@@ -111,9 +118,10 @@ class ModelNode(pytest.File):
         super().__init__(**rest)
         self.source = source
 
-    def collect(self) -> Iterator[pytest.Item]:
+    @own()
+    def collect(self) -> list[pytest.Item]:
         """An item for each property written there."""
-        yield from _items(self, self.source, self.source.by_file.get(self.path, []))
+        return _items(self, self.source, self.source.by_file.get(self.path, []))
 
 
 class RoverNode(pytest.Collector):
@@ -123,15 +131,16 @@ class RoverNode(pytest.Collector):
         super().__init__(**rest)
         self.source = source
 
-    def collect(self) -> Iterator[pytest.Item]:
+    @own()
+    def collect(self) -> list[pytest.Item]:
         """An item for each property."""
         assert isinstance(self.source.read, Model)
-        yield from _items(self, self.source, list(self.source.read.properties.values()))
+        return _items(self, self.source, list(self.source.read.properties.values()))
 
 
-def _items(parent: pytest.Collector, source: Source, properties: Sequence[Property]) -> Iterator[pytest.Item]:
+def _items(parent: pytest.Collector, source: Source, properties: Sequence[Property]) -> list[pytest.Item]:
     assert isinstance(source.read, Model)
-    for prop in properties:
-        yield PropertyItem.from_parent(
-            parent, name=prop.id, prop=prop, model=source.read, decider=source.decider
-        )
+    return [
+        PropertyItem.from_parent(parent, name=p.id, prop=p, model=source.read, decider=source.decider)
+        for p in properties
+    ]

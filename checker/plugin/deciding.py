@@ -8,11 +8,9 @@ import pytest
 
 from checker.commands.check import Compared, results
 from checker.commands.codes import UsageError
+from checker.commands.failing import told
 from checker.commands.select import pick_engine
 from checker.engine import Limits
-from checker.portfolio import Disagreement
-from checker.runs.replay import ReplayError
-from spec_model.lang.errors import ModelError
 
 if TYPE_CHECKING:
     from checker.plugin.item import PropertyItem
@@ -72,8 +70,8 @@ class Decider:
             for one in results(properties, model.systems, self.engine, self.limits, self.jobs):
                 item = left.pop(one.property.id)
                 self._found[_key(item)] = Compared(one, model.expected(item.prop.id))
-        except (ModelError, Disagreement, ReplayError) as error:
-            self._found |= {_key(item): Failed(str(error)) for item in left.values()}
+        except Exception as error:
+            self._found |= {_key(item): Failed(told(error)) for item in left.values()}
 
 
 def _key(item: "PropertyItem") -> Key:

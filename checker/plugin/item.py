@@ -8,16 +8,13 @@ import pytest
 from checker.commands.check import Compared, evidence
 from checker.model import Model
 from checker.plugin.deciding import Decider, Failed
-from checker.plugin.telling import on_record, why, with_reasons
+from checker.plugin.telling import on_record, shown
 from properties.forms import Property
+from rovercheck import own
 
 
 class Different(Exception):
-    """The verdict is not the one on record."""
-
-    def __init__(self, compared: Compared) -> None:
-        super().__init__(compared.verdict.word)
-        self.compared = compared
+    """The verdict is not the one on record; the message shows why."""
 
 
 class PropertyItem(pytest.Item):
@@ -33,23 +30,21 @@ class PropertyItem(pytest.Item):
         if prop.costly and not self.config.getoption("rovercheck_full"):
             self.add_marker(pytest.mark.skip(reason="it takes long; --rovercheck-full decides it"))
 
+    @own()
     def runtest(self) -> None:
         """Raises ``Different``, or ``Failed`` if there is no verdict at all."""
         compared = self.decider.compared(self)
         for name, value in _properties(compared):
             self.user_properties.append((name, value))
         if not compared.as_expected:
-            raise Different(with_reasons(compared, self.model))
+            raise Different(shown(compared, self.model))
         if compared.verdict.word != "proved":
             self.add_report_section("call", "verdict", on_record(compared))
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """What there is to read instead of a traceback of ours."""
-        match excinfo.value:
-            case Different(compared=compared):
-                return why(compared, self.model)
-            case Failed() as error:
-                return str(error)
+        if isinstance(excinfo.value, Different | Failed):
+            return str(excinfo.value)
         return super().repr_failure(excinfo, style)
 
     def reportinfo(self) -> tuple[Path, int | None, str]:

@@ -2,9 +2,10 @@
 
 from dataclasses import replace
 
-from checker.commands.check import Compared
+from checker.commands.check import Compared, recorded
 from checker.commands.ci import finding
 from checker.commands.explaining import Explaining
+from checker.commands.failing import told
 from checker.model import Model
 from checker.render.ci import explained
 from checker.trace import Trace
@@ -17,7 +18,16 @@ def on_record(compared: Compared) -> str:
     return f"{prop.id} is {compared.verdict.word}, as on record: {because}"
 
 
-def with_reasons(compared: Compared, model: Model) -> Compared:
+def shown(compared: Compared, model: Model) -> str:
+    """A verdict that is not the one on record, with what forces it as far as that is found."""
+    try:
+        return _why(_with_reasons(compared, model), model)
+    except Exception as error:  # the verdict stands
+        id, expected = compared.result.property.id, recorded(compared.expected)
+        return f"{id} is {compared.word}, on record is {expected}\n{told(error)}"
+
+
+def _with_reasons(compared: Compared, model: Model) -> Compared:
     """A counterexample with what forces it, as far as that is found in the time that ``trace`` takes for it.
 
     Raises ``ReplayError`` if a run with the same needed inputs ends otherwise.
@@ -29,7 +39,7 @@ def with_reasons(compared: Compared, model: Model) -> Compared:
     return replace(compared, result=replace(result, verdict=replace(result.verdict, because=trace)))
 
 
-def why(compared: Compared, model: Model) -> str:
+def _why(compared: Compared, model: Model) -> str:
     """A verdict that is not the one on record: what it rests on, and what to do."""
     found = finding(compared, model.systems, model.options)
     lines = [found.headline, explained(found)]

@@ -5,18 +5,24 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 from types import SimpleNamespace
-from typing import cast
+from typing import NoReturn, cast
 from xml.etree import ElementTree
 
 import pytest
 
+from checker.commands.explaining import Explaining
+from checker.plugin import deciding
 from checker.plugin.deciding import Decider
 from checker.plugin.item import PropertyItem
+from checker.runs.replay import ReplayError
+from rovercheck import NAMES
+from spec_model.lang.errors import ModelError
 from tests.model_files.files import BASELINE, HEATER
 
 pytest_plugins = ["pytester"]
-PLUGIN = ("-p", "no:rovercheck", "-p", "checker.pytest_plugin", "-p", "no:cacheprovider")
-"""The module itself, whether or not the installed rovercheck has registered it."""
+PLUGIN = ("-p", "no:rovercheck", "-p", "rovercheck.pytest_plugin", "-p", "no:cacheprovider",
+          "-W", "ignore:Module already imported")  # fmt: skip
+"""The module itself, whether or not the installed rovercheck has registered it, and imported it."""
 
 
 @pytest.fixture
@@ -144,6 +150,45 @@ def test_a_model_without_meaning_is_one_error(project: pytest.Pytester, text: st
 
 
 @pytest.mark.parametrize(
+    ("error", "message"),
+    [
+        (ReplayError("HEAT-1: the run of 3 ticks does not reach the goal."),
+         "INTERNAL: HEAT-1: the run of 3 ticks does not reach the goal."),
+        (ZeroDivisionError("of ours"),
+         "INTERNAL: ZeroDivisionError: of ours. This is a bug of rovercheck*; please report it *"),
+        (OSError(28, "No space left on device"), "The operating system refuses: *No space left on device. *"),
+        (ModelError("heater.py:3: no meaning."), "heater.py:3: no meaning."),
+    ],
+)  # fmt: skip
+def test_an_error_is_one_message(
+    project: pytest.Pytester, monkeypatch: pytest.MonkeyPatch, error: Exception, message: str
+) -> None:
+    def results(*_: object) -> NoReturn:
+        raise error
+
+    monkeypatch.setattr(deciding, "results", results)
+    result = project.runpytest_inprocess(*PLUGIN, "-k", "HEAT-1 or HEAT-2")
+    result.assert_outcomes(failed=2, deselected=2)
+    result.stdout.fnmatch_lines(["*HEAT-1 of Heater*", message, "*HEAT-2 of Heater*", message])
+    assert "Traceback" not in result.stdout.str() and "raise error" not in result.stdout.str()
+
+
+def test_a_verdict_is_told_although_its_explanation_fails(
+    project: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def explained(*_: object) -> NoReturn:
+        raise ReplayError("another run with the same needed inputs ends otherwise.")
+
+    monkeypatch.setattr(Explaining, "__call__", explained)
+    (project.path / "baseline.toml").unlink()
+    result = project.runpytest_inprocess(*PLUGIN, "-k", "HEAT-3")
+    result.assert_outcomes(failed=1, deselected=3)
+    message = "INTERNAL: another run with the same needed inputs ends otherwise."
+    result.stdout.fnmatch_lines(["HEAT-3 is violated, on record is proved", message])
+    assert "Traceback" not in result.stdout.str()
+
+
+@pytest.mark.parametrize(
     "option", ["--rovercheck-engine=expl", "--rovercheck-timeout=0", "--rovercheck-depth=0"]
 )
 def test_an_option_without_meaning_is_refused(project: pytest.Pytester, option: str) -> None:
@@ -152,9 +197,18 @@ def test_an_option_without_meaning_is_refused(project: pytest.Pytester, option: 
     result.stderr.fnmatch_lines([f"ERROR: {option.partition('=')[0]}*"])
 
 
-def test_workers_find_the_same_items(project: pytest.Pytester) -> None:
+def test_workers_find_the_same_items_whatever_folders_are_called(project: pytest.Pytester) -> None:
+    """Python is started where packages of the user's bear our names, and comes across them first."""
+    for name in (*NAMES, "reports", "tests"):
+        project.mkpydir(name).joinpath("__init__.py").write_text(f"name = 'my {name}'\n")
+    imported = "import checker, properties, spec_model, supervisor, tests"
+    same = "assert [checker.name, properties.name, spec_model.name, supervisor.name] == "
+    mine = str([f"my {name}" for name in NAMES])
+    project.makepyfile(test_own=f"{imported}\ndef test_own():\n    {same}{mine}\n")
     result = project.runpytest_subprocess(*PLUGIN, "-n1", "--dist", "loadgroup", "-k", "HEAT-1 or own")
     result.assert_outcomes(passed=2)
+    named = project.runpytest_subprocess(*PLUGIN, "--collect-only", "-q", "heater.py::HEAT-2", "test_own.py")
+    assert [line for line in named.outlines if "::" in line] == [H2, OWN]
 
 
 @pytest.mark.parametrize(("grouped", "apart"), [(True, False), (False, True)])
@@ -168,7 +222,7 @@ def test_a_worker_decides_a_system_only_if_it_has_all_of_it(grouped: bool, apart
 
 
 def test_the_plugin_alone_loads_no_solver() -> None:
-    heavy = "z3 llvmlite numpy bitwuzla oxidd pysat spec_model properties rich click"
-    code = f"import sys, checker.pytest_plugin; print(*set('{heavy}'.split()) & set(sys.modules))"
+    heavy = "checker z3 llvmlite numpy bitwuzla oxidd pysat spec_model properties rich click"
+    code = f"import sys, rovercheck.pytest_plugin; print(*set('{heavy}'.split()) & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == []

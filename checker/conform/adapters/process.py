@@ -13,7 +13,7 @@ from checker.conform.implementation import ImplementationError, Value, Values
 from spec_model.lang.errors import did_you_mean
 
 RESET = lines.encoded({"reset": True})
-MAIN = "from checker.conform.adapters.child import main; main()"
+MAIN = "from rovercheck import claim; claim(); from checker.conform.adapters.child import main; main()"
 
 
 class Reported(Broken):

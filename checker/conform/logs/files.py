@@ -209,7 +209,7 @@ def _rows(reader: _Reader, width: int, before: int) -> Iterator[tuple[int, list[
 
 def _parquet(path: Path) -> Rows:
     if find_spec("pyarrow") is None:
-        raise LogError("is a Parquet file, which pyarrow reads; install rovercheck[parquet], or write CSV.")
+        raise LogError("is Parquet, which pyarrow reads; install it (pip install pyarrow), or write CSV.")
     parquet = import_module("pyarrow.parquet")
     arrow = import_module("pyarrow")
     try:

@@ -14,12 +14,14 @@ Run them against an implementation with `pytest {file} --impl KIND:WHAT`, by def
 """
 
 import pytest
+from rovercheck import own
 
-from checker.conform.adapters import start
-from checker.conform.cover.scripts import steps, unfolded
-from spec_model.abstraction import boards
+with own():  # whatever else bears the names
+    from checker.conform.adapters import start
+    from checker.conform.cover.scripts import steps, unfolded
+    from spec_model.abstraction import boards
 
-BOARD = boards()["{board}"]
+    BOARD = boards()["{board}"]
 OURS = "{ours}"
 NEAR = 1e-6  # in the unit, or as a part of the value: single precision will do
 
@@ -33,7 +35,8 @@ TAIL = """}
 
 @pytest.fixture(scope="module")
 def implementation(request):
-    run = start(request.config.getoption("--impl", None) or OURS, BOARD)
+    with own():
+        run = start(request.config.getoption("--impl", None) or OURS, BOARD)
     yield run
     run.close()
 
