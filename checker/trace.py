@@ -9,6 +9,11 @@ from spec_model.lang.expr import Expr, Var
 from spec_model.lang.place import Place
 
 
+def counted_ticks(count: int) -> str:
+    """``1 tick``, ``8 ticks``."""
+    return f"{count} tick{'s' * (count != 1)}"
+
+
 @dataclass(frozen=True)
 class Arrow:
     """An arrow that fired: its chart, where it starts and ends, and its label as drawn.
@@ -77,7 +82,8 @@ class Trace:
 
     ``violated`` tells whether the run breaks the property; it is None for a run of no property, and for one
     of which only the parts that it makes false are known.  ``shortest``: no shorter run ends so.
-    ``again`` is the command that shows the run, where it is known.
+    ``again`` is the command that shows the run, where it is known.  ``frozen`` names the choices that are
+    fixed for the whole run.
     """
 
     system: str
@@ -104,6 +110,7 @@ class Trace:
     violated: bool | None = None
     shortest: bool = False
     again: str = field(default="", compare=False, repr=False)
+    frozen: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.ticks)

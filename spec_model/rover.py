@@ -46,17 +46,18 @@ def _systems(chosen: tuple[tuple[str, str], ...]) -> Mapping[str, System]:
 
 
 class _Read(Mapping[str, System]):
-    """The systems under chosen readings, each fixed when first asked for: all together take a second."""
+    """The systems under chosen readings: modules are read until a name is found, and its system is fixed."""
 
     def __init__(self, choices: Mapping[str, str]) -> None:
         self._fixing, self._open = fixed(choices), left_open(choices)
         self._modelled = modelled_only(choices)
-        self._written = merged(as_written())
+        self._modules = iter(BOARDS)
+        self._written: dict[str, System] = {}
         self._read: dict[str, System] = {}
 
     def __getitem__(self, name: str) -> System:
         if name not in self._read:
-            system = self._fixing.system(self._written[name])
+            system = self._fixing.system(self._declared(name))
             if self._open:
                 frozen = (*system.frozen, *self._open)
                 system = replace(system, frozen=frozen, assume=system.assume & self._modelled)
@@ -64,10 +65,24 @@ class _Read(Mapping[str, System]):
         return self._read[name]
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._written)
+        return iter(self._all())
 
     def __len__(self) -> int:
-        return len(self._written)
+        return len(self._all())
+
+    def _declared(self, name: str) -> System:
+        """A system as its module declares it.  Raises ``KeyError`` if none does."""
+        while name not in self._written:
+            module = next(self._modules, None)
+            if module is None:
+                raise KeyError(name)
+            self._written = merged((*self._written.values(), *_systems_of(module)))
+        return self._written[name]
+
+    def _all(self) -> Mapping[str, System]:
+        found = (s for module in self._modules for s in _systems_of(module))
+        self._written = merged((*self._written.values(), *found))
+        return self._written
 
 
 def as_written() -> Iterator[System]:

@@ -1,14 +1,18 @@
 """The inputs that force the end of a run: none can be left out, and the other inputs may be anything.
 
-Found by deletion from an unsatisfiable core: whole inputs are tried first, then stretches of ticks, then
+Found by deletion.  A long run is gone through backwards (see ``backwards``).  Another is unrolled, and what
+is deleted from is an unsatisfiable core: whole inputs are tried first, then stretches of ticks, then
 single ones, so that what is left is few inputs over long stretches.  A set that cannot lose any member is
 called minimal (subset-minimal); there may be another one with fewer members.
 """
 
 from collections.abc import Iterable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
+from checker.encode.bits import Circuit, circuit
 from checker.engine import Progress, quiet
+from checker.explain.backwards import TooLarge, backwards
 from checker.explain.unrolled import Over, Place, Unrolled, never
 from checker.explain.widening import widened
 from checker.partition import Partition, partitions
@@ -21,6 +25,10 @@ from spec_model.lang.system import TransitionSystem
 
 FAR = (1, -1, 1 << 30, -(1 << 30))
 """By how many cells inputs are changed in a simulation: to the next value that matters, to the last one."""
+LARGE = 200_000
+"""Nodes of a circuit, times ticks, from which on a run is not unrolled if there is another way."""
+WIDE = 16_000
+"""Nodes of a circuit for which there is no use in trying that way."""
 
 
 @dataclass(frozen=True)
@@ -47,15 +55,25 @@ def forcing(
     that is nothing, and ``ReplayError`` if all inputs of the run together do not force its end: the solver
     then contradicts the replay.
     """
-    progress(f"unrolling {len(run)} ticks")
-    cells = partitions(sliced(system, [goal]))
-    with Unrolled(system, goal, run, over) as unrolled:
-        search = _Search(unrolled, cells, progress, over)
-        search.minimise()
-        wide = widened(unrolled, search.kept, cells, over)
+    made, cells = circuit(system, [goal.name]), partitions(sliced(system, [goal]))
+    wide, minimal = _searched(made, goal.name, run, cells, progress, over)
     order = {v.name: i for i, v in enumerate(system.inputs)}
     places = sorted(wide, key=lambda place: (place[0], order[place[1]]))
-    return Forcing(tuple(Needed(*place, wide[place]) for place in places), search.minimal)
+    return Forcing(tuple(Needed(*place, wide[place]) for place in places), minimal)
+
+
+def _searched(
+    made: Circuit, goal: str, run: Run, cells: dict[str, Partition], progress: Progress, over: Over
+) -> tuple[dict[Place, frozenset[int]], bool]:
+    """The needed inputs with the values that do, and whether none can be left out."""
+    if len(made.aig) < WIDE and len(made.aig) * len(run) > LARGE:
+        with suppress(TooLarge):
+            return backwards(made, goal, run, cells, progress, over)
+    progress(f"unrolling {len(run)} ticks")
+    with Unrolled(made, goal, run, over) as unrolled:
+        search = _Search(unrolled, cells, progress, over)
+        search.minimise()
+        return widened(unrolled, search.kept, cells, over), search.minimal
 
 
 class _Search:
@@ -82,6 +100,8 @@ class _Search:
             raise ReplayError("the solver finds that the inputs of the run do not lead to its end.")
         self._progress(f"{len(self._core)} of {len(self.kept)} inputs may be needed")
         critical = self._critical([p for p, a in self.kept.items() if a in self._core])
+        if self._drop([p for p in self.kept if p not in critical]):
+            return
         for name in {name: None for _, name in self.kept if name not in {n for _, n in critical}}:
             self._drop([p for p in self.kept if p[1] == name])
         self.kept = {p: a for p, a in self.kept.items() if a in self._core}

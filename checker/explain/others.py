@@ -21,7 +21,7 @@ from checker.result import check_domains
 from checker.runs.calm import calmed
 from checker.runs.replay import followed, replay
 from checker.searches import SLACK
-from checker.trace import Trace
+from checker.trace import Trace, counted_ticks
 from checker.verdict import Answer, Open, Reached, Run, Unreachable
 from properties.forms import Property
 from properties.reduce import Question, reduce
@@ -29,6 +29,9 @@ from spec_model.lang.action import Assign
 from spec_model.lang.domain import boolean
 from spec_model.lang.expr import Expr, Var, all_of, any_of
 from spec_model.lang.system import System, TransitionSystem
+
+MOST = 4
+"""Arrows that are named to tell two runs apart."""
 
 Taken = frozenset[str]
 """The arrows that a run takes, by id."""
@@ -49,6 +52,12 @@ class NoMore:
     proved: bool
     reason: str
 
+    @staticmethod
+    def open(left: Open) -> "NoMore":
+        """What a search that found none leaves open."""
+        none = f"none within {counted_ticks(left.depth)}"
+        return NoMore(False, none if left.depth else f"{none}; {left.reason}")
+
 
 class Others:
     """Runs that break a property, or reach what it wants reached, from one that is known.
@@ -63,23 +72,20 @@ class Others:
         question = reduce(lowered(looked.system), [replace(prop, on=system.name)])
         self._question, self._memories = _remembering(question, self.arrows)
         run = _run_of(first, self._plain)
-        self._runs = [run]
         self._taken = [self._arrows_of(run)]
+        self._told = [_told(first)]
 
     def next(self, engine: str, limits: Limits, progress: Progress = quiet) -> Other | NoMore:
         """A further run, or why there is none."""
         question = self._another()
-        answer = _answer(question.system, question.goals[0].var, engine, limits, progress)
+        answer = answered(question.system, question.goals[0].var, engine, limits, progress)
         match answer:
             case Reached(run):
                 return self._shown(question, run)
             case Unreachable(because):
                 return NoMore(True, because.how)
-            case Open(reason, depth):
-                return NoMore(
-                    False,
-                    f"none within {depth} ticks; {reason}" if not depth else f"none within {depth} ticks",
-                )
+            case Open() as left:
+                return NoMore.open(left)
 
     def _another(self) -> Question:
         """The question for a run that takes another set of arrows than each before."""
@@ -100,9 +106,12 @@ class Others:
         """The run on the charts as drawn, replayed there."""
         calm = calmed(question.system, question.goals[0].var, run)
         taken = self._arrows_of(calm)
-        differences = tuple(self._difference(taken, earlier) for earlier in self._taken)
-        self._taken.append(taken)
         trace = replay(self._plain.system, self._plain.goals[0], calm)
+        told = _told(trace)
+        before = zip(self._taken, self._told, strict=True)
+        differences = tuple(_difference(told, own) or self._parts(taken, flags) for flags, own in before)
+        self._taken.append(taken)
+        self._told.append(told)
         return Other(trace, differences)
 
     def _arrows_of(self, run: Run) -> Taken:
@@ -110,14 +119,28 @@ class Others:
         ticks, _ = followed(self._question.system, run, self._question.goals[0].var.name)
         return frozenset(a.id for a in self.arrows if any(tick.after[a.flag.name] for tick in ticks))
 
-    def _difference(self, taken: Taken, earlier: Taken) -> str:
-        more = [_named(a) for a in self.arrows if a.id in taken - earlier]
-        fewer = [_named(a) for a in self.arrows if a.id in earlier - taken]
-        parts = [
-            f"takes {', '.join(more)}" if more else "",
-            f"does not take {', '.join(fewer)}" if fewer else "",
-        ]
-        return "; ".join(part for part in parts if part)
+    def _parts(self, taken: Taken, earlier: Taken) -> str:
+        """The difference in parts of arrows, from junction to junction, where no whole arrow makes it."""
+        names = {a.id: _named(a) for a in self.arrows}
+        return _difference([n for i, n in names.items() if i in taken], [names[i] for i in earlier])
+
+
+def _told(trace: Trace) -> list[str]:
+    """The arrows that fired, as a trace shows them, in order of their first time."""
+    return list(dict.fromkeys(str(a) for t in trace.ticks for a in t.arrows if a.chart in trace.charts))
+
+
+def _difference(taken: Sequence[str], earlier: Sequence[str]) -> str:
+    """Which arrows a run takes that another does not, and the other way round; empty if there are none."""
+    more = [arrow for arrow in taken if arrow not in earlier]
+    fewer = [arrow for arrow in earlier if arrow not in taken]
+    parts = [f"takes {_some(more)}" if more else "", f"does not take {_some(fewer)}" if fewer else ""]
+    return "; ".join(part for part in parts if part)
+
+
+def _some(arrows: Sequence[str]) -> str:
+    more = len(arrows) - MOST
+    return ", ".join(arrows[:MOST]) + (f" and {more} more" if more > 0 else "")
 
 
 def _remembering(question: Question, arrows: Sequence[Arrow]) -> tuple[Question, list[tuple[Arrow, Var]]]:
@@ -143,7 +166,7 @@ def _named(arrow: Arrow) -> str:
 # --- in a child -------------------------------------------------------------------------------------
 
 
-def _answer(system: TransitionSystem, goal: Var, engine: str, limits: Limits, progress: Progress) -> Answer:
+def answered(system: TransitionSystem, goal: Var, engine: str, limits: Limits, progress: Progress) -> Answer:
     """The answer of engines in a process of their own, which can be ended at any moment."""
     try:
         for heard in messages(_search, system, goal, engine, limits, memory=limits.memory + SLACK):

@@ -7,14 +7,13 @@ within values that are assumed; if there are none, what was assumed forces the e
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 from pysat.solvers import Minisat22
 
-from checker.encode.bits import FALSE, TRUE, Aig, Circuit, Literal, circuit
+from checker.encode.bits import FALSE, TRUE, Aig, Circuit, Literal
 from checker.encode.bits.cnf import Cnf
 from checker.verdict import Run
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
 
 CONFLICTS = 20_000
 """What the solver may spend on one question; counted, so that the answer is the same on every machine."""
@@ -53,13 +52,13 @@ class Unrolled:
     claimed of it.  Raises ``OutOfTime`` when the time is over before all ticks are there.
     """
 
-    def __init__(self, system: TransitionSystem, goal: Var, run: Run, over: Over = never) -> None:
+    def __init__(self, made: Circuit, goal: str, run: Run, over: Over = never) -> None:
         self.run = run
         self._over = over
         self.graph = Aig()
         self._bits: dict[Place, list[Literal]] = {}
-        self._negative = {v.name for v in system.inputs if v.domain.low < 0}
-        assumed, leaves, hit = self._ticks(circuit(system, [goal.name]), goal.name)
+        self._negative = {v.name for v in made.system.inputs if v.domain.low < 0}
+        assumed, leaves, hit = self._ticks(made, goal)
         self._facts = [*assumed, self.graph.any([hit ^ 1, *leaves])]
         roots = [fact for fact in self._facts if fact != TRUE]
         self._cnf = Cnf(self.graph, [], roots)
@@ -121,10 +120,20 @@ class Unrolled:
         for lane, (place, value) in enumerate(changes):
             for i, bit in enumerate(self._bits[place]):
                 words[bit >> 1] ^= ((value ^ self.own(place)) >> i & 1) << lane
+        word = [0] * len(self.graph)
+        for node, given in words.items():
+            word[node] = given
+        for node, a, a_not, b, b_not in self._gates:
+            word[node] = (word[a] ^ a_not) & (word[b] ^ b_not)
         found = full
-        for word in self.graph.evaluate(self._facts, words):
-            found &= word
+        for fact in self._facts:
+            found &= word[fact >> 1] ^ -(fact & 1)
         return (bool(found >> lane & 1) for lane in range(len(changes)))
+
+    @cached_property
+    def _gates(self) -> list[tuple[int, int, int, int, int]]:
+        """The conjunctions in order, with the nodes that they conjoin and what negates these."""
+        return [(n, a >> 1, -(a & 1), b >> 1, -(b & 1)) for n, a, b in self.graph.gates(self._facts)]
 
     # --- clauses -----------------------------------------------------------------------------------
 
@@ -157,16 +166,21 @@ class Unrolled:
     def _ticks(self, made: Circuit, goal: str) -> tuple[list[Literal], list[Literal], Literal]:
         """For each tick what is assumed and that it leaves a domain; the goal after the last one."""
         roots = [made.assume, made.leaves, made.goals[goal], *(latch.next for latch in made.latches)]
-        order = [node for node in made.aig.cone(roots) if not made.aig.is_input(node)]
-        value, fanins, both = self._start(made), made.aig.fanins, self.graph.both
+        gates = [(n, a >> 1, a & 1, b >> 1, b & 1) for n, a, b in made.aig.gates(roots)]
+        value, both = self._start(made), self.graph.both
         assumed, leaves, hit = list[Literal](), list[Literal](), FALSE
         for number in range(1, len(self.run) + 1):
             if self._over():
                 raise OutOfTime(f"the time was over when {number - 1} of {len(self.run)} ticks were unrolled")
             self._open(made, number, value)
-            for node in order:
-                a, b = fanins[node]
-                value[node] = both(value[a >> 1] ^ (a & 1), value[b >> 1] ^ (b & 1))
+            for node, a, a_not, b, b_not in gates:
+                one, other = value[a] ^ a_not, value[b] ^ b_not
+                if one > 1 < other:
+                    value[node] = both(one, other)
+                elif one < 2:
+                    value[node] = other if one else FALSE
+                else:
+                    value[node] = one if other else FALSE
             asked = [made.assume, made.leaves, made.goals[goal], *(latch.next for latch in made.latches)]
             now, left, hit, *after = (value[x >> 1] ^ (x & 1) for x in asked)
             assumed.append(now)

@@ -5,7 +5,7 @@ read: numbers to the longest interval that still forces the end, then, where the
 cases, to any other of these.
 """
 
-from collections.abc import Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 
 from checker.explain.unrolled import Over, Place, Unrolled
 from checker.partition import Partition
@@ -54,6 +54,40 @@ def _blocks(unrolled: Unrolled, kept: Iterable[Place]) -> Iterator[list[Place]]:
         yield block
 
 
+def widest(
+    cells: Partition,
+    own: int,
+    others: set[int],
+    takes: Callable[[Sequence[int]], bool],
+    over: Over,
+) -> list[int]:
+    """The values that an input may have: those of the cell that ``own`` is in, and of as many others as
+    ``takes`` allows, which is asked about all of them together."""
+    at = cells.cell_of[own]
+    chosen = {at}
+
+    def values(wanted: set[int]) -> list[int]:
+        return [v for v in cells.values if cells.cell_of[v] in wanted]
+
+    def taken(wanted: set[int]) -> bool:
+        if not takes(values(wanted)):
+            return False
+        chosen.update(wanted)
+        return True
+
+    if isinstance(cells.var.sort, Num):
+        for way in (-1, 1):
+            base = set(chosen)
+            stretch = [at + way * i for i in range(len(cells.cells) + 1)]
+            high = next(i for i, cell in enumerate(stretch) if i and cell not in others) - 1
+            _farthest(high, lambda i: taken(base | set(stretch[: i + 1])), over)  # noqa: B023
+    if len(cells.cells) <= FEW:
+        for cell in sorted(others - chosen, key=lambda c: abs(c - at)):
+            if not over():
+                taken(chosen | {cell})
+    return values(chosen)
+
+
 class _Block:
     """One input over some ticks, and the cells that it may be in so far."""
 
@@ -66,11 +100,11 @@ class _Block:
     ) -> None:
         self._unrolled, self._cells, self._assumed = unrolled, cells, assumed
         self.places = places
-        self._at = cells.cell_of[unrolled.own(places[0])]
-        self.values: Sequence[int] = list(cells.members(self._at))
+        self._own = unrolled.own(places[0])
+        at = cells.cell_of[self._own]
+        self.values: Sequence[int] = list(cells.members(at))
         """At first those that nothing can tell from the own one."""
-        self._others = set(range(len(cells.cells))) - {self._at}
-        self._chosen = {self._at}
+        self._others = set(range(len(cells.cells))) - {at}
 
     def changes(self) -> Iterator[tuple[Place, int]]:
         """Some changes to another value in one tick."""
@@ -85,37 +119,27 @@ class _Block:
 
     def widen(self, over: Over) -> None:
         """Take in as many cells as possible."""
-        if isinstance(self._cells.var.sort, Num):
-            self._stretch(-1, over)
-            self._stretch(1, over)
-        if len(self._cells.cells) <= FEW:
-            for cell in sorted(self._others - self._chosen, key=lambda c: abs(c - self._at)):
-                if not over():
-                    self._takes(self._chosen | {cell})
+        self.values = widest(self._cells, self._own, self._others, self._takes, over)
 
-    def _stretch(self, way: int, over: Over) -> None:
-        """The farthest cell that can be reached in one direction with all in between, by bisection."""
-        base = set(self._chosen)
-        low = high = 0
-        while self._at + way * (high + 1) in self._others:
-            high += 1
-        while low < high and not over():
-            middle = (low + high + 1) // 2
-            if self._takes(base | {self._at + way * i for i in range(middle + 1)}):
-                low = middle
-            else:
-                high = middle - 1
-
-    def _takes(self, chosen: set[int]) -> bool:
-        """Allow these cells if the end is still forced."""
-        values = [v for v in self._cells.values if self._cells.cell_of[v] in chosen]
+    def _takes(self, values: Sequence[int]) -> bool:
+        """Allow these values if the end is still forced."""
         ranges = list(_ranges(values))
         fresh = {place: self._unrolled.within(place, ranges) for place in self.places}
         if not self._unrolled.asked((self._assumed | fresh).values(), CONFLICTS).forced:
             return False
         self._assumed |= fresh
-        self._chosen, self.values = chosen, values
         return True
+
+
+def _farthest(high: int, reaches: Callable[[int], bool], over: Over) -> None:
+    """Try how far one can go, at most to ``high``, by bisection: what reaches far reaches all before."""
+    low = 0
+    while low < high and not over():
+        middle = (low + high + 1) // 2
+        if reaches(middle):
+            low = middle
+        else:
+            high = middle - 1
 
 
 def _ranges(values: Sequence[int]) -> Iterator[tuple[int, int]]:

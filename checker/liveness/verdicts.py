@@ -17,6 +17,7 @@ from checker.portfolio.shape import VAST, shape
 from checker.result import Ask, Result, check_domains
 from checker.runs.reproduce import only_there
 from checker.slice import always_met
+from checker.trace import counted_ticks
 from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Violated
 from properties.forms import Form, HoldsAfter, LeadsTo, Property, Recoverable, Responds, Settles
 from properties.reduce import reduce
@@ -96,8 +97,8 @@ def _by_loop(prop: Property, systems: Systems, ask: Ask, progress: Progress) -> 
     result = _result(*_hunted(replace(prop, on=there.name), there, ask, progress))
     if isinstance(result.verdict, Unknown):
         reason = (
-            f"a loop of {system.name}, an over-approximation, was found after {len(answer.run)} ticks; "
-            f"not reproduced on {there.name}: {result.verdict.reason}"
+            f"a loop of {system.name}, an over-approximation, was found "
+            f"after {counted_ticks(len(answer.run))}; not reproduced on {there.name}: {result.verdict.reason}"
         )
         result = replace(result, verdict=replace(result.verdict, reason=reason))
     return result

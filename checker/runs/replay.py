@@ -43,7 +43,7 @@ def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
         system.name, system.tick_ms, table, names, before, ticks, false, relevant, charts,
         property=goal.property.id, text=goal.property.text, statecharts={c.name: c for c in drawn},
         place=goal.property.place, components=system.source.components if system.source else (),
-        parts=shown, truths=truths, violated=not goal.reach,
+        parts=shown, truths=truths, violated=not goal.reach, frozen=tuple(v.name for v in system.frozen),
     )  # fmt: skip
 
 

@@ -7,6 +7,7 @@ from checker.lowered import lowered
 from checker.portfolio.question import Hint
 from checker.result import Ask, Result, check_domains, result
 from checker.runs.calm import calmed, transferred
+from checker.trace import counted_ticks
 from checker.verdict import Reached, Unknown
 from properties.reduce import Goal, Question, reduce
 from spec_model.lang.system import System
@@ -49,7 +50,7 @@ def not_reproducible(question: Question, runs: Runs) -> list[Result]:
 def only_there(name: str, ticks: int) -> str:
     """Why a run of an over-approximation that stands for no system of ours decides nothing."""
     return (
-        f"reached after {ticks} ticks on {name}, which has more runs than the rover; "
+        f"reached after {counted_ticks(ticks)} on {name}, which has more runs than the rover; "
         "no system is named on which to reproduce it"
     )
 
@@ -78,7 +79,7 @@ def _searched(
         if isinstance(outcome.verdict, Unknown):
             ticks = len(runs[goal.var.name][0].run)
             reason = (
-                f"reached after {ticks} ticks on {question.system.name}, an over-approximation; "
+                f"reached after {counted_ticks(ticks)} on {question.system.name}, an over-approximation; "
                 f"not reproduced on {there.system.name}: {outcome.verdict.reason}"
             )
             outcome = replace(outcome, verdict=replace(outcome.verdict, reason=reason))

@@ -1,5 +1,7 @@
 """Print expressions and actions the way Stateflow writes them on an arrow."""
 
+import re
+
 from spec_model.lang.domain import Bool, Enum, Num, show
 from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Temporal, Var, When
 
@@ -9,6 +11,8 @@ _INFIX = {
     Op.GT: (3, " > "), Op.GE: (3, " >= "),
     Op.ADD: (4, " + "), Op.SUB: (4, " - "), Op.MUL: (5, "*"), Op.DIV: (5, " div "), Op.MOD: (5, " mod "),
 }  # fmt: skip
+_ATOM = re.compile(r"[\w.]+(\(.*\))?")
+"""Names that need no parentheses beside an operator; ``nearest <= 300`` does."""
 _CALL = {Op.ABS: "abs", Op.MIN: "min", Op.MAX: "max", Op.BIT: "bit"}
 
 
@@ -24,7 +28,7 @@ def _show(expr: Expr, above: int) -> str:
         case Var(name):
             return name
         case Named(name):
-            return name
+            return name if above < 3 or _ATOM.fullmatch(name) else f"({name})"
         case Temporal():
             return _temporal(expr)
         case Apply(op, args, _):

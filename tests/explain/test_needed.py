@@ -6,6 +6,8 @@ from dataclasses import replace
 import pytest
 from hypothesis import assume, given, settings
 
+from checker.engines.bdd.space import DDMemoryError, Overdrawn
+from checker.explain import backwards, needed
 from checker.explain.completions import check
 from checker.explain.needed import Forcing, forcing
 from checker.explain.unrolled import OutOfTime, Unrolled
@@ -25,11 +27,11 @@ from tests.toys import GOAL, counter, filling, once
 Allowed = dict[int, dict[str, frozenset[int]]]
 
 
-def ends(system: TransitionSystem, goal: Var, run: Run, needed: Sequence[Needed]) -> set[int]:
+def ends(system: TransitionSystem, goal: Var, run: Run, those: Sequence[Needed]) -> set[int]:
     """Whether the goal is true after the last tick, for all runs with the needed inputs."""
     at = [{**system.init, **run.frozen}]
     for number in range(1, len(run) + 1):
-        allowed = {n.name: n.values for n in needed if n.number == number}
+        allowed = {n.name: n.values for n in those if n.number == number}
         given = [i for i in vectors(system.inputs) if all(i[n] in of for n, of in allowed.items())]
         found = [step(system, state, i) for state in at for i in given if admissible(system, state, i)]
         at = list({tuple(sorted(state.items())): state for state in found}.values())
@@ -63,7 +65,14 @@ def test_what_is_needed_forces_the_end_and_nothing_of_it_can_be_left_out(system:
     run = some_run(system, goal, 3)
     assume(run is not None)
     assert run is not None
-    found = forcing(system, goal, run)
+    for large in (needed.LARGE, 0):  # a short run is gone through backwards, too
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr(needed, "LARGE", large)
+            judge(system, goal, run, forcing(system, goal, run))
+
+
+def judge(system: TransitionSystem, goal: Var, run: Run, found: Forcing) -> None:
+    """The needed inputs against all runs."""
     assert found.minimal
     assert ends(system, goal, run, found.needed) == {1}
     assert all(run.inputs[n.number - 1][n.name] in n.values for n in found.needed)
@@ -71,6 +80,17 @@ def test_what_is_needed_forces_the_end_and_nothing_of_it_can_be_left_out(system:
         others = [n for n in found.needed if n is not one]
         assert 0 in ends(system, goal, run, others), f"{one} is not needed"
     check(system, goal, run, found)
+
+
+@pytest.fixture(params=["unrolled", "backwards"])
+def way(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Both ways, whatever the size of the run."""
+    if request.param == "backwards":
+        monkeypatch.setattr(needed, "LARGE", 0)
+        monkeypatch.setattr(needed, "Unrolled", None)
+
+
+both_ways = pytest.mark.usefixtures("way")
 
 
 def held(ticks: int, before: int = 0) -> Run:
@@ -82,12 +102,14 @@ def told(found: Forcing) -> dict[tuple[int, str], list[int]]:
     return {(n.number, n.name): sorted(n.values) for n in found.needed}
 
 
+@both_ways
 def test_only_the_last_ticks_count() -> None:
     system = counter(3, top=3)
     found = forcing(system, GOAL, held(3, before=4))
     assert told(found) == {(k, "hold"): [1] for k in (5, 6, 7)} and found.minimal
 
 
+@both_ways
 def test_an_input_that_must_not_come_too_early_is_needed_too() -> None:
     system = counter(2, top=5)  # held for exactly two ticks
     assert told(forcing(system, GOAL, held(2, before=2))) == {
@@ -97,6 +119,7 @@ def test_an_input_that_must_not_come_too_early_is_needed_too() -> None:
     }
 
 
+@both_ways
 def test_an_end_that_nothing_avoids_needs_nothing() -> None:
     found = forcing(once(), GOAL, Run({}, ({}, {})))
     assert found == Forcing((), True)
@@ -112,6 +135,7 @@ def sensor(low: int, high: int) -> TransitionSystem:
     return TransitionSystem("sensor", (level, noise), (), (low_before, GOAL), (), step)
 
 
+@both_ways
 def test_values_are_widened_to_the_whole_interval() -> None:
     run = Run({}, ({"level": 0, "noise": 0}, {"level": 90, "noise": 1}))
     found = told(forcing(sensor(70, 120), GOAL, run))
@@ -125,6 +149,7 @@ def copying() -> TransitionSystem:
     return TransitionSystem("copying", (level,), (), (last, GOAL), (), step)
 
 
+@both_ways
 def test_intervals_are_found_by_bisection_where_values_are_many() -> None:
     found = told(forcing(copying(), GOAL, Run({}, ({"level": 60}, {"level": 50}))))
     first, second = found[1, "level"], found[2, "level"]
@@ -132,6 +157,7 @@ def test_intervals_are_found_by_bisection_where_values_are_many() -> None:
     assert min(first) + min(second) == 100, "any two of them are enough, and one less is not"
 
 
+@both_ways
 def test_values_that_the_assumption_excludes_are_not_offered() -> None:
     system = replace(filling(2), assume=var("noise", chosen([3, 5, 40])) > 3)
     noise = system.inputs[1]
@@ -159,8 +185,9 @@ def test_a_solver_that_takes_anything_for_forced_is_noticed(monkeypatch: pytest.
         check(system, GOAL, run, forcing(system, GOAL, run))
 
 
+@both_ways
 def test_a_run_that_does_not_reach_its_end_is_an_error() -> None:
-    with pytest.raises(ReplayError, match="do not lead to its end"):
+    with pytest.raises(ReplayError, match="not lead to its end"):
         forcing(counter(3, top=3), GOAL, held(2))
 
 
@@ -177,11 +204,36 @@ def test_when_time_is_over_what_was_found_is_not_called_minimal() -> None:
     assert ends(system, GOAL, run, found.needed) == {1}
 
 
+def test_a_long_run_is_explained_as_far_as_the_time_goes(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(needed, "LARGE", 0)
+    system, run = counter(120, top=120), held(120, before=400)
+    whole = forcing(system, GOAL, run)
+    assert told(whole) == {(k, "hold"): [1] for k in range(401, 521)} and whole.minimal
+    moments = iter([False] * 300 + [True] * 5000)
+    found = forcing(system, GOAL, run, over=lambda: next(moments))
+    assert not found.minimal and set(whole.needed) < set(found.needed)
+    check(system, GOAL, run, found)
+
+
+@pytest.mark.parametrize("error", [Overdrawn, DDMemoryError])
+def test_what_is_too_large_for_sets_is_unrolled(
+    error: type[Exception], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def full(*_: object) -> None:
+        raise error("full")
+
+    monkeypatch.setattr(needed, "LARGE", 0)
+    monkeypatch.setattr(backwards, "_Ticks", full)
+    found = forcing(counter(3, top=3), GOAL, held(3, before=4))
+    assert told(found) == {(k, "hold"): [1] for k in (5, 6, 7)}
+
+
 def test_time_that_is_over_at_once() -> None:
     with pytest.raises(OutOfTime, match="0 of 3 ticks"):
         forcing(counter(3, top=3), GOAL, held(3), over=lambda: True)
 
 
+@both_ways
 def test_frozen_values_are_kept() -> None:
     limit, hold, count = var("limit", integer(1, 3)), flag("hold"), var("count", integer(0, 3))
     step = (Assign(count, ite(hold, minimum(count + 1, 3), 0)), Assign(GOAL, count >= limit))

@@ -1,11 +1,14 @@
-"""Other runs to the same end, each through other arrows, until it is proved that there is no more."""
+"""Other runs to the same end, each through other arrows or for another reason, until there is no more."""
 
 from dataclasses import replace
 
 from checker.engine import Limits
 from checker.explain.explained import explained, unexplained
 from checker.explain.others import NoMore, Other, Others
+from checker.explain.unlike import Unlike
 from checker.lowered import lowered
+from checker.render.reasons import in_reason
+from checker.render.trace_table import render as table
 from checker.result import result
 from checker.trace import Trace
 from checker.verdict import Reached, Run, Violated
@@ -34,7 +37,8 @@ ENDS = never("T-1", "The end is not reached.", that=CHART.active("End"), covers=
 def first(system: System = SYSTEM, prop: Property = ENDS) -> Trace:
     """By the left way, in the fewest ticks."""
     question = reduce(lowered(system), [prop])
-    run = Run({}, tuple({"left": 1, "right": 0, "quick": 0} for _ in range(3)))
+    given = {v.name: int(v.name == "left") for v in question.system.inputs}
+    run = Run({v.name: 0 for v in question.system.frozen}, (given,) * 3)
     found = result(question.system, question.goals[0], Reached(run), "by hand").verdict
     assert isinstance(found, Violated) and isinstance(found.because, Trace)
     return found.because
@@ -70,3 +74,40 @@ def test_runs_without_an_end_are_left_as_they_are() -> None:
     for trace in (replace(first(), loop=1), replace(first(), trapped=1)):
         assert explained(trace, ENDS, SYSTEM) is trace
         assert unexplained(trace)
+
+
+def way(*states: State) -> System:
+    return in_order("way", Chart("Way", [*states, State("End")], default="Start"))
+
+
+BOTH = way(
+    State("Start", transitions=[to("Left", when=left), to("Right", when=right)]),
+    State("Left", transitions=[to("End")]),
+    State("Right", transitions=[to("End")]),
+)
+
+
+def test_another_reason_is_found_and_that_there_is_no_third() -> None:
+    unlike, known = Unlike(ENDS, BOTH), [explained(first(BOTH), ENDS, BOTH)]
+    second = unlike.next(known, "bdd", Limits())
+    assert isinstance(second, Trace)
+    known.append(explained(second, ENDS, BOTH))
+    assert [(n.number, n.name, set(n.values)) for n in known[1].needed or ()] == [(2, "right", {1})]
+    assert in_reason(known[1], known[0]) == "needs right; does not need left"
+    third = unlike.next(known, "bdd", Limits())
+    assert isinstance(third, NoMore) and third.proved, "to wait for left or right is no other reason"
+    assert in_reason(known[1], replace(known[1], ticks=known[1].ticks * 2)) == (
+        "needs right in other ticks or with other values"
+    )
+
+
+def test_a_run_with_other_fixed_values_ends_for_another_reason() -> None:
+    start = State("Start", transitions=[to("Left", when=left | quick), to("Right", when=left & quick)])
+    left_and_right = [State(side, transitions=[to("End")]) for side in ("Left", "Right")]
+    system = replace(way(start, *left_and_right), frozen=(quick,))
+    known = [explained(first(system), ENDS, system)]
+    other = Unlike(ENDS, system).next(known, "bdd", Limits())
+    assert isinstance(other, Trace)
+    told = in_reason(explained(other, ENDS, system), known[0])
+    assert told == "begins with quick = true; does not need left"
+    assert "fixed: quick = true" in table(other)

@@ -99,6 +99,10 @@ class Aig:
         seen.discard(0)
         return sorted(seen)
 
+    def gates(self, roots: Iterable[Literal]) -> Iterator[tuple[int, Literal, Literal]]:
+        """The conjunctions under some literals, each with the two that it conjoins, in topological order."""
+        return ((node, *self.fanins[node]) for node in self.cone(roots) if not self.is_input(node))
+
     def evaluate(self, roots: Sequence[Literal], values: dict[int, int]) -> list[int]:
         """The roots as bit-parallel words: ``values`` has a word for each input node needed; words may
         be of any length, one bit for each of so many assignments, and negation is by -1."""

@@ -11,6 +11,7 @@ from time import monotonic
 from checker.engine import Limits, Progress
 from checker.engines.bdd.events import Bound, Closed, Event, Found, Stuck
 from checker.isolate import Send, Stopped, messages
+from checker.trace import counted_ticks
 from checker.verdict import Answer, Open, Reached, Unreachable
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
@@ -31,7 +32,7 @@ def check(
     names = tuple(g.name for g in goals)
     known = _Known(dict.fromkeys(names, 0))
     job = (replace(system, source=None), names, limits.depth, limits.memory // _NODE)
-    reason = f"the depth limit of {limits.depth} ticks"
+    reason = f"the depth limit of {counted_ticks(limits.depth or 0)}"
     try:
         with closing(messages(_work, *job, seconds=limits.seconds, memory=limits.memory + _STACKS)) as events:
             for event in events:

@@ -27,7 +27,7 @@ class Cluster:
 class Relation:
     """Clusters in the order in which they are to be multiplied.
 
-    ``first`` are the variables that no cluster speaks of: latches that nothing reads.
+    ``first`` are the variables that no cluster speaks of: latches, and inputs chosen, that nothing reads.
     """
 
     space: Space
@@ -47,8 +47,11 @@ class Relation:
         return sum(cluster.relation.node_count() for cluster in self.clusters)
 
 
-def relation(space: Space, assume: Function) -> Relation:
-    """The transition relation of the circuit, ``assume`` being what every tick fulfils."""
+def relation(space: Space, assume: Function, choosing: bool = False) -> Relation:
+    """The transition relation of the circuit, ``assume`` being what every tick fulfils.
+
+    ``choosing``: the sets whose images are asked for also choose inputs, so that none is taken out before.
+    """
     clusters = list(_clusters([*_assumed(assume), *equations(space)]))
     supports = [support(c) for c in clusters]
     changing = {space.current[literal] for literal in space.next}
@@ -56,6 +59,8 @@ def relation(space: Space, assume: Function) -> Relation:
     own = _last(supports, quantified)
     parts = [Cluster(c, space.all(away)) for c, away in zip(clusters, own, strict=True)]
     spoken = set().union(*own)
+    if choosing:
+        return Relation(space, space.all(quantified - spoken), tuple(parts))
     return Relation(space, space.all(changing - spoken), tuple(_local(space, parts, supports)))
 
 

@@ -8,7 +8,7 @@ from itertools import count
 
 from oxidd.bcdd import BCDDFunction as Function
 from oxidd.bcdd import BCDDManager, BCDDSubstitution
-from oxidd.util import BooleanOperator
+from oxidd.util import BooleanOperator, DDMemoryError
 
 from checker.encode.bits import FALSE, Bit, Circuit, Literal
 from checker.encode.bits.inputs import InputCut
@@ -198,4 +198,4 @@ def support(function: Function) -> set[int]:
     return found
 
 
-__all__ = ["Function", "Overdrawn", "Space", "Store", "meets", "product", "support"]
+__all__ = ["DDMemoryError", "Function", "Overdrawn", "Space", "Store", "meets", "product", "support"]

@@ -10,6 +10,7 @@ from dataclasses import replace
 from checker.engine import Limits, Progress
 from checker.engines.bmc.events import Bound, Event, Found, Undefined
 from checker.isolate import Send, Stopped, messages
+from checker.trace import counted_ticks
 from checker.verdict import Answer, Open, Reached
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
@@ -45,7 +46,7 @@ def _searched(wanted: int | None) -> str:
     """What is said of a goal when all ticks were searched; a depth that nobody asked for is named as ours."""
     if wanted is None:
         return f"no run of at most {DEPTH} ticks reaches it, and no other depth was asked for"
-    return f"no run of at most {wanted} ticks reaches it"
+    return f"no run of at most {counted_ticks(wanted)} reaches it"
 
 
 def _note(event: Event | None, found: dict[str, Answer], deep: dict[str, int]) -> None:

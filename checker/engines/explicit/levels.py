@@ -17,6 +17,7 @@ from checker.engine import Limits, Progress
 from checker.engines.explicit.advice import Advisor, Multiplier
 from checker.engines.explicit.parents import Unary
 from checker.engines.explicit.store import Store
+from checker.trace import counted_ticks
 
 QUICK_TRANSITIONS = 1 << 18
 """Transitions tried before the code is compiled again to run fast: most searches end before."""
@@ -121,7 +122,7 @@ class Search:
         self._start()
         while not self.stopped and self["pending"] and self.prepare():
             if self.limits.depth is not None and self.depth >= self.limits.depth:
-                self.stopped = f"the depth limit of {self.limits.depth} ticks"
+                self.stopped = f"the depth limit of {counted_ticks(self.limits.depth)}"
                 break
             self.starts.append(self["count"])
             whole = self._expand()

@@ -10,6 +10,7 @@ from dataclasses import replace
 from checker.engine import Limits, Progress
 from checker.engines.pdr.events import Bound, Decided, Event, Undefined
 from checker.isolate import Send, Stopped, messages
+from checker.trace import counted_ticks
 from checker.verdict import Answer, Open
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
@@ -27,7 +28,7 @@ def check(
     """
     names = tuple(g.name for g in goals)
     state = _State(names)
-    reason = f"no run of at most {limits.depth} ticks reaches it"
+    reason = _none(limits.depth or 0)
     job = (replace(system, source=None), names, limits.depth)
     try:
         with closing(messages(_work, *job, seconds=limits.seconds, memory=limits.memory)) as events:
@@ -40,8 +41,13 @@ def check(
 
 
 def _open(deep: int, wanted: int | None, reason: str) -> Open:
-    done = wanted is not None and deep >= wanted
-    return Open(f"no run of at most {wanted} ticks reaches it" if done else reason, deep)
+    if wanted is not None and deep >= wanted:
+        return Open(_none(wanted), deep)
+    return Open(reason, deep)
+
+
+def _none(ticks: int) -> str:
+    return f"no run of at most {counted_ticks(ticks)} reaches it"
 
 
 class _State:
