@@ -17,6 +17,7 @@ from checker.render.review.model import (
     Origin,
     Remedy,
     Review,
+    Seen,
 )
 from checker.result import Result
 from checker.trace import Trace
@@ -24,6 +25,7 @@ from checker.verdict import Exhausted, Unknown
 from properties.coverage import Coverage, matrix
 from properties.english import HOW_TO_READ, definitions, sentence
 from properties.forms import Form, Property, formulas
+from spec_model.lang.chart import Chart
 from spec_model.lang.expr import Expr, Named
 from spec_model.lang.label import text
 from spec_model.lang.system import System
@@ -43,7 +45,8 @@ class Extras:
     """What a model may have besides properties and systems.
 
     ``depends`` names the readings on which a property depends; ``reasons`` are the causes on record, by id,
-    ``premises`` what came of asking whether the case occurs that a property speaks of.
+    ``premises`` what came of asking whether the case occurs that a property speaks of.  ``graphs`` are the
+    state graphs of systems, ``undrawn`` says of some why there is none.
     """
 
     readings: tuple[Ambiguity, ...] = ()
@@ -52,6 +55,8 @@ class Extras:
     coverage: tuple[Covered, ...] = ()
     reasons: Mapping[str, str] = field(default_factory=dict)
     premises: Mapping[str, Result] = field(default_factory=dict)
+    graphs: tuple[Seen, ...] = ()
+    undrawn: tuple[tuple[str, str], ...] = ()
 
 
 def reviewed(
@@ -73,12 +78,14 @@ def reviewed(
         checks,
         origin,
         {s.name: about(s) for s in systems},
-        {c.name: c for c in charts_of({s.name: s for s in systems}).values()},
+        drawn(systems, model),
         demands([*properties, *left], verdicts, model, whole),
         tuple(r for r in extras.readings if whole or r.id in read),
         assumed(systems),
         extras.repairs,
         extras.coverage,
+        extras.graphs,
+        extras.undrawn,
         HOW_TO_READ,
         tuple((p.id, f"only with --full; on record {model.expected(p.id).verdict}") for p in left),
     )
@@ -202,6 +209,12 @@ def assumed(systems: Iterable[System]) -> tuple[Assumed, ...]:
         for one in system.assumptions:
             holders.setdefault((one.id, one.text), []).append(system.name)
     return tuple(Assumed(id, said, tuple(names)) for (id, said), names in holders.items())
+
+
+def drawn(shown: Iterable[System], model: Model) -> dict[str, Chart]:
+    """The charts of some systems, whole where the model has them so: one may execute a region alone."""
+    whole, own = charts_of(model.systems), charts_of({s.name: s for s in shown})
+    return {n: whole[n] if c.states.keys() <= whole[n].states.keys() else c for n, c in own.items()}
 
 
 def demands(

@@ -13,7 +13,8 @@ from checker.certifying import Certifying
 from checker.commands.check import Compared, results, summary, worst
 from checker.commands.codes import Exit, UsageError
 from checker.commands.output import counted, err, out, write
-from checker.commands.reviewed import Extras, reviewed
+from checker.commands.reviewed import Extras, concerned, reviewed
+from checker.commands.reviewing_graphs import state_graphs
 from checker.commands.reviewing_more import premises, with_reasons
 from checker.commands.reviewing_rover import extras
 from checker.commands.variant import Variant
@@ -101,7 +102,8 @@ def page(
 ) -> str:
     """The page on verdicts that were found; ``cases`` are the premises that were decided, by id."""
     own = extras(variant, found, asked.repairs) if model.path is None else Extras()
-    own = replace(own, premises=cases or {})
+    graphs, undrawn = state_graphs(found, concerned(found, model), model.options)
+    own = replace(own, premises=cases or {}, graphs=graphs, undrawn=undrawn)
     return render(reviewed(model, found, origin(model, variant, worst(found), asked), own, asked.whole))
 
 

@@ -43,6 +43,13 @@ class Explored:
             raise ModelError(f"There is no variable {name!r} to project on. {did_you_mean(name, names)}")
         return np.asarray(self.columns[names.index(name)])
 
+    def any_of(self, names: Sequence[str]) -> NDArray[np.bool_]:
+        """The valuations in which one of these variables is not 0.  Raises ``ModelError`` as ``column``."""
+        found = np.zeros(len(self), dtype=np.bool_)
+        for name in names:
+            found |= self.column(name) != 0
+        return found
+
     def at(self, number: int) -> dict[str, int]:
         """A valuation by name."""
         return {v.name: int(c) for v, c in zip(self.variables, self.columns[:, number], strict=True)}

@@ -23,7 +23,7 @@ class Made:
 
     exploration: Exploration
     graph: StateGraph
-    wanted: str = ""
+    wanted: tuple[str, ...] = ()
 
     @cached_property
     def first(self) -> Mapping[int, int]:
@@ -31,7 +31,7 @@ class Made:
         explored = self.exploration.explored
         rows = zip(*(explored.column(name).tolist() for name in self.graph.variables), strict=True)
         numbers = {node.raw: node.number for node in self.graph.nodes}
-        marks = explored.column(self.wanted).tolist() if self.wanted else [0] * len(explored)
+        marks = explored.any_of(self.wanted).tolist()
         found: dict[int, int] = {}
         marked: dict[int, int] = {}
         for place, (raw, mark) in enumerate(zip(rows, marks, strict=True)):
@@ -72,16 +72,23 @@ def made(
     onto: Sequence[str],
     limits: Limits = LIMITS,
     progress: Progress = quiet,
-    wanted: str = "",
+    wanted: tuple[str, ...] = (),
     looked_for: str = "",
 ) -> Made:
     """The graph of the system on the variables named ``onto``.
 
-    ``wanted`` is a variable that is 1 in the valuations to mark, ``looked_for`` says what that means.
+    A valuation is marked in which one of the variables ``wanted`` is 1; ``looked_for`` says what that means.
     Raises ``ModelError`` for an unknown variable, an input, and a tick that leaves a domain.
     """
-    exploration = explore(system, [*onto, *([wanted] if wanted else [])], limits, progress)
-    progress(f"projecting {len(exploration.words):,} valuations")
+    return seen(explore(system, [*onto, *wanted], limits, progress), onto, wanted, looked_for)
+
+
+def seen(
+    exploration: Exploration, onto: Sequence[str], wanted: tuple[str, ...] = (), looked_for: str = ""
+) -> Made:
+    """What was explored, projected on the variables named ``onto``, which it must have."""
+    exploration.progress(f"projecting {len(exploration.words):,} valuations")
+    system = exploration.system
     source = system.source
     graph = project(
         f"{system.name} on {', '.join(onto)}",
@@ -96,14 +103,16 @@ def made(
     return Made(exploration, replace(graph, looked_for=looked_for), wanted)
 
 
-def _notes(system: TransitionSystem, onto: Sequence[str], wanted: str) -> tuple[str, ...]:
+def _notes(system: TransitionSystem, onto: Sequence[str], wanted: Sequence[str]) -> tuple[str, ...]:
     """What the counts count, where one may be mistaken about it."""
     if not wanted:
         return ()
     part = {v.name for v in sliced(system, [system.var(name) for name in onto]).variables} | set(onto)
-    more = [v.name for v in sliced(system, [system.var(wanted)]).variables if v.name not in part]
+    asked = [system.var(name) for name in wanted]
+    more = [v.name for v in sliced(system, asked).variables if v.name not in part]
     also = f" on {', '.join(more[:4])}{' and others' if len(more) > 4 else ''}" if more else ""
-    return (f"Valuations count what {wanted} depends on, too{':' if also else ''}{also}.",)
+    known = wanted[0] if len(wanted) == 1 else "the properties looked for"
+    return (f"Valuations count what {known} depends on, too{':' if also else ''}{also}.",)
 
 
 class _Shown:

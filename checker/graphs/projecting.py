@@ -66,15 +66,15 @@ def project(
     onto: Sequence[str],
     show: Callable[[int, int], str],
     *,
-    wanted: str = "",
+    wanted: Sequence[str] = (),
     over: Iterable[str] = (),
     under: Iterable[str] = (),
     notes: Iterable[str] = (),
 ) -> StateGraph:
     """The graph on the variables named ``onto``.
 
-    ``show`` describes the inputs of a tick between two valuations; ``wanted`` is a variable that is 1 in
-    the valuations to mark.  Raises ``ModelError`` for an unknown name.
+    ``show`` describes the inputs of a tick between two valuations; a valuation is marked in which one
+    of the variables ``wanted`` is 1.  Raises ``ModelError`` for an unknown name.
     """
     found = projection(explored, [explored.column(name) for name in onto])
     by_name = {v.name: v for v in explored.variables}
@@ -101,10 +101,10 @@ def _ends(explored: Explored, pair: int) -> tuple[int, int]:
 
 
 def _nodes(
-    explored: Explored, found: Projection, chosen: Sequence[Var], wanted: str
+    explored: Explored, found: Projection, chosen: Sequence[Var], wanted: Sequence[str]
 ) -> tuple[GraphNode, ...]:
     count = len(found.first)
-    marked = found.node[explored.column(wanted) != 0] if wanted else np.zeros(0, dtype=np.int64)
+    marked = found.node[explored.any_of(wanted)]
     per_node = (
         found.behind,
         np.bincount(marked, minlength=count),

@@ -4,6 +4,7 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from checker.render.durations import duration
 from checker.trace import Trace
 from spec_model.lang.chart import Chart, State
 from spec_model.lang.domain import Num, show
@@ -23,13 +24,7 @@ class Timer:
 
     def shown(self, raw: int) -> str:
         """So many steps as a time."""
-        ms = raw * self.step_ms
-        return f"{show_seconds(ms)} s" if ms >= 1000 else f"{ms} ms"
-
-
-def show_seconds(ms: int) -> str:
-    """Milliseconds as seconds, without zeros at the end."""
-    return f"{ms / 1000:.3f}".rstrip("0").rstrip(".")
+        return duration(raw * self.step_ms)
 
 
 def timer(trace: Trace, name: str) -> Timer | None:

@@ -3,8 +3,8 @@
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
-from checker.render.story import counted_ticks, start_values, value
-from checker.trace import Trace
+from checker.render.story import start_values, value
+from checker.trace import Trace, counted_ticks
 from spec_model.lang.domain import Num
 
 
@@ -52,6 +52,32 @@ def reasons(trace: Trace, regular: bool = False) -> tuple[Reason, ...]:
         for first, last, every in _stretches(sorted(numbers), regular)
     ]
     return tuple(reason for _, reason in sorted(found, key=lambda pair: pair[0]))
+
+
+def in_reason(trace: Trace, earlier: Trace) -> str:
+    """In what the reason for the end of a run differs from that of another: ``needs rx_update``.
+
+    What is needed a number of ticks before the end is the same in runs of different lengths.
+    """
+    own, others = _before_the_end(trace), _before_the_end(earlier)
+    fixed = set(start_values(trace)) - set(start_values(earlier))
+    more, fewer = own.keys() - others.keys(), others.keys() - own.keys()
+    changed = {name for name in own.keys() & others.keys() if own[name] != others[name]}
+    parts = [
+        f"begins with {', '.join(f'{n} = {v}' for n, v in sorted(fixed))}" if fixed else "",
+        f"needs {', '.join(sorted(more))}" if more else "",
+        f"does not need {', '.join(sorted(fewer))}" if fewer else "",
+        f"needs {', '.join(sorted(changed))} in other ticks or with other values" if changed else "",
+    ]
+    return "; ".join(part for part in parts if part)
+
+
+def _before_the_end(trace: Trace) -> dict[str, set[tuple[int, frozenset[int]]]]:
+    """For each needed input how long before the end it is needed, with which values."""
+    found: dict[str, set[tuple[int, frozenset[int]]]] = {}
+    for one in trace.needed or ():
+        found.setdefault(one.name, set()).add((len(trace) - one.number, one.values))
+    return found
 
 
 def _stretches(numbers: Sequence[int], regular: bool) -> Iterator[tuple[int, int, int]]:

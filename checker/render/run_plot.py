@@ -38,7 +38,7 @@ SUFFIXES = (".svg", ".png", ".pdf")
 
 FONTS = b"'DejaVu Sans', Verdana, sans-serif"
 """For whoever looks at an SVG picture without the font with which it was laid out."""
-NEEDED = 'A plot needs matplotlib; install it with: pip install "rovercheck[plot]".'
+NEEDED = "A plot needs matplotlib; install it with: pip install matplotlib."
 
 
 class PlotError(Exception):

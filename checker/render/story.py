@@ -9,8 +9,9 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
+from checker.render.durations import duration
 from checker.render.limits import bounds, timer
-from checker.trace import Arrow, Tick, Trace
+from checker.trace import Arrow, Tick, Trace, counted_ticks
 from spec_model.lang.domain import Enum, Num
 from spec_model.lang.expr import Expr, Named
 from spec_model.lang.label import text
@@ -69,7 +70,7 @@ class Quiet:
     def what(self) -> str:
         """The stretch in one sentence."""
         span = f"ticks {self.first}–{self.last}" if self.count > 1 else f"tick {self.first}"
-        ticks = f"{self.count} tick{'s' if self.count > 1 else ''} = {self.count * self.tick_ms} ms"
+        ticks = f"{counted_ticks(self.count)} = {duration(self.count * self.tick_ms)}"
         if not self.counters:
             return f"{span}: nothing changes; {ticks}"
         return f"{span}: nothing but timers ({'; '.join(map(str, self.counters))}); {ticks}"
@@ -220,8 +221,10 @@ class _Telling:
 
 
 def start_values(trace: Trace) -> tuple[tuple[str, str], ...]:
-    """The frozen choices of the run: values before the first tick that no tick holds as its own."""
-    frozen = [n for n in trace.before if not trace.ticks or n not in trace.ticks[0].after]
+    """The frozen choices of the run: those that it names, and values that no tick holds as its own."""
+    frozen = [
+        n for n in trace.before if n in trace.frozen or not trace.ticks or n not in trace.ticks[0].after
+    ]
     return tuple((n, value(trace, n, trace.before[n])) for n in frozen)
 
 
@@ -244,11 +247,6 @@ def _conjunct(trace: Trace, expr: Expr, at: Mapping[str, int]) -> Conjunct:
     return Conjunct(expr.name if isinstance(expr, Named) else "", shown, values, trace.since(expr), true)
 
 
-def counted_ticks(count: int) -> str:
-    """``1 tick``, ``8 ticks``."""
-    return f"{count} tick{'s' if count != 1 else ''}"
-
-
 UNTOLD = (
     "Not told: steady counts, arrows that keep their state as in the tick before, "
     "bookkeeping of the property."
@@ -259,7 +257,7 @@ def heading(trace: Trace) -> str:
     """One line about the whole run."""
     count = len(trace)
     ticks = f"{counted_ticks(count)} of {trace.tick_ms} ms"
-    return f"{trace.system}: {ticks}, {count * trace.tick_ms} ms{repeating(trace)}"
+    return f"{trace.system}: {ticks}, {duration(count * trace.tick_ms)}{repeating(trace)}"
 
 
 def repeating(trace: Trace) -> str:

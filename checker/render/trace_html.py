@@ -3,7 +3,7 @@
 from markupsafe import Markup
 
 from checker.render import player, timeline
-from checker.render.page import Part, page
+from checker.render.page import Part, page, together
 from checker.render.story import heading
 from checker.trace import Trace
 
@@ -18,11 +18,11 @@ LANDSCAPE = "@page{size:landscape;margin:12mm}"
 def render(trace: Trace, everything: bool = False) -> str:
     """The page; ``everything``: also what the property does not depend on."""
     title = trace.property or trace.system
-    parts = [_head(trace, title), timeline.part(trace, everything=everything)]
+    parts = [timeline.part(trace, everything=everything)]
     parts += [_heading("What happened"), timeline.told(trace, everything=everything)]
     if trace.statecharts:
-        parts += [_heading("Played on the charts"), player.part(trace, everything=everything)]
-    return page(f"{title}: {_verdict(trace)}", parts)
+        parts += [_heading("Played on the charts"), player.part(trace, everything=everything, printed=False)]
+    return page(f"{title}: {_verdict(trace)}", [_head(trace, title), together(parts)])
 
 
 def _head(trace: Trace, title: str) -> Part:

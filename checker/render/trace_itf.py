@@ -9,6 +9,7 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
+from checker.render.trace_json import shows
 from checker.trace import Trace
 from spec_model.lang.domain import Bool, Enum, Num, show
 
@@ -55,6 +56,7 @@ def _about(trace: Trace, names: list[str]) -> dict[str, Any]:
         "source": trace.system,
         "description": f"{trace.property}: {trace.text}" if trace.property else "",
         "tick_ms": trace.tick_ms,
+        **shows(trace),
         "varTypes": {_written(n): _type(trace, n) for n in names},
         "steps": {_written(n): f"{show(s.resolution)} {s.unit}".rstrip() for n, s in scaled.items()},
     }
@@ -115,7 +117,14 @@ SCHEMA: dict[str, Any] = {
     "type": "object",
     "required": ["#meta", "vars", "states"],
     "properties": {
-        "#meta": {"type": "object"},
+        "#meta": {
+            "type": "object",
+            "required": ["violated", "shortest"],
+            "properties": {
+                "violated": {"type": ["boolean", "null"]},  # false: a witness; null: a run of no property
+                "shortest": {"type": "boolean"},  # false: a shorter run may end so, too
+            },
+        },
         "params": _NAMES,
         "vars": _NAMES,
         "loop": {"type": "integer", "minimum": 0},  # after the last state comes this one

@@ -18,7 +18,7 @@ KIND = "trace"
 SUFFIX = ".json"
 SUMMARY = "all values of all ticks, readable and raw, with schema version"
 
-VERSION = 2
+VERSION = 3
 
 
 def render(trace: Trace, indent: int = 1) -> str:
@@ -31,7 +31,7 @@ def document(trace: Trace) -> dict[str, Any]:
     return {
         "#meta": {"format": "rovercheck-trace", "version": VERSION, "system": trace.system,
                   "property": trace.property, "text": trace.text, "place": _place(trace.place),
-                  "tick_ms": trace.tick_ms, "ticks": len(trace)},
+                  "tick_ms": trace.tick_ms, "ticks": len(trace), **shows(trace)},
         "params": [n for n in trace.before if trace.ticks and n not in trace.ticks[0].after],
         "vars": [_variable(n, v, n in trace.inputs) for n, v in trace.variables.items()],
         "before": _values(trace, trace.before),
@@ -43,6 +43,16 @@ def document(trace: Trace) -> dict[str, Any]:
             {"name": p.name, "formula": p.formula, "values": dict(p.values)} for p in false_parts(trace)
         ],
     }  # fmt: skip
+
+
+def shows(trace: Trace) -> dict[str, bool | None]:
+    """What the run is of its property: a violation or else a witness, and whether no shorter run ends so.
+
+    ``violated`` is None where no property, or nothing of it, is known; ``shortest`` is False where a shorter
+    run may exist.
+    """
+    of_none = trace.violated is None and not trace.breaks()
+    return {"violated": None if of_none else trace.breaks(), "shortest": trace.shortest}
 
 
 def _variable(name: str, variable: Var, is_input: bool) -> dict[str, Any]:
@@ -140,11 +150,24 @@ SCHEMA: dict[str, Any] = {
     "properties": {
         "#meta": {
             "type": "object",
-            "required": ["format", "version", "system", "property", "text", "place", "tick_ms", "ticks"],
+            "required": [
+                "format",
+                "version",
+                "system",
+                "property",
+                "text",
+                "place",
+                "tick_ms",
+                "ticks",
+                "violated",
+                "shortest",
+            ],
             "properties": {
                 "format": {"const": "rovercheck-trace"},
                 "version": {"const": VERSION},
                 "place": _PLACE,
+                "violated": {"type": ["boolean", "null"]},  # false: a witness; null: a run of no property
+                "shortest": {"type": "boolean"},  # false: a shorter run may end so, too
             },
         },
         "params": {"type": "array", "items": _TEXT},

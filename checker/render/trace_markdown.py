@@ -2,6 +2,7 @@
 
 from xml.sax.saxutils import escape
 
+from checker.render.again import Again, folded
 from checker.render.reasons import forced, reasons
 from checker.render.story import (
     UNTOLD,
@@ -12,7 +13,6 @@ from checker.render.story import (
     conjuncts,
     ending,
     heading,
-    rows,
     start_of,
     start_values,
 )
@@ -32,7 +32,7 @@ def render(trace: Trace) -> str:
     if chosen := start_values(trace):
         lines += ["Fixed for the whole run: " + ", ".join(_code(f"{n} = {v}") for n, v in chosen) + ".", ""]
     lines += ["| Tick | ms | Inputs | Changes | Arrows that fired |", "|---:|---:|---|---|---|"]
-    lines += map(_row, rows(trace))
+    lines += map(_row, folded(trace))
     lines += ["", f"**{_plain(last)}**"] if (last := ending(trace)) else []
     lines += ["", UNTOLD]
     for part in conjuncts(trace):
@@ -41,26 +41,24 @@ def render(trace: Trace) -> str:
             continue
         lines += ["", f"which stands for {_code(part.formula)}"] if part.name else []
         lines += ["", "with " + ", ".join(_code(f"{n} = {v}") for n, v in part.values)] if part.values else []
-    lines += _forced(trace)
+    if said := reasons_told(trace):
+        lines += ["", *(["**What forces it**", ""] if trace.needed else []), *said]
     return "\n".join([*lines, ""])
 
 
-def _forced(trace: Trace) -> list[str]:
-    """The inputs that force the end, as a table."""
+def reasons_told(trace: Trace) -> list[str]:
+    """The inputs that force the end as the lines of a table, and what that means; none if not examined."""
     if not (said := forced(trace)):
         return []
-    head = (
-        ["", "**What forces it**", "", "| Ticks | ms | Input |", "|---|---:|---|"] if trace.needed else [""]
-    )
     rows = [f"| {r.when} | {r.ms} | {_code(r.what)} |" for r in reasons(trace, regular=True)]
-    return [*head, *rows, *([""] if rows else []), _plain(said)]
+    return [*(["| Ticks | ms | Input |", "|---|---:|---|", *rows, ""] if rows else []), _plain(said)]
 
 
-def _row(row: Row) -> str:
+def _row(row: Row | Again) -> str:
     match row:
         case Event():
             return _event(row)
-        case Quiet():
+        case Quiet() | Again():
             return f"| … | | | *{_plain(row.what)}* | |"
         case Repeats():
             return f"| ↻ | | | **{_plain(row.what)}** | |"

@@ -7,6 +7,7 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
+from checker.render.again import Again, folded
 from checker.render.reasons import forced, reasons
 from checker.render.story import (
     UNTOLD,
@@ -18,7 +19,6 @@ from checker.render.story import (
     conjuncts,
     ending,
     heading,
-    rows,
     start_of,
     start_values,
 )
@@ -65,10 +65,10 @@ def _table(trace: Trace) -> Table:
     table.add_column("tick", justify="right", no_wrap=True)
     table.add_column("ms", justify="right", no_wrap=True)
     table.add_column("what happened", ratio=1)
-    for row in rows(trace):
+    for row in folded(trace):
         if isinstance(row, Repeats):
             table.add_row("↻", "", _hanging(row.what, style="bold"))
-        elif isinstance(row, Quiet):
+        elif isinstance(row, Again | Quiet):
             table.add_row("·", "", _hanging(row.what, style="dim"))
         else:
             _event(table, row)

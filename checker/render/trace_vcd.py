@@ -8,6 +8,7 @@ the property is broken; ``property.repeats`` marks ticks that repeat for ever.
 import math
 import re
 from io import StringIO
+from unicodedata import normalize
 
 from vcd import VCDWriter
 
@@ -22,6 +23,7 @@ SUMMARY = "value change dump for wave viewers, time in ms"
 
 _UNKNOWN: dict[Sort, str | float] = {Sort.WIRE: "x", Sort.TEXT: "?", Sort.NUMBER: math.nan}
 """What stands before the first tick for an input, which has no value yet."""
+_SIGNS = str.maketrans({"$": "S", "°": "deg", "≤": "<=", "≥": ">=", "→": "->", "–": "-", "µ": "u", "²": "^2"})
 
 
 def render(trace: Trace) -> str:
@@ -54,7 +56,13 @@ def _comment(trace: Trace) -> str:
     sorts = {wave.full: trace.variables[wave.name].sort for wave in waves(trace)}
     units = [f"{name} in {s.unit}" for name, s in sorts.items() if isinstance(s, Num) and str(s.unit)]
     told = [f"rovercheck trace of {trace.system}", f"{trace.property}: {trace.text}"]
-    return "\n".join(line.replace("$", "S") for line in (*(told if trace.property else told[:1]), *units))
+    return "\n".join(_ascii(line) for line in (*(told if trace.property else told[:1]), *units))
+
+
+def _ascii(text: str) -> str:
+    """Text that can stand in a comment: readers take ASCII only, and ``$`` begins a word of the format."""
+    plain = normalize("NFKD", text.translate(_SIGNS)).encode("ascii", "replace").decode()
+    return re.sub(r"[^ -~]", " ", plain)
 
 
 def _size(wave: Wave) -> int | None:

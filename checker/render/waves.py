@@ -3,6 +3,7 @@
 import re
 from dataclasses import dataclass
 from enum import StrEnum
+from unicodedata import combining, normalize
 
 from checker.render.story import TIMER
 from checker.trace import Trace
@@ -69,7 +70,7 @@ def _group(trace: Trace, name: str) -> Group:
     sort = trace.variables[name].sort
     if name in trace.inputs:
         return Group.INPUTS
-    if trace.variables[name].hidden:
+    if trace.variables[name].hidden or name == trace.property:
         return Group.HIDDEN
     if TIMER.search(name):
         return Group.TIMERS
@@ -90,7 +91,8 @@ def _sort(trace: Trace, name: str) -> Sort:
 
 def _identifiers(name: str) -> tuple[str, ...]:
     """The parts of a dotted name; what is no name, such as ``previous(x > 3)``, is one identifier."""
-    parts = name.split(".") if re.fullmatch(r"[\w.]+", name) else [name]
+    plain = "".join(c for c in normalize("NFKD", name) if not combining(c))  # é is e
+    parts = plain.split(".") if re.fullmatch(r"[\w.]+", plain) else [plain]
     return tuple(re.sub(r"\W+", "_", part, flags=re.ASCII).strip("_") or "_" for part in parts)
 
 

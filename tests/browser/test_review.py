@@ -6,7 +6,8 @@ import pytest
 from playwright.sync_api import Browser, Page, expect
 
 from checker.render.review import render
-from tests.render.toy_review import review
+from tests.browser.conftest import Show
+from tests.render.toy_review import RUN, checked, review
 
 
 @pytest.fixture(scope="module")
@@ -92,6 +93,39 @@ def test_a_finding_is_played_on_its_charts(opened: Page) -> None:
     assert finding.locator(".tl-now").inner_text() != before
 
 
+def test_a_state_graph_shows_valuations_runs_and_keeps_its_keys(opened: Page) -> None:
+    entry = opened.locator("#graph-toy")
+    entry.locator("summary").first.click()
+    stage = entry.locator(".sg-live .sg-stage")
+    stage.scroll_into_view_if_needed()
+    entry.locator(".node").last.click()
+    expect(entry.locator(".sg-node")).to_contain_text("A shortest run to a marked valuation")
+    entry.locator(".sg-run").select_option("T-1")
+    assert entry.locator(".node.on-path").count() == 2 and entry.locator(".edge.fired").count() == 1
+    assert entry.locator(".node.last").get_attribute("data-node") == "1"
+    entry.locator(".sg-run").select_option("")
+    assert entry.locator(".on-path, .fired, .last").count() == 0
+    stage.focus()
+    opened.keyboard.press("/")
+    expect(entry.locator(".sg-search")).to_be_focused()
+
+
+def test_a_graph_that_is_closed_while_the_page_is_printed_is_there_again(opened: Page) -> None:
+    entry = opened.locator("#graph-toy")
+    entry.locator("summary").first.click()
+    box = entry.locator(".node").last
+    expect(box).to_be_visible()
+    opened.wait_for_function("document.querySelector('#graph-toy .sg-world').style.transform !== 'none'")
+    before = box.bounding_box()
+    entry.locator("summary").first.click()
+    for event in ("beforeprint", "afterprint"):
+        opened.evaluate(f"dispatchEvent(new Event('{event}'))")
+    entry.locator("summary").first.click()
+    opened.wait_for_function("document.querySelector('#graph-toy .sg-world').style.transform !== 'none'")
+    after = box.bounding_box()
+    assert before and after and abs(before["width"] - after["width"]) < 2
+
+
 def test_each_trace_has_pictures_of_its_own(opened: Page) -> None:
     for id in ("T-1", "T-2", "T-7"):
         opened.locator(f"#{id} summary").first.click()
@@ -144,3 +178,49 @@ def test_without_scripts_everything_but_the_moving_pictures_can_be_read(
     page.locator("#T-1 summary").first.click()
     expect(page.locator("#T-1 .told")).to_be_visible()
     context.close()
+
+
+def test_words_without_end_are_broken(show: Show) -> None:
+    long = "A" * 3000
+    written = {"text": long, "english": (long,), "formula": (("that", long),), "because": long}
+    one = checked("X" * 200, "violated", area="Z" * 150, trace=RUN, **written)
+    page = show(render(review((one,))))
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.evaluate("document.querySelectorAll('details').forEach(d => d.open = true)")
+    expect(page.locator(".tl")).to_be_visible()
+    assert page.evaluate("document.documentElement.scrollWidth") <= 390
+
+
+def test_what_must_be_read_stands_out_in_the_dark_too(show: Show, document: str) -> None:
+    for scheme in ("light", "dark"):
+        page = show(document)
+        page.emulate_media(color_scheme="dark" if scheme == "dark" else "light")
+        page.evaluate("document.querySelectorAll('details').forEach(d => d.open = true)")
+        expect(page.locator("#T-2 .tl")).to_be_visible()
+        assert page.evaluate(PALE) == []
+        page.add_style_tag(content=":root{--soft:#808080 !important}")
+        assert page.evaluate(PALE), "grey on the panel is too pale in either scheme"
+
+
+PALE = """() => {
+  const numbers = (colour) => colour.match(/[\\d.]+/g).map(Number);
+  const light = (colour) => colour.slice(0, 3).reduce((sum, part, i) => {
+    const share = part / 255;
+    return sum + [0.2126, 0.7152, 0.0722][i]
+      * (share <= 0.04045 ? share / 12.92 : ((share + 0.055) / 1.055) ** 2.4);
+  }, 0);
+  const behind = (element) => {
+    for (let at = element; at; at = at.parentElement) {
+      const found = numbers(getComputedStyle(at).backgroundColor);
+      if (found.length < 4 || found[3] === 1) return found;
+    }
+    return [255, 255, 255];
+  };
+  const told = (node) => node.nodeType === 3 && node.data.trim();
+  const texts = [...document.querySelectorAll("body *:not(svg *, script, template)")].filter((element) =>
+    element.getClientRects().length && [...element.childNodes].some(told));
+  return texts.filter((element) => {
+    const [a, b] = [numbers(getComputedStyle(element).color), behind(element)].map(light);
+    return (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05) < 4.5;
+  }).map((element) => element.outerHTML.slice(0, 80));
+}"""

@@ -150,7 +150,7 @@ def test_a_random_graph_is_as_defined(system: TransitionSystem, data: st.DataObj
 def test_marks_are_where_the_goal_is_true(system: TransitionSystem, data: st.DataObject) -> None:
     goal = goals(system)[0].name
     onto = (data.draw(st.sampled_from([v.name for v in system.variables])),)
-    graph = made(system, onto, wanted=goal, looked_for="it is so").graph
+    graph = made(system, onto, wanted=(goal,), looked_for="it is so").graph
     found = naive(system, relevant(system, (*onto, goal)))
     place, at = found.names.index(goal), found.names.index(onto[0])
     marked: dict[Raw, int] = defaultdict(int)
@@ -161,10 +161,10 @@ def test_marks_are_where_the_goal_is_true(system: TransitionSystem, data: st.Dat
 
 
 def test_the_way_to_a_marked_node_ends_in_a_marked_valuation() -> None:
-    one = made(toys.filling(6), ("count",), wanted="full", looked_for="full")
+    one = made(toys.filling(6), ("count",), wanted=("full",), looked_for="full")
     assert [n.number for n in one.graph.nodes if n.wanted] == [6]
     assert dict(one.with_ways().ways[6].valuation)["full"] == "true"
-    coarse = made(toys.counter(4, top=6, beside=True), ("mark",), wanted="goal", looked_for="it is so")
+    coarse = made(toys.counter(4, top=6, beside=True), ("mark",), wanted=("goal",), looked_for="it is so")
     [held] = [n for n in coarse.graph.nodes if n.wanted]
     way = coarse.with_ways().ways[held.number]
     assert held.depth == 1 and len(way.trace) == 4 and dict(way.valuation)["goal"] == "true"

@@ -1,6 +1,7 @@
 """Traces that every data exit must cope with: a loop, a witness, odd names, thousands of ticks."""
 
 from dataclasses import replace
+from functools import cache
 
 from checker.concrete import BoardRun, Kind, Signal, Step
 from checker.trace import Arrow, Needed, Tick, Trace
@@ -38,15 +39,16 @@ def odd() -> Trace:
     place = var("Ätze.Ort", enumeration("O", ["so la", "né", "a,b", "$end"]))
     word = flag("previous(x > 3)")
     again = flag("previous(x < 3)")
-    count = var("#count", integer(-5, 5))
+    count = var("#count", integer(-5, 5, "°C"))
     table = {v.name: v for v in (place, word, again, count)}
     at = {v.name: v.init for v in (place, word, again)}
     arrow = Arrow('Ätze "<&>"', "so la", "a,b", 'go [x > "3" && "%::*/" != \x1b\x00]', 1)
     tick = Tick(1, {"#count": -3}, {**at, "Ätze.Ort": 3, "previous(x > 3)": 1}, (arrow,))
-    text = 'Nothing, 100% "of" it: <b>&\n::error::\\ */ is """so""".'
+    text = 'Nothing, 100% "of" it: <b>&\n::error::\\ */ is """so""" ]]> ≤ é 日\x85$end\r.'
     return Trace("sys/tem: 1", 20, table, ("#count",), at, (tick,), (word,), property='"ODD"/1%\n', text=text)
 
 
+@cache
 def huge(ticks: int = 5_000) -> Trace:
     """Something happens in every tick."""
     at = {"Relay": 1}

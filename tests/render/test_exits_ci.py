@@ -5,6 +5,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import cache
+from hashlib import sha256
 from pathlib import Path
 from typing import Any
 from urllib.parse import unquote
@@ -236,16 +237,35 @@ def plain(text: str) -> str:
     return re.sub("|".join(ESCAPE), lambda m: ESCAPE[m[0]], text)
 
 
+def told_to_the_runner(log: str) -> Iterator[str]:
+    """The lines that the runner of GitHub takes for commands, as its ``ActionCommandManager`` finds them.
+
+    Blanks before a command do not count, an older command may stand anywhere in a line, and none is obeyed
+    between ``stop-commands`` and its token.
+    """
+    token = ""
+    for line in re.split("\r\n|\r|\n", log):
+        found = line.strip()
+        if token:
+            token = "" if found in (f"::{token}::", f"##[{token}]") else token
+        elif found.startswith("::stop-commands::"):
+            token = found.removeprefix("::stop-commands::")
+        elif found.startswith("::") or "##[" in found:
+            yield found
+    assert not token, "commands are obeyed again"
+
+
 def commands(log: str) -> Iterator[tuple[str, dict[str, str], str]]:
     """The annotations in a log as the runner reads them, groups being well formed."""
     inside = False
-    for line in log.splitlines():
+    for line in told_to_the_runner(log):
         if line.startswith("::group::"):
             assert not inside
             inside = True
         elif line == "::endgroup::":
+            assert inside
             inside = False
-        elif line.startswith("::"):
+        else:
             match = COMMAND.fullmatch(line)
             assert match and not inside, line
             pairs = (pair.split("=", 1) for pair in match[2].split(","))
@@ -298,10 +318,22 @@ def test_marks_with_a_meaning_are_escaped() -> None:
     )
 
 
-def test_the_log_holds_no_command_by_accident() -> None:
-    text = "::error::not meant\n##[group]nor this"
-    log = annotations(Report((finding(Level.FAILED, because=text, text=text),), 1))
-    assert len(list(commands(log))) == 1
+@pytest.mark.parametrize(
+    "text",
+    [
+        "::error::not meant",
+        "  ::add-mask::a",
+        "so ##[group]nor this",
+        "::endgroup::\r::stop-commands::pause",
+        "a\r\n\u2028::error::b",
+        "::stop-commands::" + sha256(b"::error::not meant").hexdigest(),
+    ],
+)
+def test_the_log_holds_no_command_by_accident(text: str) -> None:
+    failed = finding(Level.FAILED, because=f"as\n{text}", text=text, evidence=f"{text}\n::error::x")
+    two = Report((failed, replace(failed, id="TOY-1")), 2)
+    assert [kind for kind, _, _ in commands(annotations(two))] == ["error", "error"]
+    assert text.splitlines()[-1].split()[-1] in annotations(two), "it is shown all the same"
 
 
 def test_summary() -> None:

@@ -15,6 +15,7 @@ from vcd.reader import TokenKind, tokenize
 
 from checker.render import renderers, trace_csv, trace_gtkw, trace_itf, trace_json, trace_vcd
 from checker.render.waves import waves
+from checker.trace import Trace
 from tests.render.conformance import Suite
 from tests.render.exits_zoo import TRACES, huge, lasso, needed, odd, witness
 from tests.render.zoo import long_trace
@@ -29,6 +30,14 @@ def _reader() -> Any:
 
 
 VCDVCD = _reader()
+
+SHOWN = [
+    (replace(witness(), violated=False, shortest=True), (False, True)),
+    (replace(long_trace(1), violated=True, shortest=True), (True, True)),
+    (lasso(), (True, False)),
+    (witness(), (None, False)),
+]
+"""Runs, and whether each breaks a property (None: not known) and is a shortest one."""
 
 
 class TraceSuite(Suite):
@@ -88,7 +97,7 @@ class TestVcd(TraceSuite):
     def test_odd_names_are_told_apart(self) -> None:
         found = dumped(trace_vcd.render(odd()))
         assert {n for n in found if "previous" in n} == {"values.previous_x_3", "values.previous_x_3_2"}
-        assert set(found["values.tze.Ort"].values()) == {"so_la", "$end"}
+        assert set(found["values.Atze.Ort"].values()) == {"so_la", "$end"}
 
     def test_no_date_so_that_files_stay_the_same(self) -> None:
         assert "$date" not in trace_vcd.render(long_trace()).replace("$date $end", "")
@@ -161,6 +170,11 @@ class TestItf(TraceSuite):
         found = json.loads(trace_itf.render(lasso()))
         assert found["loop"] == 3 < len(found["states"])
 
+    @pytest.mark.parametrize(("trace", "shows"), SHOWN)
+    def test_says_what_it_shows(self, trace: Trace, shows: tuple[bool | None, bool]) -> None:
+        about = json.loads(trace_itf.render(trace))["#meta"]
+        assert (about["violated"], about["shortest"]) == shows
+
 
 class TestJson(TraceSuite):
     NAME = "json"
@@ -168,6 +182,17 @@ class TestJson(TraceSuite):
 
     def parse(self, document: str) -> None:
         validate(json.loads(document), trace_json.SCHEMA)
+
+    def test_values_are_readable_and_raw(self) -> None:
+        state = json.loads(self.shown("long"))["states"][1]
+        assert state["inputs"]["level"] == {"value": 100, "raw": 100}
+        assert state["after"]["speed"] == {"value": "-0.5", "raw": -5}
+        assert state["after"]["Relay"] == {"value": "Theirs", "raw": 2}
+
+    @pytest.mark.parametrize(("trace", "shows"), SHOWN)
+    def test_says_what_it_shows(self, trace: Trace, shows: tuple[bool | None, bool]) -> None:
+        about = json.loads(trace_json.render(trace))["#meta"]
+        assert (about["violated"], about["shortest"]) == shows
 
     def test_where_it_is_written_and_what_was_needed(self) -> None:
         found = json.loads(trace_json.render(needed()))

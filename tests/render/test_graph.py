@@ -159,9 +159,9 @@ class TestWords:
         assert max(map(len, told(CUT).splitlines())) <= 80
 
     def test_marks(self) -> None:
-        graph = made(toys.filling(3), ["count"], wanted="full", looked_for="P is broken").graph
+        graph = made(toys.filling(3), ["count"], wanted=("full",), looked_for="P is broken").graph
         assert sentences(graph)["marked"] == "P is broken in 1 valuation behind 1 node: 3."
-        none = made(toys.filling(3), ["count"], wanted="over", looked_for="P is broken").graph
+        none = made(toys.filling(3), ["count"], wanted=("over",), looked_for="P is broken").graph
         assert sentences(none)["marked"] == "P is broken in none of the valuations found."
 
 

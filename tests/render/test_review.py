@@ -15,7 +15,7 @@ from checker.render.review import grouped, render, title_of
 from checker.render.review.packed import TOGETHER, Packed
 from checker.render.review.traces import shared
 from tests.render.test_page import Reader
-from tests.render.toy_review import ALL, BROKEN, CHANGED, EVIL, FINE, OPEN, RUN, SAME, checked, review
+from tests.render.toy_review import ALL, BROKEN, CHANGED, EVIL, FINE, GRAPH, OPEN, RUN, SAME, checked, review
 
 
 @pytest.fixture(scope="module")
@@ -35,7 +35,15 @@ def test_the_same_data_give_the_same_page(document: str) -> None:
 def test_every_thing_has_an_address_of_its_own(page: Reader) -> None:
     ids = [a["id"] for _, a in page.elements if "id" in a]
     assert [id for id, count in Counter(ids).items() if count > 1] == []
-    kinds = {"requirement-R-0", "reading-S1", "repair-mend", "chart-Nested", "system-toy", "assumption-A1"}
+    kinds = {
+        "requirement-R-0",
+        "reading-S1",
+        "repair-mend",
+        "chart-Nested",
+        "system-toy",
+        "assumption-A1",
+        "graph-toy",
+    }
     assert {*kinds, *(p.id for p in ALL)} <= set(ids)
 
 
@@ -81,11 +89,20 @@ def test_a_finding_without_a_repair_says_why(document: str) -> None:
 
 def test_what_is_missing_is_said_or_left_out() -> None:
     bare = replace(
-        review((FINE,)), demands=(), readings=(), repairs=(), charts={}, assumptions=(), coverage=()
+        review((FINE,)),
+        demands=(),
+        readings=(),
+        repairs=(),
+        charts={},
+        assumptions=(),
+        coverage=(),
+        graphs=(),
     )
     shown = render(bare)
     ids = {a.get("id") for _, a in Reader(shown).elements}
-    assert ids.isdisjoint({f"section-{s}" for s in ("findings", "requirements", "repairs", "readings")})
+    assert ids.isdisjoint(
+        {f"section-{s}" for s in ("findings", "requirements", "repairs", "readings", "graphs")}
+    )
     assert "no generated tests" in shown
     assert "not examined" not in shown
     assert "not examined" in render(replace(bare, properties=(replace(FINE, premise=""),)))
@@ -107,7 +124,7 @@ def unpacked(document: str) -> dict[str, str]:
 
 def test_moving_pictures_are_kept_for_every_trace_and_each_chart_once(document: str) -> None:
     fragments = unpacked(document)
-    assert set(fragments) == {"T-1", "T-2", "T-7", "*"}
+    assert set(fragments) == {"T-1", "T-2", "T-7", "*", "graph toy"}
     assert all(fragments[id].count('<section class="player') == 1 for id in ("T-1", "T-2", "T-7"))
     assert fragments["*"].count("<template") == 1
     assert "told" in fragments["T-7"] and "told" not in fragments["T-1"]
@@ -116,8 +133,29 @@ def test_moving_pictures_are_kept_for_every_trace_and_each_chart_once(document: 
 def test_many_fragments_are_kept_in_several_parcels() -> None:
     many = tuple(checked(f"T-{i}", "proved", trace=RUN) for i in range(TOGETHER + 2))
     document = render(review(many))
-    assert set(unpacked(document)) == {"*", *(p.id for p in many)}
+    assert set(unpacked(document)) == {"*", "graph toy", *(p.id for p in many)}
     assert len(Packed().parts()) == 0
+
+
+def test_a_state_graph_says_how_far_to_trust_it_without_scripts(document: str) -> None:
+    start = document.index('id="graph-toy"')
+    section = document[start : document.index("</section>", start)]
+    for told in (
+        GRAPH.size,
+        str(GRAPH.kind),
+        f"because {GRAPH.because[0]}.",
+        "T-1 is broken in",
+        'href="#T-1"',
+    ):
+        assert told in section
+    assert "Without a graph here" in section and "stategraph-data" not in section
+    picture = unpacked(document)["graph toy"]
+    assert picture.count('data-node="') == len(GRAPH.nodes) and "<h1>" not in picture
+
+
+def test_a_page_with_graphs_and_no_run_needs_no_gallery() -> None:
+    shown = render(review((FINE,)))
+    assert set(unpacked(shown)) == {"graph toy"} and 'class="gallery"' not in shown
 
 
 def test_equal_charts_become_one_object() -> None:

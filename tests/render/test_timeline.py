@@ -89,12 +89,12 @@ class TestLanes:
         assert shown.forced.startswith("Forced by tick 2: level = 100. Whatever the other inputs are,")
         assert timeline(long_trace()).forced == ""
 
-    def test_a_timer_is_a_ramp_in_milliseconds_up_to_its_span(self) -> None:
+    def test_a_timer_is_a_ramp_of_times_up_to_its_span(self) -> None:
         timer = lane(timeline(drawn()), "Relay.Theirs.duration1")
         assert timer.kind is Kind.RAMP and timer.group is Group.CHARTS
         assert [(int(limit.value), limit.label) for limit in timer.limits] == [(150, "3 s")]
         assert [(run.label, run.until) for run in timer.runs] == [
-            ("0 ms", ""), ("20 ms", "3000 ms"), ("0 ms", "")
+            ("0 ms", ""), ("20 ms", "3 s"), ("0 ms", "")
         ]  # fmt: skip
 
     def test_arrows_are_marked_where_the_state_changes(self) -> None:

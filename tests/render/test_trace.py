@@ -1,14 +1,12 @@
 """Traces: the story, and every format."""
 
-import json
 import re
 from collections.abc import Iterable
 from dataclasses import replace
 
 import pytest
-from jsonschema import validate
 
-from checker.render import trace_json, trace_markdown, trace_table
+from checker.render import trace_markdown, trace_table
 from checker.render.reasons import forced, reasons
 from checker.render.story import Event, Quiet, conjuncts, false_parts, rows
 from checker.trace import Needed, Trace
@@ -24,7 +22,7 @@ class TestStory:
         assert isinstance(quiet, Quiet)
         assert (quiet.first, quiet.last, quiet.count) == (4, 152, 149)
         assert quiet.what == (
-            "ticks 4–152: nothing but timers (Relay.Theirs.duration1: 1 → 150); 149 ticks = 2980 ms"
+            "ticks 4–152: nothing but timers (Relay.Theirs.duration1: 1 → 150); 149 ticks = 2.98 s"
         )
 
     def test_every_tick_is_told_once(self) -> None:
@@ -144,20 +142,6 @@ class TestMarkdown(TraceSuite):
 
     def test_text_is_escaped(self) -> None:
         assert "<code>[duration(level &lt; 5) &gt; 3 s]</code>" in self.shown("long")
-
-
-class TestJson(TraceSuite):
-    NAME = "json"
-    ZOO = TRACES
-
-    def parse(self, document: str) -> None:
-        validate(json.loads(document), trace_json.SCHEMA)
-
-    def test_values_are_readable_and_raw(self) -> None:
-        state = json.loads(self.shown("long"))["states"][1]
-        assert state["inputs"]["level"] == {"value": 100, "raw": 100}
-        assert state["after"]["speed"] == {"value": "-0.5", "raw": -5}
-        assert state["after"]["Relay"] == {"value": "Theirs", "raw": 2}
 
 
 @pytest.mark.parametrize("quiet", [0, 1, 2])

@@ -3,6 +3,7 @@
 from dataclasses import replace
 from typing import Any
 
+from checker.graphs.making import made
 from checker.render.review.model import (
     About,
     Ambiguity,
@@ -14,7 +15,9 @@ from checker.render.review.model import (
     Origin,
     Remedy,
     Review,
+    Seen,
 )
+from tests import toys
 from tests.render.zoo import CHARTS, long_trace
 
 EVIL = "</script><script>document.title='broken into'</script><img src=x onerror=alert(1)> & \"'"
@@ -48,6 +51,9 @@ FINE = checked(
 PART = checked(f"T-6 {EVIL}", "proved", in_part=True, text=EVIL, formula=(("that", EVIL),), english=(EVIL,))
 WITNESS = checked("T-7", "proved", trace=RUN, form="Reachable")
 
+GRAPH = made(toys.relay(), ("on",), wanted=("on",), looked_for="T-1 is broken").with_ways()
+SEEN = Seen("toy", GRAPH, ("T-1",), {"T-1": (0, 0, 1), EVIL: (0,)}, "rovercheck graph toy", ("T-2",))
+
 ALL = (BROKEN, SAME, CHANGED, FINE, PART, WITNESS, OPEN)
 
 
@@ -75,6 +81,8 @@ def review(properties: tuple[Checked, ...] = ALL) -> Review:
                    (("T-1", "proved", "bdd: all 4 valuations"),), (("T-5", EVIL),), "check --repair mend"),
         ),
         coverage=(Covered("board", "arrows", 10, 8, 1, 1),),
+        graphs=(SEEN,),
+        undrawn=(("other system", EVIL),),
         how_to_read="A step is one tick.",
         left_out=(("T-away", "only with --full"),),
     )  # fmt: skip

@@ -4,6 +4,7 @@ Workflow commands are lines that the runner finds in the log of a step.
 """
 
 from collections.abc import Iterator
+from hashlib import sha256
 
 from checker.render.ci import Finding, Level, Report, counts, explained
 
@@ -69,9 +70,15 @@ def _property(text: str) -> str:
 
 
 def _log(text: str) -> Iterator[str]:
-    """Lines of a log, none of which the runner takes for a command."""
-    for line in text.splitlines():
-        yield f" {line}" if line.lstrip().startswith(("::", "##[")) else line
+    """Lines of a log in which the runner looks for no command until it meets the token.
+
+    It finds commands behind blanks, and those of its older kind within a line, so that they cannot be
+    escaped.  No text holds the token, which is computed from all of it.
+    """
+    token = sha256(text.encode(errors="replace")).hexdigest()
+    yield f"::stop-commands::{token}"
+    yield from text.splitlines()
+    yield f"::{token}::"
 
 
 def summary(report: Report) -> str:

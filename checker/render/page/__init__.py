@@ -46,6 +46,20 @@ class Part:
     scripts: tuple[str, ...] = ()
 
 
+def together(parts: Iterable[Part]) -> Part:
+    """The parts as one in which everything that shows one run follows: a tick chosen here is shown there.
+
+    Scripts of parts tell such a tick by an event ``page:tick`` at the element around them, which keeps it.
+    """
+    shown = list(parts)
+    body = Markup("\n").join(part.body for part in shown)
+    return Part(
+        Markup("<div data-together>\n{}\n</div>").format(body),
+        tuple(dict.fromkeys(text for part in shown for text in part.styles)),
+        tuple(dict.fromkeys(text for part in shown for text in part.scripts)),
+    )
+
+
 def own(name: str) -> str:
     """The text of a file beside this one: a style sheet or a script."""
     return files(__name__).joinpath(name).read_text(encoding="utf-8")

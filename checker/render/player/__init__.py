@@ -25,11 +25,12 @@ AREA = 700_000
 """Charts that take no more than so many square pixels together are all shown at first."""
 
 
-def part(trace: Trace, *, everything: bool = False, pictures: bool = True) -> Part:
+def part(trace: Trace, *, everything: bool = False, pictures: bool = True, printed: bool = True) -> Part:
     """The player of a trace: its charts, controls, and what happens in each step.
 
     What is shown is what the property depends on, or ``everything``.  Without ``pictures`` the page
-    must hold ``gallery`` of the same traces, which keeps one copy of a chart for all players.
+    must hold ``gallery`` of the same traces, which keeps one copy of a chart for all players.  On paper
+    it is a table of what happens; not ``printed`` where the page has such a table anyway.
     """
     charts = shown_charts(trace, everything=everything)
     played = script(trace, everything=everything)
@@ -41,7 +42,7 @@ def part(trace: Trace, *, everything: bool = False, pictures: bool = True) -> Pa
         together=sum(wide * high for wide, high in sizes) <= AREA,
         beside=max((wide for wide, _ in sizes), default=0) <= ROOM,
         legend=LEGEND,
-        events=[_told(event) for event in played.events],
+        events=[_told(event) for event in played.events] if printed else [],
         data=data(_played(trace, charts, played), "player-data"),
     )
     return Part(Markup(body), (STYLE, own("player.css")), (own("player.js"),))

@@ -31,7 +31,9 @@
       this.steps = this.unfolded();
       this.timer = 0;
       if (window.innerWidth <= 700 && this.choices.length) this.press(this.choices[0]);
+      this.together = root.closest("[data-together]");
       this.show(0, 0);
+      this.follow();
       this.listen();
       root.classList.add("player-ready");
     }
@@ -73,9 +75,26 @@
       for (const name of ["first", "back", "play", "next", "last"]) {
         this.one(name).addEventListener("click", () => this[name]());
       }
-      this.one("tick").addEventListener("input", (event) => this.seek(Number(event.target.value)));
+      this.one("tick").addEventListener("input", (event) => {
+        this.seek(Number(event.target.value));
+        this.tell();
+      });
       this.root.addEventListener("keydown", (event) => this.key(event));
       this.choices.forEach((button) => button.addEventListener("click", () => this.choose(button)));
+      if (!this.together) return;
+      this.together.addEventListener("page:tick", (event) => event.detail !== this.root && this.follow());
+    }
+
+    // What else shows this run, over time say, goes to the tick that was chosen here; and the other way.
+    tell() {
+      if (!this.together) return;
+      this.together.dataset.tick = this.tick;
+      this.together.dispatchEvent(new CustomEvent("page:tick", { detail: this.root }));
+    }
+
+    follow() {
+      const chosen = this.together && this.together.dataset.tick;
+      if (chosen) this.seek(Number(chosen));
     }
 
     key(event) {
@@ -98,7 +117,16 @@
       this.go(step);
     }
 
-    go(step) { this.show(step, this.steps[step].tick); }
+    go(step) {
+      this.show(step, this.steps[step].tick);
+      this.tell();
+    }
+
+    // As on paper, where nothing plays.
+    end() {
+      this.pause();
+      this.show(this.steps.length - 1, this.steps[this.steps.length - 1].tick);
+    }
 
     // The state after a tick, which may be a quiet one.
     seek(tick) {
@@ -267,8 +295,11 @@
   });
   meet(document);
   document.addEventListener("page:added", (event) => meet(event.target));
+  let before = [];
   window.addEventListener("beforeprint", () => {
     [...waiting.keys()].forEach(build);
-    players.forEach((player) => player.last());
+    before = players.map((player) => [player, player.at, player.tick]);
+    players.forEach((player) => player.end());
   });
+  window.addEventListener("afterprint", () => before.forEach(([player, at, tick]) => player.show(at, tick)));
 })();

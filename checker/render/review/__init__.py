@@ -16,10 +16,14 @@ from markupsafe import Markup
 from checker.render import renderers
 from checker.render.page import Part, page, templates
 from checker.render.review import traces
-from checker.render.review.model import PROVED, Checked, Review
+from checker.render.review.model import PROVED, Checked, Review, Seen
 from checker.render.review.packed import Packed
+from checker.render.statechart_svg import size
+from checker.render.stategraph.fragment import part as stategraph
+from checker.render.stategraph.fragment import shows, trust
 from checker.render.story import ending, false_parts, heading
 from checker.trace import Trace
+from spec_model.lang.chart import Chart
 
 TEMPLATES = templates("review")
 SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
@@ -38,7 +42,8 @@ GALLERY = "*"
 
 def render(review: Review) -> str:
     """The page as HTML text; the same data give the same page."""
-    runs = traces.shared({p.id: p.trace for p in review.properties if p.trace is not None})
+    found = {p.id: p.trace for p in review.properties if p.trace is not None}
+    runs = traces.shared(found, review.charts.values())
     told = {p.id: traces.story(runs[p.id]) for p in review.findings if p.id in runs}
     body = TEMPLATES.get_template("review.html").render(
         review=review,
@@ -46,21 +51,26 @@ def render(review: Review) -> str:
         areas=[(area, list(of)) for area, of in groupby(review.properties, key=_area)],
         by_id={p.id: p for p in review.properties},
         repairs=_by_property(review),
+        sizes={name: size(chart) for name, chart in review.charts.items()},
         chart_images={name: _image(chart) for name, chart in review.charts.items()},
         told={id: part.body for id, part in told.items()},
         heading=heading,
         ending=ending,
         false_parts=false_parts,
         gallery=GALLERY,
+        runs=runs,
+        trusted={g.system: trust(g.graph).body for g in review.graphs},
+        found_in={g.system: shows(g.graph).body for g in review.graphs},
         signs=SIGNS,
         states=STATES,
         sign=sign,
         link=link,
         title_of=title_of,
     )
-    styles = dict.fromkeys(text for part in told.values() for text in part.styles)
+    shown = [*told.values(), *(trust(g.graph) for g in review.graphs)]
+    styles = dict.fromkeys(text for part in shown for text in part.styles)
     parts = [Part(Markup(body), (*styles, own("review.css")), (own("review.js"),))]
-    return page(review.title, [*parts, *_pictures(runs, told).parts()])
+    return page(review.title, [*parts, *_pictures(runs, told, review.graphs).parts()])
 
 
 def own(name: str) -> str:
@@ -117,7 +127,7 @@ def _by_property(review: Review) -> Mapping[str, list[Any]]:
     return found
 
 
-def _pictures(runs: Mapping[str, Trace], told: Collection[str]) -> Packed:
+def _pictures(runs: Mapping[str, Trace], told: Collection[str], graphs: Iterable[Seen]) -> Packed:
     """The moving pictures of traces, kept for when they are asked for; charts lie there once.
 
     So do the stories that are not ``told`` in the page itself.
@@ -127,14 +137,17 @@ def _pictures(runs: Mapping[str, Trace], told: Collection[str]) -> Packed:
         packed.add(id, [*traces.moving(trace), *([] if id in told else [traces.story(trace)])])
     if runs:
         packed.add(GALLERY, [traces.pictures(list(runs.values()))])
+    for one in graphs:
+        packed.add(f"graph {one.system}", [stategraph(one.graph, one.runs, alone=False)])
     return packed
 
 
-def _image(chart: Any) -> str:
-    """The picture of a chart as an address that holds it."""
+def _image(chart: Chart) -> Markup:
+    """The picture of a chart as an address that holds it, written for an attribute in double quotes."""
     drawn = renderers("statechart")["svg"].render(chart)
     text = drawn if isinstance(drawn, str) else drawn.decode()
-    return "data:image/svg+xml," + quote(text.strip(), safe=" /:=;,'()@!$&*+?-_.~[]{}|")
+    single = text.strip().replace("'", "&apos;").replace('"', "'")
+    return Markup("data:image/svg+xml," + quote(single, safe=" /:=;,'()@!$*+?-_.~[]{}|"))
 
 
 __all__ = ["PROVED", "Review", "render"]

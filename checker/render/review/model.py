@@ -5,8 +5,9 @@ it of that.  Whatever is empty is left out of the page, or said to be missing.
 """
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
+from checker.graph import StateGraph
 from checker.trace import Trace
 from spec_model.lang.chart import Chart
 
@@ -163,6 +164,28 @@ class Covered:
 
 
 @dataclass(frozen=True)
+class Seen:
+    """The reachable states of a system, seen through some variables.
+
+    ``asked`` are the properties whose breaking is marked, ``unmarked`` those for which that would take too
+    much, ``runs`` the nodes that counterexamples pass, by
+    property.  ``again`` is the command that says what else can be seen of it.
+    """
+
+    system: str
+    graph: StateGraph
+    asked: tuple[str, ...] = ()
+    runs: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+    again: str = ""
+    unmarked: tuple[str, ...] = ()
+
+    @property
+    def charts(self) -> tuple[str, ...]:
+        """The charts whose states are seen."""
+        return tuple(dict.fromkeys(name.partition(".")[0] for name in self.graph.variables))
+
+
+@dataclass(frozen=True)
 class Origin:
     """How the page was made: enough to make it again and to compare it."""
 
@@ -190,6 +213,9 @@ class Review:
     assumptions: tuple[Assumed, ...] = ()
     repairs: tuple[Remedy, ...] = ()
     coverage: tuple[Covered, ...] = ()
+    graphs: tuple[Seen, ...] = ()
+    undrawn: tuple[tuple[str, str], ...] = ()
+    """Systems with charts that have no state graph here, and why."""
     how_to_read: str = ""
     """How the sentences on what is checked are meant."""
     left_out: tuple[tuple[str, str], ...] = ()

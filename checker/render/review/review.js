@@ -81,7 +81,7 @@
   });
   document.addEventListener('keydown', (event) => {
     const typing = /^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName);
-    if (event.key === '/' && !typing && !event.ctrlKey && !event.metaKey && !event.altKey) {
+    if (event.key === '/' && !typing && !event.defaultPrevented && !event.ctrlKey && !event.metaKey && !event.altKey) {
       event.preventDefault();
       field.focus();
     }
@@ -118,12 +118,12 @@
   }
   let gallery = null;
   async function unpack(places) {
-    gallery = gallery || fill(one('.gallery'));
+    gallery = gallery || (one('.gallery') ? fill(one('.gallery')) : true);
     await gallery;
     for (const place of places) await fill(place);
   }
   function missing(place) {
-    if (!place.hasChildNodes()) place.textContent = 'This browser cannot unpack the pictures of the run.';
+    if (!place.hasChildNodes()) place.textContent = 'This browser cannot unpack what moves here.';
   }
   document.addEventListener('toggle', (event) => {
     const entry = event.target;

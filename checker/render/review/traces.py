@@ -1,7 +1,7 @@
 """A trace on the review page: its story to read, and the pictures that move."""
 
 import pickle
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from checker.render import player, timeline
@@ -10,12 +10,12 @@ from checker.trace import Trace
 from spec_model.lang.chart import Chart
 
 
-def shared(runs: Mapping[str, Trace]) -> dict[str, Trace]:
-    """The same traces, in which charts that are equal are one object.
+def shared(runs: Mapping[str, Trace], charts: Iterable[Chart] = ()) -> dict[str, Trace]:
+    """The same traces, in which charts that are equal to each other, or to one of these, are one object.
 
     Charts come with each trace from the process that found it; a picture is drawn once for each object.
     """
-    known: dict[bytes, Chart] = {}
+    known = {pickle.dumps(chart): chart for chart in charts}
 
     def one(chart: Chart) -> Chart:
         return known.setdefault(pickle.dumps(chart), chart)
@@ -33,7 +33,7 @@ def story(trace: Trace) -> Part:
 
 def moving(trace: Trace) -> list[Part]:
     """The timeline, and the charts on which the run is played."""
-    return [timeline.part(trace), player.part(trace, pictures=False)]
+    return [timeline.part(trace), player.part(trace, pictures=False, printed=False)]
 
 
 def pictures(traces: Sequence[Trace]) -> Part:

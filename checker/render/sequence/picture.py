@@ -8,6 +8,7 @@ from xml.sax.saxutils import escape
 from checker.render.drawing.svg import document, tag, text
 from checker.render.drawing.svg import lines as paragraph
 from checker.render.drawing.text import LINE, SIZE, width, wrap
+from checker.render.durations import duration
 from checker.render.sequence.steps import Message, MessageSequence, Note, Pause, Step
 from checker.render.story import Repeats, ending, false_parts, heading
 from checker.render.timeline import forced_by
@@ -222,7 +223,7 @@ def _note(note: Note, lines: Sequence[str], x: int, wide: int, y: int) -> str:
 def _pause(columns: Columns, pause: Pause, tick_ms: int, y: int) -> Piece:
     """How many ticks are left out here."""
     span = f"ticks {pause.first}–{pause.last}" if pause.last > pause.first else f"tick {pause.first}"
-    told = f"{span}: {pause.why} ({(pause.last - pause.first + 1) * tick_ms} ms)"
+    told = f"{span}: {pause.why} ({duration((pause.last - pause.first + 1) * tick_ms)})"
     x, wide = (LEFT + columns.right) // 2, width(told) + 16
     box = tag("rect", x=x - wide // 2, y=y + 12, width=wide, height=18, class_="gap")
     return [box, *_middle(x, y + 13, [told], "soft")], y + 40

@@ -1,6 +1,6 @@
 """A state graph as a part of a page: a picture to move about in, and what is behind each node."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from importlib.resources import files
 from typing import Any
 
@@ -10,10 +10,10 @@ from checker.graph import GraphNode, StateGraph, Way
 from checker.render import story
 from checker.render.page import Part, data, templates
 from checker.render.stategraph.findings import findings
-from checker.render.stategraph.picture import drawn
+from checker.render.stategraph.picture import LABELLED, drawn
 from checker.render.stategraph.words import LEGEND, named, values
 
-TEMPLATE = templates("stategraph").get_template("stategraph.html")
+TEMPLATES = templates("stategraph")
 PANZOOM = files("checker.render").joinpath("vendor", "panzoom", "panzoom.min.js").read_text(encoding="utf-8")
 MOST_ROWS = 120
 """Rows of a run that are shown; the page says how many it leaves out."""
@@ -22,17 +22,44 @@ Row = tuple[str, str, list[str]]
 """Ticks, milliseconds, and what happened."""
 
 
+BESIDE = 12
+"""Edges with labels in a picture among others, which has to be read without zooming."""
+TRUST = ("size", "kind", "because")
+"""Headings of what ``trust`` says, too, or what is said of it elsewhere."""
+
+
 def own(name: str) -> str:
     """The text of a file beside this one."""
     return files(__name__.rpartition(".")[0]).joinpath(name).read_text(encoding="utf-8")
 
 
-def part(graph: StateGraph) -> Part:
-    """The graph with its findings; nodes can be searched for, chosen and filtered."""
-    picture = drawn(graph)
-    body = TEMPLATE.render(
+def trust(graph: StateGraph) -> Part:
+    """How far the graph can be trusted, in sentences."""
+    return _words("trust.html", graph)
+
+
+def shows(graph: StateGraph) -> Part:
+    """What the graph shows, in sentences, without how large it is and how far it can be trusted."""
+    return _words("findings.html", graph, findings=[f for f in findings(graph) if f[0] not in TRUST])
+
+
+def _words(template: str, graph: StateGraph, **more: object) -> Part:
+    body = TEMPLATES.get_template(template).render(graph=graph, **more)
+    return Part(Markup('<div class="sg-words">\n{}</div>').format(Markup(body)), (own("stategraph.css"),))
+
+
+def part(graph: StateGraph, runs: Mapping[str, Sequence[int]] = {}, alone: bool = True) -> Part:
+    """The picture; nodes can be searched for, chosen and filtered.
+
+    ``runs`` are sequences of nodes by the names of their traces; the reader chooses which one is shown.
+    ``alone``: with its title and all that is said of it.
+    """
+    picture = drawn(graph, LABELLED if alone else BESIDE)
+    body = TEMPLATES.get_template("stategraph.html").render(
         graph=graph,
         findings=findings(graph),
+        alone=alone,
+        runs=list(runs),
         picture=Markup("\n".join(picture.body)),
         width=picture.width,
         height=picture.height,
@@ -40,7 +67,7 @@ def part(graph: StateGraph) -> Part:
         legend=LEGEND,
         filters=_filters(graph),
         rows=[(node, ", ".join(values(graph, node)), _flags(graph, node)) for node in graph.nodes],
-        data=data(document(graph), "stategraph-data"),
+        data=data(document(graph) | {"runs": runs}, "stategraph-data"),
     )
     return Part(Markup(body), (own("stategraph.css"),), (PANZOOM, own("stategraph.js")))
 

@@ -36,7 +36,7 @@ def _shown(trace: Trace, name: str, raw: int, kind: Kind) -> str:
     if kind is not Kind.RAMP:
         return value(trace, name, raw)
     known = timer(trace, name)
-    return f"{raw * known.step_ms} ms" if known else f"{raw} steps"
+    return known.shown(raw) if known else f"{raw} steps"
 
 
 def stretches(values: Values, steady: bool) -> Iterator[tuple[int, int]]:

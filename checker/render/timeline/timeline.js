@@ -1,6 +1,6 @@
 "use strict";
 (() => {
-  const NUMBER = /^-?\d+(\.\d+)?/;
+  const NUMBER = /^(-?[\d.]+)( ?[^\d/].*)?$/;
 
   /** What a lane shows in a tick; between the ends of a steady count, the number that belongs there. */
   function shown(runs, tick) {
@@ -15,14 +15,18 @@
   }
 
   function between([first, last, start, end], tick) {
-    const from = NUMBER.exec(start), to = NUMBER.exec(end);
     if (tick === first) return start;
     if (tick === last) return end;
+    const share = (tick - first) / (last - first), from = NUMBER.exec(start), to = NUMBER.exec(end);
     if (!from || !to) return `${start} → ${end}`;
-    const digits = Math.max((from[1] || ".").length, (to[1] || ".").length) - 1;
-    const value = Number(from[0]) + (Number(to[0]) - Number(from[0])) * (tick - first) / (last - first);
-    return value.toFixed(digits) + start.slice(from[0].length);
+    const spans = from[2] !== to[2], [low, high] = [from, to].map(spans ? milliseconds : (read) => Number(read[1]));
+    const value = Number((low + (high - low) * share).toFixed(9));
+    return spans ? duration(value) : `${value}${from[2] || ""}`;
   }
+
+  /** A timer may rise from 20 ms to 3 s. */
+  const milliseconds = ([, number, unit]) => Number(number) * (unit === " s" ? 1000 : 1);
+  const duration = (ms) => (ms < 1000 ? `${ms} ms` : `${ms / 1000} s`);
 
   class Timeline {
     constructor(root) {
@@ -32,11 +36,13 @@
       this.frame = root.querySelector(".tl-frame");
       this.plot = root.querySelector(".tl-plot");
       this.cursor = root.querySelector(".tl-cursor");
+      this.now = root.querySelector(".tl-now");
+      this.together = root.closest("[data-together]");
       this.cells = [...root.querySelectorAll(".tl-table tr:not(.tl-still) td")];
       this.events = this.changes();
       if (!this.count) return;
       this.listen();
-      this.go(this.count);
+      this.move(this.count);
       this.pinned = false;
     }
 
@@ -60,8 +66,23 @@
         const tick = this.at(event);
         this.pinned = !(this.pinned && tick === this.tick);
         this.show(tick);
+        this.tell();
       });
       this.frame.addEventListener("keydown", (event) => this.key(event));
+      if (this.together) this.together.addEventListener("page:tick", (event) => this.follow(event));
+    }
+
+    /** What else shows this run, on the charts say, goes to the tick that was chosen here. */
+    tell() {
+      if (!this.together) return;
+      this.together.dataset.tick = this.tick;
+      this.together.dispatchEvent(new CustomEvent("page:tick", { detail: this.root }));
+    }
+
+    follow(event) {
+      if (event.detail === this.root) return;
+      this.now.setAttribute("aria-live", "off");
+      this.move(Number(this.together.dataset.tick));
     }
 
     key(event) {
@@ -84,22 +105,28 @@
       return tick;
     }
 
-    /** Moves the cursor there, and the lanes so that it is seen. */
     go(tick) {
+      this.now.setAttribute("aria-live", "polite");
+      this.move(Math.max(1, tick));
+      this.tell();
+    }
+
+    /** Moves the cursor there, and the lanes so that it is seen; 0 is before the first tick. */
+    move(tick) {
       this.pinned = true;
       this.show(tick);
-      const left = this.data.edges[this.tick - 1], right = this.data.edges[this.tick];
+      const left = this.data.edges[Math.max(0, this.tick - 1)], right = this.data.edges[this.tick];
       const room = this.frame.clientWidth - this.frame.querySelector(".tl-names").offsetWidth;
       if (left < this.frame.scrollLeft) this.frame.scrollLeft = left - 20;
       else if (right > this.frame.scrollLeft + room) this.frame.scrollLeft = right - room + 20;
     }
 
     show(tick) {
-      this.tick = Math.max(1, Math.min(this.count, tick));
-      const left = this.data.edges[this.tick - 1];
+      this.tick = Math.max(0, Math.min(this.count, tick));
+      const left = this.data.edges[Math.max(0, this.tick - 1)];
       this.cursor.setAttribute("x", left);
       this.cursor.setAttribute("width", this.data.edges[this.tick] - left);
-      this.root.querySelector(".tl-now").textContent = `tick ${this.tick}\n${this.tick * this.data.ms} ms`;
+      this.now.textContent = this.tick ? `tick ${this.tick}\n${this.tick * this.data.ms} ms` : "before the\nfirst tick";
       this.data.lanes.forEach((runs, place) => {
         const now = shown(runs, this.tick), cell = this.cells[place];
         cell.replaceChildren(...now.split(/(?<=_)/).flatMap((piece) => [piece, document.createElement("wbr")]));
