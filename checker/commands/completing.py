@@ -1,7 +1,7 @@
 """What the shell offers after the tabulator: names of the model, found without any solver."""
 
 import pkgutil
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 
 import click
@@ -9,6 +9,7 @@ from click.shell_completion import CompletionItem
 from click.types import StringParamType
 
 from spec_model.lang.errors import ModelError
+from spec_model.lang.system import System
 
 Completing = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
@@ -36,7 +37,7 @@ def _properties(context: click.Context) -> Iterable[str]:
     return load(own).stated()
 
 
-def _systems(context: click.Context) -> Iterable[str]:
+def _systems(context: click.Context) -> Mapping[str, System]:
     own: Path | None = context.params.get("model")
     if own is None:
         from spec_model.rover import systems
@@ -48,9 +49,10 @@ def _systems(context: click.Context) -> Iterable[str]:
 
 
 def _drawn(context: click.Context) -> Iterable[str]:
-    from spec_model.rover import charts_of, systems
+    from spec_model.rover import charts_of
 
-    return [*charts_of(systems()), *_systems(context)]
+    known = _systems(context)
+    return dict.fromkeys([*charts_of(known), *known])
 
 
 def _formats(kind: str) -> Callable[[click.Context], Iterable[str]]:

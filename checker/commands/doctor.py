@@ -51,8 +51,8 @@ REQUIRED = {
 """Packages that rovercheck cannot do without, and what for."""
 
 OPTIONAL = {
-    "matplotlib": "plots of simulate: pip install rovercheck[plot]",
-    "pyarrow": "Parquet logs in conform: pip install rovercheck[parquet]",
+    "matplotlib": "plots of simulate: pip install matplotlib",
+    "pyarrow": "Parquet logs in conform: pip install pyarrow",
     "cvc5": "a third opinion on exported formulas, in our tests: pip install cvc5",
     "playwright": "pages tried in a browser, in our tests: pip install playwright",
 }

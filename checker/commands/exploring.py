@@ -1,19 +1,24 @@
 """``rovercheck explore``: a system stepped through at a prompt, or by a script of the same commands."""
 
 import shlex
+import signal
 import sys
 from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 from textwrap import fill
+from types import FrameType
+from typing import NoReturn
 
 from checker.commands.codes import Exit, UsageError
-from checker.commands.exploring_commands import Commands, Quit
+from checker.commands.exploring_commands import Quit, completions, obey
+from checker.commands.exploring_explorer import Explorer
 from checker.commands.output import out
 from checker.commands.select import pick
 from checker.commands.variant import Variant
 from checker.exploring.session import Session
-from checker.exploring.simulation import Refused
+from checker.exploring.written import Refused
 from spec_model.lang.chart import Chart
 from spec_model.lang.errors import ModelError
 from spec_model.lang.system import System, in_order
@@ -27,15 +32,15 @@ def explore(name: str | None, variant: Variant, traced: str | None, script: Path
         return _offer(by_name)
     prop = pick("property", traced, variant.properties()) if traced else None
     system = by_name[prop.on] if name is None and prop else _system(name or "", by_name)
-    commands = Commands(Session(system), variant, out)
-    commands.introduce()
+    explorer = Explorer(Session(system), variant, out)
+    explorer.introduce()
     if traced:
-        _first(commands, f"trace {shlex.quote(traced)}")
+        _first(explorer, f"trace {shlex.quote(traced)}")
     if script is not None:
-        return _scripted(commands, _read(script))
+        return _scripted(explorer, _read(script))
     if sys.stdin is not None and sys.stdin.isatty():
-        return _asked(commands)
-    return _scripted(commands, sys.stdin or ())
+        return _asked(explorer)
+    return _scripted(explorer, sys.stdin or ())
 
 
 def _system(name: str, by_name: Mapping[str, System]) -> System:
@@ -66,19 +71,19 @@ def _read(script: Path) -> list[str]:
         raise UsageError(f"Cannot read {script}: {error}") from None
 
 
-def _first(commands: Commands, line: str) -> None:
+def _first(explorer: Explorer, line: str) -> None:
     try:
-        commands.obey(line)
+        obey(explorer, line)
     except (Refused, ModelError) as error:
         raise UsageError(str(error)) from None
 
 
-def _scripted(commands: Commands, lines: Iterable[str]) -> Exit:
+def _scripted(explorer: Explorer, lines: Iterable[str]) -> Exit:
     """Obey commands, each shown as if it had been typed, up to the first that has no meaning."""
     for number, line in enumerate(lines, start=1):
-        out.print(f"{commands.prompt}{line.rstrip()}", markup=False)
+        out.print(f"{explorer.prompt}{line.rstrip()}", markup=False)
         try:
-            commands.obey(line)
+            obey(explorer, line)
         except Quit:
             break
         except (Refused, ModelError, UsageError) as error:
@@ -86,19 +91,33 @@ def _scripted(commands: Commands, lines: Iterable[str]) -> Exit:
     return Exit.AS_EXPECTED
 
 
-def _asked(commands: Commands) -> Exit:
-    """Obey commands from a terminal until there are no more."""
-    _line_editing(commands.completions)
+def _asked(explorer: Explorer) -> Exit:
+    """Obey commands from a terminal until there are no more, or somebody wants the program to end."""
+    _line_editing(partial(completions, explorer))
+    _end_when_told()
     while True:
         try:
-            commands.obey(input(commands.prompt))
+            obey(explorer, input(explorer.prompt))
         except (EOFError, Quit):
             out.print()
             return Exit.AS_EXPECTED
         except KeyboardInterrupt:
             out.print("\nInterrupted; quit or Ctrl-D ends.")
         except (Refused, ModelError, UsageError) as error:
-            commands.say(str(error), "red")
+            explorer.say(str(error), "red")
+
+
+def _end_when_told() -> None:
+    """A request to end is no Ctrl-C here, which only clears the line."""
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) is not signal.SIG_IGN:  # not under nohup
+            signal.signal(number, _ended)
+
+
+def _ended(number: int, _: FrameType | None) -> NoReturn:
+    out.print()  # what follows, a shell's prompt perhaps, begins a line
+    raise SystemExit
 
 
 def _line_editing(completions: Callable[[str], list[str]]) -> None:

@@ -1,4 +1,4 @@
-"""What ``rovercheck explore`` shows: a tick, what changed since another, and why arrows were not taken."""
+"""What ``rovercheck explore`` shows: a tick, and what changed since another."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -9,16 +9,13 @@ from rich.text import Text
 
 from checker.commands.output import trimmed
 from checker.exploring.session import Session
-from checker.exploring.simulation import Simulation, Tested
+from checker.exploring.simulation import Simulation
 from checker.render.limits import timer
 from checker.render.story import NAME, TIMER, Change, Event, Quiet, rows, start_of, value
 from checker.runs.replay import arrow_of
 from checker.trace import Arrow, Trace
-from spec_model.lang.chart import Chart, Path, Transition
+from spec_model.lang.chart import Chart, Path
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Temporal
-from spec_model.lang.label import text
-from spec_model.lang.walk import nodes, variables
 
 MOST = 24
 """Outputs up to which all are shown unasked."""
@@ -33,12 +30,12 @@ def show(console: Console, session: Session, everything: bool = False) -> None:
     sim = session.simulation
     trace = sim.trace(max(sim.at, 1))
     grid = _grid()
-    _row(grid, "charts", [_where(chart, sim.state()) for chart in sim.system.charts], "bold")
+    _row(grid, "charts", [where(chart, sim.state()) for chart in sim.system.charts], "bold")
     _row(grid, "arrows", [_arrow(a) for a in map(arrow_of, sim.fired())], "green")
-    _row(grid, "frozen", [_listed(trace, sim.frozen)] if sim.frozen else [])
+    _row(grid, "frozen", [listed(trace, sim.frozen)] if sim.frozen else [])
     _row(grid, "inputs", [_inputs(session, trace)], "cyan")
     _row(grid, "values", [_outputs(sim, trace, everything)])
-    _row(grid, "timers", list(_timers(trace, sim.state())), "yellow")
+    _row(grid, "timers", list(timers(trace, sim.state())), "yellow")
     _row(grid, "watch", list(_watched(session, trace)))
     trimmed(console, grid)
 
@@ -55,7 +52,8 @@ def _row(grid: Table, title: str, lines: Sequence[str], style: str = "") -> None
         grid.add_row("" if i else title, Text(line, style=style, overflow="fold"))
 
 
-def _where(chart: Chart, at: Mapping[str, int]) -> str:
+def where(chart: Chart, at: Mapping[str, int]) -> str:
+    """The states in which a chart is."""
     return f"{chart.name}: {', '.join('.'.join(p) for p in active(chart, at)) or 'not entered yet'}"
 
 
@@ -69,7 +67,8 @@ def _arrow(arrow: Arrow) -> str:
     return f"▸ {arrow.chart}: {start_of(arrow)}{f'  {arrow.label}' if arrow.label else ''}"
 
 
-def _listed(trace: Trace, values: Mapping[str, int]) -> str:
+def listed(trace: Trace, values: Mapping[str, int]) -> str:
+    """Values by name, as a trace shows them."""
     return ", ".join(f"{n} = {value(trace, n, raw)}" for n, raw in values.items())
 
 
@@ -94,13 +93,13 @@ def _outputs(sim: Simulation, trace: Trace, everything: bool) -> str:
         and not trace.variables[n].hidden
     }  # fmt: skip
     if everything or len(plain) <= MOST:
-        return _listed(trace, plain)
+        return listed(trace, plain)
     changed = {n: raw for n, raw in plain.items() if raw != before[n]}
     rest = f"{len(plain) - len(changed)} as at the start (show all)"
-    return ", ".join(filter(None, [_listed(trace, changed), rest]))
+    return ", ".join(filter(None, [listed(trace, changed), rest]))
 
 
-def _timers(trace: Trace, at: Mapping[str, int], only: str = "") -> Iterator[str]:
+def timers(trace: Trace, at: Mapping[str, int], only: str = "") -> Iterator[str]:
     """Timers that run, with the limit they are compared with and how much of it is over."""
     for name, raw in at.items():
         known = timer(trace, name) if TIMER.search(name) and name.startswith(only) and raw else None
@@ -156,51 +155,3 @@ def _event(grid: Table, event: Event) -> None:
 
 def _change(change: Change) -> tuple[str, Text]:
     return ("in" if change.is_input else "", Text(str(change), style="cyan" if change.is_input else ""))
-
-
-def why(console: Console, session: Session, charts: Sequence[str]) -> None:
-    """Every arrow of these charts tested in the tick, with what was true and false of its guard."""
-    sim = session.simulation
-    if not sim.at:
-        console.print("Nothing was tested before the first tick; write step first.")
-        return
-    trace, at = sim.trace(sim.at), {**sim.state(), **sim.given()}
-    tested = sim.tested()
-    for chart in (c for c in sim.system.charts if c.name in charts):
-        own = [t for t in tested if t.chart == chart.name]
-        where = _where(chart, sim.state())
-        console.print(Text(where if own else f"{where}: no arrow was tested in this tick", style="bold"))
-        for one in own:
-            trimmed(console, _test(chart, one))
-            if one.conjuncts:
-                trimmed(console, _conjuncts(one, trace, at))
-
-
-def _test(chart: Chart, one: Tested) -> Text:
-    through = next((j.name for j in chart.junctions.values() if _has(j.transitions, one.segment)), "")
-    start = through or (".".join(one.source) if one.source else "default")
-    event = f" on {one.segment.event}" if one.segment.event else ""
-    mark, style = ("✓", "green") if one.valid else ("✗", "")
-    indent = "    " if through else "  "
-    return Text(f"{indent}{mark} {start} → {one.segment.target}{event}", style=style)
-
-
-def _has(arrows: Sequence[Transition], wanted: Transition) -> bool:
-    return any(arrow is wanted for arrow in arrows)
-
-
-def _conjuncts(one: Tested, trace: Trace, at: Mapping[str, int]) -> Table:
-    grid = Table.grid(padding=(0, 1))
-    grid.add_column(width=6)
-    grid.add_column(width=5)
-    grid.add_column(ratio=1, overflow="fold")
-    for part, true in one.conjuncts:
-        known = {n: at[n] for n in variables(part) if n in at}
-        values = _listed(trace, known)
-        shown = text(part, unfold=True)
-        said = f"{shown}   ({values})" if values and values.replace(" = ", " == ") != shown else shown
-        grid.add_row("", Text("true" if true else "false", style="green" if true else "red"), said)
-        if one.source and any(isinstance(n, Temporal) for n in nodes(part)):
-            for line in _timers(trace, at, f"{one.chart}.{'.'.join(one.source)}."):
-                grid.add_row("", "", Text(f"now {line}", style="yellow"))
-    return grid

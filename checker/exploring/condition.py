@@ -3,19 +3,19 @@
 import ast
 import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from math import isfinite
 from operator import add, eq, ge, gt, le, lt, mul, ne, sub
 from typing import Any
 
-from checker.exploring.simulation import Refused
+from checker.exploring.names import Names
+from checker.exploring.written import Refused
 from spec_model.lang.chart import Chart
-from spec_model.lang.domain import Enum
+from spec_model.lang.domain import Bool, Enum
 from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.expr import Expr, Var, all_of, any_of, as_boolean, const, lift
+from spec_model.lang.expr import Expr, all_of, any_of, const, lift
 
 _AS_DRAWN = ((r"&&", " and "), (r"\|\|", " or "), (r"!(?!=)", " not "))
 """What arrows are labelled with, and what it is called in Python."""
-HELP = "Write a state (Relay.B2_actuating), a comparison (heartbeat_age > 100), and, or, not, parentheses."
 
 _COMPARED: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.Eq: eq, ast.NotEq: ne, ast.Lt: lt, ast.LtE: le, ast.Gt: gt, ast.GtE: ge,
@@ -25,14 +25,6 @@ _COMPUTED: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Names:
-    """What a condition may speak of."""
-
-    variables: Mapping[str, Var]
-    charts: Mapping[str, Chart]
-
-
 def condition(written: str, names: Names) -> Expr:
     """The formula that is meant.  Raises ``Refused`` for what has no meaning, saying what to write."""
     for drawn, called in _AS_DRAWN:
@@ -40,13 +32,16 @@ def condition(written: str, names: Names) -> Expr:
     try:
         tree = ast.parse(written.strip(), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise Refused(f"{written.strip()!r} is no condition. {HELP}") from None
+        raise Refused(f"{written.strip()!r} is no condition. {names.help}") from None
     try:
-        return as_boolean(_meant(tree.body, names), "until")
+        found = _meant(tree.body, names)
     except ModelError as error:
         raise Refused(str(error)) from None
     except RecursionError:
         raise Refused("The condition is nested too deeply. Split it.") from None
+    if not isinstance(found.sort, Bool):
+        raise Refused(f"`{found}` is neither true nor false ({found.sort}); compare it. {names.help}")
+    return found
 
 
 def _meant(node: ast.expr, names: Names) -> Expr:
@@ -62,11 +57,15 @@ def _meant(node: ast.expr, names: Names) -> Expr:
             return _comparison(node, names)
         case ast.BinOp(left, op, right) if type(op) in _COMPUTED:
             return _lifted(_COMPUTED[type(op)](_side(left, None, names), _side(right, None, names)))
-        case ast.Constant(bool() | int() | float() as number):
+        case ast.Constant(bool() | int() | float() as number) if isfinite(number):
             return const(number)
         case ast.Name() | ast.Attribute():
-            return _named(_dotted(node), names)
-    raise Refused(f"`{ast.unparse(node)}` has no meaning in a condition. {HELP}")
+            return _named(_dotted(node, names), names)
+    raise _meaningless(node, names)
+
+
+def _meaningless(node: ast.expr, names: Names) -> Refused:
+    return Refused(f"`{ast.unparse(node)}` has no meaning in a condition. {names.help}")
 
 
 def _comparison(node: ast.Compare, names: Names) -> Expr:
@@ -77,7 +76,7 @@ def _comparison(node: ast.Compare, names: Names) -> Expr:
 
 def _compared(left: ast.expr, right: ast.expr, op: ast.cmpop, names: Names) -> Expr:
     if type(op) not in _COMPARED:
-        raise Refused(f"`in` and `is` have no meaning in a condition. {HELP}")
+        raise Refused(f"`in` and `is` have no meaning in a condition. {names.help}")
     like = _enum(left, names) or _enum(right, names)
     first, second = (_side(side, like, names) for side in (left, right))
     found = _COMPARED[type(op)](first, second)
@@ -92,7 +91,7 @@ def _lifted(found: Expr | float) -> Expr:
 def _enum(node: ast.expr, names: Names) -> Enum | None:
     """The enumeration that a side of a comparison belongs to, if it is a variable of one."""
     if isinstance(node, ast.Name | ast.Attribute):
-        var = names.variables.get(_dotted(node))
+        var = names.variables.get(_dotted(node, names))
         return var.sort if var is not None and isinstance(var.sort, Enum) else None
     return None
 
@@ -100,9 +99,9 @@ def _enum(node: ast.expr, names: Names) -> Enum | None:
 def _side(node: ast.expr, like: Enum | None, names: Names) -> Expr | int | float:
     """A side of a comparison; beside an enumeration a name is a member, beside a number one has its unit."""
     match node:
-        case ast.Constant(int() | float() as number) if not isinstance(number, bool):
+        case ast.Constant(int() | float() as number) if not isinstance(number, bool) and isfinite(number):
             return number
-        case ast.UnaryOp(ast.USub(), ast.Constant(int() | float() as number)):
+        case ast.UnaryOp(ast.USub(), ast.Constant(int() | float() as number)) if isfinite(number):
             return -number
     if like is not None and isinstance(node, ast.Name) and node.id not in names.variables:
         return lift(node.id, like)
@@ -111,13 +110,13 @@ def _side(node: ast.expr, like: Enum | None, names: Names) -> Expr | int | float
     return _meant(node, names)
 
 
-def _dotted(node: ast.expr) -> str:
+def _dotted(node: ast.expr, names: Names) -> str:
     match node:
         case ast.Name(name):
             return name
         case ast.Attribute(inner, name):
-            return f"{_dotted(inner)}.{name}"
-    raise Refused(f"`{ast.unparse(node)}` has no meaning in a condition. {HELP}")
+            return f"{_dotted(inner, names)}.{name}"
+    raise _meaningless(node, names)
 
 
 def _named(name: str, names: Names) -> Expr:
@@ -133,13 +132,9 @@ def _named(name: str, names: Names) -> Expr:
             f"{chart} is a chart; write one of its states, such as {_a_state(names.charts[chart])}."
         )
     raise Refused(
-        f"There is no variable or state {name!r}. {did_you_mean(name, [*names.variables, *_states(names)])}"
+        f"There is no variable or state {name!r}. {did_you_mean(name, [*names.variables, *names.states])}"
     )
 
 
 def _a_state(chart: Chart) -> str:
     return next(f"{chart.name}.{'.'.join(path)}" for path in chart.states if path)
-
-
-def _states(names: Names) -> list[str]:
-    return [f"{c.name}.{'.'.join(path)}" for c in names.charts.values() for path in c.states if path]

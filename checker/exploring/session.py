@@ -5,8 +5,10 @@ from dataclasses import dataclass
 from random import Random
 
 from checker.exploring.admitted import KEPT, assumed, broken, drawn
-from checker.exploring.condition import Names, condition
-from checker.exploring.simulation import Refused, Simulation, value, variable
+from checker.exploring.condition import condition
+from checker.exploring.names import Names
+from checker.exploring.simulation import Simulation
+from checker.exploring.written import Refused, value, variable
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Expr
 from spec_model.lang.system import System

@@ -4,21 +4,16 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from checker.exploring.admitted import broken, conjuncts
+from checker.exploring.written import Refused, outside
 from checker.runs.replay import ReplayError, arrow_of
 from checker.trace import Tick, Trace
 from spec_model.lang.chart import Path, Transition
-from spec_model.lang.domain import Bool, Enum
-from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Expr, Var
+from spec_model.lang.expr import Expr
 from spec_model.lang.interpret import Fired, Interpreter
 from spec_model.lang.interpret.run import Testing, ValueOf
 from spec_model.lang.lower import lower
 from spec_model.lang.system import System
-
-
-class Refused(Exception):
-    """What a person asked for is not possible here; the sentence says why, and what is."""
 
 
 @dataclass(frozen=True)
@@ -173,32 +168,6 @@ class Simulation:
         for number in range(first, self.at + 1):
             arrows = tuple(map(arrow_of, self._moments[number - 1].fired))
             yield Tick(number, self.given(number), self.state(number), arrows)
-
-
-def outside(var: Var, written: str) -> str:
-    """That a value is none of a variable's."""
-    return f"{var.name} = {written} is outside its domain, {var.domain}."
-
-
-def variable(name: str, known: Mapping[str, Var], kind: str) -> Var:
-    """The variable of that name.  Raises ``Refused`` with the nearest names."""
-    if name not in known:
-        raise Refused(f"There is no {kind} {name!r}. {did_you_mean(name, known)}")
-    return known[name]
-
-
-def value(var: Var, written: str) -> int:
-    """The raw value of what a person wrote.  Raises ``Refused`` outside the domain."""
-    try:
-        if isinstance(var.sort, Bool) and written.lower() not in ("true", "false", "0", "1"):
-            raise Refused(f"{var.name} = {written}: {var.name} is a boolean; write true or false.")
-        if isinstance(var.sort, Enum) and written.lstrip("-").isdigit():
-            return var.domain.raw(int(written))
-        return var.domain.raw(written.lower() if isinstance(var.sort, Bool) else written)
-    except ModelError as error:
-        raise Refused(f"{var.name} = {written}: {error}") from None
-    except (ValueError, ZeroDivisionError):
-        raise Refused(f"{var.name} = {written} is no number; {var.name} is {var.domain}.") from None
 
 
 def _agree(read: Mapping[str, int], lowered: Mapping[str, int], tick: int) -> None:

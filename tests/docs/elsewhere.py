@@ -21,9 +21,11 @@ CROSSCHECKS = Instead(
 )
 COVERS = Instead("searches for minutes; tests/cli/test_testgen.py runs the command on small charts")
 OUTSIDE = Instead("a program that pip does not install; tests/export asks it where there is one")
-PICKS = Instead("the line `pytest` runs the same tests; tests/plugin picks some of them in these ways")
+PICKS = Instead("the tutorial runs tests of this kind; tests/plugin picks some of them in these ways")
 
 FAULTY = "c:examples/board1_c_faulty,map=examples/board1_c/map.toml"
+
+CHECKED = "rovercheck check --model heater.py"
 
 COMMANDS = {
     "mkdir tank": INSTALLS,
@@ -41,26 +43,30 @@ COMMANDS = {
     "rovercheck crosscheck --system board1 --impl c:FOLDER": CROSSCHECKS,
     "rovercheck crosscheck --system board1 --impl c:examples/board1_c": CROSSCHECKS,
     f"rovercheck crosscheck --system board1 --impl {FAULTY}": CROSSCHECKS,
+    "rovercheck doctor": Instead("tests/cli/test_doctor.py puts its questions to every engine"),
     "rovercheck testgen": COVERS,
     "rovercheck testgen --system board1 --cover arrows --cover pairs": COVERS,
     "rovercheck testgen --system Relay --cover boundaries": COVERS,
     "rovercheck testgen --format pytest -o tests_b1": COVERS,
     "rovercheck testgen --format c -o tests_c": COVERS,
+    "rovercheck testgen --kept": Instead("tests/cli/test_testgen.py writes the kept set of a board"),
     "rovercheck testgen --keep FOLDER": COVERS,
     "rovercheck testgen --keep checker/conform/cover/kept": COVERS,
     "rovercheck simulate SCENARIO.toml -o run.png": Instead(
-        "any scenario", "rovercheck simulate examples/scenarios/link_loss.toml -o run.svg"
+        "any scenario; tests/cli/test_simulate.py draws the pictures",
+        "rovercheck simulate examples/scenarios/link_loss.toml --log logs -o run.csv",
     ),
-    "rovercheck simulate SCENARIO.toml --log logs": Instead(
-        "any scenario", "rovercheck simulate examples/scenarios/link_loss.toml --log logs --no-plot"
-    ),
+    "rovercheck simulate SCENARIO.toml --log logs": Instead("the line with -o writes the log, too"),
     "rovercheck simulate SCENARIO.toml --no-plot": Instead("any scenario; the first line is run so"),
-    "rovercheck simulate examples/scenarios/link_loss.toml": Instead(
-        "draws the picture that `-o run.svg` draws below",
-        "rovercheck simulate examples/scenarios/link_loss.toml --no-plot",
-    ),
+    "rovercheck simulate examples/scenarios/link_loss.toml": Instead("the line below it runs this scenario"),
     "rovercheck report --output review.html": Instead(
-        "decides everything", "rovercheck report PB1-11 --no-repairs --output review.html"
+        "decides everything; the line with --full below it is run for one property"
+    ),
+    "rovercheck report --model examples/models/lift --output lift.html": Instead(
+        "the tutorial writes the page of a model; the README of this one checks it"
+    ),
+    "rovercheck report --model heater.py --output review.html": Instead(
+        "the tutorial writes the page of a model"
     ),
     "rovercheck report PB1-15 PB1-16 --output relay.html": Instead(
         "8 s: decides the repairs of both, too; the line before it writes the page of one property"
@@ -69,6 +75,13 @@ COMMANDS = {
         "decides everything",
         "rovercheck report PB1-11 --no-repairs --full --certify --explain --premises --output review.html",
     ),
+    "rovercheck check --model heater.py --junit rovercheck.xml": Instead(
+        "one run with the line below it",
+        f"{CHECKED} --junit rovercheck.xml --sarif rovercheck.sarif --annotations github",
+    ),
+    "rovercheck check --model heater.py --sarif rovercheck.sarif --annotations github": Instead(
+        "one run with the line above it"
+    ),
     "rovercheck check --junit verdicts.xml --sarif verdicts.sarif --annotations github": Instead(
         "decides everything",
         "rovercheck check PB1-11 --junit verdicts.xml --sarif verdicts.sarif --annotations github",
@@ -76,8 +89,16 @@ COMMANDS = {
     "rovercheck trace PB1-15 --witnesses 3": Instead(
         "35 s; tests/cli/test_trace_kinds.py asks for several runs"
     ),
+    "rovercheck trace PB1-15 --witnesses 3 --by reason": Instead(
+        "40 s; tests/cli/test_trace_explained.py tells runs of a small chart apart by their reasons"
+    ),
     "rovercheck trace --state Relay.B2_actuating": Instead(
-        "on the board it takes longer", "rovercheck trace --state Relay.B2_actuating --system relay"
+        "on the board it takes longer",
+        "rovercheck trace --state Relay.B2_actuating --system relay --no-explain",
+    ),
+    "rovercheck trace PB1-15 --format c -o pb1_15.c": Instead(
+        "explained in the run of the format before it",
+        "rovercheck trace PB1-15 --format c --no-explain -o pb1_15.c",
     ),
     "rovercheck trace --arrow 'Relay: B2_actuating -> B1_actuating'": Instead(
         "12 s; tests/cli/test_trace_kinds.py runs through an arrow"
@@ -95,6 +116,7 @@ COMMANDS = {
     'berkeley-abc -q "read_aiger PB1-15.aig; fold; bmc3"': OUTSIDE,
     "spin -a PB1-15.pml && gcc -O2 -DSAFETY -o pan pan.c && ./pan -m1000000": OUTSIDE,
     "nuXmv: read_model -i PB1-15.smv; go; check_invar": OUTSIDE,
+    "pytest": Instead("the tutorial runs it, with -q"),
     "pytest -k HEAT-3": PICKS,
     "pytest -k Heater": PICKS,
     "pytest -m \"rovercheck(system='Heater')\"": PICKS,

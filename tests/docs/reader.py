@@ -6,9 +6,10 @@ import re
 import shlex
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import chdir, redirect_stderr, redirect_stdout
 from dataclasses import dataclass, field
+from functools import cache
 from pathlib import Path
 from unittest.mock import patch
 
@@ -16,6 +17,8 @@ from checker.cli import run
 from docs.reference.listings import Listing, applied
 
 MARKS = "✓✗≈?"
+ANYWHERE = re.compile(r"(?:check|trace)(?: P[A-Z0-9]+-[0-9a-z]+)+")
+"""Questions about the rover alone: they read and write no file of the folder that one is in."""
 PROMPT = re.compile(r"^tick \d+, [\d.]+ m?s> (.+)$")
 
 
@@ -46,8 +49,10 @@ class Reader:
         """The exit code of a command, and all that it prints in a terminal of 80 columns."""
         words = shlex.split(command, comments=True)
         match words[0].rpartition("/")[2]:
+            case "rovercheck" if ANYWHERE.fullmatch(" ".join(words[1:])):
+                return _anywhere(*words[1:])
             case "rovercheck":
-                return self._rovercheck(words[1:])
+                return _rovercheck(words[1:], self.at)
             case "pytest":
                 return self._pytest(words[1:])
             case "cd":
@@ -55,22 +60,24 @@ class Reader:
                 return 0, ""
         raise AssertionError(f"nobody knows how to run `{command}`: add it to the table in elsewhere.py")
 
-    def _rovercheck(self, words: list[str]) -> tuple[int, str]:
-        kept = io.TextIOWrapper(io.BytesIO(), encoding="utf-8", write_through=True)
-        with (
-            chdir(self.at),
-            patch.dict(os.environ, COLUMNS="80"),
-            redirect_stdout(kept),
-            redirect_stderr(kept),
-        ):
-            code = run(words)
-        kept.seek(0)
-        return int(code), kept.read()
-
     def _pytest(self, words: list[str]) -> tuple[int, str]:
         command = [sys.executable, "-m", "pytest", "-p", "no:cacheprovider", *words]
         done = subprocess.run(command, cwd=self.at, capture_output=True, text=True, check=False)
         return done.returncode, done.stdout + done.stderr
+
+
+def _rovercheck(words: Sequence[str], folder: Path) -> tuple[int, str]:
+    kept = io.TextIOWrapper(io.BytesIO(), encoding="utf-8", write_through=True)
+    with chdir(folder), patch.dict(os.environ, COLUMNS="80"), redirect_stdout(kept), redirect_stderr(kept):
+        code = run([*words])
+    kept.seek(0)
+    return int(code), kept.read()
+
+
+@cache
+def _anywhere(*words: str) -> tuple[int, str]:
+    """One run for all pages that show it."""
+    return _rovercheck(words, Path())
 
 
 def session(shown: str) -> str:

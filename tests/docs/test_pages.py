@@ -120,7 +120,7 @@ def _typed(command: str, shown: str | None, reader: Reader, place: str) -> None:
     if asked is None:
         _understood(command)
         return
-    if shown and "explore" in asked and session(shown):
+    if shown and "explore" in asked and "--script" not in asked and session(shown):
         (reader.at / "typed.txt").write_text(session(shown), encoding="utf-8")
         asked += " --script typed.txt"
     code, printed = reader.type(asked)

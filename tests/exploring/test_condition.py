@@ -2,8 +2,9 @@
 
 import pytest
 
-from checker.exploring.condition import Names, condition
-from checker.exploring.simulation import Refused
+from checker.exploring.condition import condition
+from checker.exploring.names import Names
+from checker.exploring.written import Refused
 from spec_model.lang.evaluate import evaluate
 from tests.render import zoo
 
@@ -45,7 +46,12 @@ def test_a_condition_means_what_it_says(written: str, true: bool) -> None:
         ("Relay.Their", "no state 'Their'.*Did you mean"),
         ("Relay and alarm", "condition, such as a comparison"),
         ("Nested", "is a chart; write one of its states, such as Nested.Run"),
-        ("level", "needs a condition"),
+        (
+            "level",
+            "neither true nor false .*compare it. Write a state .Relay.Ours., a comparison .level > 0.,",
+        ),
+        ("level > 1e999", "`1e309` has no meaning"),
+        ("-1e999 < level", "has no meaning"),
         ("mode == LOUD", "no member of Mode"),
         ("mode < CRITICAL", "has no order"),
         ("level == speed", "mixes"),

@@ -4,7 +4,7 @@ import pytest
 
 from checker.exploring import session
 from checker.exploring.session import Session
-from checker.exploring.simulation import Refused
+from checker.exploring.written import Refused
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block
 from spec_model.lang.expr import flag

@@ -10,7 +10,8 @@ from hypothesis import strategies as st
 
 from checker.exploring import simulation
 from checker.exploring.admitted import broken, drawn
-from checker.exploring.simulation import Refused, Simulation, value
+from checker.exploring.simulation import Simulation
+from checker.exploring.written import Refused, value
 from checker.runs.replay import ReplayError
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block, Chart, State, to
