@@ -15,19 +15,26 @@ import click
 from checker import verbs
 from checker.commands.codes import Exit, UsageError
 from checker.commands.completing import completed
+from checker.commands.failing import no_room, told
 from checker.commands.helping import helped
 from checker.commands.output import err
 from checker.decide import Disagreement
 from checker.isolate import collect_seldom
-from checker.runs.replay import ReplayError
 from spec_model.lang.errors import ModelError, did_you_mean
 
 CODES = (
     "Exit codes: 0 all as expected; 1 a violation, or an expected violation that is gone; "
-    "2 inconclusive; 3 internal error, engines disagree or a proof is rejected; 4 usage or model error; "
-    "5 nothing to check; 130 interrupted."
+    "2 inconclusive, or no room for the output; 3 internal error, engines disagree or a proof is rejected; "
+    "4 usage or model error; 5 nothing to check; 130 interrupted."
 )
-ROOM = "Make room for it, or write elsewhere, and run the command again."
+
+EPILOG = f"""\b
+Begin:
+  rovercheck init heater        a small model of your own
+  rovercheck check --help       what a verb does, with examples
+  rovercheck doctor             whether everything works here
+
+{CODES}"""
 
 
 class Verbs(click.Group):
@@ -41,7 +48,8 @@ class Verbs(click.Group):
         return super().resolve_command(ctx, args)
 
 
-@click.group(cls=Verbs, epilog=CODES, context_settings={"help_option_names": ["-h", "--help"]})
+@click.group(cls=Verbs, epilog=EPILOG, context_settings={"help_option_names": ["-h", "--help"]})
+@click.version_option(None, "-V", "--version", package_name="rovercheck", message="%(prog)s %(version)s")
 def app() -> None:
     """Check the rover's supervisors: charts, properties, verdicts with evidence."""
 
@@ -84,9 +92,7 @@ def run(arguments: list[str]) -> Exit:
     except click.ClickException as error:
         return _say(error.format_message(), Exit.USAGE)
     except (UsageError, ModelError) as error:
-        return _say(str(error), Exit.USAGE)
-    except ReplayError as error:
-        return _say(f"INTERNAL: {error}", Exit.INTERNAL)
+        return _say(str(error), Exit.INCONCLUSIVE if no_room(error) else Exit.USAGE)
     except Disagreement as error:
         return _disagreeing(error, arguments)
     except (KeyboardInterrupt, click.Abort):
@@ -97,11 +103,11 @@ def run(arguments: list[str]) -> Exit:
         return Exit.INTERRUPTED
     except OSError as error:
         _write_no_more()
-        return _say(f"The operating system refuses: {error}. {ROOM}", Exit.INCONCLUSIVE)
-    except MemoryError:
-        return _say("Out of memory. Check fewer properties at once, or one --system.", Exit.INCONCLUSIVE)
+        return _say(told(error), Exit.INCONCLUSIVE)
+    except MemoryError as error:
+        return _say(told(error), Exit.INCONCLUSIVE)
     except Exception as error:
-        return _say(f"INTERNAL: {type(error).__name__}: {error}. {_where(error)}", Exit.INTERNAL)
+        return _say(told(error), Exit.INTERNAL)
 
 
 def _disagreeing(error: Disagreement, arguments: list[str]) -> Exit:
@@ -112,16 +118,7 @@ def _disagreeing(error: Disagreement, arguments: list[str]) -> Exit:
         kept = f"All of it is in {bundle(error, again(error, arguments), Path())}; please report it."
     except UsageError as problem:
         kept = str(problem)
-    return _say(f"INTERNAL: {error} At least one engine is wrong. {kept}", Exit.INTERNAL)
-
-
-def _where(error: Exception) -> str:
-    """Where an error of ours arose, for the report of it."""
-    last = error.__traceback__
-    while last is not None and last.tb_next is not None:
-        last = last.tb_next
-    place = "" if last is None else f" ({last.tb_frame.f_globals.get('__name__')}, line {last.tb_lineno})"
-    return f"This is a bug of rovercheck{place}; please report it with the command and the model."
+    return _say(f"{told(error)} {kept}", Exit.INTERNAL)
 
 
 def _say(message: str, code: Exit) -> Exit:

@@ -1,8 +1,10 @@
 """``rovercheck certify``: verdicts derived again from certificates, each checked by other means."""
 
+import json
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from contextlib import closing
+from dataclasses import asdict
 from pathlib import Path
 
 from checker.certify.check import Effort
@@ -17,14 +19,22 @@ from checker.model.load import load
 from checker.pool import Order, Pool
 
 WORKERS = 2
+SCHEMA = 1
+"""The version of the JSON document."""
 SIGNS = {Accepted: "✓", Rejected: "✗", Undecided: "?"}
+WORDS = {Accepted: "accepted", Rejected: "rejected", Undecided: "undecided"}
 _SHOWN = 300
 
 
 def certify(
-    paths: Sequence[Path], effort: Effort, smt2: Path | None, verbose: bool, model: Path | None = None
+    paths: Sequence[Path],
+    effort: Effort,
+    smt2: Path | None,
+    verbose: bool,
+    model: Path | None = None,
+    as_json: bool = False,
 ) -> Exit:
-    """One line for each property of the files, in no particular order of the files.
+    """One line for each property of the files, in no particular order of the files; or all of it as JSON.
 
     They are about the rover, or the model at a path.  Each file is checked in a child process, which may
     die of it.  Raises ``UsageError`` for what holds no certificates, and for a folder that cannot be
@@ -37,9 +47,14 @@ def certify(
         _folder(smt2)
     found: list[Told] = []
     for told in _told(written, Deriving(effort, smt2, model)):
-        out.print(line(told, verbose), markup=False)
+        if not as_json:
+            out.print(line(told, verbose), markup=False)
         found.append(told)
-    return summary(found, len(written))
+    if as_json:
+        print(json.dumps(document(found, len(written)), indent=2, ensure_ascii=False))
+    else:
+        summary(found, len(written))
+    return code(found)
 
 
 def files(paths: Sequence[Path]) -> Iterator[Path]:
@@ -110,11 +125,12 @@ def line(told: Told, verbose: bool) -> str:
     """Sign, id, outcome and why."""
     match told.outcome:
         case Accepted(how):
-            word, why = "accepted", f"{told.verdict}: {how}"
+            why = f"{told.verdict}: {how}"
         case Rejected(obligation, counterexample):
-            word, why = "rejected", f"{obligation}: {counterexample}"
+            why = f"{obligation}: {counterexample}"
         case Undecided(reason):
-            word, why = "undecided", reason
+            why = reason
+    word = WORDS[type(told.outcome)]
     cut = why if verbose or len(why) <= _SHOWN else f"{why[:_SHOWN]} … (all of it: -v)"
     return f"{SIGNS[type(told.outcome)]} {shown(f'{told.id:<21} {word:<9} {cut}')}"
 
@@ -124,14 +140,32 @@ def shown(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
-def summary(found: Sequence[Told], count: int) -> Exit:
-    """Counts, and the exit code."""
+def document(found: Sequence[Told], count: int) -> dict[str, object]:
+    """All of it for machines; ``checker/schemas/certify-1.json`` describes it."""
+    told = sorted(found, key=lambda one: one.id)
+    return {
+        "schema": f"rovercheck/certify/{SCHEMA}",
+        "exit": int(code(found)),
+        "files": count,
+        "properties": [
+            {"id": one.id, "outcome": WORDS[type(one.outcome)], "verdict": one.verdict, **asdict(one.outcome)}
+            for one in told
+        ],
+    }
+
+
+def code(found: Sequence[Told]) -> Exit:
+    """What is rejected counts first, then what is not decided."""
     kinds = [type(one.outcome) for one in found]
-    words = {Accepted: "accepted", Rejected: "rejected", Undecided: "undecided"}
-    counts = ", ".join(f"{kinds.count(k)} {word}" for k, word in words.items() if k in kinds)
-    told = counts or "nothing is proved in them"
-    size = f"{counted(len(found), 'property', 'properties')} in {counted(count, 'file', 'files')}"
-    out.print(f"\n{size}: {told}.", markup=False)
     if Rejected in kinds:
         return Exit.CHANGED
     return Exit.INCONCLUSIVE if Undecided in kinds else Exit.AS_EXPECTED if found else Exit.NOTHING
+
+
+def summary(found: Sequence[Told], count: int) -> None:
+    """Counts."""
+    kinds = [type(one.outcome) for one in found]
+    counts = ", ".join(f"{kinds.count(k)} {word}" for k, word in WORDS.items() if k in kinds)
+    told = counts or "nothing is proved in them"
+    size = f"{counted(len(found), 'property', 'properties')} in {counted(count, 'file', 'files')}"
+    out.print(f"\n{size}: {told}.", markup=False)

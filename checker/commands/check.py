@@ -17,10 +17,10 @@ from checker.engine import Limits
 from checker.render.story import repeating
 from checker.result import Result
 from checker.searches import Doing, Over, searches
-from checker.trace import Trace
+from checker.trace import Trace, counted_ticks
 from checker.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
 from properties.catalogue import Expected, expected
-from properties.forms import Property
+from properties.forms import Property, Reachable
 from spec_model.lang.system import System
 
 SCHEMA = 1
@@ -154,6 +154,7 @@ def check(
     if as_json:
         print(json.dumps(document(found, complete=True), indent=2))
     elif not quiet:
+        out.print()
         summary(found, options)
     deliver(found, len(properties))
     return worst(found)
@@ -190,7 +191,7 @@ def in_short(result: Result) -> str:
     verdict, system = result.verdict, result.system
     match verdict:
         case Unknown(reason, depth):
-            return f"after {depth} ticks of {system}: {reason}"
+            return f"after {counted_ticks(depth)} of {system}: {reason}"
         case Proved((Exhausted() | Inductive()) as evidence_, _, claim):
             return f"{evidence_.how} of {system}" + (f", {claim}" if claim else "")
         case Violated((Exhausted() | Inductive()) as evidence_):
@@ -203,7 +204,7 @@ def in_short(result: Result) -> str:
 
 
 def recorded(entry: Expected) -> str:
-    depth = f" after {entry.depth} ticks" if entry.depth is not None else ""
+    depth = f" after {counted_ticks(entry.depth)}" if entry.depth is not None else ""
     return f"{entry.verdict}{depth}"
 
 
@@ -212,7 +213,8 @@ def evidence(result: Result) -> str:
     verdict = result.verdict
     match verdict:
         case Unknown(reason, depth, engine):
-            return f"{engine} on {result.system}, no counterexample within {depth} ticks: {reason}"
+            none = "no run to it" if isinstance(result.property.form, Reachable) else "no counterexample"
+            return f"{engine} on {result.system}, {none} within {counted_ticks(depth)}: {reason}"
         case Proved((Exhausted() | Inductive()) as shown, engine, claim):
             whole = f"{engine}: {shown.how} of {result.system}"
             whole += f", depth {shown.depth}" if isinstance(shown, Exhausted) else ""
@@ -229,7 +231,7 @@ def evidence(result: Result) -> str:
 def ticks(trace: Trace) -> str:
     """``155 ticks = 3.1 s``, and how many of them repeat for ever."""
     seconds = len(trace) * trace.tick_ms / 1000
-    return f"{len(trace)} tick{'s' * (len(trace) != 1)} = {seconds:g} s{repeating(trace)}"
+    return f"{counted_ticks(len(trace))} = {seconds:g} s{repeating(trace)}"
 
 
 def summary(found: Sequence[Compared], options: str = "") -> None:
@@ -237,7 +239,7 @@ def summary(found: Sequence[Compared], options: str = "") -> None:
     words = [c.verdict.word for c in found]
     counts = ", ".join(f"{words.count(w)} {w}" for w in ("proved", "violated", "unknown") if w in words)
     changed = [c for c in found if not c.as_expected]
-    out.print(f"\n{counted(len(found), 'property', 'properties')}: {counts}.", markup=False)
+    out.print(f"{counted(len(found), 'property', 'properties')}: {counts}.", markup=False)
     parts = sum(c.result.in_part for c in found)
     if parts:
         out.print(f"≈ {parts} of them for some runs only: see the notes of their systems.", markup=False)

@@ -3,20 +3,22 @@
 import os
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
+from secrets import token_hex
 
 from checker.certify.outcome import Rejected
 from checker.commands.check import Compared, evidence, length, recorded
 from checker.commands.codes import Exit, UsageError
-from checker.commands.output import write
+from checker.commands.output import possible, write
 from checker.render.ci import Finding, Level, Report
 from checker.render.ci.github import annotations, summary
 from checker.render.ci.junit import junit
 from checker.render.ci.sarif import sarif
-from checker.trace import Trace
+from checker.trace import Trace, counted_ticks
 from checker.verdict import Exhausted, Unknown, Violated
 from properties.english import definitions, sentence
+from properties.forms import Reachable
 from spec_model.lang.system import System
 
 SUMMARY = "GITHUB_STEP_SUMMARY"
@@ -37,12 +39,23 @@ class Reports:
     variant: str = ""
     options: str = ""
     as_json: bool = False
+    _token: str = field(default_factory=token_hex, init=False)
+    """What makes the runner of GitHub look for commands again; nobody who writes a model knows it."""
+
+    @property
+    def _in_log(self) -> bool:
+        """Whether annotations stand in the log behind what people read."""
+        return bool(self.annotations) and not self.as_json
 
     def possible(self) -> None:
-        """Raises ``UsageError`` when a file cannot be written, before anything is decided."""
-        for file in filter(None, (self.junit, self.sarif)):
-            if not file.absolute().parent.is_dir():
-                raise UsageError(f"Cannot write {file}: {file.parent} is no folder. Make it first.")
+        """Raises ``UsageError`` when a file cannot be written, before anything is decided.
+
+        What is printed from now on, until the annotations, commands nothing on GitHub, whatever a model says.
+        """
+        possible(self.junit)
+        possible(self.sarif)
+        if self._in_log:
+            print(f"::stop-commands::{self._token}", flush=True)
 
     def write(self, found: Sequence[Compared], wanted: int) -> None:
         """Write all of them.  Raises ``UsageError`` for a place that cannot be written."""
@@ -50,10 +63,10 @@ class Reports:
         report = Report(findings, wanted, self.variant)
         if self.annotations:
             text = annotations(report)  # the runner reads both streams
-            if self.as_json:
+            if self._in_log:
+                write(f"::{self._token}::\n{text}", None)
+            else:
                 print(text, end="", file=sys.stderr)
-            elif text:
-                write(text, None)
             _summarised(report)
         if self.junit:
             write(junit(report), self.junit)
@@ -119,7 +132,8 @@ def _details(compared: Compared) -> dict[str, str]:
     """Engine, states and bound."""
     verdict, found = compared.verdict, {"engine": compared.verdict.engine}
     if isinstance(verdict, Unknown):
-        return {**found, "bound": f"{verdict.depth} ticks without a counterexample"}
+        none = "no run to it" if isinstance(compared.result.property.form, Reachable) else "no counterexample"
+        return {**found, "bound": f"{none} within {counted_ticks(verdict.depth)}"}
     if isinstance(verdict.because, Exhausted):
         found["states"] = str(verdict.because.states)
     ticks = length(verdict)

@@ -9,6 +9,7 @@ from checker.commands.codes import Exit, UsageError
 from checker.commands.conforming_json import as_json
 from checker.commands.conforming_text import page, summary
 from checker.commands.output import err, out
+from checker.commands.silence import silent
 from checker.commands.variant import Variant, pick_variant
 from checker.conform.logs import Against, LogError, Map, Result, examine, read_map
 from checker.conform.varied import varied
@@ -93,7 +94,7 @@ def _folder(folder: Path, asked: Asked) -> Exit:
         return Exit.NOTHING
     found: dict[str, Outcome] = {}
     for number, log in enumerate(logs, 1):
-        if err.is_terminal:
+        if err.is_terminal and not silent():
             err.print(f"{number} of {len(logs)}: {log.name}", markup=False)
         found[log.name] = asked.examined(log)
     if asked.as_json:

@@ -105,7 +105,7 @@ def of_state(wanted: str, systems: Mapping[str, System], system: str | None) -> 
     found = reachable(
         id, f"The {id} can be reached.", that=chart.active_path(path), covers=COVERS, on=on.name
     )
-    return Wanted(found, systems, _unrecorded, example=True)
+    return Wanted(_unwritten(found), systems, _unrecorded, example=True)
 
 
 def of_arrow(wanted: str, systems: Mapping[str, System], system: str | None) -> Wanted:
@@ -119,7 +119,12 @@ def of_arrow(wanted: str, systems: Mapping[str, System], system: str | None) -> 
     id = f"arrow {name}: {goal.text}"
     found = reachable(id, f"The {id} can be taken.", that=goal.flag, covers=COVERS, on=on.name)
     there = {**systems, on.name: looked.system}
-    return Wanted(found, there, _unrecorded, example=True, plain=on, watched=looked)
+    return Wanted(_unwritten(found), there, _unrecorded, example=True, plain=on, watched=looked)
+
+
+def _unwritten(made: Property) -> Property:
+    """A property that nobody wrote: no line of a file leads to it."""
+    return replace(made, place=None)
 
 
 def _arrow(chart: str, wanted: str, goals: Sequence[Goal]) -> Goal:

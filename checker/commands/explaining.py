@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from time import monotonic
+from time import process_time
 
 from checker.commands.output import err
 from checker.commands.progress import Watch
@@ -13,7 +13,7 @@ from properties.forms import Property
 from spec_model.lang.system import System
 
 SECONDS = 10.0
-"""For an explanation that was not asked for."""
+"""Of computing, for an explanation that was not asked for: however busy the machine, it is the same."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Explaining:
         if why := unexplained(trace):
             err.print(f"What forces it is not looked for: {why}.", markup=False)
             return trace
-        start, task = monotonic(), f"{prop.id}: what forces it"
+        start, task = process_time(), f"{prop.id}: what forces it"
         try:
             with Watch(err, 1) as watch:
                 return explained(
@@ -43,7 +43,7 @@ class Explaining:
                     prop,
                     systems[trace.system],
                     lambda line: watch.say(task, line),
-                    lambda: self.seconds is not None and monotonic() - start > self.seconds,
+                    lambda: self.seconds is not None and process_time() - start > self.seconds,
                 )
         except OutOfTime as late:
             err.print(f"What forces it is not known: {late}. Wait for it with --explain.", markup=False)

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from checker.commands.codes import Exit, UsageError
-from checker.commands.output import err, write
+from checker.commands.output import err, write, wrote
 from checker.commands.select import pick, pick_properties
 from checker.commands.variant import Variant
 from checker.export import Exporter, exporters, problem
@@ -37,7 +37,9 @@ def export(
         [prop] = chosen
         data = _exported(prop, systems[prop.on], exporter, variant.name)
         into = output is not None and output.is_dir()
-        write(data, output / file_name(prop.id, exporter) if output is not None and into else output)
+        target = output / file_name(prop.id, exporter) if output is not None and into else output
+        write(data, target)
+        wrote(target)
         return Exit.AS_EXPECTED
     return _several(chosen, systems, exporter, variant.name, output)
 
@@ -60,7 +62,9 @@ def _several(
             refused.append(error)
             err.print(f"{prop.id} is left out: {error}", markup=False)
             continue
-        write(data, output / file_name(prop.id, exporter))
+        target = output / file_name(prop.id, exporter)
+        write(data, target)
+        wrote(target)
     if len(refused) == len(chosen):
         raise refused[0]
     return Exit.AS_EXPECTED

@@ -12,6 +12,7 @@ from rich.status import Status
 from checker.commands.codes import Exit, UsageError
 from checker.commands.output import counted, err, out, write
 from checker.commands.progress import PAUSE
+from checker.commands.silence import silent
 from checker.conform.cover import kept_text
 from checker.conform.cover.coverage import Coverage, Effort, cover
 from checker.conform.cover.fingerprint import fingerprint
@@ -133,7 +134,9 @@ class Line:
     """One line on a terminal, a line every ten seconds in a log."""
 
     def __init__(self) -> None:
-        self._status = Status("starting", console=err) if err.is_terminal else None
+        self._silent = silent()
+        shown = err.is_terminal and not self._silent
+        self._status = Status("starting", console=err) if shown else None
         self._last = monotonic()
 
     def __enter__(self) -> "Line":
@@ -151,7 +154,7 @@ class Line:
     def show(self, line: str) -> None:
         if self._status:
             self._status.update(line[: err.width - 4])
-        elif monotonic() - self._last >= PAUSE:
+        elif not self._silent and monotonic() - self._last >= PAUSE:
             self._last = monotonic()
             err.print(line, markup=False)
 
@@ -227,9 +230,13 @@ def _wrapped(text: str, first: str, then: str) -> list[str]:
 
 
 def document(found: Sequence[Generated]) -> dict[str, object]:
-    """All of it for machines."""
-    complete = not any(one.interrupted for one in found)
-    return {"schema": SCHEMA, "complete": complete, "boards": [_board(one) for one in found]}
+    """All of it for machines; ``checker/schemas/testgen-1.json`` describes it."""
+    return {
+        "schema": f"rovercheck/testgen/{SCHEMA}",
+        "complete": not any(one.interrupted for one in found),
+        "exit": int(_code(found)),
+        "boards": [_board(one) for one in found],
+    }
 
 
 def _board(one: Generated) -> dict[str, object]:

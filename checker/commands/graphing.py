@@ -7,7 +7,7 @@ from pathlib import Path
 from checker.commands.check import evidence, results
 from checker.commands.codes import Exit, UsageError
 from checker.commands.graphing_offers import offered, projections
-from checker.commands.output import err, out, write
+from checker.commands.output import err, out, write, wrote
 from checker.commands.progress import Watch
 from checker.commands.select import pick
 from checker.commands.variant import Variant
@@ -59,6 +59,7 @@ def graph(name: str, view: View, format: str, variant: Variant, output: Path | N
     chart = pick("chart or system", name, dict.fromkeys(by_name) | drawn)
     renderer = pick("chart format", format, renderers("statechart"))
     write(renderer.render(chart), output)
+    wrote(output)
     return Exit.AS_EXPECTED
 
 
@@ -93,6 +94,7 @@ def _states(system: System, view: View, format: str, variant: Variant, output: P
         write(told(shown, min(out.width, 100)), output)
     else:
         write(_picture(renderer, found, shown, view, _options(variant)), output)
+        wrote(output)
         err.print(told(shown, min(err.width, 100)), markup=False, end="")
     return Exit.INCONCLUSIVE if shown.cut else Exit.AS_EXPECTED
 
@@ -105,11 +107,11 @@ def _about(system: System, prop: Property, by_name: Mapping[str, System] | None 
     return prop
 
 
-def _monitored(system: System, prop: Property | None) -> tuple[TransitionSystem, str, str]:
+def _monitored(system: System, prop: Property | None) -> tuple[TransitionSystem, tuple[str, ...], str]:
     """The system with the monitor of a property, the variable that is 1 where it is broken, and in words."""
     lowered = lower(system)
     if prop is None:
-        return lowered, "", ""
+        return lowered, (), ""
     _about(system, prop)
     if isinstance(prop.form, Unbounded):
         raise UsageError(
@@ -117,7 +119,7 @@ def _monitored(system: System, prop: Property | None) -> tuple[TransitionSystem,
         )
     question = reduce(lowered, [prop])
     word = "reached" if isinstance(prop.form, Reachable) else "broken"
-    return question.system, question.goals[0].var.name, f"{prop.id} is {word}"
+    return question.system, (question.goals[0].var.name,), f"{prop.id} is {word}"
 
 
 def _trace(prop: Property, systems: Mapping[str, System]) -> Trace | None:

@@ -1,5 +1,6 @@
 """``rovercheck list``: what there is."""
 
+import json
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from textwrap import fill
@@ -7,6 +8,7 @@ from textwrap import fill
 from rich.table import Table
 
 from checker.commands.codes import Exit, UsageError
+from checker.commands.listing_json import document
 from checker.commands.output import out
 from checker.commands.select import pick_properties
 from checker.commands.wording import in_english
@@ -131,27 +133,35 @@ OTHERS: dict[str, Callable[[], None]] = {
 }
 
 
-def listing(what: str, ids: Sequence[str] = (), english: bool = False, path: Path | None = None) -> Exit:
+def listing(
+    what: str,
+    ids: Sequence[str] = (),
+    english: bool = False,
+    path: Path | None = None,
+    as_json: bool = False,
+) -> Exit:
     """Print one of the lists, of the rover or the model at a path; of the properties those of ``ids``.
 
-    With ``english`` these are told in words.  Raises ``UsageError`` for ids or ``english`` with another
-    list, and for a list that only the rover has.
+    With ``english`` these are told in words, which JSON has in any case.  Raises ``UsageError`` for ids or
+    ``english`` with another list, and for a list that only the rover has.
     """
-    if what == "properties":
-        model = _model(path)
-        show = in_english if english else list_properties
-        show(pick_properties(ids, None, model.stated(), full=True), model)
-    elif ids or english:
+    if what != "properties" and (ids or english):
         raise UsageError(
             f"Ids and --english choose among properties; write `rovercheck list {what}` without them, "
             "or `rovercheck list properties [ID]... --english`."
         )
-    elif what in LISTS:
-        LISTS[what](_model(path))
-    elif path is not None and what != "engines":
+    if path is not None and what in OTHERS and what != "engines":
         raise UsageError(f"No model of your own has {what}; write `rovercheck list {what}` without --model.")
-    else:
+    model = None if what in OTHERS else _model(path)
+    chosen = pick_properties(ids, None, model.stated(), full=True) if model and what == "properties" else []
+    if as_json:
+        print(json.dumps(document(what, chosen, model), indent=1, ensure_ascii=False))
+    elif model is None:
         OTHERS[what]()
+    elif what in LISTS:
+        LISTS[what](model)
+    else:
+        (in_english if english else list_properties)(chosen, model)
     return Exit.AS_EXPECTED
 
 

@@ -8,6 +8,7 @@ from typing import Any
 import click
 
 from checker.commands.codes import Exit
+from checker.commands.silence import silence
 from checker.decide import AUTO
 from checker.engine import Timers
 
@@ -53,6 +54,18 @@ def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
     for option in reversed(options):
         command = option(command)
     return command
+
+
+def quietly(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The option of every verb that says meanwhile what it does."""
+    return click.option(
+        "--quiet",
+        "-q",
+        is_flag=True,
+        expose_value=False,
+        callback=silence,
+        help="Only what is found, and no progress.",
+    )(command)
 
 
 class ModelPath(click.Path):

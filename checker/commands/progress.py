@@ -6,6 +6,8 @@ from types import TracebackType
 from rich.console import Console
 from rich.status import Status
 
+from checker.commands.silence import silent
+
 PAUSE = 10.0
 """Seconds between two lines in a log."""
 NARROW = 20
@@ -17,13 +19,13 @@ class Watch:
 
     def __init__(self, console: Console, total: int, quiet: bool = False) -> None:
         self._console = console
-        self._quiet = quiet
+        self._quiet = quiet or silent()
         self._total = total
         self._done = 0
         self._doing: dict[str, str] = {}
         self._last = monotonic()
         self._status: Status | None = (
-            Status("starting", console=console) if console.is_terminal and not quiet else None
+            Status("starting", console=console) if console.is_terminal and not self._quiet else None
         )
 
     def __enter__(self) -> "Watch":

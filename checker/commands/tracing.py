@@ -11,12 +11,14 @@ from checker.commands.codes import Exit, UsageError
 from checker.commands.examples import Wanted
 from checker.commands.exits import exit_written
 from checker.commands.explaining import Explaining
-from checker.commands.output import err, out, write
+from checker.commands.output import err, out, possible, write, wrote
 from checker.commands.progress import Watch
 from checker.commands.select import pick
 from checker.engine import Limits
 from checker.explain.others import NoMore, Others
+from checker.explain.unlike import Unlike
 from checker.render import Renderer, named, renderers
+from checker.render.reasons import in_reason
 from checker.render.trace_markdown import SPECIAL
 from checker.trace import Trace
 from checker.verdict import Unknown
@@ -40,15 +42,27 @@ class Showing:
     output: Path | None = None
     explaining: Explaining = field(default_factory=Explaining)
     runs: int = 1
+    by: str = "arrows"
+    """In what several runs differ: the ``arrows`` that they take, or the ``reason`` of their end."""
 
     def check(self, prop: Property) -> None:
-        """Raises ``UsageError`` for a format that there is not, or that cannot show several runs."""
+        """Raises ``UsageError`` for a format that there is not, that cannot show several runs, or for a place
+        that cannot be written.
+        """
+        possible(self.output)
         if named("trace", self.format) is None:
             pick("trace format", self.format, renderers("trace"))
         if self.runs > 1 and self.format not in FOR_READERS:
             raise UsageError(
                 f"--witnesses shows several runs, and a file of the format {self.format} holds one; "
                 f"write --format {' or '.join(FOR_READERS)}, or leave --witnesses out."
+            )
+        if self.runs == 1 and self.by != "arrows":
+            raise UsageError("--by says in what several runs are to differ; add --witnesses N.")
+        if self.by == "reason" and not self.explaining.wanted:
+            raise UsageError(
+                "--by reason compares what forces runs, which --no-explain does not look for; "
+                "leave one of them out."
             )
         if self.runs > 1 and isinstance(prop.form, Unbounded):
             raise UsageError(
@@ -96,8 +110,9 @@ def trace(
         return Exit.AS_EXPECTED
     first = wanted.drawn(showing.explaining(verdict.because, prop, systems))
     renderer = showing.renderer
-    for other in exit_written(renderer, showing.cut(first), systems, showing.output, showing.everything):
-        err.print(f"Also written: {other}", markup=False)
+    others = exit_written(renderer, showing.cut(first), systems, showing.output, showing.everything)
+    for place in (showing.output, *others):
+        wrote(place)
     return Exit.AS_EXPECTED
 
 
@@ -122,33 +137,59 @@ def _show_several(wanted: Wanted, first: Trace, engine: str, limits: Limits, sho
         told.append(text)
     if showing.output is not None:
         write("".join(told), showing.output)
+        wrote(showing.output)
 
 
 def _several(wanted: Wanted, first: Trace, engine: str, limits: Limits, showing: Showing) -> Iterator[str]:
     """The text of several runs, each with what makes it different."""
     prop, system = wanted.property, wanted.systems[first.system]
-
-    def shown(trace: Trace) -> str:
-        return _rendered(wanted.drawn(showing.explaining(trace, prop, wanted.systems)), showing)
-
-    yield _heading("Run 1", [], showing) + shown(first)
-    others = Others(first, prop, system, wanted.watched)
     limits = limits if limits.seconds is not None else replace(limits, seconds=SECONDS)
+    runs = [showing.explaining(first, prop, wanted.systems)]
+    yield _heading("Run 1", [], showing) + _rendered(wanted.drawn(runs[0]), showing)
+    by_arrows = Others(first, prop, system, wanted.watched) if showing.by == "arrows" else None
+    by_reason = Unlike(prop, system)
     for number in range(2, showing.runs + 1):
-        with Watch(err, 1) as watch:
-            other = others.next(engine, limits, partial(watch.say, f"{prop.id}: run {number}"))
-        if isinstance(other, NoMore):
-            yield _heading(f"No run {number}", _no_more(other, system), showing)
+        if by_arrows is None and runs[-1].needed is None:
+            unknown = (
+                f"What forces run {number - 1} is not known, so that no other reason can be told from it."
+            )
+            yield _heading(f"No run {number}", [unknown], showing)
             return
-        unlike = [f"Unlike run {i} it {d}." for i, d in enumerate(other.differences, 1)]
-        yield _heading(f"Run {number}", unlike, showing) + shown(other.trace)
+        with Watch(err, 1) as watch:
+            say = partial(watch.say, f"{prop.id}: run {number}")
+            other = (
+                by_arrows.next(engine, limits, say)
+                if by_arrows is not None
+                else by_reason.next(runs, engine, limits, say)
+            )
+        if isinstance(other, NoMore):
+            yield _heading(f"No run {number}", _no_more(other, system, showing.by), showing)
+            return
+        trace, differences = (other, ()) if isinstance(other, Trace) else (other.trace, other.differences)
+        runs.append(showing.explaining(trace, prop, wanted.systems))
+        differences = differences or tuple(in_reason(runs[-1], earlier) for earlier in runs[:-1])
+        unlike = [f"Unlike run {i} it {d}." for i, d in enumerate(differences, 1)]
+        yield _heading(f"Run {number}", unlike, showing) + _rendered(wanted.drawn(runs[-1]), showing)
 
 
-def _no_more(found: NoMore, system: System) -> list[str]:
+NO_MORE = {
+    "arrows": (
+        "No other was found that takes other arrows",
+        "Every other run to this end takes the same arrows as one of these",
+    ),
+    "reason": (
+        "No other was found that ends so for another reason",
+        "Whenever another run first comes to this end, its last ticks are as one of these needs them",
+    ),
+}
+"""What is said when there is no further run: not proved, and proved."""
+
+
+def _no_more(found: NoMore, system: System, by: str) -> list[str]:
+    unproved, proved = NO_MORE[by]
     if not found.proved:
-        none = "No other was found that takes other arrows; that there is none is not proved"
-        return [f"{none}: {found.reason}."]
-    every = f"Every other run to this end takes the same arrows as one of these: {found.reason}."
+        return [f"{unproved}; that there is none is not proved: {found.reason}."]
+    every = f"{proved}: {found.reason}."
     return [every, _only_some(system.name)] if system.under else [every]
 
 

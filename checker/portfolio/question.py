@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from checker.engine import Progress, quiet
+from checker.trace import counted_ticks
 from checker.verdict import Answer, Evidence, Exhausted, Open, Reached, Unreachable
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
@@ -76,11 +77,11 @@ def in_words(answer: Answer) -> str:
     """``after 8 ticks``, ``never: all 154 valuations``, ``not within 300 ticks: the time limit ...``."""
     match answer:
         case Reached(run):
-            return f"after {len(run)} tick{'s' * (len(run) != 1)}"
+            return f"after {counted_ticks(len(run))}"
         case Unreachable(because):
             return f"never: {because.how}"
         case Open(reason, depth):
-            return f"not within {depth} ticks: {reason}"
+            return f"not within {counted_ticks(depth)}: {reason}"
 
 
 def light(answer: Answer) -> Answer:

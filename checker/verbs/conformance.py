@@ -7,7 +7,7 @@ from typing import Any
 import click
 
 from checker.commands.codes import Exit
-from checker.commands.options import SECONDS, writing
+from checker.commands.options import SECONDS, quietly, writing
 from checker.isolate import prepared
 
 
@@ -53,6 +53,7 @@ def simulate(scenario: Path, log: Path | None, no_plot: bool, output: Path | Non
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option("--verbose", "-v", is_flag=True, help="Every property, also those that say nothing.")
 @_changing
+@quietly
 def conform(
     place: Path,
     map_file: Path | None,
@@ -88,6 +89,7 @@ def conform(
     help="Write a test for each mismatch there, not here.",
 )
 @_changing
+@quietly
 def crosscheck(
     system: str | None,
     impl: str | None,
@@ -162,6 +164,7 @@ def crosscheck(
     metavar="DIR",
     help="The folder to write into.",
 )
+@quietly
 def testgen(
     names: tuple[str, ...],
     kinds: tuple[str, ...],

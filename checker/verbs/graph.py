@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from checker.commands.codes import Exit
-from checker.commands.options import GIB, SECONDS, modelling, varying, writing
+from checker.commands.options import GIB, SECONDS, modelling, quietly, varying, writing
 
 EXAMPLES = """\b
 Examples:
@@ -48,6 +48,7 @@ Examples:
 @modelling
 @varying
 @writing
+@quietly
 def graph(
     name: str,
     project: str | None,

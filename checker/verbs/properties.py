@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from checker.commands.codes import Exit
-from checker.commands.options import SECONDS, modelling, varying, writing
+from checker.commands.options import SECONDS, modelling, quietly, varying, writing
 
 LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs", "assumptions", "engines")
 
@@ -22,6 +22,9 @@ LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs
 @click.option("--smt2", type=click.Path(path_type=Path), metavar="DIR", help="Write the obligations there.")
 @click.option("--timeout", type=SECONDS, metavar="SEC", help="Seconds per certificate.")
 @click.option("--verbose", "-v", is_flag=True, help="The whole valuation that refutes a certificate.")
+@click.option(
+    "--json", "as_json", is_flag=True, help="The outcomes as JSON (checker/schemas/certify-1.json)."
+)
 @modelling
 def certify(
     paths: tuple[Path, ...],
@@ -29,31 +32,34 @@ def certify(
     smt2: Path | None,
     timeout: float | None,
     verbose: bool,
+    as_json: bool,
     model: Path | None,
 ) -> Exit:
     """Check the certificates of proofs again, by other means than found them."""
     from checker.certify.check import By, Effort
     from checker.commands.certifying import certify as run
 
-    return run(paths, Effort(By(solver), timeout), smt2, verbose, model)
+    return run(paths, Effort(By(solver), timeout), smt2, verbose, model, as_json)
 
 
 @click.command("list", short_help="List properties, systems, engines and so on.")
 @click.argument("what", type=click.Choice(LISTS), metavar="WHAT")
 @click.argument("ids", nargs=-1, metavar="[ID]...")
 @click.option("--english", is_flag=True, help="What is checked of each property, in words.")
+@click.option("--json", "as_json", is_flag=True, help="The list as JSON (checker/schemas/list-1.json).")
 @modelling
-def list_(what: str, ids: tuple[str, ...], english: bool, model: Path | None) -> Exit:
+def list_(what: str, ids: tuple[str, ...], english: bool, as_json: bool, model: Path | None) -> Exit:
     """List WHAT: properties, systems, charts, requirements, readings, repairs, assumptions or engines."""
     from checker.commands.listing import listing
 
-    return listing(what, ids, english, model)
+    return listing(what, ids, english, model, as_json)
 
 
 @click.command(short_help="Show which properties cover each requirement.")
 @click.option("--check", "decide", is_flag=True, help="Decide the verdicts now, instead of the baseline's.")
 @click.option("--json", "as_json", is_flag=True, help="The matrix as JSON.")
 @modelling
+@quietly
 def requirements(decide: bool, as_json: bool, model: Path | None) -> Exit:
     """Show which properties cover each requirement; exit code 1 if none does and no reason is given."""
     from checker.commands.requirements import requirements as run
@@ -76,6 +82,7 @@ def requirements(decide: bool, as_json: bool, model: Path | None) -> Exit:
 @modelling
 @varying
 @writing
+@quietly
 def export(
     ids: tuple[str, ...],
     system: str | None,
@@ -96,6 +103,7 @@ def export(
 @click.command(short_help="Write the evidence: verdicts, diagrams, findings.")
 @click.option("--stale", is_flag=True, help="Write nothing; say what is out of date (exit code 1).")
 @writing
+@quietly
 def reports(stale: bool, output: Path | None) -> Exit:
     """Write the evidence: verdict table, diagrams, a page per counterexample."""
     from checker.commands.reporting import reports as run

@@ -7,7 +7,7 @@ import click
 from click.core import ParameterSource
 
 from checker.commands.codes import Exit
-from checker.commands.options import GIB, modelling, searching, varying
+from checker.commands.options import GIB, modelling, quietly, searching, varying
 from checker.engine import Limits, Timers
 from checker.isolate import prepared
 
@@ -49,6 +49,7 @@ FILE = "FILE"
 @modelling
 @varying
 @searching
+@quietly
 @click.pass_context
 def report(
     context: click.Context,
@@ -103,7 +104,9 @@ def command(context: click.Context) -> str:
     words = ["rovercheck", "report"]
     for param in context.command.params:
         name = param.name or ""
-        value = context.params[name]
+        value = context.params.get(name)  # --quiet has none: it says nothing of the page
+        if value is None:
+            continue
         if isinstance(param, click.Argument):
             words += value
         elif context.get_parameter_source(name) is ParameterSource.COMMANDLINE:

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from checker.commands.codes import Exit
-from checker.commands.options import modelling, searching, varying, writing
+from checker.commands.options import modelling, quietly, searching, varying, writing
 from checker.engine import Limits, Timers
 
 
@@ -32,12 +32,20 @@ from checker.engine import Limits, Timers
     type=click.IntRange(min=1),
     default=1,
     metavar="N",
-    help="So many runs, each with other arrows than those before.",
+    help="So many runs, each with other arrows than those before, or for another reason.",
+)
+@click.option(
+    "--by",
+    type=click.Choice(["arrows", "reason"]),
+    default="arrows",
+    show_default=True,
+    help="With --witnesses: in what runs differ, the arrows they take or the inputs they need.",
 )
 @modelling
 @varying
 @searching
 @writing
+@quietly
 def trace(
     id: str | None,
     state: str | None,
@@ -47,6 +55,7 @@ def trace(
     everything: bool,
     explain: bool | None,
     witnesses: int,
+    by: str,
     model: Path | None,
     chosen: tuple[str, ...],
     repair: str | None,
@@ -75,5 +84,5 @@ def trace(
     variant = pick_variant(chosen, repair, dropped, model)
     wanted = asked(variant, id, state, arrow, system)
     limits = Limits(depth, timeout, timers=Timers(timers))
-    showing = Showing(format, everything, output, Explaining.chosen(explain), witnesses)
+    showing = Showing(format, everything, output, Explaining.chosen(explain), witnesses, by)
     return run(wanted, pick_engine(engine), limits, showing)

@@ -9,11 +9,14 @@ from collections.abc import Mapping, Sequence
 from time import monotonic
 
 OWN_TERMINAL = """
-import fcntl, os, sys, termios
+import fcntl, os, signal, sys, termios
+for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
+    signal.signal(number, signal.SIG_DFL)
+signal.pthread_sigmask(signal.SIG_SETMASK, [])
 fcntl.ioctl(0, termios.TIOCSCTTY, 0)
 os.execvp(sys.argv[1], sys.argv[1:])
 """
-"""Makes the terminal the controlling one, so that Ctrl-C reaches the program."""
+"""Makes the terminal the controlling one, so that Ctrl-C reaches the program, whatever the tests ignore."""
 PATIENCE = 60.0
 """Seconds after which a test gives up; a test that passes never waits so long."""
 
@@ -67,6 +70,16 @@ class Terminal:
                 if select.select([self._ours], [], [], left)[0] and not self._more():
                     break
         self.until(text)
+
+    def tell(self, number: int) -> None:
+        """Send a signal until something is shown: readline misses one just before it waits for keys."""
+        shown = len(self.seen)
+        end = monotonic() + PATIENCE
+        while len(self.seen) == shown:
+            assert monotonic() < end, f"nothing was shown after the signal {number}"
+            self._process.send_signal(number)
+            if select.select([self._ours], [], [], 5)[0] and not self._more():
+                break
 
     def ended(self) -> int:
         """The exit code, once the program has ended."""

@@ -2,13 +2,16 @@
 
 import gzip
 import json
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 import cvc5
+import jsonschema
 import pytest
 import z3
 
+import checker
 from checker import cli
 from checker.certify.file import SCHEMA, Unwritable, read, write
 from checker.certify.terms import Malformed
@@ -31,6 +34,23 @@ def test_certificates_are_accepted(made: Path, capsys: pytest.CaptureFixture[str
     for id in (*COUNTERS, *WHEEL):
         assert f"✓ {id} " in said
     assert "Bitwuzla" in said and "3 properties in 2 files: 3 accepted." in said
+
+
+def test_outcomes_for_machines_are_as_the_schema_says(
+    made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    schema = json.loads((Path(checker.__file__).parent / "schemas" / "certify-1.json").read_text("utf-8"))
+    changes: list[tuple[Callable[[Any], None], Exit, str]] = [
+        (lambda _: None, Exit.AS_EXPECTED, "accepted"),
+        (lambda d: d["certificates"][0].update(digest="0" * 64), Exit.CHANGED, "rejected"),
+        (lambda d: d["certificates"].clear(), Exit.INCONCLUSIVE, "undecided"),
+    ]
+    for change, code, word in changes:
+        path = changed(counters(made), tmp_path, change)
+        assert cli.run(["certify", str(path), "--solver", "bitwuzla", "--json"]) is code
+        told = json.loads(capsys.readouterr().out)
+        jsonschema.validate(told, schema)
+        assert (told["exit"], [one["outcome"] for one in told["properties"]]) == (code, [word])
 
 
 def test_each_way_of_checking_alone(made: Path, capsys: pytest.CaptureFixture[str]) -> None:

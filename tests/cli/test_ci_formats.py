@@ -22,6 +22,7 @@ from checker.verdict import Exhausted, Proved, Unknown, Verdict, Violated
 from properties.catalogue import Expected, catalogue, expected
 from spec_model.rover import systems
 from tests.render.exits_zoo import told
+from tests.render.test_exits_ci import commands
 from tests.render.zoo import long_trace
 
 NAMES = ["PB1-11", "PB1-12", "PB1-14", "PB1-15"]
@@ -115,6 +116,15 @@ def test_an_end_before_the_end_is_written_down(written: Written, end: BaseExcept
     assert set(written.cases) == {"PB1-11", "interrupted"}
     assert written.log["invocations"][0]["executionSuccessful"] is False
     assert "1 of 4 properties" in written.summary.read_text(encoding="utf-8")
+
+
+def test_what_is_printed_commands_nothing(written: Written, capsys: pytest.CaptureFixture[str]) -> None:
+    text = "::error::not meant ##[group]nor this"
+    hostile = replace(CHANGED[0], property=replace(CHANGED[0].property, text=text))
+    written.check([hostile, *CHANGED[1:]])
+    said = capsys.readouterr().out
+    assert f"\n  {text}\n" in said, "told to people before the annotations"
+    assert [kind for kind, _, _ in commands(said)] == ["error", "error", "warning"]
 
 
 def test_json_stays_json(written: Written, capsys: pytest.CaptureFixture[str]) -> None:

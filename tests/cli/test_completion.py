@@ -4,6 +4,7 @@ import os
 import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -13,6 +14,7 @@ from checker.commands.completing import BY_NAME, IN_VERB
 from checker.engine import engines
 from checker.render import renderers
 
+LIFT = Path(__file__).parents[2] / "examples/models/lift"
 SOLVERS = ("z3", "bitwuzla", "llvmlite", "oxidd", "pysat", "cvc5")
 
 
@@ -35,6 +37,7 @@ def offered(*words: str) -> list[str]:
         (("trace", "PB1-1"), {"PB1-15", "PB1-11"}),
         (("check", "--system", "rel"), {"relay", "relay_links"}),
         (("explore", "Mon"), {"Monitor_battery", "Monitors_2"}),
+        (("explore", "--model", str(LIFT), "Do"), {"Door"}),
         (("check", "--engine", "b"), {"bdd", "bmc"}),
         (("check", "--rea"), {"--reading"}),
     ],

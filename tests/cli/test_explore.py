@@ -1,6 +1,7 @@
 """``rovercheck explore``: a session by script, through a pipe and at a terminal."""
 
 import json
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -10,7 +11,7 @@ import pytest
 from checker.cli import run
 from checker.commands.codes import Exit
 from checker.commands.exploring_commands import COMMANDS, named
-from checker.exploring.simulation import Refused
+from checker.exploring.written import Refused
 from tests.cli.terminal import Terminal
 
 COMMAND = [sys.executable, "-m", "checker", "explore"]
@@ -76,7 +77,7 @@ def test_all_about_moving(told) -> None:
     ("line", "said"),
     [
         ("stepp", "There is no command 'stepp'. Did you mean 'step'"),
-        ("f", "may be free or fixed or forward"),
+        ("f", "may be forward or free or fixed"),
         ("step -1", "no number of ticks"),
         ("step 2 3", "no number of ticks"),
         ("set rx_status", "is no NAME=VALUE"),
@@ -85,15 +86,20 @@ def test_all_about_moving(told) -> None:
         ("set rx_status=RX_OKK", "Did you mean 'RX_OK'"),
         ("set give_b2_actuation=true", "There is no input 'give_b2_actuation'"),
         ("set 'rx_status=RX_OK", "quotation mark is not closed"),
-        ("until", "Write a condition"),
+        ("until", "Write a condition. Write a state (Relay.B1_actuating), a comparison (rx_status == RX_OK)"),
+        ("break rx_status", "neither true nor false"),
+        ("until rx_status > 1e999", "has no meaning"),
         ("until Relay.B3", "no state 'B3'"),
         ("goto 4", "There is no tick 4"),
         ("goto x", "number of a tick"),
         ("random x", "is no seed"),
         ("why Monitor", "There is no chart 'Monitor'"),
         ("trace PB9-99", "There is no property 'PB9-99'"),
+        ("trace", "Write the ID of a property: trace P"),
         ("fixed a=1", "no frozen variable 'a'"),
         ("save", "Write save FILE"),
+        ("help stepp", "There is no command 'stepp'"),
+        ("save .", "No format has files like .;"),
         ("save run.xyz", "No format has files like run.xyz"),
         ("save run.xyz junk", "There is no trace format 'junk'"),
     ],
@@ -112,6 +118,13 @@ def test_saved_runs_are_written_and_the_script_makes_the_run_again(told, tmp_pat
     told(*script.read_text(encoding="utf-8").splitlines(), f"save {again}")
     assert json.loads(first.read_text("utf-8"))["states"] == json.loads(again.read_text("utf-8"))["states"]
     assert "$enddefinitions" in (tmp_path / "run.vcd").read_text("utf-8")
+
+
+@pytest.mark.parametrize("file", ["run.html", "run.json", "run.txt"])
+def test_before_the_first_tick_there_is_nothing_to_save(told, tmp_path: Path, file: str) -> None:
+    code, _, error = told(f"save {tmp_path / file}")
+    assert (code, (tmp_path / file).exists()) == (Exit.USAGE, False)
+    assert "There is no run before the first tick; write step first." in error
 
 
 def test_a_run_of_a_board_becomes_a_test(told, tmp_path: Path) -> None:
@@ -150,7 +163,8 @@ def test_a_name_that_is_none(capsys: pytest.CaptureFixture[str]) -> None:
 def test_every_command_has_a_beginning_of_its_own_and_help(told) -> None:
     assert all(meaning for _, _, meaning in COMMANDS.values())
     for name in COMMANDS:
-        assert named(name) is COMMANDS[name][1]
+        assert named(name) == name
+    assert (named("?"), named("exit"), named("q")) == ("help", "quit", "quit")
     with pytest.raises(Refused, match="may be"):
         named("s")
     _, seen, _ = told("help", "help why")
@@ -184,3 +198,11 @@ def test_at_a_terminal_a_mistake_is_told_and_ctrl_c_and_ctrl_d_do_what_they_do_e
         terminal.until("tick 1, 20 ms> ")
         terminal.type("\x04")
         assert terminal.ended() == Exit.AS_EXPECTED
+
+
+def test_at_a_terminal_it_ends_when_told_to() -> None:
+    with Terminal([*COMMAND, "Relay"]) as terminal:
+        terminal.until("tick 0, 0 ms> ")
+        terminal.tell(signal.SIGTERM)
+        assert terminal.ended() == Exit.INTERRUPTED
+        assert terminal.seen.endswith("tick 0, 0 ms> \r\n"), "what follows begins a line"

@@ -3,6 +3,7 @@
 import re
 import shlex
 import textwrap
+from importlib.metadata import version
 from pathlib import Path
 
 import click
@@ -86,3 +87,8 @@ def test_list_names_its_lists_and_every_engine(capsys: pytest.CaptureFixture[str
 def test_one_is_no_plural() -> None:
     counts = [counted(n, "property", "properties") for n in (0, 1, 1386)]
     assert counts == ["0 properties", "1 property", "1,386 properties"]
+
+
+def test_it_says_which_version_it_is() -> None:
+    result = CliRunner().invoke(app, ["--version"], prog_name="rovercheck")
+    assert result.output == f"rovercheck {version('rovercheck')}\n"

@@ -1,12 +1,17 @@
 """The progress line: how many searches are done, and what each of the others does."""
 
 import io
+from pathlib import Path
 
+import click
 import pytest
 from rich.console import Console
 
+from checker.cli import app, run
 from checker.commands import progress
+from checker.commands.codes import Exit
 from checker.commands.progress import Watch
+from checker.commands.silence import silence
 
 
 def watch() -> Watch:
@@ -45,3 +50,31 @@ def test_a_log_gets_a_line_now_and_then(monkeypatch: pytest.MonkeyPatch) -> None
     for now[0] in (1.0, 9.0, 11.0, 12.0):
         made.say("relay [PB1-11]", "working")
     assert log.getvalue().splitlines() == ["0/2 searches done | relay [PB1-11]: working"]
+
+
+@pytest.mark.parametrize("quiet", [False, True])
+def test_with_quiet_nothing_is_said_meanwhile(quiet: bool, monkeypatch: pytest.MonkeyPatch) -> None:
+    now, log = [0.0], io.StringIO()
+    monkeypatch.setattr(progress, "monotonic", lambda: now[0])
+    with click.Context(click.Command("any")) as context:
+        silence(context, click.Option(["--quiet"]), quiet)
+        made = Watch(Console(file=log), 1)
+        now[0] = 11.0
+        made.say("relay", "working")
+    assert bool(log.getvalue()) is not quiet
+
+
+def test_every_verb_that_takes_its_time_can_be_quiet() -> None:
+    quick = {"certify", "completion", "doctor", "explore", "init", "list", "simulate"}
+    able = {name for name, verb in app.commands.items() for p in verb.params if "--quiet" in p.opts}
+    assert able == app.commands.keys() - quick
+
+
+def test_a_file_that_is_written_is_named_unless_nobody_wants_to_know(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    target = tmp_path / "relay.svg"
+    for words, said in (([], f"wrote {target}\n"), (["--quiet"], "")):
+        assert run(["graph", "Relay", "-o", str(target), *words]) is Exit.AS_EXPECTED
+        seen = capsys.readouterr()
+        assert (seen.out, seen.err) == ("", said)

@@ -6,16 +6,23 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands import reviewing
+from checker.commands import reviewing, reviewing_graphs
+from checker.commands.check import Compared
 from checker.commands.codes import Exit
-from checker.commands.reviewed import by_number, cause, named, occurs, written
+from checker.commands.reviewed import by_number, cause, drawn, named, occurs, written
+from checker.commands.reviewing_graphs import state_graphs
 from checker.commands.reviewing_rover import coverage
+from checker.engine import Limits
+from checker.model.rover import rover
+from checker.render.review.model import Seen
 from checker.result import Result
 from checker.verbs.report import command
 from checker.verbs.report import report as verb
-from checker.verdict import Unknown
+from checker.verdict import Unknown, Violated
 from properties.catalogue import catalogue, expected
+from spec_model.rover import systems
 from tests.render.test_page import Reader
+from tests.render.zoo import long_trace
 
 ROOT = Path(__file__).parents[2]
 CHEAP = ["PB1-15", "PB1-11"]
@@ -50,6 +57,14 @@ def test_a_finding_has_reason_formula_requirement_and_readings(made: tuple[Exit,
     assert "B1_actuating → B2_actuating (arrow 1)" in finding
     assert 'stated of <a href="#system-relay">relay</a>' in finding
     assert "told-reasons" in finding
+
+
+def test_the_states_of_its_chart_are_there_with_where_it_is_broken(made: tuple[Exit, str]) -> None:
+    start = made[1].index('id="graph-relay"')
+    graph = made[1][start : made[1].index("</section>", start)]
+    assert "3 nodes and 5 edges for 305 valuations; marked: where PB1-15 is broken" in graph
+    assert "PB1-15 is broken in 151 valuations behind 1 node: B2_actuating." in graph
+    assert '<a href="#system-board1">board1</a> (12 charts)' in graph
 
 
 def test_a_proof_says_who_checked_it_again(made: tuple[Exit, str]) -> None:
@@ -147,9 +162,14 @@ def test_a_model_of_the_user_gets_the_same_page(tmp_path: Path) -> None:
     document = file.read_text(encoding="utf-8")
     assert code in (Exit.AS_EXPECTED, Exit.CHANGED)
     ids = {a.get("id") or "" for _, a in Reader(document).elements}
-    assert {"section-summary", "section-requirements", "section-charts", "chart-Drive"} <= ids
+    assert {"section-summary", "section-requirements", "section-charts", "chart-Drive", "graph-lift"} <= ids
     assert not [id for id in ids if id.startswith(("reading-", "repair-"))]
     assert "B1-" not in document and "rover" not in document.replace("rovercheck", "")
+
+
+def test_a_chart_is_shown_whole_where_only_a_region_of_it_was_checked() -> None:
+    [chart] = drawn([systems()["monitors_2_BLE"]], rover()).values()
+    assert len(systems()["monitors_2_BLE"].charts[0].states) < len(chart.states) == 17
 
 
 def test_ids_are_sorted_by_their_numbers() -> None:
@@ -197,3 +217,29 @@ def test_a_proof_about_nothing_is_a_finding(tmp_path: Path) -> None:
     start = document.index('id="FULL"')
     assert "it occurs: " in document[start : document.index("</details>", start)]
     assert 'It never does for <a class="violated" href="#EMPTY">EMPTY</a>.' in document
+
+
+def on_relay(limits: Limits) -> tuple[list[Seen], dict[str, str]]:
+    """The state graphs of two systems, one of them with a finding whose run is of neither."""
+    finding = Result(catalogue()["PB1-15"], Violated(replace(long_trace(), variables={}), "bmc"), "relay")
+    both = [systems()["relay"], systems()["board1"]]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(reviewing_graphs, "LIMITS", limits)
+        graphs, undrawn = state_graphs([Compared(finding, expected("PB1-15"))], both, " --x")
+    return list(graphs), dict(undrawn)
+
+
+def test_a_state_graph_is_marked_where_a_finding_is_broken() -> None:
+    [relay], undrawn = on_relay(Limits(memory=1 << 20))
+    assert relay.asked == ("PB1-15",) and relay.unmarked == () and relay.runs == {}
+    assert {n.shown: n.wanted for n in relay.graph.nodes if n.wanted} == {("B2_actuating",): 151}
+    assert relay.again == "rovercheck graph relay --x" and undrawn == {"board1": "12 charts"}
+
+
+def test_what_is_too_much_for_a_state_graph_is_said() -> None:
+    [relay], _ = on_relay(Limits(memory=90_000))
+    assert relay.asked == () and relay.unmarked == ("PB1-15",) and relay.graph.valuations == 154
+    graphs, undrawn = on_relay(Limits(memory=10_000))
+    assert not graphs and undrawn["relay"].startswith("more than ") and "valuation" in undrawn["relay"]
+    _, undrawn = on_relay(Limits(seconds=0.0))
+    assert undrawn["relay"] == "the time limit of 0 s is reached"

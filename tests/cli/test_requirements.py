@@ -10,8 +10,9 @@ import pytest
 from checker.cli import run
 from checker.commands.check import Compared, results
 from checker.commands.codes import Exit
-from checker.commands.reporting import pages_of_verdicts
+from checker.commands.reporting import NOT_ASKED, differences, pages_of_verdicts
 from checker.commands.requirements import DECIDED, ON_RECORD, because, counts, page, show, words
+from checker.commands.reviewing_more import with_reasons
 from checker.decide import AUTO
 from checker.engine import Limits
 from checker.model.rover import rover
@@ -184,3 +185,23 @@ def test_the_reports_say_what_is_checked(found: list[Compared]) -> None:
     assert f"</summary>{said}<br>{meant}</details>" in made["README.md"]
     assert f"\n> {said}\n>\n> {meant}\n" in made["findings/PB2-12-first.md"]
     assert "“a link is critical” means: rx_status is RX_CRITICAL or" in made["README.md"]
+
+
+def test_a_finding_says_what_forces_it_and_that_is_not_looked_for_again(
+    found: list[Compared], tmp_path: Path
+) -> None:
+    name, without = "findings/PB2-12-first.md", pages_of_verdicts(found)
+    made = pages_of_verdicts(with_reasons(found, systems()))
+    needed = (
+        "| tick 1 | 20 ms | <code>d3 != 301 cm</code> |\n\nWhatever the other inputs are, every run of 1 tick"
+    )
+    assert f"\n## What forces it\n\n| Ticks | ms | Input |\n|---|---:|---|\n{needed}" in made[name]
+    assert NOT_ASKED in without[name] and NOT_ASKED not in made[name]
+    for file, text in made.items():
+        (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / file).write_text(text, encoding="utf-8")
+    assert list(differences(tmp_path, made)) == list(differences(tmp_path, without)) == []
+    (tmp_path / name).write_text(made[name].replace("## What forces it", "## What"), encoding="utf-8")
+    assert name in differences(tmp_path, without), "some answer must be there"
+    (tmp_path / name).write_text(made[name].replace("d3 !=", "d2 !="), encoding="utf-8")
+    assert name in differences(tmp_path, made)

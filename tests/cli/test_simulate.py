@@ -148,7 +148,7 @@ def test_without_matplotlib_everything_else_works(
     monkeypatch.setitem(sys.modules, "matplotlib", None)
     assert not run_plot.available()
     assert run(["simulate", "cut.toml"]) == Exit.AS_EXPECTED
-    assert 'No plot: A plot needs matplotlib; install it with: pip install "rovercheck[plot]"' in (
+    assert "No plot: A plot needs matplotlib; install it with: pip install matplotlib" in (
         " ".join(capfd.readouterr().err.split())
     )
     assert run(["simulate", "cut.toml", "-o", "run.svg"]) == Exit.USAGE

@@ -2,9 +2,12 @@
 
 import json
 from pathlib import Path
+from typing import Any
 
 import pytest
+from jsonschema import Draft202012Validator
 
+import checker
 from checker.cli import run
 from checker.commands import generating
 from checker.commands.codes import Exit
@@ -14,6 +17,8 @@ from checker.conform.cover.generate import Aim
 from checker.conform.cover.keep import Kept, kept_of, written
 from checker.conform.cover.watch import watched
 from tests.conform.cover_toys import SYSTEM, TOY
+
+SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "testgen-1.json").read_text("utf-8"))
 
 
 def test_the_kept_tests_are_written_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -27,6 +32,9 @@ def test_the_kept_tests_are_written_at_once(tmp_path: Path, capsys: pytest.Captu
 def test_the_document_names_every_goal(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     run(["testgen", "--kept", "--system", "Relay", "--json", "--format", "c", "-o", str(tmp_path)])
     document = json.loads(capsys.readouterr().out)
+    Draft202012Validator.check_schema(SCHEMA)
+    Draft202012Validator(SCHEMA).validate(document)
+    assert (document["schema"], document["exit"]) == ("rovercheck/testgen/1", 0)
     (board,) = document["boards"]
     assert board["board"] == "board1" and document["complete"]
     assert [g["verdict"] for g in board["goals"]] == ["covered"] * 3

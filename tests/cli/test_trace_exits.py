@@ -3,31 +3,74 @@
 import csv
 import json
 import os
+import re
 import subprocess
 import sys
+from collections import Counter
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from io import StringIO
 from pathlib import Path
+from xml.etree import ElementTree
 
 import pytest
+from jsonschema import validate
+from markdown_it import MarkdownIt
 
 from checker.cli import run
 from checker.commands.check import results
 from checker.commands.codes import Exit
 from checker.commands.concrete import concrete
 from checker.commands.exits import exit_written
+from checker.commands.tracing import Showing
 from checker.decide import AUTO
 from checker.engine import Limits
-from checker.render import renderers
+from checker.render import renderers, trace_itf, trace_json
 from checker.trace import Trace
 from checker.verdict import Violated
 from properties.catalogue import catalogue
 from spec_model.lang.errors import ModelError
 from spec_model.rover import systems
+from tests.render.test_exits_ci import cases, commands, locations, valid
+from tests.render.test_exits_data import VCDVCD, dumped
 from tests.render.zoo import long_trace
 
 ROOT = Path(__file__).parents[2]
+BOARD_C = """
+#include RUN
+#include "sup_b1.h"
+
+void reset(void) { sup_b1_initialize(); }
+void set_inputs(const struct inputs *in)
+{
+    rtU.now_ms = in->now_ms;
+    rtU.last_valid_b2_ms = in->last_valid_b2_ms;
+    rtU.board2.data_last_valid_ms = in->b2_data_last_valid_ms;
+    rtU.board2.critical_mask = (uint8_T)in->crit_mask_b2;
+    rtU.board2.degraded_mask = (uint8_T)in->degr_mask_b2;
+    rtU.board2.isMotionConsistent = in->isMotionConsistent;
+    rtU.health.temperature_degC = in->temperature_degC;
+    rtU.health.battery_pct = in->battery_pct;
+    rtU.health.temp_last_valid_ms = in->temp_last_valid_ms;
+    rtU.health.batt_last_valid_ms = in->batt_last_valid_ms;
+}
+void step(void) { sup_b1_step(); }
+void get_outputs(struct outputs *out)
+{
+    out->critical_mask = rtY.critical_mask;
+    out->degraded_mask = rtY.degraded_mask;
+    out->give_b2_actuation = rtY.give_b2_actuation && !STUCK;
+    out->b2_critical = rtY.b2_critical;
+    out->b2_degraded = rtY.b2_degraded;
+    out->rover_safety_state = rtY.rover_safety_state;
+    out->temp_status = rtY.temp_status;
+    out->batt_status = rtY.batt_status;
+    out->b2_sup_status = rtY.b2_sup_status;
+    out->rx_status = rtY.rx_status;
+}
+"""
+"""The supervisor of the examples in the four functions; the outputs that it lacks stay 0 in this run."""
 STUCK = '''
 class Stuck:
     """Never gives the actuation away."""
@@ -45,47 +88,91 @@ def pb1_15() -> Trace:
     return result.verdict.because
 
 
-@pytest.mark.parametrize("name", renderers("trace"))
-def test_every_exit_shows_a_run_of_the_rover(name: str, tmp_path: Path) -> None:
-    renderer = renderers("trace")[name]
-    file = tmp_path / f"run{renderer.SUFFIX}"
-    exit_written(renderer, pb1_15(), systems(), file)
-    shown = file.read_bytes().decode()
-    assert "Relay" in shown or "give_b2_actuation" in shown
+def written(name: str, folder: Path) -> Path:
+    """The run in a format, as ``rovercheck trace --format NAME --output FILE`` writes it."""
+    file = folder / f"run{renderers('trace')[name].SUFFIX}"
+    exit_written(renderers("trace")[name], Showing(name).cut(pb1_15()), systems(), file)
+    return file
 
 
-def test_the_dump_lies_beside_its_save_file(tmp_path: Path) -> None:
-    [beside] = exit_written(renderers("trace")["gtkw"], pb1_15(), systems(), tmp_path / "run.gtkw")
-    assert beside == tmp_path / "run.vcd" and "$enddefinitions" in beside.read_text(encoding="utf-8")
-    assert '[dumpfile] "run.vcd"' in (tmp_path / "run.gtkw").read_text(encoding="utf-8")
-    [other] = exit_written(renderers("trace")["gtkw"], pb1_15(), systems(), tmp_path / "odd.vcd")
-    assert other == tmp_path / "odd.vcd.vcd", "never the file itself"
+def text(file: Path) -> str:
+    return file.read_bytes().decode()
 
 
-def test_the_code_flow_leads_to_the_lines_of_the_charts(tmp_path: Path) -> None:
-    exit_written(renderers("trace")["sarif"], pb1_15(), systems(), tmp_path / "run.sarif")
-    [result] = json.loads((tmp_path / "run.sarif").read_text(encoding="utf-8"))["runs"][0]["results"]
-    steps = result["codeFlows"][0]["threadFlows"][0]["locations"]
-    for step in steps:
-        place = step["location"]["physicalLocation"]
-        lines = (ROOT / place["artifactLocation"]["uri"]).read_text(encoding="utf-8").splitlines()
-        written = lines[place["region"]["startLine"] - 1]
-        assert any(word in written for word in ("to(", "Chart(", "always(")), written
+# --- what reads each format; a failed assertion, or an error of the reader, is a file not accepted --------
 
 
-def test_the_table_of_ticks_ends_where_the_property_breaks(tmp_path: Path) -> None:
-    exit_written(renderers("trace")["csv"], pb1_15(), systems(), tmp_path / "run.csv")
-    rows = list(csv.DictReader(StringIO((tmp_path / "run.csv").read_text(encoding="utf-8"))))
+def terminal(file: Path) -> None:
+    assert max(map(len, text(file).splitlines())) <= 80
+
+
+def markdown(file: Path) -> None:
+    """The parser of rich and others, with the tables of GitHub."""
+    kinds = Counter(token.type for token in MarkdownIt().enable("table").parse(text(file)))
+    assert kinds["table_open"] == 1 and kinds["tr_open"] == 5, "a head, three events, a quiet stretch"
+
+
+def waves(file: Path) -> None:
+    """Two readers of value change dumps."""
+    found = dumped(text(file))
+    assert found["property.violated"] == {0: "0", 160: "1"}
+    assert found["values.b2_sup_status"] == {0: "SUP_OK", 140: "SUP_CRITICAL", 160: "SUP_OK"}
+    assert dict(VCDVCD(str(file))["property.violated"].tv) == {0: "0", 160: "1"}
+
+
+def save_file(file: Path) -> None:
+    """It names a dump beside it, and signals of that dump, all of them once."""
+    [named] = re.findall(r'\[dumpfile\] "(.*)"', text(file))
+    shown = [line for line in text(file).splitlines() if re.fullmatch(r"[a-z]+\..+", line)]
+    assert sorted(shown) == sorted(VCDVCD(str(file.parent / named)).signals)
+
+
+def spreadsheet(file: Path) -> None:
+    rows = list(csv.DictReader(StringIO(text(file), newline="")))
     assert [r["give_b2_actuation"] for r in rows[-3:]] == ["false", "true", "true"]
     assert (rows[-1]["time_ms"], rows[-1]["rx_status"]) == ("160", "RX_OK")
 
 
-def test_the_pytest_file_runs_by_itself(tmp_path: Path) -> None:
-    file = tmp_path / "test_pb1_15.py"
-    exit_written(renderers("trace")["pytest"], pb1_15(), systems(), file)
-    (tmp_path / "stuck.py").write_text(STUCK, encoding="utf-8")
+def published_json(file: Path) -> None:
+    found = json.loads(text(file))
+    validate(found, trace_json.SCHEMA)
+    assert (
+        found["#meta"]["property"] == "PB1-15" and found["#meta"]["violated"] and found["#meta"]["shortest"]
+    )
+
+
+def trace_viewer(file: Path) -> None:
+    """The format as its description has it."""
+    found = json.loads(text(file))
+    validate(found, trace_itf.SCHEMA)
+    assert found["states"][8]["b2_sup_status"] == "SUP_OK" and found["states"][8]["give_b2_actuation"] is True
+
+
+def code_scanning(file: Path) -> None:
+    """The official schema; each step of the code flow leads to a line that holds what it says."""
+    [result] = valid(text(file))["results"]
+    for step in locations(result):
+        place = step["location"]["physicalLocation"]
+        lines = (ROOT / place["artifactLocation"]["uri"]).read_text(encoding="utf-8").splitlines()
+        there = lines[place["region"]["startLine"] - 1]
+        assert any(word in there for word in ("to(", "Chart(", "always(")), there
+
+
+def build_server(file: Path) -> None:
+    [case] = cases(text(file)).values()
+    assert case.name == "PB1-15" and "Relay: B1_actuating → B2_actuating" in case.result[0].text
+
+
+def workflow(file: Path) -> None:
+    [(kind, shown, message)] = commands(text(file))
+    assert (kind, shown["file"]) == ("error", "properties/areas/relay.py")
+    assert message.endswith("Show it: rovercheck trace PB1-15")
+
+
+def pytest_itself(file: Path) -> None:
+    (file.parent / "stuck.py").write_text(STUCK, encoding="utf-8")
     assert "1 passed" in said_by_pytest(file, {})
-    said = said_by_pytest(file, {"ROVERCHECK_IMPL": f"python:{tmp_path / 'stuck.py'}:Stuck"})
+    said = said_by_pytest(file, {"ROVERCHECK_IMPL": f"python:{file.parent / 'stuck.py'}:Stuck"})
     assert "step 7 (140 ms), output: (required, actual) {'give_b2_actuation': (True, False)}" in said
 
 
@@ -97,6 +184,58 @@ def said_by_pytest(file: Path, more: dict[str, str]) -> str:
         command, capture_output=True, text=True, check=False, cwd=file.parent, env=environment
     )
     return found.stdout
+
+
+def compiler(file: Path) -> None:
+    """The C supervisor of the examples passes; one that never gives the actuation away differs."""
+    example = ROOT / "examples" / "board1_c"
+    (file.parent / "board.c").write_text(BOARD_C, encoding="utf-8")
+    flags = ["-std=c99", "-Wall", "-Werror", f"-I{example}", f'-DRUN="{file.name}"']
+    for stuck, said in (("0", "PB1-15 on board1: all 8 steps as required"),
+                        ("1", "PB1-15 on board1: differs at 140 ms")):  # fmt: skip
+        sources = ["board.c", str(example / "sup_b1.c")]
+        subprocess.run(
+            ["cc", *flags, f"-DSTUCK={stuck}", *sources, "-o", "run", "-lm"], cwd=file.parent, check=True
+        )
+        found = subprocess.run([str(file.parent / "run")], capture_output=True, text=True, check=False)
+        assert found.returncode == int(stuck) and said in found.stdout
+
+
+def picture(file: Path) -> None:
+    """XML, as every viewer of SVG wants it; Chromium opens it in tests/browser/test_exits.py."""
+    root = ElementTree.fromstring(text(file))
+    assert root.tag == "{http://www.w3.org/2000/svg}svg" and "PB1-15" in root.itertext()
+
+
+def web_page(file: Path) -> None:
+    """One file that loads nothing; Chromium opens it in tests/browser/test_exits.py."""
+    assert text(file).startswith("<!doctype html>") and "PB1-15" in text(file)
+    assert not re.search(r"(src|href)=.?https?:", text(file))
+
+
+READERS: dict[str, Callable[[Path], None]] = {
+    "table": terminal, "markdown": markdown, "html": web_page, "svg": picture, "sequence": picture,
+    "play": web_page, "vcd": waves, "gtkw": save_file, "csv": spreadsheet, "json": published_json,
+    "itf": trace_viewer, "sarif": code_scanning, "junit": build_server, "github": workflow,
+    "pytest": pytest_itself, "c": compiler,
+}  # fmt: skip
+
+
+def test_every_exit_has_a_reader() -> None:
+    assert READERS.keys() == renderers("trace").keys()
+
+
+@pytest.mark.parametrize("name", READERS)
+def test_every_exit_is_taken_by_what_reads_it(name: str, tmp_path: Path) -> None:
+    READERS[name](written(name, tmp_path))
+
+
+def test_the_dump_lies_beside_its_save_file(tmp_path: Path) -> None:
+    [beside] = exit_written(renderers("trace")["gtkw"], pb1_15(), systems(), tmp_path / "run.gtkw")
+    assert beside == tmp_path / "run.vcd" and "$enddefinitions" in beside.read_text(encoding="utf-8")
+    assert '[dumpfile] "run.vcd"' in (tmp_path / "run.gtkw").read_text(encoding="utf-8")
+    [other] = exit_written(renderers("trace")["gtkw"], pb1_15(), systems(), tmp_path / "odd.vcd")
+    assert other == tmp_path / "odd.vcd.vcd", "never the file itself"
 
 
 def test_the_concrete_run_is_that_of_the_board() -> None:

@@ -16,7 +16,7 @@ from checker.trace import Trace
 from properties.catalogue import Expected
 from properties.forms import Property, reachable
 from spec_model.rover import systems
-from tests.explain.test_others import ENDS, SYSTEM, first, left
+from tests.explain.test_others import BOTH, ENDS, SYSTEM, first, left
 
 
 @pytest.mark.parametrize(
@@ -38,6 +38,12 @@ from tests.explain.test_others import ENDS, SYSTEM, first, left
         (["PB1-15", "--witnesses", "2", "--format", "json"], "write --format table or markdown"),
         (["PSY-18", "--witnesses", "2"], "is about runs without end, of which one is shown"),
         (["PB1-15", "--witnesses", "0"], "0 is not in the range"),
+        (["PB1-15", "--witnesses", "2", "--by", "length"], "'length' is not one of 'arrows', 'reason'"),
+        (
+            ["PB1-15", "--witnesses", "2", "--by", "reason", "--no-explain"],
+            "--by reason compares what forces runs",
+        ),
+        (["PB1-15", "--by", "reason"], "--by says in what several runs are to differ; add --witnesses"),
     ],
 )
 def test_mistakes_are_explained(arguments: list[str], said: str, capsys: pytest.CaptureFixture[str]) -> None:
@@ -102,6 +108,20 @@ def test_several_runs_are_told_apart_until_there_is_no_more(
     assert "--- Run 2 --- Unlike run 1 it takes Way: Start -> " in told
     assert "--- No run 3 --- Every other run to this end takes the same arrows as one of these: all " in told
     assert told.count("What forces it") == 2 and capfd.readouterr().out == ""
+
+
+def test_several_runs_are_told_apart_by_what_forces_them(capfd: pytest.CaptureFixture[str]) -> None:
+    both = replace(wanted(ENDS), systems={"way": BOTH})
+    assert trace(both, "bdd", Limits(), Showing(runs=3, by="reason")) == Exit.AS_EXPECTED
+    told = " ".join(capfd.readouterr().out.split())
+    assert "--- Run 2 --- Unlike run 1 it needs right; does not need left." in told
+    assert "--- No run 3 --- Whenever another run first comes to this end, its last ticks are as" in told
+
+
+def test_a_reason_that_is_not_known_cannot_be_told_from_another(capfd: pytest.CaptureFixture[str]) -> None:
+    hurried = Showing(runs=3, by="reason", explaining=Explaining(seconds=-1))
+    assert trace(wanted(ENDS), "bdd", Limits(), hurried) == Exit.AS_EXPECTED
+    assert "--- No run 2 ---\nWhat forces run 1 is not known, so that no other" in capfd.readouterr().out
 
 
 def test_what_no_run_reaches_is_said_with_the_proof(capfd: pytest.CaptureFixture[str]) -> None:

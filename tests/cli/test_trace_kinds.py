@@ -7,7 +7,7 @@ import pytest
 
 from checker.commands import tracing
 from checker.commands.codes import Exit
-from checker.commands.examples import Wanted, asked, of_arrow
+from checker.commands.examples import Wanted, asked, of_arrow, of_state
 from checker.commands.exits import exit_written
 from checker.commands.explaining import Explaining
 from checker.commands.tracing import Showing, trace
@@ -136,3 +136,10 @@ def test_a_file_says_how_its_run_was_asked_for(named: tuple[str | None, ...], ag
     wanted = asked(pick_variant(["S43=AND"], None, []), *named)
     [finding] = of_trace(wanted.drawn(first())).findings
     assert finding.shown_with == f"{again} --reading S43=AND"
+
+
+def test_an_example_is_written_nowhere() -> None:
+    """A reader of the run is not led to a line of the checker."""
+    there = {"way": SYSTEM}
+    for made in (of_state("Way.End", there, None), of_arrow("Way: Right -> End", there, None)):
+        assert made.property.place is None

@@ -1,0 +1,84 @@
+"""``rovercheck list --json``: every list follows its schema and has all that there is."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from jsonschema import Draft202012Validator
+
+import checker
+from checker.cli import run
+from checker.commands.codes import Exit
+from checker.engine import engines
+from checker.verbs.properties import LISTS
+from properties.catalogue import catalogue
+from properties.requirements import requirements
+from spec_model.readings import readings
+from spec_model.repairs import proposals
+from spec_model.rover import systems
+from tests.model_files.files import START
+
+SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "list-1.json").read_text("utf-8"))
+JUDGE = Draft202012Validator(SCHEMA)
+
+
+def listed(capsys: pytest.CaptureFixture[str], *arguments: str) -> list[Any]:
+    """The items of a list that follows the schema."""
+    assert run(["list", *arguments, "--json"]) is Exit.AS_EXPECTED
+    seen = json.loads(capsys.readouterr().out)
+    assert [f"{e.json_path}: {e.message}" for e in JUDGE.iter_errors(seen)] == []
+    assert seen["what"] == arguments[0]
+    items: list[Any] = seen["items"]
+    return items
+
+
+ALL = [
+    ("properties", catalogue()),
+    ("systems", systems()),
+    ("requirements", requirements()),
+    ("readings", readings()),
+    ("repairs", proposals()),
+    ("engines", (*engines(), "auto", "all")),
+    ("charts", {chart.name for system in systems().values() for chart in system.charts}),
+    ("assumptions", {one.id for system in systems().values() for one in system.assumptions}),
+]
+
+
+def test_the_schema_is_one_and_every_list_is_tested() -> None:
+    Draft202012Validator.check_schema(SCHEMA)
+    assert {what for what, _ in ALL} == set(LISTS) == set(SCHEMA["$defs"])
+
+
+@pytest.mark.parametrize(("what", "names"), ALL, ids=[what for what, _ in ALL])
+def test_a_list_has_all_there_is(what: str, names: Any, capsys: pytest.CaptureFixture[str]) -> None:
+    items = listed(capsys, what)
+    assert {item.get("id") or item["name"] for item in items} == set(names)
+
+
+def test_a_property_is_told_with_its_verdict_on_record(capsys: pytest.CaptureFixture[str]) -> None:
+    [one] = listed(capsys, "properties", "PB1-15")
+    assert (one["system"], one["expected"]) == ("relay", "violated")
+    assert one["formally"][0].startswith("Formally: ") and one["because"].startswith("The arrow")
+    assert one["place"]["file"] == "properties/areas/relay.py"
+
+
+def test_lists_of_a_model_of_ones_own(capsys: pytest.CaptureFixture[str]) -> None:
+    model = ("--model", str(START / "heater.py"))
+    assert [p["id"] for p in listed(capsys, "properties", *model)] == ["HEAT-1", "HEAT-2", "HEAT-3"]
+    assert [c["name"] for c in listed(capsys, "charts", *model)] == ["Heater"]
+    assert run(["list", "repairs", "--json", *model]) is Exit.USAGE
+
+
+def test_the_schema_refuses_another_list() -> None:
+    good = {"schema": "rovercheck/list/1", "what": "charts", "items": []}
+    item = {"name": "A", "text": "", "states": 1, "arrows": 0}
+    assert JUDGE.is_valid(good) and JUDGE.is_valid({**good, "items": [item]})
+    changes: list[dict[str, object]] = [
+        {"schema": "rovercheck/list/2"},
+        {"what": "engines", "items": [item]},
+        {"items": [{**item, "states": -1}]},
+        {"more": 1},
+    ]
+    for change in changes:
+        assert not JUDGE.is_valid({**good, **change})
