@@ -94,7 +94,13 @@ def _agree(name: str, there: str, made: Pages) -> bool:
         there = _FORCED.sub(f"{FORCED}\n\n{NOT_ASKED}\n\n", there)
     if "\n- bmc: counterexample" not in page:
         return there == made[name]
-    return name.endswith(".svg") or there.partition(RUN)[0] == page.partition(RUN)[0]
+    return name.endswith(".svg") or _beside_the_run(there) == _beside_the_run(page)
+
+
+def _beside_the_run(page: str) -> tuple[str, list[str]]:
+    """What stands above the run of a finding, and which sections come after it."""
+    above, _, below = page.partition(RUN)
+    return above, [line for line in below.splitlines() if line.startswith("## ")]
 
 
 def _put(folder: Path, name: str, made: Pages) -> None:
