@@ -267,7 +267,7 @@ class _Monitors:
         return self._variable(f"{self._owner}.{name}", domain, 0, doc)
 
     def _variable(self, name: str, domain: Domain, init: int, doc: str) -> Var:
-        made = Var(name, domain, init, doc)
+        made = Var(name, domain, init, doc, hidden=True)
         self.variables[name] = made
         self._used.add(name)
         return made

@@ -11,7 +11,7 @@ from checker.commands.output import trimmed
 from checker.exploring.session import Session
 from checker.exploring.simulation import Simulation
 from checker.render.limits import timer
-from checker.render.story import NAME, TIMER, Change, Event, Quiet, rows, start_of, value
+from checker.render.story import TIMER, Change, Event, Quiet, of_model, rows, start_of, value
 from checker.runs.replay import arrow_of
 from checker.trace import Arrow, Trace
 from spec_model.lang.chart import Chart, Path
@@ -89,9 +89,8 @@ def _outputs(sim: Simulation, trace: Trace, everything: bool) -> str:
     plain = {
         n: raw
         for n, raw in state.items()
-        if n not in places and n not in sim.frozen and NAME.fullmatch(n) and not TIMER.search(n)
-        and not trace.variables[n].hidden
-    }  # fmt: skip
+        if n not in places and n not in sim.frozen and of_model(trace, n) and not TIMER.search(n)
+    }
     if everything or len(plain) <= MOST:
         return listed(trace, plain)
     changed = {n: raw for n, raw in plain.items() if raw != before[n]}

@@ -17,8 +17,8 @@ from spec_model.lang.expr import Expr, Named
 from spec_model.lang.label import text
 from spec_model.lang.walk import variables
 
-NAME = re.compile(r"(?!.*\.rising\d+$)[^\W\d][\w.]*")
-"""Names a reader knows; others belong to the property, or remember what ``rising`` compares."""
+RISING = re.compile(r"\.rising\d+$")
+"""Names of what remembers what ``rising`` compares."""
 
 TIMER = re.compile(r"\.(after|duration\d*|held\d*)$")
 """Names of the counters behind ``after``, ``duration`` and ``held``."""
@@ -119,6 +119,11 @@ def value(trace: Trace, name: str, raw: int) -> str:
     return f"{trace.show(name, raw)} {unit}".rstrip()
 
 
+def of_model(trace: Trace, name: str) -> bool:
+    """Whether a reader knows the variable from the model; others are bookkeeping, of the property too."""
+    return name != trace.property and not trace.variables[name].hidden and not RISING.search(name)
+
+
 def rows(trace: Trace) -> Iterator[Row]:
     """Events and quiet stretches in order, and the start of a loop; the last tick is always an event."""
     telling = _Telling(trace)
@@ -146,9 +151,7 @@ def rows(trace: Trace) -> Iterator[Row]:
 
 def _changed(trace: Trace, old: Mapping[str, int], new: Mapping[str, int]) -> list[str]:
     """Variables a reader knows whose value differs, those without an old value included."""
-    return [
-        n for n, v in new.items() if old.get(n) != v and NAME.fullmatch(n) and not trace.variables[n].hidden
-    ]
+    return [n for n, v in new.items() if old.get(n) != v and of_model(trace, n)]
 
 
 def _repeats(arrow: Arrow, before: Tick | None) -> bool:
@@ -277,6 +280,14 @@ def ending(trace: Trace) -> str:
         count = f"any of the {trace.trapped:,} valuations" if trace.trapped > 1 else "the only valuation"
         return f"No way back: what is false now is false in {count} that can follow."
     return ""
+
+
+def standstill(trace: Trace, event: Event) -> str:
+    """What there is to say of a tick of which nothing else is told; empty if something is."""
+    if event.changes or event.arrows:
+        return ""
+    broken = event.number == len(trace) and trace.loop is None and trace.breaks()
+    return "nothing changes, which breaks the property" if broken else "nothing changes"
 
 
 def start_of(arrow: Arrow) -> str:

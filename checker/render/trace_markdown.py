@@ -13,6 +13,7 @@ from checker.render.story import (
     conjuncts,
     ending,
     heading,
+    standstill,
     start_of,
     start_values,
 )
@@ -32,7 +33,7 @@ def render(trace: Trace) -> str:
     if chosen := start_values(trace):
         lines += ["Fixed for the whole run: " + ", ".join(_code(f"{n} = {v}") for n, v in chosen) + ".", ""]
     lines += ["| Tick | ms | Inputs | Changes | Arrows that fired |", "|---:|---:|---|---|---|"]
-    lines += map(_row, folded(trace))
+    lines += [_row(trace, row) for row in folded(trace)]
     lines += ["", f"**{_plain(last)}**"] if (last := ending(trace)) else []
     lines += ["", UNTOLD]
     for part in conjuncts(trace):
@@ -54,19 +55,20 @@ def reasons_told(trace: Trace) -> list[str]:
     return [*(["| Ticks | ms | Input |", "|---|---:|---|", *rows, ""] if rows else []), _plain(said)]
 
 
-def _row(row: Row | Again) -> str:
+def _row(trace: Trace, row: Row | Again) -> str:
     match row:
         case Event():
-            return _event(row)
+            return _event(trace, row)
         case Quiet() | Again():
             return f"| … | | | *{_plain(row.what)}* | |"
         case Repeats():
             return f"| ↻ | | | **{_plain(row.what)}** | |"
 
 
-def _event(event: Event) -> str:
+def _event(trace: Trace, event: Event) -> str:
     inputs = [_code(str(c)) + (" needed" if c.needed else "") for c in event.changes if c.is_input]
     others = [_code(str(c)) for c in event.changes if not c.is_input]
+    others += [f"*{said}*"] if (said := standstill(trace, event)) else []
     arrows = [
         f"{_plain(a.chart)}: {_plain(start_of(a))}" + (f"<br>{_code(a.label)}" if a.label else "")
         for a in event.arrows

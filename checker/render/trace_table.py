@@ -19,6 +19,7 @@ from checker.render.story import (
     conjuncts,
     ending,
     heading,
+    standstill,
     start_of,
     start_values,
 )
@@ -71,17 +72,17 @@ def _table(trace: Trace) -> Table:
         elif isinstance(row, Again | Quiet):
             table.add_row("·", "", _hanging(row.what, style="dim"))
         else:
-            _event(table, row)
+            _event(table, trace, row)
     return table
 
 
-def _event(table: Table, event: Event) -> None:
+def _event(table: Table, trace: Trace, event: Event) -> None:
     lines: list[Table] = []
     for needed in (True, False):
         given = [str(c) for c in event.changes if not c.old and c.needed is needed]
         lines += [_hanging(", ".join(given), NEEDED if needed else INPUT, "cyan")] if given else []
     lines += [_changed(c) for c in event.changes if c.old] + [_fired(a) for a in event.arrows]
-    for i, line in enumerate(lines or [_hanging("nothing changes")]):
+    for i, line in enumerate(lines or [_hanging(standstill(trace, event))]):
         table.add_row(str(event.number) if not i else "", str(event.ms) if not i else "", line)
 
 

@@ -38,6 +38,31 @@ class TestStory:
             ("level", True), ("speed", False), ("alarm", False)
         ]  # fmt: skip
 
+    def test_names_that_are_no_identifiers_are_told_unless_they_are_of_the_property(self) -> None:
+        """A name with a hyphen was left out: the frames that arrive (``B2-B1.arrives``) were never shown."""
+        trace = long_trace()
+        plain, own = trace.variables["speed"], "P.waiting"
+        wide = {
+            **trace.variables,
+            "A-B.speed": plain,
+            own: replace(plain, hidden=True),
+            trace.property: plain,
+        }
+        ticks = [
+            replace(t, after={**t.after, **dict.fromkeys(("A-B.speed", own, trace.property), n % 2)})
+            for n, t in enumerate(trace.ticks)
+        ]
+        changed = {c.name for e in rows(replace(trace, variables=wide, ticks=tuple(ticks)))
+                   if isinstance(e, Event) for c in e.changes}  # fmt: skip
+        assert "A-B.speed" in changed and not changed & {own, trace.property}
+
+    def test_a_last_tick_without_a_change_breaks_the_property(self) -> None:
+        trace = long_trace()
+        still = replace(trace.ticks[-1], number=len(trace) + 1, arrows=())
+        longer = replace(trace, ticks=(*trace.ticks, still))
+        said = "nothing changes, which breaks the property"
+        assert said in trace_table.render(longer) and said in trace_markdown.render(longer)
+
     def test_the_end_says_which_part_is_false(self) -> None:
         named, bare = false_parts(long_trace())
         assert (named.name, named.formula, named.values) == (

@@ -5,7 +5,7 @@ from dataclasses import replace
 from itertools import groupby
 
 from checker.render.reasons import forced, reasons
-from checker.render.story import NAME, TIMER, Quiet, ending, false_parts, heading, rows, value
+from checker.render.story import TIMER, Quiet, ending, false_parts, heading, of_model, rows, value
 from checker.render.timeline.limits import Limits, thresholds, time_limits
 from checker.render.timeline.model import Group, Kind, Lane, Limit, Need, Shot, Timeline
 from checker.render.timeline.runs import Values, runs
@@ -54,7 +54,7 @@ def _names(trace: Trace) -> list[str]:
     """Variables a reader knows, inputs first, without the memory of a chart that it was entered."""
     found = dict.fromkeys((*trace.inputs, *trace.before, *(n for t in trace.ticks for n in t.after)))
     entered = {chart.entered.name for chart in trace.statecharts.values()}
-    return [n for n in found if NAME.fullmatch(n) and n not in entered and not trace.variables[n].hidden]
+    return [n for n in found if of_model(trace, n) and n not in entered]
 
 
 def _values(trace: Trace, name: str) -> Values:

@@ -1,12 +1,13 @@
 """The story of a trace as a part of a page: a table of what happened, and the inputs that force the end."""
 
+from functools import partial
 from itertools import groupby
 
 from markupsafe import Markup
 
 from checker.render.page import Part
 from checker.render.reasons import forced, reasons
-from checker.render.story import UNTOLD, rows, start_of, start_values
+from checker.render.story import UNTOLD, rows, standstill, start_of, start_values
 from checker.render.timeline.fragment import TEMPLATES, own
 from checker.trace import Trace
 
@@ -19,6 +20,7 @@ def told(trace: Trace, *, everything: bool = False) -> Part:
         chosen=start_values(shown),
         rows=list(rows(shown)),
         start_of=start_of,
+        standstill=partial(standstill, shown),
         untold=UNTOLD,
         forced=forced(trace),
         reasons=[(ticks, [reason.what for reason in group]) for ticks, group in by_ticks],
