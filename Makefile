@@ -3,11 +3,11 @@
 #
 #   PYTHON=python3.12       another interpreter
 #   VENV=.venv-3.12         another place for the environment
-#   JOBS=4                  processes for the tests
+#   JOBS=4                  processes for the tests; some of them wait for others, so more than processors
 #   ARGS="--system rover"   further arguments of `check`, `test`, `reports` and `bench`
 
 VENV ?= .venv
-JOBS ?= 2
+JOBS ?= 3
 ARGS ?=
 NEW_ENOUGH := -c 'import sys; sys.exit(sys.version_info < (3, 11))'
 ifndef PYTHON

@@ -33,7 +33,7 @@ def compare(system: System, ticks: Sequence[Mapping[str, int]], frozen: Mapping[
 
 
 @pytest.mark.long
-@settings(max_examples=1200, suppress_health_check=list(HealthCheck))
+@settings(max_examples=900, suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_lowered_systems_step_as_the_interpreter_does(data: st.DataObject) -> None:
     system = data.draw(systems())

@@ -34,21 +34,21 @@ def test_every_engine_is_compared() -> None:
 
 
 @pytest.mark.long
-@examples(600)
+@examples(450)
 @given(transition_systems())
 def test_no_two_engines_disagree(system: TransitionSystem) -> None:
     agree(system)
 
 
 @pytest.mark.long
-@examples(120)
+@examples(90)
 @given(transition_systems(most=5))
 def test_nor_on_larger_systems(system: TransitionSystem) -> None:
     agree(system)
 
 
 @pytest.mark.long
-@examples(220)
+@examples(160)
 @given(timed_systems())
 def test_nor_on_charts_with_timers(system: TransitionSystem) -> None:
     agree(system)
