@@ -51,7 +51,7 @@ class _Read(Mapping[str, System]):
     def __init__(self, choices: Mapping[str, str]) -> None:
         self._fixing, self._open = fixed(choices), left_open(choices)
         self._modelled = modelled_only(choices)
-        self._modules = iter(BOARDS)
+        self._modules = list(BOARDS)
         self._written: dict[str, System] = {}
         self._read: dict[str, System] = {}
 
@@ -73,16 +73,20 @@ class _Read(Mapping[str, System]):
     def _declared(self, name: str) -> System:
         """A system as its module declares it.  Raises ``KeyError`` if none does."""
         while name not in self._written:
-            module = next(self._modules, None)
-            if module is None:
+            if not self._modules:
                 raise KeyError(name)
-            self._written = merged((*self._written.values(), *_systems_of(module)))
+            self._read_one()
         return self._written[name]
 
     def _all(self) -> Mapping[str, System]:
-        found = (s for module in self._modules for s in _systems_of(module))
-        self._written = merged((*self._written.values(), *found))
+        while self._modules:
+            self._read_one()
         return self._written
+
+    def _read_one(self) -> None:
+        """Read the next module, which is left for the next time if that is interrupted."""
+        module, *rest = self._modules
+        self._written, self._modules = merged((*self._written.values(), *_systems_of(module))), rest
 
 
 def as_written() -> Iterator[System]:

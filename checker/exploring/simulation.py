@@ -82,10 +82,6 @@ class Simulation:
             return {}
         return dict(zip(self.inputs, self._moments[tick - 1].inputs, strict=True))
 
-    def next_given(self) -> dict[str, int] | None:
-        """The inputs of the tick after the one that is looked at, if it was executed before."""
-        return self.given(self.at + 1) if self.at < len(self) else None
-
     # --- moving ---
 
     def step(self, inputs: Mapping[str, int]) -> None:

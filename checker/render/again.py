@@ -9,6 +9,8 @@ from checker.trace import Trace, counted_ticks
 
 TIMES = 2
 """How often rows must be repeated, after the first time, not to be told again."""
+LONGEST = 200
+"""Rows that may be repeated at once; where more are, all are told, and a long run is still read at once."""
 
 
 @dataclass(frozen=True)
@@ -34,7 +36,8 @@ class Again:
 def folded(trace: Trace) -> Iterator[Row | Again]:
     """The rows of a trace; those that repeat the ones before them, as they are, several times in one."""
     told = list(rows(trace))
-    kinds = [_kind(row) for row in told]
+    numbers: dict[object, int] = {}
+    kinds = [numbers.setdefault(_kind(row), len(numbers)) for row in told]
     at = 0
     while at < len(told):
         length, times = _repeated(kinds, at)
@@ -48,10 +51,10 @@ def folded(trace: Trace) -> Iterator[Row | Again]:
         at += length * (times + 1)
 
 
-def _repeated(kinds: Sequence[object], at: int) -> tuple[int, int]:
+def _repeated(kinds: Sequence[int], at: int) -> tuple[int, int]:
     """How many rows from here on are repeated at once, and how often: such that most rows are left out."""
     found = (1, 0)
-    for length in range(1, (len(kinds) - at) // (TIMES + 1) + 1):
+    for length in range(1, min(LONGEST, (len(kinds) - at) // (TIMES + 1)) + 1):
         start, times = at + length, 0
         while kinds[start] == kinds[at] and kinds[start : start + length] == kinds[at : at + length]:
             start, times = start + length, times + 1

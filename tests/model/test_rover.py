@@ -2,6 +2,7 @@
 
 import pytest
 
+from spec_model import rover
 from spec_model.lang.errors import ModelError
 from spec_model.lang.lower import lower
 from spec_model.rover import merged, systems
@@ -20,3 +21,17 @@ def test_two_systems_of_one_name_are_refused() -> None:
     one = systems()["relay"]
     with pytest.raises(ModelError, match="Two systems are named 'relay'"):
         merged([one, one])
+
+
+def test_a_ctrl_c_while_systems_are_read_leaves_none_out(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    everything, some = set(systems()), rover.systems({"S45": "IMMEDIATE"})
+
+    def interrupted(module: str) -> object:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as during, pytest.raises(KeyboardInterrupt):
+        during.setattr(rover, "_systems_of", interrupted)
+        len(some)
+    assert set(some) == everything

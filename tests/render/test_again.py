@@ -1,5 +1,8 @@
 """A story in which the same happens again and again is told once, and says how often it happens."""
 
+import pytest
+
+from checker.render import again as folding
 from checker.render.again import Again, folded
 from checker.render.story import Event, rows
 from checker.render.trace_markdown import render as markdown
@@ -29,6 +32,13 @@ def test_what_is_repeated_is_told_once() -> None:
 
 def test_twice_is_told_twice() -> None:
     trace = run(".x...x..x")
+    assert list(folded(trace)) == list(rows(trace))
+
+
+def test_what_repeats_more_rows_than_can_be_seen_is_told_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    trace = run("." + "xx.x." * 6)
+    assert any(isinstance(row, Again) for row in folded(trace))
+    monkeypatch.setattr(folding, "LONGEST", 1)
     assert list(folded(trace)) == list(rows(trace))
 
 
