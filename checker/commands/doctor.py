@@ -26,6 +26,8 @@ from spec_model.lang.expr import flag, ite, var
 from spec_model.lang.system import System, in_order
 from spec_model.lang.words import minimum
 
+TRIAL_DEPTH = 20
+"""How many ticks of its question an engine without a proof must have seen."""
 TRIAL_SECONDS = 60.0
 """What each engine may take for its question; a tenth of a second is usual."""
 SCHEMA = 1
@@ -188,16 +190,23 @@ def tried(engine: str) -> str:
     """What is wrong with the answers of an engine to two questions with known answers; empty if nothing."""
     from checker.decide import Task, decide
     from checker.engine import Limits, quiet
+    from checker.verdict import Proved, Unknown
 
     system = toy()
     task = Task(system, properties())
     found = {
-        r.property.id: r.verdict.word
-        for r in decide(task, {system.name: system}, engine, Limits(depth=20, seconds=TRIAL_SECONDS), quiet)
+        r.property.id: r.verdict
+        for r in decide(task, {system.name: system}, engine, Limits(TRIAL_DEPTH, TRIAL_SECONDS), quiet)
     }
-    if found["false"] != "violated":
-        return f"says {found['false']} of what is violated in the third tick"
-    return f"says {found['true']} of what is true" if found["true"] == "violated" else ""
+    if found["false"].word != "violated":
+        return f"says {found['false'].word} of what is violated in the third tick"
+    match found["true"]:
+        case Proved():
+            return ""
+        case Unknown(_, depth) if depth == TRIAL_DEPTH:
+            return ""  # as deep as it was asked to look, which is all that bmc can do
+        case other:
+            return f"says {other.word} of what is true"
 
 
 def toy() -> System:

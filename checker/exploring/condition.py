@@ -3,6 +3,7 @@
 import ast
 import re
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from math import isfinite
 from operator import add, eq, ge, gt, le, lt, mul, ne, sub
 from typing import Any
@@ -16,6 +17,8 @@ from spec_model.lang.expr import Expr, all_of, any_of, const, lift
 
 _AS_DRAWN = ((r"&&", " and "), (r"\|\|", " or "), (r"!(?!=)", " not "))
 """What arrows are labelled with, and what it is called in Python."""
+_JOINT = "·"
+"""Stands in names for what Python would take for an operator (``B2-B1.arrives``)."""
 
 _COMPARED: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.Eq: eq, ast.NotEq: ne, ast.Lt: lt, ast.LtE: le, ast.Gt: gt, ast.GtE: ge,
@@ -26,11 +29,15 @@ _COMPUTED: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
 
 
 def condition(written: str, names: Names) -> Expr:
-    """The formula that is meant.  Raises ``Refused`` for what has no meaning, saying what to write."""
+    """The formula that is meant.  Raises ``Refused`` for what has no meaning, saying what to write.
+
+    Where a name and a difference are written alike (``B2-B1``), it is the name.
+    """
     for drawn, called in _AS_DRAWN:
         written = re.sub(drawn, called, written)
+    parsable, names = _spelled(written.strip(), names)
     try:
-        tree = ast.parse(written.strip(), mode="eval")
+        tree = ast.parse(parsable, mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise Refused(f"{written.strip()!r} is no condition. {names.help}") from None
     try:
@@ -42,6 +49,19 @@ def condition(written: str, names: Names) -> Expr:
     if not isinstance(found.sort, Bool):
         raise Refused(f"`{found}` is neither true nor false ({found.sort}); compare it. {names.help}")
     return found
+
+
+def _spelled(written: str, names: Names) -> tuple[str, Names]:
+    """The condition with every variable spelled as Python can read it, and the names with these spellings."""
+    spelled = {n: re.sub(r"[^\w.]", _JOINT, n) for n in names.variables if re.search(r"[^\w.]", n)}
+    if not spelled:
+        return written, names
+    longest_first = sorted(map(re.escape, spelled), key=len, reverse=True)
+    parsable = re.sub(
+        rf"(?<![\w.])(?:{'|'.join(longest_first)})(?![\w.])", lambda m: spelled[m.group()], written
+    )
+    known = {s: names.variables[n] for n, s in spelled.items()}
+    return parsable, replace(names, variables={**names.variables, **known})
 
 
 def _meant(node: ast.expr, names: Names) -> Expr:
@@ -65,7 +85,8 @@ def _meant(node: ast.expr, names: Names) -> Expr:
 
 
 def _meaningless(node: ast.expr, names: Names) -> Refused:
-    return Refused(f"`{ast.unparse(node)}` has no meaning in a condition. {names.help}")
+    shown = ast.unparse(node).replace(_JOINT, "-")
+    return Refused(f"`{shown}` has no meaning in a condition. {names.help}")
 
 
 def _comparison(node: ast.Compare, names: Names) -> Expr:
@@ -131,9 +152,8 @@ def _named(name: str, names: Names) -> Expr:
         raise ModelError(
             f"{chart} is a chart; write one of its states, such as {_a_state(names.charts[chart])}."
         )
-    raise Refused(
-        f"There is no variable or state {name!r}. {did_you_mean(name, [*names.variables, *names.states])}"
-    )
+    known = [*(v.name for v in names.variables.values()), *names.states]
+    raise Refused(f"There is no variable or state {name!r}. {did_you_mean(name, known)}")
 
 
 def _a_state(chart: Chart) -> str:

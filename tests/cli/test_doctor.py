@@ -2,6 +2,8 @@
 
 import json
 import tomllib
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from importlib.metadata import PackageNotFoundError
 from pathlib import Path
 
@@ -10,7 +12,11 @@ import pytest
 from checker.cli import run
 from checker.commands import doctor
 from checker.commands.codes import Exit
-from checker.engine import engines
+from checker.decide import Task, decide
+from checker.engine import Limits, Progress, engines
+from checker.result import Result
+from checker.verdict import Unknown
+from spec_model.lang.system import System
 
 ROOT = Path(__file__).parents[2]
 
@@ -83,9 +89,21 @@ def test_a_wrong_engine_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
     assert "of what is violated in the third tick" in doctor.tried("explicit")
 
 
-def _renamed(prop: object, id: str) -> object:
-    from dataclasses import replace
+def test_an_engine_that_gives_up_on_what_is_true_is_found_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert doctor.tried("bmc") == "", "it proves nothing, and looks as deep as it was asked to"
 
+    def giving_up(
+        task: Task, systems: Mapping[str, System], engine: str, limits: Limits, progress: Progress
+    ) -> Iterator[Result]:
+        for found in decide(task, systems, engine, limits, progress):
+            unknown = Unknown("no more time", 7, "bmc")
+            yield replace(found, verdict=unknown) if found.property.id == "true" else found
+
+    monkeypatch.setattr("checker.decide.decide", giving_up)
+    assert doctor.tried("bmc") == "says unknown of what is true"
+
+
+def _renamed(prop: object, id: str) -> object:
     return replace(prop, id=id)  # type: ignore[type-var]
 
 

@@ -5,11 +5,14 @@ import pytest
 from checker.exploring.condition import condition
 from checker.exploring.names import Names
 from checker.exploring.written import Refused
+from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import evaluate
+from spec_model.lang.expr import flag, var
 from tests.render import zoo
 
 NAMES = Names({**zoo.VARIABLES, "level": zoo.level}, {"Relay": zoo.relay, "Nested": zoo.nested})
 AT = {"Relay": 2, "level": 150, "speed": -5, "alarm": 1, "mode": 1, "Relay.Theirs.duration1": 7}
+AGES = {"B2-B1.age": 3, "B2-B1.older.age": 4}
 
 
 @pytest.mark.parametrize(
@@ -34,6 +37,25 @@ AT = {"Relay": 2, "level": 150, "speed": -5, "alarm": 1, "mode": 1, "Relay.Their
 )
 def test_a_condition_means_what_it_says(written: str, true: bool) -> None:
     assert bool(evaluate(condition(written, NAMES), AT)) is true
+
+
+@pytest.mark.parametrize(
+    ("written", "true"),
+    [
+        ("B2-B1.arrives", True),
+        ("not B2-B1.arrives or level > 100", True),
+        ("B2-B1.age - 2 == 1 and level-50 == 100", True),
+        ("B2-B1.older.age==B2-B1.age", False),
+        ("(B2-B1.age<level)", True),
+    ],
+)
+def test_a_name_with_a_hyphen_is_no_difference(written: str, true: bool) -> None:
+    link = {v.name: v for v in (flag("B2-B1.arrives"), *(var(n, integer(0, 900)) for n in AGES))}
+    names = Names({**NAMES.variables, **link}, NAMES.charts)
+    at = AT | {"B2-B1.arrives": 1, **AGES}
+    assert bool(evaluate(condition(written, names), at)) is true
+    with pytest.raises(Refused, match=r"`B2-B1.arrives \*\* 2` has no meaning"):
+        condition("B2-B1.arrives ** 2", names)
 
 
 @pytest.mark.parametrize(
