@@ -153,6 +153,7 @@ def _named(name: str, names: Names) -> Expr:
             f"{chart} is a chart; write one of its states, such as {_a_state(names.charts[chart])}."
         )
     known = [*(v.name for v in names.variables.values()), *names.states]
+    known = [one for one in known if one.startswith(f"{name}-")] or known
     raise Refused(f"There is no variable or state {name!r}. {did_you_mean(name, known)}")
 
 

@@ -56,6 +56,8 @@ def test_a_name_with_a_hyphen_is_no_difference(written: str, true: bool) -> None
     assert bool(evaluate(condition(written, names), at)) is true
     with pytest.raises(Refused, match=r"`B2-B1.arrives \*\* 2` has no meaning"):
         condition("B2-B1.arrives ** 2", names)
+    with pytest.raises(Refused, match=r"no variable or state 'B2'. Known: B2-B1.age, B2-B1.arrives, "):
+        condition("B2-B1.arives", names)
 
 
 @pytest.mark.parametrize(
