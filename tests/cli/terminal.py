@@ -60,7 +60,11 @@ class Terminal:
         self._read = self.seen.index(text, self._read) + len(text)
 
     def interrupt(self, text: str) -> None:
-        """Press Ctrl-C until this is shown: readline misses one that comes just before it waits for keys."""
+        """Press Ctrl-C until this is shown: readline misses one that comes just before it waits for keys.
+
+        What was typed before must have been shown: a Ctrl-C drops keys that readline was told of and has
+        not read, and then it waits for others, whatever it is sent.
+        """
         end = monotonic() + PATIENCE
         while text not in self.seen[self._read :]:
             assert monotonic() < end, f"{text!r} was not shown after:\n{self.seen}"

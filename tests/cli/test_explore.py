@@ -192,6 +192,7 @@ def test_at_a_terminal_a_mistake_is_told_and_ctrl_c_and_ctrl_d_do_what_they_do_e
         terminal.until("There is no command 'who'. Did you mean")
         terminal.until("tick 0, 0 ms> ")
         terminal.type("step 1000")
+        terminal.until("step 1000")
         terminal.interrupt("Interrupted; quit or Ctrl-D ends.")
         terminal.until("tick 0, 0 ms> ")
         terminal.type("step\n")
