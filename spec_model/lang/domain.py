@@ -167,9 +167,9 @@ class Domain:
         """The raw value of what a person wrote.  Raises ``ModelError`` outside the domain."""
         match self.sort:
             case Bool():
-                raw = Fraction(int(value in (True, "true", "1")))
+                raw: Fraction | int = int(value in (True, "true", "1"))
             case Enum() as enum:
-                raw = Fraction(enum.number(value) if isinstance(value, str) else exact(value))
+                raw = enum.number(value) if isinstance(value, str) else exact(value)
             case Num(resolution, _):
                 raw = exact(value) / resolution
         if raw.denominator != 1 or int(raw) not in self:

@@ -11,7 +11,22 @@ from spec_model.lang.system import TransitionSystem
 def evaluate(expr: Expr, at: Mapping[str, int]) -> int:
     """The raw value of a formula without temporal words in a valuation (booleans are 0 and 1)."""
     if isinstance(expr, Apply):
-        return _apply(expr.op, expr.args, at)
+        op, args = expr.op, expr.args
+        if op is _AND:
+            for arg in args:
+                if not evaluate(arg, at):
+                    return 0
+            return 1
+        if op is _OR:
+            for arg in args:
+                if evaluate(arg, at):
+                    return 1
+            return 0
+        if op is _ITE:
+            return evaluate(args[1] if evaluate(args[0], at) else args[2], at)
+        if len(args) == 2:
+            return _OPERATORS[op](evaluate(args[0], at), evaluate(args[1], at))
+        return _OPERATORS[op](*[evaluate(arg, at) for arg in args])
     if isinstance(expr, Var):
         return at[expr.name]
     if isinstance(expr, Const):
@@ -23,20 +38,7 @@ def evaluate(expr: Expr, at: Mapping[str, int]) -> int:
     raise AssertionError(expr.__class__)
 
 
-def _apply(op: Op, args: tuple[Expr, ...], at: Mapping[str, int]) -> int:
-    if op is Op.AND:
-        for arg in args:
-            if not evaluate(arg, at):
-                return 0
-        return 1
-    if op is Op.OR:
-        for arg in args:
-            if evaluate(arg, at):
-                return 1
-        return 0
-    if op is Op.ITE:
-        return evaluate(args[1] if evaluate(args[0], at) else args[2], at)
-    return _OPERATORS[op](*[evaluate(arg, at) for arg in args])
+_AND, _OR, _ITE = Op.AND, Op.OR, Op.ITE  # an attribute of an enumeration costs as much as the operation
 
 
 def operate(op: Op, *v: int) -> int:
@@ -49,12 +51,12 @@ _OPERATORS: Mapping[Op, Callable[..., int]] = {
     Op.AND: lambda *v: int(all(v)),
     Op.OR: lambda *v: int(any(v)),
     Op.ITE: lambda test, then, other: then if test else other,
-    Op.EQ: lambda a, b: int(a == b),
-    Op.NE: lambda a, b: int(a != b),
-    Op.LT: lambda a, b: int(a < b),
-    Op.LE: lambda a, b: int(a <= b),
-    Op.GT: lambda a, b: int(a > b),
-    Op.GE: lambda a, b: int(a >= b),
+    Op.EQ: lambda a, b: 1 if a == b else 0,
+    Op.NE: lambda a, b: 1 if a != b else 0,
+    Op.LT: lambda a, b: 1 if a < b else 0,
+    Op.LE: lambda a, b: 1 if a <= b else 0,
+    Op.GT: lambda a, b: 1 if a > b else 0,
+    Op.GE: lambda a, b: 1 if a >= b else 0,
     Op.ADD: lambda a, b: a + b,
     Op.SUB: lambda a, b: a - b,
     Op.NEG: lambda a: -a,

@@ -250,7 +250,7 @@ class ChartRun:
 
 def contains(data: Var, raw: int) -> bool:
     """Whether the value is one of the domain."""
-    return raw in data.domain
+    return raw in data.domain.values
 
 
 def within(data: Var, raw: int) -> bool:
@@ -258,9 +258,10 @@ def within(data: Var, raw: int) -> bool:
 
     The last grid point of an angle below 180 degrees is 177.5, and measured angles lie above it too.
     """
-    if isinstance(data.sort, Num):
-        return data.domain.low - 1 < raw < data.domain.high + 1
-    return raw in data.domain
+    domain = data.domain
+    if isinstance(domain.sort, Num):
+        return domain.values[0] - 1 < raw < domain.values[-1] + 1
+    return raw in domain.values
 
 
 def store(at: Values, writer: str, data: Var, raw: int, admits: Admits = contains) -> None:

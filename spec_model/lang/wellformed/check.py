@@ -1,6 +1,7 @@
 """The checks in order; all faults of a chart are reported together."""
 
 from collections.abc import Iterator
+from weakref import WeakValueDictionary
 
 from spec_model.lang.chart import Chart, parts
 from spec_model.lang.domain import Bool
@@ -21,6 +22,8 @@ def check_chart(chart: Chart, tick_ms: int = TICK_MS) -> None:
 
 def check_system(system: System) -> None:
     """Raises ``ModelError`` with one line for each fault of the system and of its charts."""
+    if _SOUND.get(id(system)) is system:
+        return
     faults: list[str] = []
     for chart in system.charts:
         faults += [f"{chart.name}: {fault}" for fault in _chart_faults(chart, system.step_ms)]
@@ -29,6 +32,11 @@ def check_system(system: System) -> None:
     if not faults:
         faults = [f"{system.name}: {fault}" for fault in _system_faults(system)]
     _raise(iter(faults))
+    _SOUND[id(system)] = system
+
+
+_SOUND: WeakValueDictionary[int, System] = WeakValueDictionary()
+"""Systems in which no fault was found; they never change, so nobody need look again."""
 
 
 def _chart_faults(chart: Chart, tick_ms: int) -> list[str]:
