@@ -79,6 +79,7 @@ class Trace:
     ``needed`` are the inputs that force the end of the run, in any run of its length with its frozen values:
     the others may be anything that is admissible.  It is None for a run whose inputs were not examined.
     ``minimal``: none of those needed can be left out; otherwise the search for such a set was cut short.
+    ``smallest``: no set with fewer of the run's inputs forces its end.
 
     ``violated`` tells whether the run breaks the property; it is None for a run of no property, and for one
     of which only the parts that it makes false are known.  ``shortest``: no shorter run ends so.
@@ -105,6 +106,7 @@ class Trace:
     truths: tuple[tuple[bool, ...], ...] = ()
     needed: tuple[Needed, ...] | None = None
     minimal: bool = False
+    smallest: bool = False
     place: Place | None = field(default=None, compare=False, repr=False)
     concrete: tuple[BoardRun, ...] = field(default=(), compare=False, repr=False)
     violated: bool | None = None

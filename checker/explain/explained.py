@@ -44,4 +44,4 @@ def explained(
     found = forcing(question.system, goal.var, run, progress, over)
     progress("replaying other runs with the same needed inputs")
     check(question.system, goal.var, run, found)
-    return replace(trace, needed=found.needed, minimal=found.minimal)
+    return replace(trace, needed=found.needed, minimal=found.minimal, smallest=found.smallest)

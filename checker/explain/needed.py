@@ -3,16 +3,18 @@
 Found by deletion.  A long run is gone through backwards (see ``backwards``).  Another is unrolled, and what
 is deleted from is an unsatisfiable core: whole inputs are tried first, then stretches of ticks, then
 single ones, so that what is left is few inputs over long stretches.  A set that cannot lose any member is
-called minimal (subset-minimal); there may be another one with fewer members.
+called minimal (subset-minimal).  Whether there is one with fewer members is looked for then (``fewest``).
 """
 
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 
 from checker.encode.bits import Circuit, circuit
 from checker.engine import Progress, quiet
 from checker.explain.backwards import TooLarge, backwards
+from checker.explain.fewest import fewest, indispensable, simulated
 from checker.explain.unrolled import Over, Place, Unrolled, never
 from checker.explain.widening import widened
 from checker.partition import Partition, partitions
@@ -36,10 +38,12 @@ class Forcing:
     """Inputs that force the end of a run of this length with these frozen values.
 
     ``minimal``: none of them can be left out; otherwise the search was cut short, and some may not matter.
+    ``smallest``: no set with fewer inputs of the run forces its end.
     """
 
     needed: tuple[Needed, ...]
     minimal: bool
+    smallest: bool = False
 
 
 def forcing(
@@ -56,24 +60,28 @@ def forcing(
     then contradicts the replay.
     """
     made, cells = circuit(system, [goal.name]), partitions(sliced(system, [goal]))
-    wide, minimal = _searched(made, goal.name, run, cells, progress, over)
+    wide, minimal, smallest = _searched(made, goal.name, run, cells, progress, over)
     order = {v.name: i for i, v in enumerate(system.inputs)}
     places = sorted(wide, key=lambda place: (place[0], order[place[1]]))
-    return Forcing(tuple(Needed(*place, wide[place]) for place in places), minimal)
+    return Forcing(tuple(Needed(*place, wide[place]) for place in places), minimal, smallest)
 
 
 def _searched(
     made: Circuit, goal: str, run: Run, cells: dict[str, Partition], progress: Progress, over: Over
-) -> tuple[dict[Place, frozenset[int]], bool]:
-    """The needed inputs with the values that do, and whether none can be left out."""
+) -> tuple[dict[Place, frozenset[int]], bool, bool]:
+    """The needed inputs with the values that do, whether none can be left out, and whether none are fewer."""
     if len(made.aig) < WIDE and len(made.aig) * len(run) > LARGE:
         with suppress(TooLarge):
-            return backwards(made, goal, run, cells, progress, over)
+            found, minimal = backwards(made, goal, run, cells, progress, over)
+            progress("looking for a smaller set of inputs")
+            sure = indispensable(found, run, cells, partial(simulated, made, goal, run), over)
+            return found, minimal, sure == found.keys()
     progress(f"unrolling {len(run)} ticks")
     with Unrolled(made, goal, run, over) as unrolled:
         search = _Search(unrolled, cells, progress, over)
         search.minimise()
-        return widened(unrolled, search.kept, cells, over), search.minimal
+        search.shrink()
+        return widened(unrolled, search.kept, cells, over), search.minimal, search.smallest
 
 
 class _Search:
@@ -90,8 +98,9 @@ class _Search:
         self._cells = cells
         self._progress = progress
         self._over = over
-        self.minimal = True
-        self.kept = {p: unrolled.within(p, [(unrolled.own(p),) * 2]) for p in unrolled.places}
+        self.minimal, self.smallest = True, False
+        self.fixed = {p: unrolled.within(p, [(unrolled.own(p),) * 2]) for p in unrolled.places}
+        self.kept = dict(self.fixed)
         self._core: frozenset[int] = frozenset()
 
     def minimise(self) -> None:
@@ -108,6 +117,13 @@ class _Search:
         for name in dict.fromkeys(name for _, name in self.kept):
             self._progress(f"{len(self.kept)} inputs may be needed")
             self._thin([p for p in self.kept if p[1] == name and p not in critical])
+
+    def shrink(self) -> None:
+        """Take a smaller set of inputs, if there is one that forces the end."""
+        if self.minimal:
+            self._progress(f"looking for fewer than {len(self.kept)} inputs")
+            kept, self.smallest = fewest(self._unrolled, self.kept, self.fixed, self._cells, self._over)
+            self.kept = dict(kept)
 
     def forces(self, assumptions: Iterable[int]) -> bool:
         """Whether these assumptions force the end; not, if that is not found out."""

@@ -105,6 +105,15 @@ class Unrolled:
         core = self._solver.get_core() if found is False else None
         return Answer(None if found is None else not found, frozenset(core or ()))
 
+    def changed(self) -> set[Place]:
+        """The inputs that have other values than in the run, in that just found to avoid the end."""
+        model = self._solver.get_model()
+        return {
+            place
+            for place, numbers in self._numbers.items()
+            if any((model[abs(n) - 1] == n) != self.own(place) >> i & 1 for i, n in enumerate(numbers))
+        }
+
     def avoids(self, changes: Sequence[tuple[Place, int]]) -> Iterator[bool]:
         """For each change of one input of the run: whether it alone is admissible and avoids the end."""
         for start in range(0, len(changes), LANES):

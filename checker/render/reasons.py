@@ -148,5 +148,6 @@ def forced(trace: Trace) -> str:
     runs = f"every run of {counted_ticks(len(trace))}{fixed}"
     if not trace.needed:
         return f"Nothing but time: {runs} ends like this, whatever its inputs."
-    least = "None of them can be left out." if trace.minimal else "Not minimised: some may not matter."
-    return f"Whatever the other inputs are, {runs} ends like this. {least}"
+    least = "None of them can be left out" if trace.minimal else "Not minimised: some may not matter"
+    smaller = ", and no other set is smaller" if trace.smallest else ""
+    return f"Whatever the other inputs are, {runs} ends like this. {least}{smaller}."

@@ -2,12 +2,13 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import combinations
 
 import pytest
 from hypothesis import assume, given, settings
 
 from checker.engines.bdd.space import DDMemoryError, Overdrawn
-from checker.explain import backwards, needed
+from checker.explain import backwards, fewest, needed
 from checker.explain.completions import check
 from checker.explain.needed import Forcing, forcing
 from checker.explain.unrolled import OutOfTime, Unrolled
@@ -68,7 +69,9 @@ def test_what_is_needed_forces_the_end_and_nothing_of_it_can_be_left_out(system:
     for large in (needed.LARGE, 0):  # a short run is gone through backwards, too
         with pytest.MonkeyPatch.context() as patch:
             patch.setattr(needed, "LARGE", large)
-            judge(system, goal, run, forcing(system, goal, run))
+            found = forcing(system, goal, run)
+            judge(system, goal, run, found)
+            assert found.smallest or not large, "so few inputs are all tried"
 
 
 def judge(system: TransitionSystem, goal: Var, run: Run, found: Forcing) -> None:
@@ -79,6 +82,10 @@ def judge(system: TransitionSystem, goal: Var, run: Run, found: Forcing) -> None
     for one in found.needed:
         others = [n for n in found.needed if n is not one]
         assert 0 in ends(system, goal, run, others), f"{one} is not needed"
+    if found.smallest and found.needed:
+        own = [Needed(t, n, frozenset({v})) for t, at in enumerate(run.inputs, 1) for n, v in at.items()]
+        for fewer in combinations(own, len(found.needed) - 1):
+            assert 0 in ends(system, goal, run, fewer), f"{fewer} are enough"
     check(system, goal, run, found)
 
 
@@ -122,7 +129,39 @@ def test_an_input_that_must_not_come_too_early_is_needed_too() -> None:
 @both_ways
 def test_an_end_that_nothing_avoids_needs_nothing() -> None:
     found = forcing(once(), GOAL, Run({}, ({}, {})))
-    assert found == Forcing((), True)
+    assert found == Forcing((), True, True)
+
+
+def either() -> tuple[TransitionSystem, Run]:
+    """Two inputs together lead to the goal, and so does a third one, which is true like them."""
+    a, b, c = flag("a"), flag("b"), flag("c")
+    system = TransitionSystem("either", (a, b, c), (), (GOAL,), (), (Assign(GOAL, (a & b) | c),))
+    return system, Run({}, ({"a": 1, "b": 1, "c": 1},))
+
+
+def test_of_two_sets_it_is_the_smaller_one() -> None:
+    system, run = either()
+    found = forcing(system, GOAL, run)
+    assert told(found) == {(1, "c"): [1]} and found.smallest
+
+
+def test_a_set_that_need_not_be_the_smallest_is_not_called_so(monkeypatch: pytest.MonkeyPatch) -> None:
+    system, run = either()
+    monkeypatch.setattr(fewest, "ROUNDS", 0)
+    assert not forcing(system, GOAL, run).smallest
+    monkeypatch.setattr(needed, "LARGE", 0)
+    assert not forcing(system, GOAL, run).smallest, "gone through backwards, only what has no other is"
+
+
+@both_ways
+def test_a_set_without_another_is_the_smallest() -> None:
+    assert forcing(counter(3, top=3), GOAL, held(3, before=4)).smallest
+
+
+def test_another_number_of_times_is_the_smallest_too() -> None:
+    system, run = counter(2, top=2), held(6)
+    found = forcing(system, GOAL, run)
+    assert len(found.needed) == 2 and found.smallest
 
 
 def sensor(low: int, high: int) -> TransitionSystem:

@@ -71,8 +71,8 @@ class TestStory:
         assert bare.name == "" and dict(bare.values) == {"speed": "0 m/s", "alarm": "false"}
 
 
-def explained(*needed: Needed, minimal: bool = True) -> Trace:
-    return replace(long_trace(2), needed=needed, minimal=minimal)
+def explained(*needed: Needed, minimal: bool = True, smallest: bool = False) -> Trace:
+    return replace(long_trace(2), needed=needed, minimal=minimal, smallest=smallest)
 
 
 LOW, HIGH = frozenset(range(5)), frozenset(range(100, 301))
@@ -106,7 +106,8 @@ class TestReasons:
         assert forced(long_trace()) == ""
         assert "whatever its inputs" in forced(explained())
         some = Needed(1, "level", LOW)
-        assert "None of them can be left out" in forced(explained(some))
+        assert forced(explained(some)).endswith("None of them can be left out.")
+        assert forced(explained(some, smallest=True)).endswith("left out, and no other set is smaller.")
         assert "Not minimised" in forced(explained(some, minimal=False))
 
     def test_needed_inputs_are_marked(self) -> None:

@@ -1,6 +1,7 @@
 """Many random runs of a circuit at once: bit ``r`` of every word belongs to run ``r``."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
+from types import MappingProxyType
 
 from checker.encode.bits.aig import Literal
 from checker.encode.bits.model import Bit, Circuit
@@ -10,9 +11,9 @@ Values = dict[str, list[int]]
 
 
 class Simulation:
-    """The circuit in some valuation for each run; the frozen variables have their initial values."""
+    """The circuit in some valuation for each run; frozen variables have the values given, or initial ones."""
 
-    def __init__(self, circuit: Circuit, runs: int) -> None:
+    def __init__(self, circuit: Circuit, runs: int, frozen: Mapping[str, int] = MappingProxyType({})) -> None:
         self.circuit, self.full = circuit, (1 << runs) - 1
         self.runs = runs
         roots = [circuit.assume, circuit.leaves, *circuit.goals.values()]
@@ -24,7 +25,8 @@ class Simulation:
         self._word = [0] * len(circuit.aig)
         self._given: Values = {}
         for latch in circuit.latches:
-            start = latch.init if latch.init is not None else latch.bit.var.init >> latch.bit.number & 1
+            var, number = latch.bit.var, latch.bit.number
+            start = latch.init if latch.init is not None else frozen.get(var.name, var.init) >> number & 1
             self._word[latch.literal >> 1] = self.full if start else 0
 
     def _gates(self, nodes: Iterable[int]) -> list[tuple[int, int, int, int, int]]:
