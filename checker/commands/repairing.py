@@ -44,8 +44,9 @@ class Proof:
         for name, system in _specified().items():
             after = {part.name: part for part in parts(repaired[name].components)}
             for part in parts(system.components):
-                if part.name in after and part.name not in found and changes(part, after[part.name]):
-                    found[part.name] = (part, after[part.name])
+                other = after.get(part.name, part)
+                if other is not part and part.name not in found and changes(part, other):
+                    found[part.name] = (part, other)
         return list(found.values())
 
     @cached_property

@@ -70,7 +70,8 @@ class Variant:
         if self.repair is None:
             return found
         fixing = fixed(self.choices)
-        return {name: fixing.system(repaired(system, self.repair)) for name, system in found.items()}
+        edited = {name: repaired(system, self.repair) for name, system in found.items()}
+        return {n: s if s is found[n] else fixing.system(s) for n, s in edited.items()}
 
     def properties(self) -> dict[str, Property]:
         """Every property by id, under the chosen readings.  Raises ``ModelError`` if there is none."""
