@@ -15,6 +15,7 @@ from spec_model.lang.interpret import Interpreter
 from spec_model.lang.lower import lower
 from spec_model.lang.system import System, in_order
 from spec_model.lang.words import minimum
+from tests.profiles import examples
 from tests.strategies import frozen_values, input_blocks, systems
 
 
@@ -33,7 +34,7 @@ def compare(system: System, ticks: Sequence[Mapping[str, int]], frozen: Mapping[
 
 
 @pytest.mark.long
-@settings(max_examples=900, suppress_health_check=list(HealthCheck))
+@settings(examples(900), suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_lowered_systems_step_as_the_interpreter_does(data: st.DataObject) -> None:
     system = data.draw(systems())

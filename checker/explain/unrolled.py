@@ -48,8 +48,9 @@ class Answer:
 class Unrolled:
     """The ticks of a run with every input left open, and a solver that holds them.
 
-    A run that takes some variable out of its domain counts as one that avoids the end: nothing is
-    claimed of it.  Raises ``OutOfTime`` when the time is over before all ticks are there.
+    A run that takes some variable out of its domain counts as one that avoids the end, whatever comes
+    after that: nothing is claimed of it.  Raises ``OutOfTime`` when the time is over before all ticks are
+    there.
     """
 
     def __init__(self, made: Circuit, goal: str, run: Run, over: Over = never) -> None:
@@ -177,7 +178,7 @@ class Unrolled:
         roots = [made.assume, made.leaves, made.goals[goal], *(latch.next for latch in made.latches)]
         gates = [(n, a >> 1, a & 1, b >> 1, b & 1) for n, a, b in made.aig.gates(roots)]
         value, both = self._start(made), self.graph.both
-        assumed, leaves, hit = list[Literal](), list[Literal](), FALSE
+        assumed, leaves, hit, gone = list[Literal](), list[Literal](), FALSE, FALSE
         for number in range(1, len(self.run) + 1):
             if self._over():
                 raise OutOfTime(f"the time was over when {number - 1} of {len(self.run)} ticks were unrolled")
@@ -192,8 +193,9 @@ class Unrolled:
                     value[node] = one if other else FALSE
             asked = [made.assume, made.leaves, made.goals[goal], *(latch.next for latch in made.latches)]
             now, left, hit, *after = (value[x >> 1] ^ (x & 1) for x in asked)
-            assumed.append(now)
+            assumed.append(self.graph.any([now, gone]))
             leaves.append(left)
+            gone = self.graph.any([gone, left])
             for latch, literal in zip(made.latches, after, strict=True):
                 value[latch.literal >> 1] = literal
         return assumed, leaves, hit

@@ -17,8 +17,7 @@ from spec_model.lang.expr import Expr, all_of, any_of, const, lift
 
 _AS_DRAWN = ((r"&&", " and "), (r"\|\|", " or "), (r"!(?!=)", " not "))
 """What arrows are labelled with, and what it is called in Python."""
-_JOINT = "·"
-"""Stands in names for what Python would take for an operator (``B2-B1.arrives``)."""
+_QUOTED = r"'[^']*'|\"[^\"]*\""
 
 _COMPARED: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.Eq: eq, ast.NotEq: ne, ast.Lt: lt, ast.LtE: le, ast.Gt: gt, ast.GtE: ge,
@@ -53,15 +52,18 @@ def condition(written: str, names: Names) -> Expr:
 
 def _spelled(written: str, names: Names) -> tuple[str, Names]:
     """The condition with every variable spelled as Python can read it, and the names with these spellings."""
-    spelled = {n: re.sub(r"[^\w.]", _JOINT, n) for n in names.variables if re.search(r"[^\w.]", n)}
-    if not spelled:
+    odd = [n for n in names.variables if not all(part.isidentifier() for part in n.split("."))]
+    if not odd:
         return written, names
-    longest_first = sorted(map(re.escape, spelled), key=len, reverse=True)
+    spelled = {name: f"__{number}__" for number, name in enumerate(odd)}
+    longest_first = "|".join(re.escape(name) for name in sorted(odd, key=len, reverse=True))
     parsable = re.sub(
-        rf"(?<![\w.])(?:{'|'.join(longest_first)})(?![\w.])", lambda m: spelled[m.group()], written
+        rf"{_QUOTED}|(?<![\w.])(?:{longest_first})(?![\w.])",
+        lambda found: spelled.get(found.group(), found.group()),
+        written,
     )
     known = {s: names.variables[n] for n, s in spelled.items()}
-    return parsable, replace(names, variables={**names.variables, **known})
+    return parsable, replace(names, variables={**names.variables, **known}, spelled=known)
 
 
 def _meant(node: ast.expr, names: Names) -> Expr:
@@ -85,7 +87,9 @@ def _meant(node: ast.expr, names: Names) -> Expr:
 
 
 def _meaningless(node: ast.expr, names: Names) -> Refused:
-    shown = ast.unparse(node).replace(_JOINT, "-")
+    shown = ast.unparse(node)
+    for spelled, var in names.spelled.items():
+        shown = shown.replace(spelled, var.name)
     return Refused(f"`{shown}` has no meaning in a condition. {names.help}")
 
 

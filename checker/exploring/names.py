@@ -1,7 +1,7 @@
 """What conditions may speak of: the variables of a system and the states of its charts."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from spec_model.lang.chart import Chart
 from spec_model.lang.domain import Bool, Num
@@ -10,10 +10,14 @@ from spec_model.lang.expr import Var
 
 @dataclass(frozen=True)
 class Names:
-    """What a condition may speak of."""
+    """What a condition may speak of.
+
+    ``spelled`` are the variables whose name Python cannot read, by the spelling used for them instead.
+    """
 
     variables: Mapping[str, Var]
     charts: Mapping[str, Chart]
+    spelled: Mapping[str, Var] = field(default_factory=dict)
 
     @property
     def states(self) -> list[str]:

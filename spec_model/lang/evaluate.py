@@ -42,7 +42,7 @@ _AND, _OR, _ITE = Op.AND, Op.OR, Op.ITE  # an attribute of an enumeration costs 
 
 
 def operate(op: Op, *v: int) -> int:
-    """An operator on raw values."""
+    """An operator on raw values, all of them known."""
     return _OPERATORS[op](*v)
 
 

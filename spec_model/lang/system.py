@@ -68,8 +68,9 @@ class System:
         return all_of(self.assume, *(a.formula for a in self.assumptions))
 
     def without(self, dropped: Collection[str]) -> "System":
-        """The system without the assumptions of these ids: it has more runs."""
-        return replace(self, assumptions=tuple(a for a in self.assumptions if a.id not in dropped))
+        """The system without the assumptions of these ids, which has more runs; itself if it has none."""
+        kept = tuple(a for a in self.assumptions if a.id not in dropped)
+        return self if len(kept) == len(self.assumptions) else replace(self, assumptions=kept)
 
     @property
     def charts(self) -> tuple[Chart, ...]:

@@ -164,6 +164,41 @@ def test_another_number_of_times_is_the_smallest_too() -> None:
     assert len(found.needed) == 2 and found.smallest
 
 
+def many(runs: int) -> tuple[TransitionSystem, Run]:
+    """Two measurements together are high enough, after some ticks."""
+    level, last = var("level", integer(0, 4000)), var("last", integer(0, 4000))
+    count = var("count", integer(0, runs))
+    step = (
+        Assign(count, minimum(count + 1, runs)),
+        Assign(GOAL, (level + last >= 5000) & (count >= runs)),
+        Assign(last, level),
+    )
+    system = TransitionSystem("many", (level,), (), (count, last, GOAL), (), step)
+    return system, Run({}, ({"level": 2600},) * runs)
+
+
+@both_ways
+def test_thousands_of_values_are_no_harder() -> None:
+    system, run = many(3)
+    found = forcing(system, GOAL, run)
+    assert [(n.number, n.name) for n in found.needed] == [(2, "level"), (3, "level")] and found.smallest
+
+
+def test_a_run_that_leaves_a_domain_avoids_the_end_whatever_its_bits_are_then() -> None:
+    x, i = var("x", integer(0, 3)), var("i", integer(0, 3))
+    step = (Assign(GOAL, x < 4), Assign(x, ite(i == 3, 5, 0)))
+    system = TransitionSystem("leaving", (i,), (), (x, GOAL), (), step, assume=x != 1)
+    run = Run({}, ({"i": 0}, {"i": 0}))
+    assert {(1, "i")} <= told(forcing(system, GOAL, run)).keys()
+
+
+def test_a_solver_that_gives_up_claims_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
+    system, run = either()
+    monkeypatch.setattr(fewest._Meeting, "few", lambda *_: None)
+    found = forcing(system, GOAL, run)
+    assert found.minimal and not found.smallest
+
+
 def sensor(low: int, high: int) -> TransitionSystem:
     """The goal: a measurement within bounds after one below them, whatever the noise."""
     level, noise, low_before = var("level", integer(-50, 300)), flag("noise"), flag("low_before")

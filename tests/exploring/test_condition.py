@@ -5,7 +5,7 @@ import pytest
 from checker.exploring.condition import condition
 from checker.exploring.names import Names
 from checker.exploring.written import Refused
-from spec_model.lang.domain import integer
+from spec_model.lang.domain import enumeration, integer
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import flag, var
 from tests.render import zoo
@@ -58,6 +58,16 @@ def test_a_name_with_a_hyphen_is_no_difference(written: str, true: bool) -> None
         condition("B2-B1.arrives ** 2", names)
     with pytest.raises(Refused, match=r"no variable or state 'B2'. Known: B2-B1.age, B2-B1.arrives, "):
         condition("B2-B1.arives", names)
+
+
+def test_names_that_differ_in_an_operator_alone_are_told_apart() -> None:
+    mode = enumeration("Mode", ["A-B", "C"])
+    odd = [var("a-b", integer(0, 9)), var("a+b", integer(0, 9)), flag("µ-b"), var("A-B", mode)]
+    names = Names({v.name: v for v in odd}, {})
+    at = {"a-b": 1, "a+b": 2, "µ-b": 1, "A-B": 0}
+    assert evaluate(condition("a-b == 1 and a+b == 2 and µ-b and A-B == 'A-B'", names), at)
+    with pytest.raises(Refused, match=r"`a\+b \*\* 2` has no meaning"):
+        condition("a+b ** 2", names)
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Many random runs of a circuit at once: bit ``r`` of every word belongs to run ``r``."""
+"""Many runs of a circuit at once: bit ``r`` of every word belongs to run ``r``."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
