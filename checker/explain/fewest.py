@@ -98,7 +98,7 @@ class _Meeting:
 
     def __init__(self, places: Sequence[Place], most: int) -> None:
         self._number = {place: number for number, place in enumerate(places, start=1)}
-        self._count = ITotalizer(list(self._number.values()), ubound=max(most, 0), top_id=len(places))
+        self._count = ITotalizer(list(self._number.values()), ubound=most, top_id=len(places))
         self._solver = Minisat22(bootstrap_with=self._count.cnf.clauses)
 
     def __enter__(self) -> "_Meeting":

@@ -120,7 +120,7 @@ class _Search:
 
     def shrink(self) -> None:
         """Take a smaller set of inputs, if there is one that forces the end."""
-        if self.minimal:  # else there was no time for that either
+        if self.minimal:  # a search that was cut short before has no time or effort left for this
             self._progress(f"looking for fewer than {len(self.kept)} inputs")
             kept, self.smallest = fewest(self._unrolled, self.kept, self.fixed, self._cells, self._over)
             self.kept = dict(kept)

@@ -184,6 +184,7 @@ def test_thousands_of_values_are_no_harder() -> None:
     assert [(n.number, n.name) for n in found.needed] == [(2, "level"), (3, "level")] and found.smallest
 
 
+@both_ways
 def test_a_run_that_leaves_a_domain_avoids_the_end_whatever_its_bits_are_then() -> None:
     x, i = var("x", integer(0, 3)), var("i", integer(0, 3))
     step = (Assign(GOAL, x < 4), Assign(x, ite(i == 3, 5, 0)))
