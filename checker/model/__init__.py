@@ -24,7 +24,8 @@ EXAMPLE = "`rovercheck init FOLDER` writes an example."
 class Model:
     """Systems and properties by name; ``on_record`` holds the verdicts expected not to be "proved".
 
-    ``path`` is where a user's own model was read from, None for the rover.
+    ``path`` is where a user's own model was read from, None for the rover.  ``first`` are the requirements
+    whose violation is gravest; the others follow in the order of the register.
     """
 
     systems: Mapping[str, System]
@@ -32,6 +33,12 @@ class Model:
     on_record: Mapping[str, Expected] = field(default_factory=dict)
     requirements: Mapping[str, Requirement] = field(default_factory=dict)
     path: Path | None = None
+    first: tuple[str, ...] = ()
+
+    @property
+    def by_gravity(self) -> tuple[str, ...]:
+        """The requirements, by id, in the order in which their violations are told."""
+        return tuple(dict.fromkeys((*self.first, *self.requirements)))
 
     @property
     def name(self) -> str:

@@ -1,48 +1,118 @@
 """What a user's model must satisfy before anything is searched; what is wrong is told with file and line."""
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import replace
 from io import BytesIO
 from pathlib import Path
 from pickle import PicklingError, Unpickler
 from typing import Any
 
 from checker.isolate import pickled
-from checker.model import names_of, shown
+from checker.model import shown
+from checker.model.texts import text_faults
+from checker.slice import check_way_back
 from properties.forms import Property, formulas
-from spec_model.lang.chart import Chart
-from spec_model.lang.errors import ModelError, did_you_mean
+from properties.reduce import reduce, without_step
+from spec_model.lang.chart import Chart, parts
+from spec_model.lang.domain import Bool
+from spec_model.lang.errors import ModelError, did_you_mean, with_article
 from spec_model.lang.place import Place
-from spec_model.lang.system import System
+from spec_model.lang.system import System, enabled_in
 from spec_model.lang.walk import variables
 from spec_model.lang.wellformed import check_system
+from spec_model.lang.wellformed.data import twin_faults
 from spec_model.lang.wellformed.places import arrow_names, name_of
 
 
-def check_meaning(systems: Iterable[System], properties: Iterable[Property]) -> None:
-    """Raises ``ModelError`` for charts that have no meaning, and properties about what is not there."""
-    by_name = {system.name: system for system in systems}
-    for system in by_name.values():
-        try:
-            check_system(system)
-        except ModelError as error:
-            lines = (_placed(line, system) for line in str(error).splitlines())
-            raise ModelError("\n".join(lines)) from error
-    for prop in properties:
-        known = names_of(by_name[prop.on])
-        for name in variables(*formulas(prop.form)):
-            if name not in known:
-                said = f"{prop.id} reads {name}, which system {prop.on} does not have"
-                raise ModelError(f"{prop.place or 'the model'}: {said}. {did_you_mean(name, known)}")
+def system_faults(system: System, place: str) -> Iterator[str]:
+    """What has no meaning in a system that is written at a place, a line each."""
+    yield from text_faults(system, place)
+    try:
+        check_system(system)
+    except ModelError as error:
+        yield from (_placed(fault, system, place) for fault in str(error).splitlines())
 
 
-def _placed(fault: str, system: System) -> str:
-    """The fault with the line of the arrow or state that it names, else of its chart."""
-    for chart in system.charts:
-        if fault.startswith(f"{chart.name}: "):
-            named = (place for words, place in _places(chart) if f" {words} " in fault)
-            place = next(named, None) or chart.root.place
-            return f"{place}: {fault}" if place else fault
-    return fault
+def concrete_faults(systems: Mapping[str, System], known: Collection[str] | None) -> Iterator[str]:
+    """Systems that are named by others and are not ``known`` (None: all may be), or lead back to those."""
+    for system in systems.values():
+        said = f"{system.place}: {system.name} names concrete={system.concrete!r}"
+        if system.concrete and known is not None and system.concrete not in known:
+            yield f"{said}, no system of this model. {did_you_mean(system.concrete, known)}"
+        passed, at = [system.name], system.concrete
+        while at in systems and at not in passed:
+            passed, at = [*passed, at], systems[at].concrete
+        if system.concrete and at == system.name:
+            yield f"{said}, which leads back to {system.name}; name the system with the charts themselves."
+
+
+def not_about(prop: Property, systems: Mapping[str, System], names: Collection[str]) -> str:
+    """That a property is about no system of the model."""
+    inside = [s.name for s in systems.values() if prop.on in {c.name for c in s.charts}]
+    near = (
+        f"It is a chart of {', '.join(inside)}: write on={inside[0]!r}."
+        if inside
+        else did_you_mean(prop.on, names)
+    )
+    return f"{prop.id} is about {prop.on!r}, no system of this model. {near}"
+
+
+def _is_another(prop: Property, system: System) -> bool:
+    """Whether a property is about something else than the system of that name."""
+    return prop.about is not None and prop.about is not system and [prop.about] != list(system.components)
+
+
+def monitor_faults(system: System, properties: Sequence[Property]) -> Iterator[str]:
+    """Names that the monitors of properties would share; they may be searched together."""
+    try:
+        reduce(without_step(system), properties)
+    except ModelError as error:
+        places = (p.place for p in properties if str(error).startswith(f"{p.id}: "))
+        yield f"{next(places, None) or system.place or 'the model'}: {error}"
+
+
+def property_faults(prop: Property, systems: Mapping[str, System]) -> list[str]:
+    """What has no meaning in a property about a system that has one."""
+    system = systems[prop.on]
+    if _is_another(prop, system):
+        given = f"{'chart' if isinstance(prop.about, Chart) else 'system'} named {prop.on}"
+        said = f"{prop.id}: on= is a {given}, and the system of that name in the model is another"
+        return [f"{said}; write the one at the level of a module, or its name."]
+    bare = without_step(system)
+    known = {v.name: v for v in (*bare.variables, *bare.inputs, *bare.frozen)}
+    faults = list[str]()
+    for name, var in variables(*formulas(prop.form)).items():
+        if name not in known:
+            said = f"{prop.id} reads {name}, which system {prop.on} does not have. "
+            faults.append(said + did_you_mean(name, known))
+        else:
+            faults += (f"{prop.id} and system {prop.on}: {f}" for f in twin_faults(known[name], var))
+    for formula in formulas(prop.form):
+        if not isinstance(formula.sort, Bool):
+            kind = with_article(formula.sort)
+            faults.append(f"{prop.id}: `{formula}` is {kind}; write a condition, such as a comparison.")
+    if faults:
+        return faults
+    try:
+        reduce(bare, [prop])
+        concrete = systems.get(system.concrete, system)
+        check_way_back(prop, replace(without_step(concrete), assume=concrete.assumed))
+    except ModelError as error:
+        return [str(error) if str(error).startswith(prop.id) else f"{prop.id}: {error}"]
+    return []
+
+
+def _placed(fault: str, system: System, place: str) -> str:
+    """The fault with the line of the arrow, state or enable that it names, else of its part or system."""
+    for enabled in enabled_in(system.components):
+        if f"the enable `{enabled.by}`" in fault:
+            return f"{enabled.place or place}: {fault}"
+    for part in parts(system.components):
+        if fault.startswith(f"{part.name}: "):
+            places = _places(part) if isinstance(part, Chart) else ()
+            named = (at for words, at in places if f" {words} " in fault)
+            return f"{next(named, None) or part.place or place}: {fault}"
+    return f"{place}: {fault}"
 
 
 def _places(chart: Chart) -> Iterator[tuple[str, Place | None]]:

@@ -1,6 +1,7 @@
 """Runs the files of a user's model; what goes wrong is told with file and line."""
 
 import linecache
+import re
 import traceback
 from collections.abc import Sequence
 from pathlib import Path
@@ -11,6 +12,7 @@ from checker.model.neighbours import Neighbours
 from spec_model.lang.errors import ModelError
 from spec_model.lang.place import Place
 
+_FORMULA = re.compile(r"'(Var|Const|Apply|Named|Temporal)' object is not iterable")
 TESTS = ("test_*.py", "*_test.py", "conftest.py")
 
 
@@ -20,7 +22,7 @@ def files_of(path: Path) -> list[Path]:
     Raises ``ModelError`` for what is no Python file and no folder with one.
     """
     if path.is_dir():
-        inside = [f for f in sorted(path.glob("*.py")) if not any(map(f.match, TESTS))]
+        inside = [f for f in sorted(path.glob("*.py")) if f.is_file() and not any(map(f.match, TESTS))]
         if not inside:
             raise ModelError(
                 f"{shown(path)} holds no Python file; a model is a .py file or a folder of them."
@@ -35,11 +37,17 @@ def files_of(path: Path) -> list[Path]:
     return [path]
 
 
-def modules_of(files: Sequence[Path]) -> tuple[Neighbours, list[ModuleType]]:
-    """Run files of one folder.  Raises ``ModelError`` for an error in one of them, with file and line."""
+def modules_of(files: Sequence[Path]) -> tuple[Neighbours, list[tuple[Path, ModuleType]], list[str]]:
+    """The files of one folder that run, with their modules; and what is wrong with the others, with lines."""
     neighbours = Neighbours(files[0].parent)
+    modules, faults = list[tuple[Path, ModuleType]](), list[str]()
     with neighbours.importing():
-        return neighbours, [_run(neighbours, file) for file in files]
+        for file in files:
+            try:
+                modules.append((file, _run(neighbours, file)))
+            except ModelError as error:
+                faults.append(str(error).replace(f"{neighbours.package}.", ""))
+    return neighbours, modules, faults
 
 
 def _run(neighbours: Neighbours, file: Path) -> ModuleType:
@@ -48,7 +56,9 @@ def _run(neighbours: Neighbours, file: Path) -> ModuleType:
     except SyntaxError as error:
         where = Place(error.filename or str(file), error.lineno) if error.lineno else shown(file)
         raise ModelError(f"{where}: this is not Python: {error.msg}.") from error
-    except (Exception, SystemExit) as error:
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # also what is meant for test runners and event loops
         raise ModelError(_told(error, neighbours, file)) from error
 
 
@@ -70,7 +80,9 @@ def _within(filename: str, folder: Path) -> bool:
 
 
 def _hint(error: BaseException, neighbours: Neighbours) -> str:
-    """For an import that finds an installed package although a neighbour bears the name."""
+    """For a formula taken for a list, and an import that finds an installed package, not a neighbour."""
+    if isinstance(error, TypeError) and _FORMULA.fullmatch(str(error)):
+        return " A formula is no list; join conditions with & and |, or with all_of(...) and any_of(...)."
     name = (getattr(error, "name", None) or "").partition(".")[0]
     if isinstance(error, ImportError) and name in neighbours.hidden():
         return (

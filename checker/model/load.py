@@ -1,18 +1,28 @@
 """A user's own model: a Python file, or a folder of them, whose charts, systems and properties are found."""
 
-from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
 from checker.model import EXAMPLE, Model, shown
-from checker.model.checks import check_meaning, check_portable
+from checker.model.checks import (
+    check_portable,
+    concrete_faults,
+    monitor_faults,
+    not_about,
+    property_faults,
+    system_faults,
+)
 from checker.model.execute import files_of, modules_of
+from checker.model.kinds import kind_faults
 from checker.model.records import REGISTER, recorded, register
-from checker.model.texts import check_texts, one_line
+from checker.model.texts import one_line, text_faults
 from properties.forms import Property
+from properties.requirements import Requirement
 from spec_model.lang.chart import Chart
-from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.lang.errors import ModelError
 from spec_model.lang.system import System, in_order
 
 
@@ -22,126 +32,138 @@ def load(path: Path) -> Model:
     Every ``System``, ``Chart`` and ``Property`` at the level of a module, in tuples and lists too, is part
     of it.  A chart that is in no system becomes one of its own, with free inputs and its name.  Verdicts on
     record are read from ``baseline.toml`` beside it, requirements from ``requirements.toml`` or a mapping
-    ``REQUIREMENTS``.  Raises ``ModelError`` for what has no meaning.
+    ``REQUIREMENTS``.  Raises ``ModelError`` for what has no meaning, with a line for each fault; only a thing
+    that is faulty already, or what it is about, is not looked at further.
     """
     files = files_of(path)
-    neighbours, modules = modules_of(files)
-    found = _found(zip(files, modules, strict=True))
-    systems, properties = _systems(found, path), _properties(found)
-    _meant(found, systems)
-    check_texts(systems.values(), properties.values())
-    check_meaning(systems.values(), properties.values())
-    check_portable((systems, properties), neighbours.package, path)
-    beside = files[0].parent / f"{REGISTER.lower()}.toml"
-    requirements = register(_declared(modules), beside, properties)
-    return Model(systems, properties, recorded(path, properties), requirements, path)
-
-
-@dataclass
-class _Found:
-    """The things of a model, each once, with the file in which it was met first."""
-
-    systems: list[tuple[System, Path]] = field(default_factory=list)
-    charts: list[tuple[Chart, Path]] = field(default_factory=list)
-    properties: list[tuple[Property, Path]] = field(default_factory=list)
-
-
-def _found(modules: Iterable[tuple[Path, ModuleType]]) -> _Found:
-    found, seen = _Found(), set[int]()
-    for file, module in modules:
-        for thing in _things(vars(module).values()):
-            if id(thing) in seen:
-                continue
-            seen.add(id(thing))
-            match thing:
-                case System():
-                    found.systems.append((thing, file))
-                case Chart():
-                    found.charts.append((thing, file))
-                case Property():
-                    found.properties.append((thing, file))
-    return found
-
-
-def _things(values: Iterable[object]) -> Iterator[object]:
-    """The values, and what is in tuples and lists of them."""
-    for value in values:
-        if isinstance(value, tuple | list):
-            yield from _things(value)
-        else:
-            yield value
-
-
-def _systems(found: _Found, path: Path) -> dict[str, System]:
-    """The systems by name, and one for each chart that is in none of them."""
-    inside = {id(chart) for system, _ in found.systems for chart in system.charts}
-    alone = [(_alone(chart), file) for chart, file in found.charts if id(chart) not in inside]
-    by_name: dict[str, tuple[System, Path]] = {}
-    for system, file in (*found.systems, *alone):
-        if system.name in by_name:
-            other = by_name[system.name][1]
-            raise ModelError(
-                f"{shown(file)}: the name {system.name!r} is taken"
-                f"{f' in {shown(other)}' if other != file else ''}: two systems have it, or a system and a "
-                "chart outside of it. Rename one of them."
-            )
-        by_name[system.name] = system, file
-    if not by_name:
+    neighbours, modules, faults = modules_of(files)
+    found = _Found(modules, faults)
+    found.take_systems()
+    found.take_properties()
+    on_record, requirements = {}, dict[str, Requirement]()
+    if found.whole:
+        with _gathered(faults):
+            on_record = recorded(path, found.ids)
+        with _gathered(faults):
+            beside = files[0].parent / f"{REGISTER.lower()}.toml"
+            requirements, wrong = register(modules, beside, found.properties.values())
+            faults += wrong
+    if faults:
+        raise ModelError("\n".join(dict.fromkeys(faults)))
+    if not found.systems:
         raise ModelError(
             f"{shown(path)} holds no chart and no system at the level of a module. "
             f"Write `name = Chart(...)` there; {EXAMPLE}"
         )
-    return {name: system for name, (system, _) in by_name.items()}
+    check_portable((found.systems, found.properties), neighbours.package, path)
+    return Model(found.systems, found.properties, on_record, requirements, path)
+
+
+class _Found:
+    """The things of a model, each once, and what is wrong with them.
+
+    ``names`` and ``ids`` are those of all systems and properties; ``systems`` and ``properties`` are without
+    those of which something is of the wrong kind; what is asked of ``sound`` systems has an answer.
+    ``whole``: every file could be run, so that what is not there is nowhere.
+    """
+
+    def __init__(self, modules: Iterable[tuple[Path, ModuleType]], faults: list[str]) -> None:
+        self.whole, self.faults = not faults, faults
+        self.names, self.sound, self.ids = set[str](), set[str](), set[str]()
+        self.systems: dict[str, System] = {}
+        self.properties: dict[str, Property] = {}
+        self._files: dict[int, tuple[object, Path]] = {}
+        for file, module in modules:
+            for thing in _things(vars(module).values()):
+                self._files.setdefault(id(thing), (thing, file))
+
+    def take_systems(self) -> None:
+        """Look at the systems, and make one of each chart that is in none of them."""
+        things = list(self._files.values())
+        written = [s for s, _ in things if isinstance(s, System) and isinstance(s.components, tuple)]
+        inside = {id(chart) for system in written for chart in system.charts}
+        systems: list[tuple[System | Chart, Path]] = [(s, f) for s, f in things if isinstance(s, System)]
+        systems += [(c, f) for c, f in things if isinstance(c, Chart) and id(c) not in inside]
+        for thing, file in systems:
+            if not self._of_right_kinds(thing, file):
+                self.names |= {thing.name} if isinstance(thing.name, str) else set()
+                continue
+            system, place = thing if isinstance(thing, System) else _alone(thing), thing.place or shown(file)
+            if system.name in self.systems:
+                first = self.systems[system.name].place
+                self.faults.append(
+                    f"{place}: the name {system.name!r} is taken{f' in {first}' if first else ''}: two "
+                    "systems have it, or a system and a chart outside of it. Rename one of them."
+                )
+                continue
+            self.names.add(system.name)
+            self.systems[system.name] = system
+            before = len(self.faults)
+            with _gathered(self.faults, f"{place}: {system.name}: "):
+                self.faults += system_faults(system, str(place))
+            if len(self.faults) == before:
+                self.sound.add(system.name)
+        self.faults += concrete_faults(self.systems, self.names if self.whole else None)
+
+    def take_properties(self) -> None:
+        """Look at the properties, of which the meaning is asked where their system has one."""
+        for written, file in self._files.values():
+            if not isinstance(written, Property):
+                continue
+            if not self._of_right_kinds(written, file):
+                self.ids |= {written.id} if isinstance(written.id, str) else set()
+                continue
+            prop, place = one_line(written), written.place or shown(file)
+            if prop.id in self.properties:
+                first = self.properties[prop.id].place
+                also = f", here and in {first}" if first else ""
+                self.faults.append(f"{place}: the id {prop.id} names two properties{also}. Rename one.")
+            self.ids.add(prop.id)
+            area = Path(prop.place.file if prop.place else file).stem
+            self.properties.setdefault(prop.id, replace(prop, area=area, about=None))
+            with _gathered(self.faults, f"{place}: {prop.id}: "):
+                self.faults += text_faults(prop, str(place))
+                if prop.on in self.sound:
+                    self.faults += (f"{place}: {fault}" for fault in property_faults(prop, self.systems))
+                elif prop.on not in self.names and self.whole:
+                    self.faults.append(f"{place}: {not_about(prop, self.systems, self.names)}")
+
+        for name in self.sound if not self.faults else ():
+            about = [p for p in self.properties.values() if p.on == name]
+            self.faults += monitor_faults(self.systems[name], about)
+
+    def _of_right_kinds(self, thing: System | Chart | Property, file: Path) -> bool:
+        faults = list(kind_faults(thing, shown(file)))
+        self.faults += faults
+        return not faults
+
+
+@contextmanager
+def _gathered(faults: list[str], where: str = "") -> Iterator[None]:
+    """What is raised inside is told with the other faults."""
+    try:
+        yield
+    except ModelError as error:
+        faults += str(error).splitlines()
+    except RecursionError:
+        faults.append(f"{where}states or formulas are nested too deeply to be read; write fewer levels.")
+
+
+def _things(values: Iterable[object]) -> Iterator[object]:
+    """The values, and what is in tuples and lists of them, in each once."""
+    todo, seen = list(values)[::-1], set[int]()
+    while todo:
+        value = todo.pop()
+        if not isinstance(value, tuple | list):
+            yield value
+        elif id(value) not in seen:
+            seen.add(id(value))
+            todo += reversed(value)
 
 
 def _alone(chart: Chart) -> System:
-    return in_order(chart.name, chart, text=f"{chart.name} alone, with free inputs. {chart.text}".strip())
-
-
-def _properties(found: _Found) -> dict[str, Property]:
-    by_id: dict[str, Property] = {}
-    for written, file in found.properties:
-        prop = one_line(written)
-        if prop.id in by_id:
-            first = by_id[prop.id].place
-            also = f", here and in {first}" if first else ""
-            raise ModelError(
-                f"{_where(prop, file)}: the id {prop.id} names two properties{also}. Rename one."
-            )
-        by_id[prop.id] = replace(prop, area=Path(prop.place.file if prop.place else file).stem)
-    return by_id
-
-
-def _where(prop: Property, file: Path) -> str:
-    return str(prop.place or shown(file))
-
-
-def _meant(found: _Found, systems: Mapping[str, System]) -> None:
-    """Raises ``ModelError`` for a system that is named and not there."""
-    for prop, file in found.properties:
-        if prop.on not in systems:
-            near = did_you_mean(prop.on, systems)
-            raise ModelError(
-                f"{_where(prop, file)}: {prop.id} is about {prop.on!r}, no system of this model. {near}"
-            )
-    for system, file in found.systems:
-        if system.concrete and system.concrete not in systems:
-            near = did_you_mean(system.concrete, systems)
-            named = f"{system.name} names concrete={system.concrete!r}"
-            raise ModelError(f"{shown(file)}: {named}, no system of this model. {near}")
-
-
-def _declared(modules: Iterable[ModuleType]) -> dict[str, object]:
-    """The mappings named REQUIREMENTS, put together."""
-    found: dict[str, object] = {}
-    for module in modules:
-        declared = getattr(module, REGISTER, {})
-        if not isinstance(declared, Mapping):
-            raise ModelError(
-                f"{shown(Path(str(module.__file__)))}: {REGISTER} is no mapping of ids to sentences."
-            )
-        found |= {str(id): said for id, said in declared.items()}
-    return found
+    text = f"{chart.name} alone, with free inputs. {chart.text}".strip()
+    return replace(in_order(chart.name, chart, text=text), place=chart.place)
 
 
 __all__ = ["load"]

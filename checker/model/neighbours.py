@@ -5,16 +5,19 @@ as `from .signals import x` or `from signals import x`; what is installed keeps 
 """
 
 import importlib
+import os
 import site
 import sys
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager, redirect_stdout
+from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from importlib.util import spec_from_file_location
 from itertools import count
 from pathlib import Path
 from types import CodeType, ModuleType
+
+from checker.printable import PrintableStream
 
 OURS = frozenset({"checker", "properties", "spec_model", "supervisor"})
 _numbers = count(1)
@@ -85,14 +88,15 @@ class Neighbours(MetaPathFinder):
 
     @contextmanager
     def importing(self) -> Iterator[None]:
-        """Make the modules known inside; what they print goes to standard error."""
+        """Make the modules known inside; what they print goes to standard error, escaped."""
         root = ModuleType(self.package)
         root.__path__ = [str(self.folder)]
         before = {n: sys.modules.pop(n) for n in list(sys.modules) if self._alias(n)}
         sys.modules[self.package] = root
         sys.meta_path.insert(0, self)
         try:
-            with redirect_stdout(sys.stderr):
+            said = None if sys.stderr is None else PrintableStream(sys.stderr)
+            with redirect_stdout(said), redirect_stderr(said), _no_results():
                 yield
         finally:
             sys.meta_path.remove(self)
@@ -104,6 +108,23 @@ class Neighbours(MetaPathFinder):
         """Whether inside the name means, or is below, a file of this folder."""
         head = name.partition(".")[0]
         return head != self.package and self._file([head]) is not None and not installed(head)
+
+
+@contextmanager
+def _no_results() -> Iterator[None]:
+    """What programs print that a model starts goes to standard error: programs read our results."""
+    try:
+        results = os.dup(1)
+    except OSError:  # there is no standard output
+        yield
+        return
+    try:
+        with suppress(OSError):
+            os.dup2(2, 1)
+        yield
+    finally:
+        os.dup2(results, 1)
+        os.close(results)
 
 
 def installed(name: str) -> bool:

@@ -1,17 +1,23 @@
 """The tables beside a user's model: the verdicts on record, and the requirements that are covered."""
 
+import ast
 import tomllib
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import fields
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
 from checker.model import shown
+from checker.toml_lines import line_of
 from properties.catalogue import Expected, on_record
 from properties.forms import Property
 from properties.requirements import Requirement
 from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.lang.place import Place
 
 REGISTER = "REQUIREMENTS"
+_KEYS = tuple(f.name for f in fields(Requirement) if f.name != "id")
 
 
 def baseline_of(path: Path) -> Path:
@@ -29,42 +35,64 @@ def recorded(path: Path, known: Collection[str]) -> dict[str, Expected]:
 
 
 def register(
-    declared: Mapping[str, object], file: Path, properties: Mapping[str, Property]
-) -> dict[str, Requirement]:
-    """The requirements that the model declares and those of the file, by id.
+    modules: Iterable[tuple[Path, ModuleType]], file: Path, properties: Iterable[Property]
+) -> tuple[dict[str, Requirement], list[str]]:
+    """The requirements that modules declare and those of the file, by id; and what is wrong with them.
 
-    Where none is declared, what properties cover are requirements.  Raises ``ModelError`` for a property
-    that covers none of those declared.
+    Where none is declared, what properties cover are requirements.  Raises ``ModelError`` for a file that
+    is no TOML.
     """
-    named = {**(_table(file) if file.exists() else {}), **declared}
-    if not named:
-        return {id: _requirement(id, "") for prop in properties.values() for id in prop.covers}
-    for prop in properties.values():
+    named = {id: (said, file) for id, said in (_table(file) if file.exists() else {}).items()}
+    faults = list[str]()
+    for source, module in modules:
+        declared = getattr(module, REGISTER, {})
+        if isinstance(declared, Mapping):
+            named |= {str(id): (said, source) for id, said in declared.items()}
+        else:
+            faults.append(f"{_written(source, REGISTER)}: {REGISTER} is no mapping of ids to sentences.")
+    if not named and not faults:
+        return {id: _requirement(id, "") for prop in properties for id in prop.covers}, []
+    found = dict[str, Requirement]()
+    for id, (said, source) in named.items():
+        try:
+            found[id] = _requirement(id, said)
+        except ModelError as error:
+            faults.append(f"{_written(source, id)}: {error}")
+    for prop in properties if named else ():
         for id in prop.covers:
             if id not in named:
                 near = did_you_mean(id, named)
-                raise ModelError(
-                    f"{prop.place or 'the model'}: {prop.id} covers {id!r}, no requirement. {near}"
-                )
-    return {id: _requirement(id, said) for id, said in named.items()}
+                faults.append(f"{prop.place or 'the model'}: {prop.id} covers {id!r}, no requirement. {near}")
+    return found, faults
+
+
+def _written(file: Path, name: str) -> str:
+    """The line of a module that assigns a name, or has it as a key of a mapping or a table; else the file."""
+    if file.suffix == ".toml":
+        line = line_of(file.read_text(encoding="utf-8"), (name,))
+        return str(Place(str(file), line)) if line else shown(file)
+    for node in ast.walk(ast.parse(file.read_bytes())) if file.suffix == ".py" else ():
+        if isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store) and node.id == name:
+            return str(Place(str(file), node.lineno))
+        for key in node.keys if isinstance(node, ast.Dict) else ():
+            if isinstance(key, ast.Constant) and str(key.value) == name:
+                return str(Place(str(file), key.lineno))
+    return shown(file)
 
 
 def _requirement(id: str, said: object) -> Requirement:
     """A requirement from its sentence, or from a table with ``text`` and what else there is to say."""
-    blank = dict.fromkeys(("text", "source", "bounds", "kind"), "")
     row: Mapping[str, Any] = {"text": said} if isinstance(said, str) else _row(id, said)
-    try:
-        return Requirement(id, **{**blank, "checkable": "yes", **row})
-    except TypeError as error:
-        unknown = next(k for k in row if k not in Requirement.__dataclass_fields__)
-        near = did_you_mean(unknown, [*blank, "checkable", "reason"])
-        raise ModelError(f"The requirement {id} has no {unknown!r}. {near}") from error
+    unknown = [key for key in row if key not in _KEYS]
+    if unknown:
+        raise ModelError(f"the requirement {id} has no {unknown[0]!r}. {did_you_mean(unknown[0], _KEYS)}")
+    return Requirement(id, **{**dict.fromkeys(_KEYS, ""), "checkable": "yes", **row})
 
 
 def _row(id: str, said: object) -> Mapping[str, Any]:
     if isinstance(said, Mapping) and all(isinstance(v, str) for v in said.values()):
         return said
-    raise ModelError(f"The requirement {id} is {said!r}; write its sentence, or a table of texts.")
+    raise ModelError(f"the requirement {id} is {said!r}; write its sentence, or a table of texts.")
 
 
 def _table(file: Path) -> dict[str, Any]:
@@ -72,3 +100,5 @@ def _table(file: Path) -> dict[str, Any]:
         return tomllib.loads(file.read_text(encoding="utf-8"))
     except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
         raise ModelError(f"{shown(file)} is no TOML: {error}.") from error
+    except OSError as error:
+        raise ModelError(f"{shown(file)} cannot be read: {error.strerror}.") from error

@@ -5,7 +5,7 @@ from functools import cache
 
 from checker.model import Model
 from properties.catalogue import baseline, under
-from properties.requirements import requirements
+from properties.requirements import PROMISES, requirements
 from spec_model.rover import AS_READ, systems
 
 
@@ -20,4 +20,4 @@ def rover(choices: Mapping[str, str] = AS_READ) -> Model:
 @cache
 def _rover(chosen: tuple[tuple[str, str], ...]) -> Model:
     choices = dict(chosen)
-    return Model(systems(choices), under(choices), baseline(), requirements())
+    return Model(systems(choices), under(choices), baseline(), requirements(), first=PROMISES)

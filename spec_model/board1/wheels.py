@@ -62,3 +62,4 @@ def monitor_of_wheel(wheel: str) -> Chart:
 
 
 monitor_wheels = tuple(monitor_of_wheel(wheel) for wheel in WHEELS)
+monitor_wheel_FL, monitor_wheel_FR, monitor_wheel_RL, monitor_wheel_RR = monitor_wheels

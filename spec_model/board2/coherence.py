@@ -5,15 +5,16 @@ long windows of 3 s, which end at the first IMU stamp that late.  The result is 
 that ends a window: a long one with a difference of 5° or more, or a short one when at least eight of
 the last ten short ones were hits.
 
-Time stamps lie on the 20 ms grid and all sums are exact.  The sum of a window is kept at the end of
-its domain, more than 360°: only a window that the IMU leaves open for long gets there.
+Time stamps lie on the 20 ms grid and all sums are exact.  A sum that reaches the end of its domain is kept
+there: a window of 0.1 or 3 s gets there beyond 2,000° per second, the widest range of such a gyroscope, or
+with every wheel beyond 320 rpm, four times what Board 2 commands; one that a silent IMU leaves open, sooner.
 """
 
 from fractions import Fraction
 
 from spec_model.lang.action import Action, assign, when
 from spec_model.lang.chart import Block
-from spec_model.lang.domain import fixed, integer
+from spec_model.lang.domain import Domain, fixed, integer
 from spec_model.lang.expr import Const, Expr, Var, const, flag, ite, var
 from spec_model.lang.words import absolute, bit, maximum, minimum, modulo
 from spec_model.signals.board2_supervisor import IMU, SUP, gz_dps, is_motion_consistent, wheel_speed_rpm
@@ -28,14 +29,21 @@ WHEEL_RADIUS, TRACK, CORRECTION = Fraction("0.07"), Fraction("0.38"), Fraction("
 DEGREES_PER_RPM_S = CORRECTION * 2 * WHEEL_RADIUS * 180 / (60 * TRACK)
 """Degrees turned in 1 s for 1 rpm of difference between the sides: 1743/1900."""
 
-ROTATION = fixed(-400, 400, "0.02", "°")
-DIFFERENCE = fixed(-800, 800, "0.002", "rpm·s")
-"""Two wheels to a side, speeds in tenths of rpm: 800 rpm·s are 367°."""
 
-imu_short = var("IMU_fast", ROTATION, doc="rotation measured in the short window")
-imu_long = var("IMU_long", ROTATION, doc="rotation measured in the long window")
-odo_short = var("odo_fast", DIFFERENCE, doc="left minus right wheels over the short window")
-odo_long = var("odo_long", DIFFERENCE, doc="left minus right wheels over the long window")
+def _rotation(most: int) -> Domain:
+    """Degrees, from rates in whole degrees per second."""
+    return fixed(-most, most, "0.02", "°")
+
+
+def _difference(most: int) -> Domain:
+    """Two wheels to a side, from speeds in tenths of rpm: 1 rpm·s is 0.46°."""
+    return fixed(-most, most, "0.002", "rpm·s")
+
+
+imu_short = var("IMU_fast", _rotation(400), doc="rotation measured in the short window")
+imu_long = var("IMU_long", _rotation(6200), doc="rotation measured in the long window")
+odo_short = var("odo_fast", _difference(800), doc="left minus right wheels over the short window")
+odo_long = var("odo_long", _difference(4000), doc="left minus right wheels over the long window")
 
 started = flag("coherence_started", "the initial step is over", hidden=True)
 wheel_gap = var(

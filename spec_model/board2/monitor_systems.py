@@ -81,6 +81,9 @@ def twin(source: Source) -> Source:
     )
 
 
+twin_sup_status, twin_esp_status, twin_imu_status, twin_rx_status = (twin(s).status for s in SOURCES)
+
+
 def _twice(shared: Source, record: Record) -> tuple[Component, ...]:
     """The monitors of two boards; the second sees the stamps of ``shared`` as the first does."""
     own = [replace(twin(s), update=s.update) if s is shared else twin(s) for s in SOURCES]

@@ -192,3 +192,7 @@ def _decisions(heading: Heading) -> State:
         Junction("J2", [to("J1")]),
         Junction("J1", [to("InEmergency")]),
     ])  # fmt: skip
+
+
+drawn_n = obstacles_n()
+"""The chart as drawn."""

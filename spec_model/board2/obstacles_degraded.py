@@ -25,3 +25,7 @@ def obstacles_degraded(name: str = "ObstaclesDegraded", decision: Var = B2DecDeg
         ]),
     ], default="check_sonars_for_stopping",
        text="Obstacles in the degraded state [seed §3.4.2, Fig 28]")  # fmt: skip
+
+
+drawn_d = obstacles_degraded()
+"""The chart beside the non-degraded one."""

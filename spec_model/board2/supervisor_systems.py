@@ -136,7 +136,8 @@ coherence_exact = in_order(
     notes=[
         GRID,
         FEW_VALUES,
-        "A sum of more than 360° in one window, left open by a silent IMU, grows no more.",
+        "A sum of more than 6200° by the IMU, or 4000 rpm·s by the wheels (400° and 800 rpm·s in a short "
+        "window), grows no more: a silent IMU can leave a window open for so long.",
     ],
 )
 
@@ -196,7 +197,6 @@ sonar_task = System(
         FEW_VALUES,
     ),
     tick_ms=1,
-    step_ms=1,
 )
 
 joystick_task = in_order(

@@ -18,7 +18,7 @@ from spec_model.lang.chart import Block, Component, Enabled
 from spec_model.lang.domain import fixed
 from spec_model.lang.expiry import free_timers
 from spec_model.lang.expr import TRUE, Expr, const, flag, implies, ite, member, var
-from spec_model.lang.system import System, in_order
+from spec_model.lang.system import TICK_MS, System, in_order
 from spec_model.lang.words import minimum
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2_supervisor as b2
@@ -47,6 +47,7 @@ def _chain(
         notes=[PHASES, FREE, *notes],
         over=True,
         tick_ms=MILLISECOND,
+        step_ms=TICK_MS,
     )
     return replace(free_timers(exact, name=name, text=text), concrete="")
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from typing import Union
 
 from spec_model.lang.domain import Bool, Num, show
-from spec_model.lang.errors import ModelError
+from spec_model.lang.errors import ModelError, brief, several, with_article
 from spec_model.lang.expr import Const, Expr, Operand, Var, is_multiple, lift, rescale
 from spec_model.lang.label import text
 from spec_model.lang.walk import variables
@@ -51,10 +51,14 @@ Action = Union[Assign, If, Send]
 
 def assign(var: Var, value: Operand | str) -> Assign:
     """``assign(v_ref, 0)``.  Raises ``ModelError`` where the sorts do not fit."""
+    if not isinstance(var, Var):
+        raise ModelError(f"assign() takes a variable, made with var() or flag(), and not {brief(var)}.")
     expr = lift(value, var.sort)
     fits = type(expr.sort) is type(var.sort) and (isinstance(expr.sort, Num | Bool) or expr.sort == var.sort)
     if not fits:
-        raise ModelError(f"{var.name} is a {var.sort} and cannot take `{expr}`, a {expr.sort}.")
+        raise ModelError(
+            f"{var.name} is {with_article(var.sort)} and cannot take `{expr}`, {with_article(expr.sort)}."
+        )
     if isinstance(expr.sort, Num) and isinstance(var.sort, Num) and expr.sort.unit != var.sort.unit:
         raise ModelError(
             f"{var.name} is in {var.sort.unit or 'no unit'} and `{expr}` in "
@@ -77,7 +81,7 @@ def _in_steps_of(var: Var, expr: Expr) -> Expr:
 
 def when(condition: Expr, then: Sequence[Action], otherwise: Sequence[Action] = ()) -> If:
     """A conditional action."""
-    return If(condition, tuple(then), tuple(otherwise))
+    return If(condition, several("when()", "then", then), several("when()", "otherwise", otherwise))
 
 
 def send(event: str, receiver: str) -> Send:

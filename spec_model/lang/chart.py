@@ -6,19 +6,22 @@ first; an arrow ends on a state or on a junction, whose own arrows are again in 
 A ``Block`` is a function block: actions run once in every step, with no states.
 """
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
 from spec_model.lang.action import Action, expressions, reads, writes
-from spec_model.lang.domain import Domain, enumeration
-from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.lang.domain import Domain, Enum, enumeration
+from spec_model.lang.errors import ModelError, brief, did_you_mean, several
 from spec_model.lang.expr import Const, Expr, Var, any_of
 from spec_model.lang.place import Place, here
 from spec_model.lang.walk import variables
 
 Path = tuple[str, ...]
 """Names from the chart's outermost level down to a state; the chart itself is the empty path."""
+
+_DEEPEST = 900
+"""Levels of states that can be read."""
 
 NOWHERE = "-"
 """The location of an exclusive level none of whose states is active."""
@@ -51,7 +54,8 @@ def to(
     ``when`` is the guard, ``on`` the local event, ``do`` the condition action (run as soon as the
     segment is found valid) and ``then`` the transition action (run only on a complete path).
     """
-    return Transition(target, when, on, tuple(do), tuple(then), here())
+    of = f"the arrow to {target!r}"
+    return Transition(target, when, on, several(of, "do", do), several(of, "then", then), here())
 
 
 @dataclass(frozen=True)
@@ -63,13 +67,15 @@ class Junction:
 
     def __init__(self, name: str, transitions: Sequence[Transition]) -> None:
         object.__setattr__(self, "name", name)
-        object.__setattr__(self, "transitions", tuple(transitions))
+        object.__setattr__(self, "transitions", several(f"Junction {name!r}", "transitions", transitions))
 
 
 Default = tuple[Transition, ...]
 
 
-def _default(default: "str | Transition | Sequence[Transition] | None", place: Place | None) -> Default:
+def _default(
+    of: str, default: "str | Transition | Sequence[Transition] | None", place: Place | None
+) -> Default:
     match default:
         case None:
             return ()
@@ -77,8 +83,12 @@ def _default(default: "str | Transition | Sequence[Transition] | None", place: P
             return (Transition(name, place=place),)
         case Transition():
             return (default,)
+        case Iterable():
+            return several(of, "default", default)
         case _:
-            return tuple(default)
+            raise ModelError(
+                f"{of}: default={brief(default)}; write the name of a state, or an arrow to one."
+            )
 
 
 @dataclass(frozen=True)
@@ -116,24 +126,33 @@ class State:
         place: Place | None = None,
     ) -> None:
         place = place or here()
-        fields = dict(
-            name=name, entry=tuple(entry), during=tuple(during), exit=tuple(exit), states=tuple(states),
-            transitions=tuple(transitions), junctions=tuple(junctions), default=_default(default, place),
-            parallel=parallel, place=place,
-        )  # fmt: skip
-        for attribute, value in fields.items():
+        of = f"State {name!r}"
+        lists: dict[str, Sequence[object]] = dict(
+            entry=entry, during=during, exit=exit, states=states, transitions=transitions, junctions=junctions
+        )
+        fields = dict(name=name, default=_default(of, default, place), parallel=parallel, place=place)
+        for attribute, value in (*fields.items(), *((n, several(of, n, v)) for n, v in lists.items())):
             object.__setattr__(self, attribute, value)
 
     def walk(self, path: Path = ()) -> Iterator[tuple[Path, "State"]]:
-        """This state and every state below it, with paths, parents first, in execution order."""
-        yield path, self
-        for child in self.states:
-            yield from child.walk((*path, child.name))
+        """This state and every state below it, with paths, parents first, in execution order.
+
+        Raises ``RecursionError`` for more levels than what lowers and draws charts can follow.
+        """
+        todo: list[tuple[Path, State]] = [(path, self)]
+        while todo:
+            path, state = todo.pop()
+            if len(path) > _DEEPEST:
+                raise RecursionError("states are nested too deeply")
+            yield path, state
+            todo += [((*path, child.name), child) for child in reversed(state.states)]
 
 
 class Chart:
     """A chart: its name and its outermost level.
 
+    ``door.active("Open", "Opening")`` is the condition that one of these states is active, for properties
+    and for the guards of other charts; a name that several states have is written ``"Cabin.Open"``.
     ``text`` says in one line what it does and where it comes from.  ``local_to`` lists data whose
     value means something only while one of the named states is active: on leaving them it returns
     to its initial value (Stateflow: data scoped to a state).
@@ -153,7 +172,7 @@ class Chart:
     ) -> None:
         self.name = name
         self.text = text
-        self.local_to = tuple((data, tuple(owners)) for data, owners in local_to)
+        self.local_to = _local(name, local_to)
         self.root = State(
             name, states=states, junctions=junctions, default=default, parallel=parallel, place=place
         )
@@ -186,10 +205,15 @@ class Chart:
 
         Raises ``ModelError`` for an unknown or ambiguous name.
         """
+        if not isinstance(name, str):
+            raise ModelError(f"{self.name} has no state {brief(name)}; write its name.")
         wanted = tuple(name.split("."))
         if wanted in self.states:
             return wanted
-        found = [p for p in self.states if p and p[-len(wanted) :] == wanted]
+        found = [p for p in self._by_name.get(wanted[-1], ()) if p[-len(wanted) :] == wanted]
+        found = [p for p in found if p in self.states]
+        if not found and len(wanted) > 1 and wanted[0] == self.name:  # as traces and messages write it
+            return self.path(".".join(wanted[1:]))
         if len(found) == 1:
             return found[0]
         if not found:
@@ -205,15 +229,31 @@ class Chart:
             candidate = (*level[:depth], *wanted)
             if candidate in self.states or candidate in self.junctions:
                 return candidate
-        found = [p for p in (*self.states, *self.junctions) if p and p[-len(wanted) :] == wanted]
+        found = [p for p in self._by_name.get(wanted[-1], ()) if p[-len(wanted) :] == wanted]
         return found[0] if len(found) == 1 else None
+
+    @cached_property
+    def _by_name(self) -> dict[str, list[Path]]:
+        """The states, then the junctions, that have a name of their own, by that name."""
+        found: dict[str, list[Path]] = {}
+        for path in filter(None, (*self.states, *self.junctions)):
+            found.setdefault(path[-1], []).append(path)
+        return found
 
     def location(self, path: Path = ()) -> Var:
         """The variable that says which state of an exclusive composite is active."""
-        composite = self.states[path]
-        names = [NOWHERE, *(s.name for s in composite.states)]
-        name = ".".join((self.name, *path))
-        return Var(name, _location_domain(name, tuple(names)), 0, f"active state of {name}")
+        if path not in self._places:
+            names = [NOWHERE, *(s.name for s in self.states[path].states)]
+            name = ".".join((self.name, *path))
+            members = tuple((member, number) for number, member in enumerate(names))
+            domain = Domain(Enum(f"states of {name}", members), range(len(names)))  # names are judged later
+            self._places[path] = Var(name, domain, 0, f"active state of {name}")
+        return self._places[path]
+
+    @cached_property
+    def _places(self) -> dict[Path, Var]:
+        """The location variables that were asked for."""
+        return {}
 
     @cached_property
     def entered(self) -> Var:
@@ -227,6 +267,8 @@ class Chart:
 
     def active(self, *names: str) -> Expr:
         """The condition that one of the named states is active."""
+        if not names:
+            raise ModelError(f"active() names no state of {self.name}; write the name of one at least.")
         return any_of(*(self.active_path(self.path(name)) for name in names))
 
     def active_path(self, path: Path) -> Expr:
@@ -280,17 +322,29 @@ class Chart:
         return f"Chart({self.name!r})"
 
 
-def _location_domain(name: str, members: tuple[str, ...]) -> Domain:
-    return enumeration(f"states of {name}", members)
+def _local(
+    chart: str, local_to: Sequence[tuple[Var, Sequence[str]]]
+) -> tuple[tuple[Var, tuple[str, ...]], ...]:
+    of, found = f"Chart {chart!r}", list[tuple[Var, tuple[str, ...]]]()
+    for pair in several(of, "local_to", local_to):
+        if not isinstance(pair, tuple | list) or len(pair) != 2 or not isinstance(pair[0], Var):
+            raise ModelError(
+                f"{of}: local_to holds {brief(pair)}; write pairs, (variable, [names of states])."
+            )
+        found.append((pair[0], several(of, "the states of local_to", pair[1])))
+    return tuple(found)
 
 
 class Block:
     """A function block: its actions run once in every step in which it is executed."""
 
-    def __init__(self, name: str, do: Sequence[Action], *, text: str = "") -> None:
+    def __init__(
+        self, name: str, do: Sequence[Action], *, text: str = "", place: Place | None = None
+    ) -> None:
         self.name = name
         self.text = text
-        self.do = tuple(do)
+        self.do = several(f"Block {name!r}", "do", do)
+        self.place = place or here()
 
     @cached_property
     def written(self) -> dict[str, Var]:
@@ -310,10 +364,13 @@ class Enabled:
     ``name`` says whose it is, where that matters to a reader: that of a board.
     """
 
-    def __init__(self, by: Expr, *components: "Component", name: str = "") -> None:
+    def __init__(
+        self, by: Expr, *components: "Component", name: str = "", place: Place | None = None
+    ) -> None:
         self.by = by
         self.components = components
         self.name = name
+        self.place = place or here()
 
     def __repr__(self) -> str:
         return f"Enabled({self.by}, {', '.join(map(repr, self.components))})"

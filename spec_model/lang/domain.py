@@ -7,16 +7,35 @@ an enumeration, value / resolution for a number.  Arithmetic on raw values is ex
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from math import gcd, lcm
+from operator import index
+from typing import Any, SupportsIndex
 
-from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.lang.errors import ModelError, brief, did_you_mean, several
 
 Number = int | float | Fraction | str
 
+MOST = 1 << 62
+"""Values of a domain at most."""
 
-def exact(value: Number) -> Fraction:
+
+def own(value: Any) -> Any:
+    """A whole number, truth value or decimal of NumPy's as Python's own; anything else as it is."""
+    if isinstance(value, int | float | Fraction | str):
+        return value
+    kind = type(value)
+    if kind.__module__ == "numpy" and kind.__name__.startswith("bool"):
+        return bool(value)
+    if kind.__module__ == "numpy" and kind.__name__.startswith("float"):
+        return float(str(value))
+    return index(value) if isinstance(value, SupportsIndex) else value
+
+
+def exact(value: Number | SupportsIndex) -> Fraction:
     """The decimal a person wrote, exactly: 0.42 is 21/50, not the nearest binary fraction."""
-    return Fraction(str(value)) if isinstance(value, float) else Fraction(value)
+    plain = own(value)
+    return Fraction(str(plain)) if isinstance(plain, float) else Fraction(plain)
 
 
 @dataclass(frozen=True)
@@ -79,11 +98,16 @@ class Enum:
 
     def number(self, name: str) -> int:
         """The member's number.  Raises ``ModelError`` for an unknown name, offering near ones."""
-        for member, number in self.members:
-            if member == name:
-                return number
-        options = [member for member, _ in self.members]
-        raise ModelError(f"{name!r} is no member of {self.name}. {did_you_mean(name, options)}")
+        if name not in self._numbers:
+            raise ModelError(f"{name!r} is no member of {self.name}. {did_you_mean(name, self._numbers)}")
+        return self._numbers[name]
+
+    @cached_property
+    def _numbers(self) -> dict[str, int]:
+        return dict(reversed(self.members))  # of two with one name the first
+
+    def __hash__(self) -> int:
+        return hash((self.name, len(self.members)))  # thousands of members are hashed as quickly as two
 
     def __str__(self) -> str:
         return self.name
@@ -97,8 +121,12 @@ class Num:
     unit: Unit = Unit()
 
     def __str__(self) -> str:
-        kind = "integer" if self.resolution == 1 else f"number in steps of {show(self.resolution)}"
-        return f"{kind} {self.unit}".rstrip()
+        return f"{self.kind} in {self.unit}" if self.unit else self.kind
+
+    @property
+    def kind(self) -> str:
+        """``integer``, ``number in steps of 0.5``."""
+        return "integer" if self.resolution == 1 else f"number in steps of {show(self.resolution)}"
 
 
 Sort = Bool | Enum | Num
@@ -129,10 +157,16 @@ def common_resolution(a: Fraction, b: Fraction) -> Fraction:
 
 @dataclass(frozen=True)
 class Domain:
-    """A finite set of values of one sort, as ascending raw values."""
+    """A finite set of values of one sort, as ascending raw values, in whatever order they are given."""
 
     sort: Sort
     values: range | tuple[int, ...]
+
+    def __post_init__(self) -> None:
+        if not self.values:
+            raise ModelError("A domain needs at least one value.")
+        if not isinstance(self.values, range) or self.values.step != 1:
+            object.__setattr__(self, "values", tuple(sorted(set(self.values))))
 
     @property
     def low(self) -> int:
@@ -167,7 +201,7 @@ class Domain:
         """The raw value of what a person wrote.  Raises ``ModelError`` outside the domain."""
         match self.sort:
             case Bool():
-                raw: Fraction | int = int(value in (True, "true", "1"))
+                raw: Fraction | int = int(own(value) in (True, "true", "1"))
             case Enum() as enum:
                 raw = enum.number(value) if isinstance(value, str) else exact(value)
             case Num(resolution, _):
@@ -184,7 +218,16 @@ class Domain:
                 return f"{enum.name} {{{', '.join(enum.member(v) for v in self.values)}}}"
             case Num() as num:
                 ends = f"{self.show(self.low)}..{self.show(self.high)}"
-                return f"{num} in {ends}" if self.dense else f"{num} in {{{ends}, {len(self)} values}}"
+                values = ends if self.dense else f"{{{ends}, {len(self)} values}}"
+                return f"{num.kind} in {values} {num.unit}".rstrip()
+
+
+def check_domain(where: str, domain: object) -> None:
+    """Raises ``ModelError`` for what is no domain."""
+    if not isinstance(domain, Domain):
+        raise ModelError(
+            f"{where} takes a domain, such as integer(0, 9) or enumeration(...), and not {brief(domain)}."
+        )
 
 
 boolean = Domain(Bool(), range(2))
@@ -192,8 +235,16 @@ boolean = Domain(Bool(), range(2))
 
 def enumeration(name: str, members: Sequence[str] | Mapping[str, int]) -> Domain:
     """An enumeration; a sequence numbers its members from 0."""
-    pairs = members.items() if isinstance(members, Mapping) else ((m, i) for i, m in enumerate(members))
-    ordered = tuple(sorted(pairs, key=lambda pair: pair[1]))
+    if not isinstance(members, Mapping):
+        names = several(f"enumeration({name!r}, ...)", "members", members)
+        if len(set(names)) < len(names):
+            twice = next(m for m in names if names.count(m) > 1)
+            raise ModelError(f"The enumeration {name} has the member {twice!r} twice; leave out one.")
+        members = {member: number for number, member in enumerate(names)}
+    wrong = [n for n in members.values() if not isinstance(n, int) or isinstance(n, bool)]
+    if wrong:
+        raise ModelError(f"The enumeration {name} has the number {wrong[0]!r}; write a whole number.")
+    ordered = tuple(sorted(members.items(), key=lambda pair: pair[1]))
     if len({n for _, n in ordered}) != len(ordered) or not ordered:
         raise ModelError(f"The enumeration {name} needs at least one member, each with its own number.")
     numbers = tuple(n for _, n in ordered)
@@ -216,6 +267,9 @@ def fixed(low: Number, high: Number, resolution: Number, unit: str = "") -> Doma
         raise ModelError(f"{low}..{high} does not start and end on multiples of {resolution}.")
     if first > last:
         raise ModelError(f"{low}..{high} is empty; write the lower end first.")
+    if last - first >= MOST:
+        values = f"{int(last - first) + 1:,} values"
+        raise ModelError(f"{low}..{high} has {values}, which no board holds in 64 bits; write fewer.")
     return Domain(Num(step, Unit.of(unit)), range(int(first), int(last) + 1))
 
 

@@ -4,16 +4,18 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, State, Transition
+from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, Path, State, Transition
 from spec_model.lang.domain import Num, Number, exact
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Temporal, Var, When
+from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
+from spec_model.lang.operators import Op
 from spec_model.lang.system import System
 from spec_model.lang.time import Span
 
 __all__ = [
-    "also", "arrow", "arrows", "begin", "constant", "drop", "edit_junction", "edit_state", "entry",
-    "everywhere", "guard", "in_block", "in_expressions", "in_system", "instead", "operator", "swap", "timer",
+    "also", "arrow", "arrows", "begin", "constant", "drop", "edit_at", "edit_junction", "edit_state", "entry",
+    "everywhere", "guard", "in_actions", "in_block", "in_expressions", "in_system", "instead", "operator",
+    "swap", "timer",
 ]  # fmt: skip
 
 
@@ -26,7 +28,12 @@ def _rebuilt(chart: Chart, root: State) -> Chart:
 
 def edit_state(chart: Chart, name: str, change: Callable[[State], State]) -> Chart:
     """The chart with one state changed; ``name`` as in ``Chart.path``."""
-    return _rebuilt(chart, _down(chart.root, chart.path(name), change))
+    return edit_at(chart, chart.path(name), change)
+
+
+def edit_at(chart: Chart, path: Path, change: Callable[[State], State]) -> Chart:
+    """The chart with one state changed, by its path; the empty path is the outermost level."""
+    return _rebuilt(chart, _down(chart.root, path, change))
 
 
 def _down(state: State, path: tuple[str, ...], change: Callable[[State], State]) -> State:
@@ -174,25 +181,33 @@ def timer(span: Span | None = None, strict: bool | None = None) -> Callable[[Exp
 
 def in_expressions(chart: Chart, change: Callable[[Expr], Expr]) -> Chart:
     """A change made in every guard and action of the chart."""
+    return _everything(chart, change, lambda actions: _acts(actions, change))
+
+
+def in_actions(chart: Chart, change: Callable[[Action], Action]) -> Chart:
+    """A change made in every action of the chart; what is inside a conditional is left to the change."""
+    return _everything(chart, lambda guard: guard, lambda actions: tuple(map(change, actions)))
+
+
+def _everything(
+    chart: Chart,
+    guarded: Callable[[Expr], Expr],
+    acts: Callable[[tuple[Action, ...]], tuple[Action, ...]],
+) -> Chart:
+    def arrow(segment: Transition) -> Transition:
+        changed = None if segment.guard is None else guarded(segment.guard)
+        return replace(segment, guard=changed, do=acts(segment.do), then=acts(segment.then))
 
     def walk(state: State) -> State:
         return replace(
             state,
-            entry=_acts(state.entry, change), during=_acts(state.during, change),
-            exit=_acts(state.exit, change), states=tuple(walk(s) for s in state.states),
-            transitions=tuple(_seg(t, change) for t in state.transitions),
-            default=tuple(_seg(t, change) for t in state.default),
-            junctions=tuple(
-                Junction(j.name, [_seg(t, change) for t in j.transitions]) for j in state.junctions
-            ),
+            entry=acts(state.entry), during=acts(state.during), exit=acts(state.exit),
+            states=tuple(walk(s) for s in state.states),
+            transitions=tuple(map(arrow, state.transitions)), default=tuple(map(arrow, state.default)),
+            junctions=tuple(Junction(j.name, list(map(arrow, j.transitions))) for j in state.junctions),
         )  # fmt: skip
 
     return _rebuilt(chart, walk(chart.root))
-
-
-def _seg(segment: Transition, change: Callable[[Expr], Expr]) -> Transition:
-    changed = None if segment.guard is None else change(segment.guard)
-    return replace(segment, guard=changed, do=_acts(segment.do, change), then=_acts(segment.then, change))
 
 
 def _acts(actions: tuple[Action, ...], change: Callable[[Expr], Expr]) -> tuple[Action, ...]:
@@ -215,7 +230,7 @@ def entry(chart: Chart, name: str, change: Callable[[tuple[Action, ...]], tuple[
 
 def in_block(block: Block, change: Callable[[Expr], Expr]) -> Block:
     """A change made in every expression of a function block."""
-    return Block(block.name, _acts(block.do, change), text=block.text)
+    return Block(block.name, _acts(block.do, change), text=block.text, place=block.place)
 
 
 def in_system(system: System, part: str, change: Callable[[Chart | Block], Chart | Block]) -> System:

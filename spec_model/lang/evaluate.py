@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping, MutableMapping, Sequence
 
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Temporal, Var
+from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 
 

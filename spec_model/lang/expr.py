@@ -5,11 +5,12 @@ reader) and ``Temporal`` (removed by lowering and by property reduction).  All a
 integers; the sort of a node says which numbers they stand for.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 from functools import reduce
-from typing import Union
+from typing import SupportsIndex, Union
 
 from spec_model.lang.domain import (
     Bool,
@@ -20,69 +21,39 @@ from spec_model.lang.domain import (
     Sort,
     Unit,
     boolean,
+    check_domain,
     common_resolution,
     exact,
+    own,
 )
-from spec_model.lang.errors import ModelError
+from spec_model.lang.errors import BINDS, BINDS_BEFORE, ModelError, apart, brief, with_article
+from spec_model.lang.operators import Op, infix
 from spec_model.lang.time import Span
 
-Operand = Union["Expr", Number, bool]
-
-
-class Op(StrEnum):
-    """The closed set of operators; every reader of expressions handles all of them.
-
-    SCALE multiplies by a positive constant to change resolution (it is not written by people).
-    DIV rounds down, MOD is never negative; both take a positive constant on the right.
-    BIT(x, i) is bit i of a non-negative integer.
-    """
-
-    NOT = "not"
-    AND = "and"
-    OR = "or"
-    ITE = "ite"
-    EQ = "=="
-    NE = "!="
-    LT = "<"
-    LE = "<="
-    GT = ">"
-    GE = ">="
-    ADD = "+"
-    SUB = "-"
-    NEG = "neg"
-    MUL = "*"
-    SCALE = "scale"
-    DIV = "div"
-    MOD = "mod"
-    ABS = "abs"
-    MIN = "min"
-    MAX = "max"
-    BIT = "bit"
-
-
-COMPARISONS = frozenset({Op.EQ, Op.NE, Op.LT, Op.LE, Op.GT, Op.GE})
+Operand = Union["Expr", Number, bool, SupportsIndex]
 
 
 class Expr:
     """A formula.  Operators build larger formulas; ``==`` too, so compare nodes with ``is``."""
 
     __slots__ = ()
+    __array_ufunc__ = None  # or NumPy would take `three < x` for a comparison of its own
     sort: Sort
 
     def __and__(self, other: Operand) -> "Expr":
-        return all_of(self, other)
+        return _joined(all_of, self, other, binds=BINDS)
 
     def __rand__(self, other: Operand) -> "Expr":
-        return all_of(other, self)
+        return _joined(all_of, other, self, binds=BINDS_BEFORE)
 
     def __or__(self, other: Operand) -> "Expr":
-        return any_of(self, other)
+        return _joined(any_of, self, other, binds=BINDS)
 
     def __ror__(self, other: Operand) -> "Expr":
-        return any_of(other, self)
+        return _joined(any_of, other, self, binds=BINDS_BEFORE)
 
     def __invert__(self) -> "Expr":
-        return Apply(Op.NOT, (as_boolean(self, "not"),), Bool())
+        return _joined(_negated, self, binds="" if isinstance(self, Const) else BINDS)
 
     def __eq__(self, other: object) -> "Expr":  # type: ignore[override]
         return _compare(Op.EQ, self, other)
@@ -123,18 +94,29 @@ class Expr:
     def __rmul__(self, other: Operand) -> "Expr":
         return _product(other, self)
 
-    def __truediv__(self, other: Number) -> "Expr":
+    def __truediv__(self, other: Number | SupportsIndex) -> "Expr":
         if isinstance(other, Expr) or exact(other) == 0:
-            raise ModelError(f"`{self} / {other}` divides by no constant; divide by a non-zero number.")
+            raise ModelError(
+                f"`{infix(self, '/', other)}` divides by no constant; divide by a non-zero number."
+            )
         return _product(self, 1 / exact(other))
+
+    def __mod__(self, other: object) -> "Expr":
+        raise ModelError(f"`{infix(self, '%', other)}`: write modulo({self}, {other}).")
+
+    def __floordiv__(self, other: object) -> "Expr":
+        raise ModelError(f"`{infix(self, '//', other)}`: write quotient({self}, {other}).")
+
+    def __abs__(self) -> "Expr":
+        raise ModelError(f"`abs({self})`: write absolute({self}).")
 
     def __hash__(self) -> int:
         return object.__hash__(self)
 
     def __bool__(self) -> bool:
         raise ModelError(
-            f"`{self}` is a formula, not a Python truth value. Write & | ~ for and, or, not, "
-            "and split `a < x < b` into `(a < x) & (x < b)`."
+            f"`{self}` is a formula, not a Python truth value. Write & | ~ for and, or, not; "
+            "ite(), minimum(), maximum() for if, min, max; and `(a < x) & (x < b)` for `a < x < b`."
         )
 
     def __str__(self) -> str:
@@ -230,6 +212,7 @@ def var(
     name: str, domain: Domain, init: Number | bool | None = None, doc: str = "", hidden: bool = False
 ) -> Var:
     """A variable; ``init`` in the domain's own terms, by default 0 or else the lowest value."""
+    check_domain(f"var({name!r}, ...)", domain)
     raw = domain.raw(init) if init is not None else (0 if 0 in domain else domain.low)
     return Var(name, domain, raw, doc, hidden)
 
@@ -241,13 +224,17 @@ def flag(name: str, doc: str = "", hidden: bool = False) -> Var:
 
 def member(domain: Domain, name: str) -> Const:
     """The member of an enumeration as a constant."""
+    check_domain("member()", domain)
     return Const(domain.raw(name), domain.sort)
 
 
-def const(value: Number | bool, unit: str = "") -> Const:
-    """A constant; a number takes the resolution it needs and the unit given."""
-    if isinstance(value, bool):
-        return Const(int(value), Bool())
+def const(value: Number | bool | SupportsIndex, unit: str = "") -> Const:
+    """A constant; a number takes the resolution it needs and the unit given.
+
+    A factor with a unit converts: ``minutes * const(60, "s/min")`` is in seconds.
+    """
+    if isinstance(truth := own(value), bool):
+        return Const(int(truth), Bool())
     number = exact(value)
     return Const(number.numerator, Num(Fraction(1, number.denominator), Unit.of(unit)))
 
@@ -259,18 +246,17 @@ def lift(value: object, like: Sort) -> Expr:
     """A Python value met beside a formula of sort ``like``."""
     if isinstance(value, Expr):
         return value
+    value = own(value)
     if isinstance(value, bool) and isinstance(like, Bool):
         return TRUE if value else FALSE
     if isinstance(value, str) and isinstance(like, Enum):
         return Const(like.number(value), like)
     if isinstance(value, int | float | Fraction) and not isinstance(value, bool) and isinstance(like, Num):
-        return _rescaled(const(value), like.unit)
-    raise ModelError(f"{value!r} has no meaning beside a {like}; write a value of that sort.")
-
-
-def _rescaled(literal: Const, unit: Unit) -> Const:
-    assert isinstance(literal.sort, Num)
-    return Const(literal.value, Num(literal.sort.resolution, unit))
+        number = exact(value)
+        return Const(number.numerator, Num(Fraction(1, number.denominator), like.unit))
+    raise ModelError(
+        f"{brief(value)} has no meaning beside {with_article(like)}; write a value of that sort."
+    )
 
 
 def _sort_of(*operands: object) -> Sort:
@@ -283,22 +269,29 @@ def _sort_of(*operands: object) -> Sort:
 def as_boolean(value: object, where: str) -> Expr:
     expr = lift(value, Bool())
     if not isinstance(expr.sort, Bool):
-        raise ModelError(f"`{expr}` is a {expr.sort}; `{where}` needs a condition, such as a comparison.")
+        kind = with_article(expr.sort)
+        raise ModelError(f"`{expr}` is {kind}; `{where}` needs a condition, such as a comparison.")
     return expr
 
 
+def as_formula(value: object, where: str) -> Expr:
+    if not isinstance(value, Expr):
+        raise ModelError(f"`{where}` takes a formula, such as a variable, and not {brief(value)}.")
+    return value
+
+
 def as_number(expr: Expr, where: str) -> Expr:
+    as_formula(expr, where)
     if not isinstance(expr.sort, Num):
-        raise ModelError(f"`{expr}` is a {expr.sort}; `{where}` needs a number.")
+        raise ModelError(f"`{expr}` is {with_article(expr.sort)}; `{where}` needs a number.")
     return expr
 
 
 def rescale(expr: Expr, sort: Num) -> Expr:
     """The same number in a resolution that divides its own (for a constant: its value)."""
     assert isinstance(expr.sort, Num)
-    if expr.sort.resolution == sort.resolution:
+    if (factor := expr.sort.resolution / sort.resolution) == 1:
         return expr
-    factor = expr.sort.resolution / sort.resolution
     if isinstance(expr, Const):
         assert (expr.value * factor).denominator == 1
         return Const(int(expr.value * factor), sort)
@@ -332,14 +325,17 @@ def aligned(where: str, *exprs: Expr) -> tuple[tuple[Expr, ...], Num]:
 
 def _compare(op: Op, left: object, right: object) -> Expr:
     like = _sort_of(left, right)
-    a, b = lift(left, like), lift(right, like)
-    if isinstance(a.sort, Num) and isinstance(b.sort, Num):
-        return Apply(op, aligned(op.value, a, b)[0], Bool())
-    if a.sort != b.sort:
-        raise ModelError(f"`{a}` is a {a.sort} and `{b}` a {b.sort}; compare values of one sort.")
+    joined = (Op.AND, Op.OR, Op.NOT)
+    binds = BINDS if any(isinstance(e, Apply) and e.op in joined for e in (left, right)) else ""
+    one, two = (_joined(lift, side, like, binds=binds) for side in (left, right))
+    if isinstance(one.sort, Num) and isinstance(two.sort, Num):
+        return Apply(op, aligned(op.value, one, two)[0], Bool())
+    if one.sort != two.sort:
+        raise ModelError(f"{apart(one, two)}; compare values of one sort.{binds}")
     if op not in (Op.EQ, Op.NE):
-        raise ModelError(f"`{a} {op.value} {b}`: a {a.sort} has no order; compare with == or !=.")
-    return Apply(op, (a, b), Bool())
+        none = f"{with_article(one.sort)} has no order"
+        raise ModelError(f"`{infix(one, op.value, two)}`: {none}; compare with == or !=.{binds}")
+    return Apply(op, (one, two), Bool())
 
 
 def linear(op: Op, left: Operand, right: Operand) -> Expr:
@@ -353,6 +349,18 @@ def _product(left: Operand, right: Operand) -> Expr:
     sa, sb = as_number(a, "*").sort, as_number(b, "*").sort
     assert isinstance(sa, Num) and isinstance(sb, Num)
     return Apply(Op.MUL, (a, b), Num(sa.resolution * sb.resolution, sa.unit * sb.unit))
+
+
+def _joined(make: Callable[..., Expr], *parts: object, binds: str) -> Expr:
+    """What Python makes of an operator; ``binds`` says how it was read, where that has no meaning."""
+    try:
+        return make(*parts)
+    except ModelError as error:
+        raise ModelError(f"{error}{binds}") from None
+
+
+def _negated(value: object) -> Expr:
+    return Apply(Op.NOT, (as_boolean(value, "not"),), Bool())
 
 
 def _flat(op: Op, parts: tuple[object, ...]) -> tuple[Expr, ...]:
@@ -383,10 +391,10 @@ def ite(condition: Operand, then: Operand, otherwise: Operand) -> Expr:
     """``then`` where the condition holds, ``otherwise`` elsewhere."""
     test = as_boolean(condition, "ite")
     like = _sort_of(then, otherwise) if isinstance(then, Expr) or isinstance(otherwise, Expr) else Num()
-    a, b = lift(then, like), lift(otherwise, like)
-    if isinstance(a.sort, Num) and isinstance(b.sort, Num):
-        (a, b), sort = aligned("ite", a, b)
-        return Apply(Op.ITE, (test, a, b), sort)
-    if a.sort != b.sort:
-        raise ModelError(f"`{a}` is a {a.sort} and `{b}` a {b.sort}; both branches need one sort.")
-    return Apply(Op.ITE, (test, a, b), a.sort)
+    one, two = lift(then, like), lift(otherwise, like)
+    if isinstance(one.sort, Num) and isinstance(two.sort, Num):
+        (one, two), sort = aligned("ite", one, two)
+        return Apply(Op.ITE, (test, one, two), sort)
+    if one.sort != two.sort:
+        raise ModelError(f"{apart(one, two)}; both branches need one sort.")
+    return Apply(Op.ITE, (test, one, two), one.sort)

@@ -3,7 +3,8 @@
 import re
 
 from spec_model.lang.domain import Bool, Enum, Num, show
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Temporal, Var, When
+from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
+from spec_model.lang.operators import Op
 
 _INFIX = {
     Op.OR: (1, " || "), Op.AND: (2, " && "),
@@ -19,6 +20,12 @@ _CALL = {Op.ABS: "abs", Op.MIN: "min", Op.MAX: "max", Op.BIT: "bit"}
 def text(expr: Expr, unfold: bool = False) -> str:
     """The formula in one line; ``unfold`` shows what stands behind the outermost name."""
     return _show(expr.body if unfold and isinstance(expr, Named) else expr, 0)
+
+
+def beside(operand: object, sign: str, right: bool = False) -> str:
+    """An operand of an operator of Python's as it is written there, in parentheses where it needs them."""
+    level = 5 if sign in ("%", "/", "//") else 4
+    return _show(operand, level + right) if isinstance(operand, Expr) else str(operand)
 
 
 def _show(expr: Expr, above: int) -> str:

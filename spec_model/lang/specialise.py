@@ -13,20 +13,8 @@ from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, Path, State, Transition
 from spec_model.lang.domain import Bool
 from spec_model.lang.evaluate import operate
-from spec_model.lang.expr import (
-    FALSE,
-    TRUE,
-    Apply,
-    Const,
-    Expr,
-    Named,
-    Op,
-    Temporal,
-    Var,
-    When,
-    all_of,
-    any_of,
-)
+from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Named, Temporal, Var, When, all_of, any_of
+from spec_model.lang.operators import Op
 from spec_model.lang.system import System
 from spec_model.lang.walk import variables
 

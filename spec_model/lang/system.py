@@ -6,12 +6,15 @@ that maps the valuation before a tick and the inputs of the tick to the valuatio
 All nondeterminism is an input or a frozen variable.
 """
 
+from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from spec_model.lang.action import Assign, If
 from spec_model.lang.chart import Block, Chart, Component, Enabled, parts
+from spec_model.lang.errors import ModelError, several
 from spec_model.lang.expr import TRUE, Expr, Var, all_of
+from spec_model.lang.place import Place, here
 from spec_model.lang.walk import variables
 
 Valuation = Mapping[str, int]
@@ -46,7 +49,8 @@ class System:
     say in words what the system abstracts and assumes; ``over`` and ``under`` say whether it has
     more or fewer behaviours than the specification.  ``concrete`` names the system that a violation
     found on an over-approximation must be reproduced on.  A tick is ``tick_ms`` long; the temporal words
-    of charts count executed steps of ``step_ms``, also where a chart executes in few of the ticks.
+    of charts count executed steps of ``step_ms``, by default a tick: it is longer where the charts execute
+    in few of the ticks.  ``place`` is where it is written.
     """
 
     name: str
@@ -56,11 +60,18 @@ class System:
     assume: Expr = TRUE
     notes: tuple[str, ...] = ()
     tick_ms: int = TICK_MS
-    step_ms: int = TICK_MS
+    step_ms: int = 0
     over: bool = False
     under: bool = False
     concrete: str = ""
     assumptions: tuple[Assumption, ...] = ()
+    place: Place | None = field(default=None, compare=False, repr=False)
+
+    def __post_init__(self) -> None:
+        if self.place is None:
+            object.__setattr__(self, "place", here())
+        if not self.step_ms:
+            object.__setattr__(self, "step_ms", self.tick_ms)
 
     @property
     def assumed(self) -> Expr:
@@ -94,18 +105,19 @@ class System:
         found = variables(self.assumed)
         for part in parts(self.components):
             found |= part.read
-        for enabled in _enabled(self.components):
+        for enabled in enabled_in(self.components):
             found |= variables(enabled.by)
         own = {v.name for c in self.charts for v in (*c.locations, c.entered)}
         hidden = {v.name for v in self.frozen} | set(self.written) | own
         return {name: v for name, v in found.items() if name not in hidden}
 
 
-def _enabled(components: Sequence[Component]) -> Iterator[Enabled]:
+def enabled_in(components: Sequence[Component]) -> Iterator[Enabled]:
+    """The enabled subsystems, nested ones too."""
     for component in components:
         if isinstance(component, Enabled):
             yield component
-            yield from _enabled(component.components)
+            yield from enabled_in(component.components)
 
 
 def in_order(
@@ -120,21 +132,26 @@ def in_order(
     concrete: str = "",
     tick_ms: int = TICK_MS,
     assumptions: Sequence[Assumption] = (),
+    step_ms: int = 0,
 ) -> System:
-    """A system whose components run in the order given, once per tick, by default of 20 ms."""
+    """A system whose components run in the order given, once per tick, by default of 20 ms.
+
+    Times in charts are counted in executed steps of ``step_ms``, by default those of a tick.
+    Raises ``ModelError`` where something else stands for a list.
+    """
     return System(
         name,
         tuple(components),
         text,
-        tuple(frozen),
+        several(name, "frozen", frozen),
         assume,
-        tuple(notes),
+        several(name, "notes", notes),
         tick_ms,
-        TICK_MS,
+        step_ms,
         over,
         under,
         concrete,
-        tuple(assumptions),
+        several(name, "assumptions", assumptions),
     )
 
 
@@ -164,6 +181,15 @@ class TransitionSystem:
     tick_ms: int = TICK_MS
     notes: tuple[str, ...] = ()
     source: System | None = field(default=None, compare=False)
+
+    def __post_init__(self) -> None:
+        names = [v.name for of in (self.inputs, self.frozen, self.variables, self.temps) for v in of]
+        if len(set(names)) < len(names):
+            twice = next(name for name, count in Counter(names).items() if count > 1)
+            raise ModelError(
+                f"{self.name}: two variables would be named {twice}, one of them made by rovercheck; "
+                "rename the one in the model."
+            )
 
     @property
     def init(self) -> dict[str, int]:

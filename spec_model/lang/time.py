@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-from spec_model.lang.domain import Number, exact, show
+from spec_model.lang.domain import MOST, Number, exact, show
 from spec_model.lang.errors import ModelError
 
 
@@ -19,6 +19,11 @@ class Span:
 
     __rmul__ = __mul__
 
+    def __add__(self, other: object) -> "Span":
+        raise ModelError(f"{self} and {other} are not added; write one length, such as `3020 * ms`.")
+
+    __sub__ = __radd__ = __rsub__ = __add__
+
     def ticks(self, tick_ms: int) -> int:
         """The number of ticks.  Raises ``ModelError`` unless it is a whole number >= 0."""
         count = self.amount if self.unit == "ticks" else self.amount / tick_ms
@@ -26,6 +31,8 @@ class Span:
             raise ModelError(
                 f"{self} is not a whole number of ticks of {tick_ms} ms; write a multiple of the tick."
             )
+        if count + 2 >= MOST:  # what counts them has one value for none, and one for more
+            raise ModelError(f"{self} is longer than any board counts in 64 bits; write less.")
         return int(count)
 
     def __str__(self) -> str:

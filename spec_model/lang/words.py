@@ -3,24 +3,25 @@
 from dataclasses import dataclass
 
 from spec_model.lang.domain import Bool, Num, Number, exact
-from spec_model.lang.errors import ModelError
+from spec_model.lang.errors import ModelError, with_article
 from spec_model.lang.expr import (
     Apply,
     Const,
     Expr,
     Named,
-    Op,
     Operand,
     Temporal,
     When,
     aligned,
     as_boolean,
+    as_formula,
     as_number,
     const,
     ite,
     lift,
     linear,
 )
+from spec_model.lang.operators import Op
 from spec_model.lang.time import Span
 
 
@@ -33,7 +34,7 @@ def maximum(left: Operand, right: Operand) -> Expr:
 
 
 def absolute(value: Expr) -> Expr:
-    return Apply(Op.ABS, (as_number(value, "abs"),), value.sort)
+    return Apply(Op.ABS, (as_number(value, "absolute"),), value.sort)
 
 
 def sign(value: Expr) -> Expr:
@@ -48,8 +49,9 @@ def modulo(value: Expr, divisor: Number) -> Expr:
 
 def quotient(value: Expr, divisor: int) -> Expr:
     """A whole number divided by a positive whole constant, rounded down."""
-    if not isinstance(value.sort, Num) or value.sort.resolution != 1:
-        raise ModelError(f"quotient() needs a whole number; `{value}` is a {value.sort}.")
+    sort = as_formula(value, "quotient").sort
+    if not isinstance(sort, Num) or sort.resolution != 1:
+        raise ModelError(f"quotient() needs a whole number; `{value}` is {with_article(value.sort)}.")
     return _by_constant(Op.DIV, value, divisor)
 
 
@@ -67,7 +69,8 @@ def wrap(angle: Expr) -> Expr:
 
 def bit(mask: Expr, index: int) -> Expr:
     """Bit ``index`` of a mask (a non-negative whole number)."""
-    if not isinstance(mask.sort, Num) or mask.sort.resolution != 1 or index < 0:
+    sort = as_formula(mask, "bit").sort
+    if not isinstance(sort, Num) or sort.resolution != 1 or index < 0:
         raise ModelError(f"bit({mask}, {index}) needs a whole number and an index >= 0.")
     return Apply(Op.BIT, (mask, Const(index, Num())), Bool())
 
@@ -84,7 +87,8 @@ def after(span: Span) -> Temporal:
 
 def rising(value: Expr) -> Temporal:
     """True in a step in which the value is positive (or true) and was not in the step before (G15)."""
-    return Temporal(When.RISING, value if isinstance(value.sort, Bool) else value > 0)
+    boolean = isinstance(as_formula(value, "rising").sort, Bool)
+    return Temporal(When.RISING, value if boolean else value > 0)
 
 
 def held(condition: Operand, for_: Span) -> Temporal:
@@ -102,7 +106,7 @@ def once(condition: Operand) -> Temporal:
     return Temporal(When.ONCE, as_boolean(condition, "once"))
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class duration:
     """Stateflow's duration(c): compare it with a time, ``duration(c) > 3 * sec`` (rule G14)."""
 
@@ -113,3 +117,20 @@ class duration:
 
     def __ge__(self, span: Span) -> Temporal:
         return Temporal(When.DURATION, as_boolean(self.condition, "duration"), span)
+
+    def __lt__(self, span: Span) -> Temporal:
+        raise ModelError(self._only("<", f"~(duration({self.condition}) >= ...)"))
+
+    def __le__(self, span: Span) -> Temporal:
+        raise ModelError(self._only("<=", f"~(duration({self.condition}) > ...)"))
+
+    def __eq__(self, span: object) -> bool:
+        raise ModelError(self._only("==", f"duration({self.condition}) >= ..."))
+
+    def __ne__(self, span: object) -> bool:
+        raise ModelError(self._only("!=", f"~(duration({self.condition}) >= ...)"))
+
+    __hash__ = object.__hash__
+
+    def _only(self, sign: str, instead: str) -> str:
+        return f"A duration is compared by > or >= only, not by {sign}; write `{instead}`."

@@ -82,6 +82,10 @@ RX = source("Rx", "B2.rx", "deg_rx", rx_status, "Board1_Data.data_last_valid_ms"
 SOURCES = (SUP, BLE, IMU, RX)
 """In the order of the regions."""
 
+sup_update, ble_update, imu_update, rx_update = (source.update for source in SOURCES)
+sup_age, ble_age, imu_age, rx_age = (source.age for source in SOURCES)
+deg_sup, deg_ble, deg_imu, deg_rx = (source.deg for source in SOURCES)
+
 # --- Board1_Data: the last accepted payload [seed Fig 4] -------------------------------------------
 
 crit_mask_b1 = var("B2.crit_mask_b1", FAULT_MASK, 0, "critical mask of Board 1, as last received")

@@ -6,7 +6,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from spec_model.lang.domain import Unit, boolean, chosen, common_resolution, enumeration, fixed, integer, show
+from spec_model.lang.domain import (
+    Domain,
+    Num,
+    Unit,
+    boolean,
+    chosen,
+    common_resolution,
+    enumeration,
+    fixed,
+    integer,
+    show,
+)
 from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.time import ms, sec, tick, ticks
 
@@ -35,6 +46,8 @@ def test_raw_values_and_back(domain, written, raw: int) -> None:
     (lambda: fixed(0, 1, 0), "A resolution of 0 has no meaning; write a positive one."),
     (lambda: fixed(0, 1, 0.3), "0..1 does not start and end on multiples of 0.3."),
     (lambda: integer(3, 2), "3..2 is empty; write the lower end first."),
+    (lambda: integer(0, 1 << 62), "0..4611686018427387904 has 4,611,686,018,427,387,905 values, "
+     "which no board holds in 64 bits; write fewer."),
     (lambda: chosen([]), "A domain needs at least one value."),
     (lambda: enumeration("E", {"A": 1, "B": 1}),
      "The enumeration E needs at least one member, each with its own number."),
@@ -93,3 +106,16 @@ def test_near_names_are_offered_and_only_those() -> None:
     assert did_you_mean("Region3", ["Region1", "Region2"]) == "Did you mean 'Region2' or 'Region1'?"
     assert did_you_mean("xyz", names) == "Known: Battery_critical, Battery_degraded, Battery_ok."
     assert did_you_mean("xyz", []) == "There is none to choose from."
+
+
+@pytest.mark.parametrize("values", [(3, 1, 2), (1, 2, 3, 3), range(3, 0, -1)])
+def test_a_domain_made_by_hand_is_in_order(values: range | tuple[int, ...]) -> None:
+    """Its lowest and highest values were the first and the last that were written."""
+    made = Domain(Num(), values)
+    assert (made.low, made.high, len(made), made.dense) == (1, 3, 3, True)
+    assert made == Domain(Num(), (1, 2, 3))
+
+
+def test_a_domain_of_nothing_is_refused() -> None:
+    with pytest.raises(ModelError, match="needs at least one value"):
+        Domain(Num(), ())

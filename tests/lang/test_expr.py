@@ -1,5 +1,8 @@
 """Formulas: sorts, units, exact arithmetic, labels, and the errors for what has no meaning."""
 
+from typing import Any
+
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -39,10 +42,13 @@ ratio = var("ratio", fixed(-2, 2, 0.25))
 
 @pytest.mark.parametrize(("make", "message"), [
     (lambda: bool(count > 3), "`count > 3` is a formula, not a Python truth value. Write & | ~ for and, or, "
-                              "not, and split `a < x < b` into `(a < x) & (x < b)`."),
-    (lambda: count & a, "`count` is a integer; `and` needs a condition, such as a comparison."),
+                              "not; ite(), minimum(), maximum() for if, min, max; and "
+                              "`(a < x) & (x < b)` for `a < x < b`."),
+    (lambda: count & a, "`count` is an integer; `and` needs a condition, such as a comparison. "
+                        "Python reads `a & x > 0` as `(a & x) > 0`, and `~` and `|` alike: "
+                        "write `a & (x > 0)`."),
     (lambda: mode == "BUZY", "'BUZY' is no member of Mode. Did you mean 'BUSY'?"),
-    (lambda: mode == other_mode, "`mode` is a Mode and `other` a Other; compare values of one sort."),
+    (lambda: mode == other_mode, "`mode` is a Mode and `other` an Other; compare values of one sort."),
     (lambda: mode < "BUSY", "`mode < BUSY`: a Mode has no order; compare with == or !=."),
     (lambda: charge + yaw, "`+` mixes `charge` in % and `yaw` in deg; "
                            "convert with a factor that has a unit."),
@@ -52,7 +58,7 @@ ratio = var("ratio", fixed(-2, 2, 0.25))
     (lambda: quotient(ratio, 2), "quotient() needs a whole number; `ratio` is a number in steps of 0.25."),
     (lambda: ite(a, mode, const(True)), "`mode` is a Mode and `true` a boolean; "
                                         "both branches need one sort."),
-    (lambda: assign(a, count), "a is a boolean and cannot take `count`, a integer."),
+    (lambda: assign(a, count), "a is a boolean and cannot take `count`, an integer."),
     (lambda: assign(count, yaw), "count is in no unit and `yaw` in deg; "
                                  "convert with a factor that has a unit."),
     (lambda: assign(count, ratio), "count has steps of 1 and `ratio` steps of 0.25; give count a resolution "
@@ -132,3 +138,51 @@ def test_initial_values() -> None:
     assert var("x", integer(-5, 9)).init == 0
     assert var("x", fixed(0, 1, 0.5), 0.5).init == 1
     assert var("x", boolean, True).init == 1
+
+
+x_, b_ = var("x", integer(0, 9)), flag("b")
+
+
+class Whole:
+    """A whole number of somebody else's."""
+
+    def __index__(self) -> int:
+        return 3
+
+
+@pytest.mark.parametrize("three", [np.int64(3), np.uint8(3), np.float32(3), Whole()])
+def test_numbers_of_others_are_numbers_on_either_side(three: Any) -> None:
+    """NumPy's integers were refused beside a formula."""
+    left = [x_ < three, x_ == three, x_ + three, x_ - three, x_ * three, x_ / three]
+    right = [three > x_, three == x_, three + x_, three - x_, three * x_]
+    assert [str(f) for f in left] == ["x < 3", "x == 3", "x + 3", "x - 3", "x*3", "x*1/3"]
+    if not isinstance(three, Whole):
+        assert [str(f) for f in right] == ["x < 3", "x == 3", "3 + x", "3 - x", "3*x"]
+    assert type(const(three).value) is int and structure(const(three)) == structure(const(3))
+
+
+def test_truth_values_of_others_are_truth_values_and_no_numbers() -> None:
+    yes: Any = np.bool_(True)
+    assert [str(f) for f in (b_ & yes, yes & b_, b_ == yes, const(yes))] == [
+        "b && true", "true && b", "b == true", "true",
+    ]  # fmt: skip
+    with pytest.raises(ModelError, match="has no meaning beside an integer"):
+        x_ + yes
+
+
+def test_small_numbers_of_others_do_not_overflow() -> None:
+    assert str(const(np.uint8(200)) + np.uint8(100)) == "200 + 100"
+    assert evaluate(x_ * np.int8(100) * np.int8(100), {"x": 9}) == 90_000
+
+
+def test_what_is_quoted_keeps_its_parentheses() -> None:
+    """`(x + 1) % 7` was told as `x + 1 % 7`."""
+    for make, said in (
+        (lambda: (x_ + 1) % 7, r"`\(x \+ 1\) % 7`: write modulo\(x \+ 1, 7\)"),
+        (lambda: (x_ + 1) // (x_ - 1), r"`\(x \+ 1\) // \(x - 1\)`: write quotient"),
+        (lambda: (x_ * 2) % (x_ * 3), r"`x\*2 % \(x\*3\)`: write"),
+        (lambda: (x_ + 1) / 0, r"`\(x \+ 1\) / 0` divides"),
+        (lambda: (b_ | ~b_) < b_, r"`\(b \|\| !b\) < b`: a boolean has no order"),
+    ):
+        with pytest.raises(ModelError, match=said):
+            make()

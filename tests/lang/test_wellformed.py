@@ -4,6 +4,7 @@ import pytest
 
 from spec_model.lang.action import Action, assign, send, when
 from spec_model.lang.chart import Chart, Junction, State, to
+from spec_model.lang.errors import ModelError
 from spec_model.lang.time import ms, ticks
 from spec_model.lang.wellformed import check_chart
 from spec_model.lang.words import after, duration, rising
@@ -216,3 +217,15 @@ def test_a_send_that_would_leave_its_sender() -> None:
         "C: `send(e, In)` in the during action of Out executes In, where arrow 1 of P would leave Out "
         "in the middle of its own action."
     ]
+
+
+def test_a_state_may_be_named_with_its_chart_as_traces_write_it() -> None:
+    """`A.b` was refused with "Did you mean 'b'?", though messages and traces write `A.b`."""
+    inner = State("D", states=[State("E")], default="E")
+    chart = Chart("A", [State("B", transitions=[to("D")]), inner], default="B")
+    assert chart.path("A.B") == ("B",) and chart.path("A.D.E") == chart.path("A.E") == ("D", "E")
+    assert str(chart.active("A.B")) == "A == B"
+    with pytest.raises(ModelError, match=r"A has no state 'X'. Known: B, D"):
+        chart.active("A.X")
+    with pytest.raises(ModelError, match="A has no state 'A'"):
+        chart.active("A")

@@ -22,7 +22,7 @@ def guarded(guard) -> list[str]:
 
 
 GUARDS: dict[str, object] = {
-    "C: the guard of arrow 1 of A, `n`, is a integer; write a condition, such as a comparison.": n,
+    "C: the guard of arrow 1 of A, `n`, is an integer; write a condition, such as a comparison.": n,
     "C: the guard of arrow 1 of A: `after(30 ms)`: 30 ms is not a whole number of ticks of 20 ms; "
     "write a multiple of the tick.": after(30 * ms),
     "C: the guard of arrow 1 of A: `after(0 s)` is always true; remove it or give it a time.": after(0 * ms),
@@ -69,7 +69,8 @@ def test_words_in_actions() -> None:
 
 def test_a_condition_in_an_action() -> None:
     assert of(State("A", entry=[when(n, [])])) == [
-        "C: a condition in the entry action of A, `n`, is a integer; write a condition, such as a comparison."
+        "C: a condition in the entry action of A, `n`, is an integer; write a condition, "
+        "such as a comparison."
     ]
 
 
@@ -88,13 +89,20 @@ def test_enables_and_assumptions_have_no_words() -> None:
         "compute it in one that runs before.",
     ]
     assert of_system(Enabled(n, simple())) == [
-        "S: the enable `n` is a integer; write a condition, such as a comparison."
+        "S: the enable `n` is an integer; write a condition, such as a comparison."
     ]
 
 
 def test_the_step_is_that_of_the_system() -> None:
-    chart = Chart("C", [leaf("A", to("A", when=after(30 * ms)))], default="A")
-    assert faults(lambda: check_system(System("S", (chart,), step_ms=10))) == []
+    def told(wait: int, step_ms: int) -> list[str]:
+        chart = Chart("C", [leaf("A", to("A", when=after(wait * ms)))], default="A")
+        return faults(lambda: check_system(System("S", (chart,), tick_ms=10, step_ms=step_ms)))
+
+    assert told(30, 30) == told(30, 0) == []
+    assert "40 ms is not a whole number of ticks of 30 ms" in told(40, 30)[0]
+    assert told(30, 15) == [
+        "S: step_ms=15 is no multiple of tick_ms=10; charts execute in ticks only, write a multiple of one."
+    ]
 
 
 # --- data ----------------------------------------------------------------------------------------

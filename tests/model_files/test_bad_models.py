@@ -38,6 +38,19 @@ FILES = {
         f"m.py:{len(HEATER.splitlines()) + 3}: ZeroDivisionError: division by zero, in `return 1 / n`.",
     ),
     "an exit": ("import sys\nsys.exit(3)\n", "m.py:2: SystemExit: 3, in `sys.exit(3)`."),
+    "an exception of its own": (
+        'class B(BaseException): pass\nraise B("x")\n',
+        'm.py:2: B: x, in `raise B("x")`.',
+    ),
+    "the end of a generator": ("raise GeneratorExit\n", "m.py:1: GeneratorExit, in `raise GeneratorExit`."),
+    "a task that is cancelled": (
+        "import asyncio\nraise asyncio.CancelledError\n",
+        "m.py:2: CancelledError, in `raise asyncio.CancelledError`.",
+    ),
+    "a test that is skipped": (
+        'import pytest\npytest.skip("no", allow_module_level=True)\n',
+        'm.py:2: Skipped: no, in `pytest.skip("no", allow_module_level=True)`.',
+    ),
     "an import": ("import no_such_thing\n", "m.py:1: ModuleNotFoundError: No module named 'no_such_thing'"),
     "a formula": (
         but("temperature < 18)", "temperature < door_open)"),
@@ -61,7 +74,8 @@ FILES = {
     ),
     "two systems": (
         f'{HEATER}\nother = Chart("Heater", [State("A")], default="A")\n',
-        "m.py: the name 'Heater' is taken: two systems have it",
+        f"m.py:{len(HEATER.splitlines()) + 2}: the name 'Heater' is taken in "
+        f"m.py:{line_of('Chart(', HEATER)}: two systems have it",
     ),
     "an arrow to nowhere": (
         but('to("Pause"', 'to("Pausee"'),
@@ -78,9 +92,9 @@ FILES = {
     ),
     "requirements in a list": (
         but("REQUIREMENTS = {", "REQUIREMENTS = []\nX = {"),
-        "m.py: REQUIREMENTS is no mapping",
+        f"m.py:{line_of('REQUIREMENTS', HEATER)}: REQUIREMENTS is no mapping",
     ),
-    "a requirement that is none": (but('"The room is', '3, "R3": "The room is'), "The requirement R1 is 3;"),
+    "a requirement that is none": (but('"The room is', '3, "R3": "The room is'), "the requirement R1 is 3;"),
     "a class of its own": (ENUM, "`Mode` is a class or function of its own"),
 }
 
@@ -157,6 +171,11 @@ def test_a_path_without_a_model(path: str, here: Path, capfd: pytest.CaptureFixt
 def test_an_option_without_meaning(option: str, here: Path, capfd: pytest.CaptureFixture[str]) -> None:
     (here / "m.py").write_text(HEATER, encoding="utf-8")
     assert OPTIONS[option] in refused(capfd, "check", "--model", "m.py", *option.split())
+
+
+def test_an_interruption_stays_one(here: Path) -> None:
+    (here / "m.py").write_text("raise KeyboardInterrupt\n")
+    assert run(["check", "--model", "m.py"]) == Exit.INTERRUPTED
 
 
 def test_an_error_in_a_neighbour_is_shown_there(here: Path, capfd: pytest.CaptureFixture[str]) -> None:

@@ -1,10 +1,12 @@
 """Charts, systems and properties are found in a file or a folder, wherever it is."""
 
+import json
 import sys
 from pathlib import Path
 
 import pytest
 
+from checker.cli import run
 from checker.model import Model
 from checker.model.load import load
 from properties.catalogue import Expected
@@ -111,6 +113,27 @@ def test_what_a_model_prints_is_no_result(tmp_path: Path, capsys: pytest.Capture
     load(folder(tmp_path / "model"))
     said = capsys.readouterr()
     assert (said.out, said.err) == ("", "said while it is read\n")
+
+
+def test_what_a_model_prints_commands_no_terminal(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It was printed raw."""
+    text = "import sys, warnings\nprint('a\\x1b[2Jb')\nprint('c\\rd', file=sys.stderr, flush=True)\n"
+    (tmp_path / "heater.py").write_text(text + HEATER)
+    load(tmp_path / "heater.py")
+    said = capsys.readouterr()
+    assert (said.out, said.err) == ("", "a\\x1b[2Jb\nc\\rd\n")
+
+
+def test_json_stays_json_whatever_a_model_and_its_programs_print(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    text = "import os\nprint('{')\nos.write(1, b'written\\n')\nos.system('echo from a program')\n"
+    (tmp_path / "heater.py").write_text(text + HEATER)
+    (tmp_path / "baseline.toml").write_text(BASELINE)
+    run(["check", "HEAT-2", "--json", "--model", str(tmp_path / "heater.py")])
+    said = capfd.readouterr()
+    assert [row["id"] for row in json.loads(said.out)["results"]] == ["HEAT-2"]
+    assert all(text in said.err for text in ("{\n", "written\n", "from a program\n"))
 
 
 def test_a_path_is_meant_from_where_one_is(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

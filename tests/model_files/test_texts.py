@@ -7,6 +7,7 @@ import pytest
 from checker.cli import run
 from checker.commands.codes import Exit
 from checker.model.load import load
+from checker.model.texts import HIDDEN
 from spec_model.lang.errors import ModelError
 
 MODEL = """
@@ -26,9 +27,11 @@ REFUSED: dict[str, tuple[dict[str, object], str]] = {
     "an option": ({"id": "-P"}, "'-P' can be no id of a property"),
     "no id": ({"id": ""}, "'' can be no id of a property"),
     "no sentence": ({"text": " \n"}, "m.py:8: P-1 has no sentence. Write in words what is meant."),
-    "none": ({"text": None}, "P-1 has no sentence."),
+    "none": ({"text": None}, "P-1: text is None, nothing; write a text."),
     "a control sign": ({"text": "It \x1b[31mstays."}, "has signs that cannot be shown"),
     "right to left": ({"text": "It \u202estays."}, "has signs that cannot be shown"),
+    "no character": ({"text": "It \ufdd0stays."}, "has signs that cannot be shown"),
+    "no character of another plane": ({"state": "A\U0010ffff"}, "has signs that cannot be shown"),
     "a line in an input": ({"input": "g\no"}, "'C': 'g\\no' has signs that cannot be shown"),
     "a bell in a state": ({"state": "A\x07"}, "has signs that cannot be shown"),
     "requirements as one text": ({"covers": "R1"}, "P-1: covers='R1' is one text; write covers=['R1']."),
@@ -62,3 +65,12 @@ def test_a_sentence_in_several_lines_is_put_on_one(tmp_path: Path) -> None:
 def test_other_scripts_and_markup_are_names_as_well(tmp_path: Path) -> None:
     found = load(model(tmp_path, id="温度-1", input="ünï</script>", text='<b>🚒</b> "it\'s" ]]> --> $end */'))
     assert "温度-1" in found.properties
+
+
+def test_every_noncharacter_is_hidden_and_its_neighbours_are_not() -> None:
+    """U+FDD0 to U+FDEF, and the last two signs of every plane (Unicode 23.7): of these only two were."""
+    ends = {plane << 16 | last for plane in range(17) for last in (0xFFFE, 0xFFFF)}
+    none = {*range(0xFDD0, 0xFDF0), *ends}
+    assert len(none) == 66 and all(HIDDEN.fullmatch(chr(n)) for n in none)
+    beside = {n + by for n in none for by in (-1, 1) if n + by <= 0x10FFFF} - none
+    assert not any(HIDDEN.fullmatch(chr(n)) for n in beside)

@@ -5,13 +5,18 @@ from dataclasses import dataclass, replace
 
 from spec_model.lang.action import Action, Assign, If, Send
 from spec_model.lang.chart import NOWHERE, Chart, Path, Transition
-from spec_model.lang.domain import boolean
-from spec_model.lang.expr import FALSE, TRUE, Const, Var, any_of
+from spec_model.lang.domain import Bool, boolean
+from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var, any_of
 from spec_model.lang.lower.ranges import guarded
 from spec_model.lang.lower.timers import Timers
+from spec_model.lang.operators import Op
 from spec_model.lang.system import Statement
 
 Statements = list[Statement]
+
+FEW = 8
+"""States, or arrows, that are told apart one after the other; more are halved first, so that a step is never
+nested as deep as a level has states."""
 
 
 @dataclass(frozen=True)
@@ -87,12 +92,20 @@ class Flow:
 
     def _active_child(self, path: Path, act: Callable[[Path], Statements]) -> Statements:
         """Do something to the active child of an exclusive composite."""
+        done = [(child, act(child)) for child in reversed(self._children(path))]
+        return self._switch(path, done[::-1])
+
+    def _switch(self, path: Path, done: Sequence[tuple[Path, Statements]]) -> Statements:
+        """What is done to the child that is active, of some that follow each other."""
+        if len(done) > FEW:
+            half, place = len(done) // 2, self.chart.location(path)
+            last = Const(place.domain.raw(done[half - 1][0][-1]), place.sort)
+            one, other = (tuple(self._switch(path, part)) for part in (done[:half], done[half:]))
+            return [If(Apply(Op.LE, (place, last), Bool()), one, other)] if one or other else []
         switch: Statements = []
-        for child in reversed(self.chart.states[path].states):
-            there = (*path, child.name)
-            inside = act(there)
+        for child, inside in reversed(done):
             if inside or switch:
-                switch = [If(self.chart.active_path(there), tuple(inside), tuple(switch))]
+                switch = [If(self.chart.active_path(child), tuple(inside), tuple(switch))]
         return switch
 
     # --- arrows (G5 to G8) ---
@@ -101,22 +114,22 @@ class Flow:
         self, segments: Sequence[Transition], level: Path, way: Way, otherwise: Callable[[], Statements]
     ) -> Statements:
         """Test segments drawn at ``level`` in order; ``otherwise`` runs if none completes a path."""
-        if not segments:
-            return otherwise()
-        segment, rest = segments[0], segments[1:]
-        if segment.event is not None and segment.event != way.event:
-            return self.attempt(rest, level, way, otherwise)
-        guard = None if segment.guard is None else self.timers.plainly(segment.guard, way.source)
-        if self._always_completes(level, segment, way.event):
-            inside = self._follow(segment, level, way)
-            if guard is None:
-                return inside
-            return [If(guard, tuple(inside), tuple(self.attempt(rest, level, way, otherwise)))]
-        flag = self._flag()
-        inside = self._follow(segment, level, replace(way, done=(*way.done, flag)))
-        tried: Statements = inside if guard is None else [If(guard, tuple(inside))]
-        remaining = self.attempt(rest, level, way, otherwise)
-        return [Assign(flag, FALSE), *tried, If(flag, (), tuple(remaining))]
+        tried: list[_Tried] = []
+        for segment in segments:
+            if segment.event is not None and segment.event != way.event:
+                continue
+            guard = None if segment.guard is None else self.timers.plainly(segment.guard, way.source)
+            if self._always_completes(level, segment, way.event):
+                inside = self._follow(segment, level, way)
+                if guard is None:
+                    return _in_order(tried, inside)
+                tried.append((guard, inside, None))
+            else:
+                flag = self._flag()
+                tried.append(
+                    (guard, self._follow(segment, level, replace(way, done=(*way.done, flag))), flag)
+                )
+        return _in_order(tried, otherwise())
 
     def _follow(self, segment: Transition, level: Path, way: Way) -> Statements:
         """What happens once a segment has been found valid."""
@@ -258,6 +271,38 @@ class Flow:
                     if not self._is_absent(path):
                         out.append(If(self.chart.active_path(path), self.execute(path, event)))
         return out
+
+
+_Tried = tuple[Expr | None, Statements, Var | None]
+"""The guard of a segment, what happens where it holds, and a flag for whether that completed a path.
+
+None for the guard: it always holds; for the flag: a path is then always completed.
+"""
+
+
+def _in_order(tried: Sequence[_Tried], rest: Statements) -> Statements:
+    """What the first segment that completes a path does, ``rest`` where none does."""
+    out, sure = rest, list[tuple[Expr, Statements]]()
+    for guard, inside, flag in reversed(tried):
+        if guard is not None and flag is None:
+            sure.append((guard, inside))
+            continue
+        out, sure = _first(sure[::-1], out), []
+        attempted = inside if guard is None else [If(guard, tuple(inside))]
+        assert flag is not None
+        out = [Assign(flag, FALSE), *attempted, If(flag, (), tuple(out))]
+    return _first(sure[::-1], out)
+
+
+def _first(sure: Sequence[tuple[Expr, Statements]], rest: Statements) -> Statements:
+    """What belongs to the first guard that holds, ``rest`` where none does."""
+    if len(sure) > FEW:
+        half = len(sure) // 2
+        some = any_of(*(guard for guard, _ in sure[:half]))
+        return [If(some, tuple(_first(sure[:half], [])), tuple(_first(sure[half:], rest)))]
+    for guard, inside in reversed(sure):
+        rest = [If(guard, tuple(inside), tuple(rest))]
+    return rest
 
 
 def common_composite(source: Path, target: Path) -> Path:

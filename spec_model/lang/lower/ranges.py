@@ -5,7 +5,8 @@ from itertools import product
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import Bool, Domain, boolean
 from spec_model.lang.evaluate import operate
-from spec_model.lang.expr import COMPARISONS, TRUE, Apply, Const, Expr, Named, Op, Var, all_of, any_of
+from spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Var, all_of, any_of
+from spec_model.lang.operators import COMPARISONS, Op
 from spec_model.lang.system import Statement
 from spec_model.lang.walk import plain
 
@@ -87,10 +88,18 @@ def _raw(op: Op, left: Expr, right: Expr) -> Expr:
     return Apply(op, (left, right), Bool())
 
 
+_CHECK = ".out_of_domain"
+
+
 def broken(var: Var) -> Var:
     """The check variable that is 1 after a tick in which ``var`` was to leave its domain."""
     doc = f"{var.name} was assigned a value outside {var.domain}"
-    return Var(f"{var.name}.out_of_domain", boolean, 0, doc)
+    return Var(f"{var.name}{_CHECK}", boolean, 0, doc, hidden=True)
+
+
+def checked(check: Var) -> str:
+    """The name of the variable that a check variable is about."""
+    return check.name.removesuffix(_CHECK)
 
 
 def guarded(statement: Assign) -> Statement:
@@ -99,3 +108,17 @@ def guarded(statement: Assign) -> Statement:
     if fits(value, var.domain):
         return statement
     return If(within(value, var.domain), (statement,), (Assign(broken(var), TRUE),))
+
+
+def protected(statement: If) -> Assign | None:
+    """The assignment that a check leaves out where its value does not fit; None if this is no check."""
+    match statement:
+        case If(_, (Assign(var, _) as assignment,), (Assign(check, _),)) if check.name == broken(var).name:
+            return assignment
+    return None
+
+
+def check_of(statement: If) -> Var | None:
+    """The variable that a check raises; None if this is no check."""
+    assignment = protected(statement)
+    return None if assignment is None else broken(assignment.var)

@@ -6,7 +6,7 @@ from spec_model.lang.action import Assign, If, each_action
 from spec_model.lang.chart import Block, Chart, Component, Enabled
 from spec_model.lang.expr import FALSE, Var
 from spec_model.lang.lower.flow import Flow
-from spec_model.lang.lower.ranges import guarded
+from spec_model.lang.lower.ranges import check_of, guarded
 from spec_model.lang.system import Program, Statement, System, TransitionSystem
 from spec_model.lang.wellformed import check_system
 
@@ -75,9 +75,6 @@ def _block(actions: Sequence[object]) -> list[Statement]:
 
 def _checks(program: Program) -> list[Var]:
     """The check variables that the program may raise, once each."""
-    found = {
-        a.var.name: a.var
-        for a in each_action(program)
-        if isinstance(a, Assign) and a.var.name.endswith(".out_of_domain")
-    }
+    guarding = (a for a in each_action(program) if isinstance(a, If))
+    found = {check.name: check for check in map(check_of, guarding) if check is not None}
     return list(found.values())

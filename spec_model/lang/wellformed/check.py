@@ -5,10 +5,10 @@ from weakref import WeakValueDictionary
 
 from spec_model.lang.chart import Chart, parts
 from spec_model.lang.domain import Bool
-from spec_model.lang.errors import ModelError
+from spec_model.lang.errors import ModelError, with_article
 from spec_model.lang.expr import Expr
-from spec_model.lang.system import TICK_MS, System
-from spec_model.lang.wellformed.data import chart_data_faults, enables, system_data_faults
+from spec_model.lang.system import TICK_MS, System, enabled_in
+from spec_model.lang.wellformed.data import chart_data_faults, system_data_faults
 from spec_model.lang.wellformed.paths import path_faults
 from spec_model.lang.wellformed.sends import send_faults
 from spec_model.lang.wellformed.tree import junction_cycle_faults, target_faults, tree_faults
@@ -49,16 +49,31 @@ def _chart_faults(chart: Chart, tick_ms: int) -> list[str]:
 
 
 def _system_faults(system: System) -> Iterator[str]:
+    yield from _length_faults(system)
     yield from _name_faults(system)
-    for by in enables(system.components):
-        yield from _condition_faults(f"the enable `{by}`", by)
-    yield from _condition_faults(f"the assumption `{system.assumed}`", system.assumed)
-    yield from system_data_faults(system)
+    conditions = [(f"the enable `{e.by}`", e.by) for e in enabled_in(system.components)]
+    conditions += [
+        (f"the assumption `{f}`", f) for f in (system.assume, *(a.formula for a in system.assumptions))
+    ]
+    faults = [fault for what, condition in conditions for fault in _condition_faults(what, condition)]
+    yield from faults or system_data_faults(system)
+
+
+def _length_faults(system: System) -> Iterator[str]:
+    lengths = {system.step_ms: "step_ms", system.tick_ms: "tick_ms"}
+    wrong = [f"{name}={length}" for length, name in lengths.items() if length < 1]
+    for one in wrong:
+        yield f"{one} is no length of time; write whole milliseconds, at least 1."
+    if not wrong and system.step_ms % system.tick_ms:
+        yield (
+            f"step_ms={system.step_ms} is no multiple of tick_ms={system.tick_ms}; charts execute in ticks "
+            "only, write a multiple of one."
+        )
 
 
 def _condition_faults(what: str, condition: Expr) -> Iterator[str]:
     if not isinstance(condition.sort, Bool):
-        yield f"{what} is a {condition.sort}; write a condition, such as a comparison."
+        yield f"{what} is {with_article(condition.sort)}; write a condition, such as a comparison."
     yield from no_words(what, condition)
 
 
@@ -68,6 +83,12 @@ def _name_faults(system: System) -> Iterator[str]:
         if part.name in seen:
             yield f"two components are named {part.name!r}; give each its own name."
         seen.add(part.name)
+    for what, names in (
+        ("frozen variables are named", [v.name for v in system.frozen]),
+        ("assumptions have the id", [a.id for a in system.assumptions]),
+    ):
+        for name in {name: None for name in names if names.count(name) > 1}:
+            yield f"{names.count(name)} {what} {name}; name each once."
 
 
 def _raise(faults: Iterator[str]) -> None:

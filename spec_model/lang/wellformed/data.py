@@ -3,11 +3,11 @@
 from collections.abc import Iterator, Sequence
 
 from spec_model.lang.action import Action, Assign, each_action, expressions, reads, writes
-from spec_model.lang.chart import Chart, Component, Enabled, Path, parts
+from spec_model.lang.chart import Chart, Path, parts
 from spec_model.lang.domain import Enum
 from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.expr import Expr, Var
-from spec_model.lang.system import System
+from spec_model.lang.system import System, enabled_in
 from spec_model.lang.walk import nodes, variables
 from spec_model.lang.wellformed.places import legs, name_of, places
 
@@ -96,27 +96,24 @@ def _readers(system: System) -> Iterator[tuple[str, dict[str, Var]]]:
     for part in parts(system.components):
         yield part.name, part.read
     yield "the assumption", variables(system.assumed)
-    for by in enables(system.components):
-        yield f"the enable `{by}`", variables(by)
-
-
-def enables(components: Sequence[Component]) -> Iterator[Expr]:
-    """The conditions of the enabled subsystems, nested ones too."""
-    for component in components:
-        if isinstance(component, Enabled):
-            yield component.by
-            yield from enables(component.components)
+    for enabled in enabled_in(system.components):
+        yield f"the enable `{enabled.by}`", variables(enabled.by)
 
 
 def _twin_faults(system: System) -> Iterator[str]:
     seen: dict[str, Var] = {}
     for v in _occurrences(system):
         first = seen.setdefault(v.name, v)
-        if first is not v and (first.domain != v.domain or first.init != v.init):
-            yield (
-                f"two variables are named {v.name}: {_described(first)} and {_described(v)}; "
-                "rename one or use the same variable."
-            )
+        yield from twin_faults(first, v)
+
+
+def twin_faults(first: Var, other: Var) -> Iterator[str]:
+    """What is wrong with two variables of one name: that one has other values, or begins with another."""
+    if first is not other and (first.domain != other.domain or first.init != other.init):
+        yield (
+            f"two variables are named {first.name}: {_described(first)} and {_described(other)}; "
+            "rename one or use the same variable."
+        )
 
 
 def _described(v: Var) -> str:
@@ -131,7 +128,7 @@ def _occurrences(system: System) -> Iterator[Var]:
         yield from _vars(chart.expressions, chart.all_actions)
     for block in system.blocks:
         yield from _vars([], block.do)
-    yield from (*system.frozen, *_vars([system.assumed, *enables(system.components)], ()))
+    yield from (*system.frozen, *_vars([system.assumed, *(e.by for e in enabled_in(system.components))], ()))
 
 
 def _vars(exprs: Sequence[Expr], actions: Sequence[Action]) -> Iterator[Var]:

@@ -1,6 +1,6 @@
 """Paths: regions they may not cross, default transitions, and states that nothing leads to."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
 from spec_model.lang.chart import Chart, Path, Transition
 from spec_model.lang.wellformed.places import Leg, common_composite, legs, name_of, parallel_name
@@ -11,9 +11,9 @@ def path_faults(chart: Chart) -> Iterator[str]:
     all_legs = list(legs(chart))
     for leg in all_legs:
         yield from _default_faults(leg) if leg.default else _crossing_faults(chart, leg)
-    entered, defaulted = _reach(chart, all_legs)
-    yield from _completion_faults(chart, defaulted)
-    yield from _unreachable_faults(chart, entered, all_legs)
+    reach = Reach(chart, all_legs)
+    yield from _completion_faults(chart, reach.completed)
+    yield from _unreachable_faults(chart, reach.entered, all_legs)
 
 
 def _default_faults(leg: Leg) -> Iterator[str]:
@@ -38,40 +38,62 @@ def _crossing_faults(chart: Chart, leg: Leg) -> Iterator[str]:
         )
 
 
-def _reach(chart: Chart, all_legs: list[Leg]) -> tuple[set[Path], set[Path]]:
-    """The states that can be active, and the composites entered without an explicit child."""
-    entered: set[Path] = set()
-    completed: set[Path] = set()
-    _complete(chart, (), entered, completed)
-    size = -1
-    while size != len(entered) + len(completed):
-        size = len(entered) + len(completed)
+class Reach:
+    """The states that can be active, and the composites ``completed``: entered without an explicit child.
+
+    Every state is looked at once, however deeply it lies and in whatever order arrows lead to it.
+    """
+
+    def __init__(self, chart: Chart, all_legs: Sequence[Leg]) -> None:
+        self.entered: set[Path] = set()
+        self.completed: set[Path] = set()
+        self._chart = chart
+        self._ends: dict[tuple[Path, bool], list[Path]] = {}
         for leg in all_legs:
-            if leg.complete and leg.source in (completed if leg.default else entered):
-                _enter(chart, leg.end, entered, completed)
-    return entered, completed
+            if leg.complete:
+                self._ends.setdefault((leg.source, leg.default), []).append(leg.end)
+        self._named: set[Path] = set()
+        self._whole: set[Path] = set()
+        self._todo: list[Path] = []
+        self._complete(())
+        while self._todo:
+            self._name(self._todo.pop())
 
+    def _name(self, target: Path) -> None:
+        """An arrow leads to the state: it is entered, and what it lies in, each with its other regions."""
+        state = target
+        while state and state not in self._named:
+            self._named.add(state)
+            self._enter(state)
+            parent = state[:-1]
+            if self._chart.states[parent].parallel:
+                for region in self._chart.states[parent].states:
+                    if region.name != state[-1]:
+                        self._complete((*parent, region.name))
+            state = parent
+        self._complete(target)
 
-def _enter(chart: Chart, target: Path, entered: set[Path], completed: set[Path]) -> None:
-    for depth in range(1, len(target) + 1):
-        parent, state = target[: depth - 1], target[:depth]
-        entered.add(state)
-        if chart.states[parent].parallel:
-            for region in chart.states[parent].states:
-                if (*parent, region.name) != state:
-                    _complete(chart, (*parent, region.name), entered, completed)
-    _complete(chart, target, entered, completed)
+    def _enter(self, path: Path) -> None:
+        if path not in self.entered:
+            self.entered.add(path)
+            self._todo += self._ends.pop((path, False), ())
 
-
-def _complete(chart: Chart, path: Path, entered: set[Path], completed: set[Path]) -> None:
-    if path:
-        entered.add(path)
-    state = chart.states[path]
-    if state.parallel:
-        for region in state.states:
-            _complete(chart, (*path, region.name), entered, completed)
-    elif state.states:
-        completed.add(path)
+    def _complete(self, path: Path) -> None:
+        """The state is entered by itself, with all its regions or by its default transition."""
+        todo = [path]
+        while todo:
+            path = todo.pop()
+            if path in self._whole:
+                continue
+            self._whole.add(path)
+            if path:
+                self._enter(path)
+            state = self._chart.states[path]
+            if state.parallel:
+                todo += [(*path, region.name) for region in state.states]
+            elif state.states:
+                self.completed.add(path)
+                self._todo += self._ends.pop((path, True), ())
 
 
 def _completion_faults(chart: Chart, completed: set[Path]) -> Iterator[str]:

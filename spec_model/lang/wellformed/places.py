@@ -122,7 +122,7 @@ def conditions(actions: Sequence[Action]) -> Iterator[Expr]:
 
 def common_composite(source: Path, target: Path) -> Path:
     """The innermost composite with both ends of an arrow properly inside it."""
-    depth = 0
-    while depth < min(len(source), len(target)) - 1 and source[depth] == target[depth]:
-        depth += 1
-    return source[:depth]
+    most = max(min(len(source), len(target)) - 1, 0)
+    if source[:most] == target[:most]:  # nearly always, and at once also where states lie deep
+        return source[:most]
+    return source[: next(depth for depth in range(most) if source[depth] != target[depth])]

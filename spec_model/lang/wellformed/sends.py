@@ -46,63 +46,79 @@ def _sites(chart: Chart) -> tuple[list[_Site], list[str]]:
 
 def _silence_faults(sites: list[_Site], all_legs: list[Leg]) -> Iterator[str]:
     """Events sent to states that do not react, and events waited for that nobody sends there."""
+    waiting = [leg for leg in all_legs if leg.segment.event is not None]
+    waits = {(outer, leg.segment.event) for leg in waiting for outer in _around(leg.source)}
     for site in sites:
-        inside = [leg for leg in all_legs if _within(leg.source, site.receiver)]
-        if all(leg.segment.event != site.send.event for leg in inside):
+        if (site.receiver, site.send.event) not in waits:
             yield f"{site}: no arrow inside {name_of(site.receiver)} waits for the event {site.send.event}."
-    for leg in all_legs:
-        event = leg.segment.event
-        sources = [other.source for other in all_legs if other.segment is leg.segment]
-        receivers = [site.receiver for site in sites if site.send.event == event]
-        if event is not None and not any(_within(s, r) for s in sources for r in receivers):
-            yield f"{leg.where} waits for the event {event}, which is never sent to {name_of(leg.source)}."
+    sent = {(site.receiver, site.send.event) for site in sites}
+    heard = {
+        id(leg.segment)
+        for leg in waiting
+        if any((outer, leg.segment.event) in sent for outer in _around(leg.source))
+    }
+    for leg in waiting:
+        if id(leg.segment) not in heard:
+            event, state = leg.segment.event, name_of(leg.source)
+            yield f"{leg.where} waits for the event {event}, which is never sent to {state}."
 
 
 def _nesting_faults(chart: Chart, sites: list[_Site], all_legs: list[Leg]) -> Iterator[str]:
-    touched = {s.receiver: _touched(chart, s.receiver, all_legs) for s in sites}
-    onward = {id(s): [o for o in sites if o.place.owner in touched[s.receiver]] for s in sites}
+    run = {receiver: _Run(chart, receiver, all_legs) for receiver in {s.receiver: None for s in sites}}
+    onward = {r: {s.receiver: None for s in sites if s.place.owner in run[r].touched} for r in run}
+    nested = {receiver: _closure(receiver, onward) for receiver in run}
     for site in sites:
-        nested = _closure(site, onward)
         to_itself = _within(site.place.owner, site.receiver)
-        leaving = [f for s in (site, *nested) for f in _departure_faults(site, s.receiver, all_legs)]
+        leaving = [fault for r in nested[site.receiver] for fault in _departure_faults(site, run[r])]
         if leaving and not to_itself:
             yield from leaving
-        elif to_itself or any(s is site for s in nested):
+        elif to_itself or any(site.place.owner in run[r].touched for r in nested[site.receiver]):
             yield f"{site} can lead to the same send again, for ever; break the cycle of sends."
 
 
-def _departure_faults(site: _Site, executed: Path, all_legs: list[Leg]) -> Iterator[str]:
+class _Run:
+    """What may happen when a state is executed: arrows inside it by the states they leave, and ``touched``.
+
+    These are the states whose actions may run: those inside it, and what its arrows leave and enter.
+    """
+
+    def __init__(self, chart: Chart, executed: Path, all_legs: list[Leg]) -> None:
+        self.executed = executed
+        self.leaving: dict[Path, list[Leg]] = {}
+        touched = {executed}
+        for leg in all_legs:
+            if leg.complete and _within(leg.source, executed):
+                depth = len(common_composite(leg.source, leg.end)) + 1
+                self.leaving.setdefault(leg.source[:depth], []).append(leg)
+                touched |= {leg.source[:depth], leg.end[:depth]}
+        self.touched = {p for p in chart.states if any(outer in touched for outer in _around(p))}
+
+
+def _departure_faults(site: _Site, run: _Run) -> Iterator[str]:
     """Arrows taken during a send that leave the state the sender is in."""
-    for leg in all_legs:
-        if leg.complete and _within(leg.source, executed):
-            scope = common_composite(leg.source, leg.end)
-            if _within(site.place.owner, leg.source[: len(scope) + 1]):
-                yield (
-                    f"{site} executes {name_of(executed)}, where {leg.where} would leave "
-                    f"{name_of(site.place.owner)} in the middle of its own action."
-                )
+    for left in _around(site.place.owner):
+        for leg in run.leaving.get(left, ()):
+            yield (
+                f"{site} executes {name_of(run.executed)}, where {leg.where} would leave "
+                f"{name_of(site.place.owner)} in the middle of its own action."
+            )
 
 
-def _touched(chart: Chart, executed: Path, all_legs: list[Leg]) -> set[Path]:
-    """States whose actions may run when ``executed`` is: those inside it, and what its arrows enter."""
-    found = {p for p in chart.states if _within(p, executed)}
-    for leg in all_legs:
-        if leg.complete and _within(leg.source, executed):
-            scope = common_composite(leg.source, leg.end)
-            ends = (leg.source[: len(scope) + 1], leg.end[: len(scope) + 1])
-            found |= {p for p in chart.states if any(_within(p, end) for end in ends)}
-    return found
-
-
-def _closure(site: _Site, onward: dict[int, list[_Site]]) -> list[_Site]:
-    found: dict[int, _Site] = {}
-    todo = list(onward[id(site)])
+def _closure(receiver: Path, onward: dict[Path, dict[Path, None]]) -> list[Path]:
+    """The states executed when this one is, by sends that lead to sends."""
+    found: dict[Path, None] = {}
+    todo = [receiver]
     while todo:
-        nested = todo.pop()
-        if id(nested) not in found:
-            found[id(nested)] = nested
-            todo += onward[id(nested)]
-    return list(found.values())
+        executed = todo.pop()
+        if executed not in found:
+            found[executed] = None
+            todo += onward[executed]
+    return list(found)
+
+
+def _around(path: Path) -> list[Path]:
+    """A state and all that it is in, the chart first."""
+    return [path[:depth] for depth in range(len(path) + 1)]
 
 
 def _within(path: Path, outer: Path) -> bool:

@@ -1,5 +1,6 @@
 """The drawing as a tree: names, composites, where arrows end, junction cycles."""
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from spec_model.lang.chart import NOWHERE, Chart, Path, State, Transition
@@ -18,10 +19,10 @@ def tree_faults(chart: Chart) -> Iterator[str]:
 
 def _name_faults(path: Path, state: State) -> Iterator[str]:
     names = [s.name for s in state.states] + [j.name for j in state.junctions]
-    for name in dict.fromkeys(names):
-        if names.count(name) > 1:
+    for name, times in Counter(names).items():
+        if times > 1:
             yield (
-                f"{names.count(name)} states or junctions of {name_of(path)} are named {name!r}; "
+                f"{times} states or junctions of {name_of(path)} are named {name!r}; "
                 "names at one level must differ."
             )
         if "." in name or name in ("", NOWHERE):

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from spec_model.lang.action import Send, each_action, expressions
 from spec_model.lang.chart import Block, Chart
 from spec_model.lang.domain import Bool
-from spec_model.lang.errors import ModelError
+from spec_model.lang.errors import ModelError, with_article
 from spec_model.lang.expr import Expr, Temporal, When
 from spec_model.lang.walk import nodes, variables
 from spec_model.lang.wellformed.places import Place, conditions, legs, places
@@ -68,7 +68,7 @@ def _span_faults(what: str, word: Temporal, tick_ms: int) -> Iterator[str]:
 
 def _sort_faults(what: str, expr: Expr) -> Iterator[str]:
     if not isinstance(expr.sort, Bool):
-        yield f"{what}, `{expr}`, is a {expr.sort}; write a condition, such as a comparison."
+        yield f"{what}, `{expr}`, is {with_article(expr.sort)}; write a condition, such as a comparison."
 
 
 def _words(*exprs: Expr) -> list[Temporal]:
