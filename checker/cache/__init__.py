@@ -1,0 +1,31 @@
+"""Compiled code kept on disk: sealed with a secret of the user's, checked when it is read, never needed.
+
+What is read is native code that will be run, and what a verdict rests on.  So an entry is believed only
+if this user's rovercheck wrote it, under that name: whoever can write to the folder but does not know the
+secret can make entries go missing, nothing else.  The same holds for a folder from another machine.
+"""
+
+from checker.cache.entries import ENDING, MOST_BYTES, opened, read, remove, sealed, write
+from checker.cache.places import VARIABLE, Unsafe, chosen, usable
+from checker.cache.secret_file import SECRET, secret, secret_place
+from checker.cache.telling import Refused, Taken, listening
+
+__all__ = [
+    "ENDING",
+    "MOST_BYTES",
+    "SECRET",
+    "VARIABLE",
+    "Refused",
+    "Taken",
+    "Unsafe",
+    "chosen",
+    "listening",
+    "opened",
+    "read",
+    "remove",
+    "sealed",
+    "secret",
+    "secret_place",
+    "usable",
+    "write",
+]

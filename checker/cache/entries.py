@@ -1,0 +1,124 @@
+"""The entries of the cache: one file for each name, believed only under the user's seal.
+
+A file is the seal, then the contents.  The seal is an HMAC (SHA-256) over name and contents, so that
+nothing can be put under another name.  One that does not fit counts as missing, and is written anew.
+"""
+
+import hmac
+import os
+import re
+import tempfile
+from contextlib import suppress
+from pathlib import Path
+
+from checker.cache import running
+from checker.cache.places import Unsafe, carefully, chosen, usable
+from checker.cache.secret_file import secret
+from checker.cache.telling import Refused, Taken, anew, heard, tell
+
+ENDING = ".o"
+MOST_BYTES = 256 << 20
+"""Bytes of all entries together; beyond that the longest unused are removed, down to three quarters."""
+
+_SEAL = 32
+_LABEL = b"rovercheck cache 2\0"
+"""What the secret is used for: nothing else that is sealed with it can pass for an entry."""
+_BEGUN = "rovercheck-", ".part"
+"""How the names of files begin and end that are being written."""
+_OURS = re.compile(r"[0-9a-f]{64}-[a-z]+-[a-z]+\.(o|running)|rovercheck-\w+\.part")
+"""The names of files that may be removed: the folder may be one that the user keeps other things in."""
+
+
+def read(name: str) -> bytes | None:
+    """What this user's rovercheck wrote under a name; None if that is missing, changed or cannot be read.
+
+    Where code is to be made anew (see ``telling.listening``), and where a process has crashed over it, the
+    entry is removed.
+    """
+    try:
+        folder = usable(chosen(), make=False)
+        key = secret(folder, make=False)
+        path = folder / f"{name}{ENDING}"
+        if anew() or running.crashed(path):
+            remove(name)
+            return None
+        contents = opened(name, carefully(path, MOST_BYTES)[1], key)
+    except Unsafe as unsafe:
+        tell(Refused(str(unsafe)))
+        return None
+    except OSError:
+        return None
+    if contents is not None:
+        with suppress(OSError):  # where files are read only, too, they may be used
+            os.utime(path)  # used now: the last to be removed
+        if heard():
+            tell(Taken(name))
+        else:
+            running.mark(path)
+    return contents
+
+
+def write(name: str, contents: bytes) -> None:
+    """Keep contents under a name: whole or not at all, also beside other processes that do the same."""
+    try:
+        folder = usable(chosen(), make=True)
+        whole = sealed(name, contents, secret(folder, make=True))
+        handle, part = tempfile.mkstemp(prefix=_BEGUN[0], suffix=_BEGUN[1], dir=folder)
+        try:
+            with os.fdopen(handle, "wb") as file:
+                file.write(whole)
+            os.replace(part, folder / f"{name}{ENDING}")
+        except OSError:
+            os.unlink(part)
+            raise
+        _shrink(folder)
+    except Unsafe as unsafe:
+        tell(Refused(str(unsafe)))
+    except OSError:
+        pass
+
+
+def remove(name: str) -> None:
+    """Have no entry of that name."""
+    with suppress(OSError):
+        (usable(chosen(), make=False) / f"{name}{ENDING}").unlink(missing_ok=True)
+
+
+def sealed(name: str, contents: bytes, key: bytes) -> bytes:
+    """Contents that only a holder of the key can have put under a name."""
+    return _seal(name, contents, key) + contents
+
+
+def opened(name: str, whole: bytes, key: bytes) -> bytes | None:
+    """The contents, or None if they were not sealed with the key under that name."""
+    contents = memoryview(whole)[_SEAL:]
+    return bytes(contents) if hmac.compare_digest(whole[:_SEAL], _seal(name, contents, key)) else None
+
+
+def _seal(name: str, contents: bytes | memoryview, key: bytes) -> bytes:
+    written = name.encode()
+    # With its length: where a name ends is no choice.
+    seal = hmac.new(key, b"%b%d\0%b" % (_LABEL, len(written), written), "sha256")
+    seal.update(contents)
+    return seal.digest()
+
+
+def _shrink(folder: Path) -> None:
+    """Remove the entries that were not used for longest when there is too much."""
+    ours = (path for path in folder.iterdir() if _OURS.fullmatch(path.name))
+    files = [(status.st_mtime_ns, status.st_size, path) for path in ours if (status := _of(path))]
+    size = sum(bytes_ for _, bytes_, _ in files)
+    if size <= MOST_BYTES:
+        return
+    for _, bytes_, path in sorted(files):
+        if size <= MOST_BYTES * 3 // 4:
+            return
+        with suppress(OSError):  # another process removed it
+            path.unlink()
+        size -= bytes_
+
+
+def _of(path: Path) -> os.stat_result | None:
+    with suppress(OSError):
+        return path.lstat()
+    return None
