@@ -2,18 +2,20 @@
 
 import importlib.util
 from collections.abc import Iterator
+from itertools import islice
 from pathlib import Path
 
 import pytest
 
 from checker.conform.adapters import python
-from checker.conform.cross import Mismatch, cross_check, effort, quick_check, replay
+from checker.conform.cross import Allowance, Mismatch, cross_check, effort, quick_check, replay
 from checker.conform.cross.beside import rerun
 from checker.conform.cross.check import Remembered, recorded_suite
 from checker.conform.cross.coverage import arrows
+from checker.conform.cross.recorded import counterexamples
 from checker.conform.cross.reproduce import file_name, pytest_file, stimulus_of
-from checker.conform.cross.result import SHOWN
-from checker.conform.cross.search import FAILURES, Run, Search
+from checker.conform.cross.result import ALLOWED, FIXED, RANDOM
+from checker.conform.cross.search import Run, Search
 from checker.conform.cross.smaller import Budget, smaller
 from checker.conform.cross.strategy import ENVIRONMENTS
 from checker.conform.implementation import Implementation, ImplementationError, Values
@@ -154,14 +156,24 @@ class Dying:
 
 def test_what_differs_before_a_crash_is_found_all_the_same() -> None:
     result = cross_check("board1", Dying("board1", wrong=4), examples=0, budget=0)
-    assert len(result.failures) == FAILURES and {f.tick for f in result.failures} == {6}
+    assert len(result.failures) == ALLOWED.failures and {f.tick for f in result.failures} == {6}
     assert result.mismatches and {m.tick for m in result.mismatches} == {4}
 
 
 def test_crashes_in_random_runs_alone_end_the_search() -> None:
-    search = Search(ENVIRONMENTS["board1"], Dying("board1"), effort("ci", 50), budget=0)
-    result = search.run()
-    assert len(result.failures) == FAILURES and search.tried <= 50
+    for failures in (3, 5):
+        search = Search(
+            ENVIRONMENTS["board1"],
+            Dying("board1"),
+            effort("ci", 50),
+            allowance=Allowance(5, failures),
+            budget=0,
+        )
+        result = search.run()
+        assert len(result.failures) == failures
+        fixed, random = result.stages
+        assert (fixed.because, random.tried, random.of) == ("", search.tried[RANDOM], 50)
+        assert random.tried < 50 and random.because == f"given up after {failures} runs not survived"
 
 
 def test_ctrl_c_keeps_what_was_found() -> None:
@@ -170,6 +182,7 @@ def test_ctrl_c_keeps_what_was_found() -> None:
 
     result = cross_check("board1", running("board1", OURS["board1"]), progress=interrupt)
     assert result.interrupted and not result.conforms and result.coverage.runs == 1
+    assert [(s.tried, s.because) for s in result.stages] == [(1, "interrupted"), (0, "interrupted")]
 
 
 def test_ctrl_c_while_runs_are_made_leaves_none_out_the_next_time() -> None:
@@ -187,7 +200,8 @@ def test_ctrl_c_while_runs_are_made_leaves_none_out_the_next_time() -> None:
     assert [name for name, _ in remembered] == [name for name, _ in remembered] == ["first", "second"]
 
 
-def test_distinct_mismatches_are_told_apart_up_to_a_number_that_is_said() -> None:
+@pytest.mark.parametrize("wanted", [0, 2, 100])
+def test_distinct_mismatches_are_all_told_apart_and_as_many_made_small_as_are_wanted(wanted: int) -> None:
     class Wrong:
         """Every output of Board 2 is wrong now and then."""
 
@@ -206,5 +220,23 @@ def test_distinct_mismatches_are_told_apart_up_to_a_number_that_is_said() -> Non
 
         def close(self) -> None: ...
 
-    result = cross_check("board2", Wrong(), examples=0, budget=200)
-    assert result.distinct > SHOWN == len(result.mismatches)
+    allowance = Allowance(mismatches=wanted)
+    search = Search(ENVIRONMENTS["board2"], Wrong(), effort("ci", 0), allowance=allowance, budget=20)
+    result = search.run(islice(counterexamples(boards()["board2"]), 30))
+    keys = {m.key for m in result.mismatches}
+    assert len(keys) == len(result.mismatches) > 5
+    assert result.small == min(wanted, len(keys))
+    assert result.compared < result.coverage.steps
+
+
+def test_every_random_run_is_drawn_whatever_is_found() -> None:
+    """The first new mismatch ended the random runs, and nothing said so."""
+    result, right = (
+        Search(ENVIRONMENTS["board2"], running("board2", target), effort("ci", 15), budget=0).run()
+        for target in (f"{HERE}:SwappedSonars", OURS["board2"])
+    )
+    assert result.mismatches and right.conforms
+    assert [(s.kind, s.because) for s in result.stages] == [(FIXED, ""), (RANDOM, "")]
+    assert result.stages[1].tried == result.stages[1].of == 15
+    assert result.coverage.runs == right.coverage.runs and result.coverage.steps == right.coverage.steps
+    assert result.compared < right.compared == right.coverage.steps

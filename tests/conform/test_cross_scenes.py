@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import pytest
 
-from benchmarks.faults.by_hand import faults
+from benchmarks.faults.by_hand import Fault, faults
 from benchmarks.faults.hand_run import InProcess
 from checker.conform.cross.beside import compared, played
 from checker.conform.cross.environment import Environment
@@ -37,3 +37,11 @@ def test_a_scene_shows_its_fault(text: str) -> None:
     implementation = InProcess(fault)
     runs = (played(env.board, env.fields, stimulus) for stimulus in of(env, FAULTS[text]))
     assert any(compared(env.board, run, implementation) for run in runs)
+
+
+def test_a_fast_turn_is_summed_in_full() -> None:
+    """The sums of a long window were cut at 122 °/s: a turn that the wheels explain was incoherent."""
+    env = ENVIRONMENTS["board2"]
+    for stimulus in of(env, "rotations"):
+        run = played(env.board, env.fields, stimulus)
+        assert not compared(env.board, run, InProcess(Fault("none", "board2", "none", "none")))

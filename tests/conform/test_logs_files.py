@@ -133,7 +133,11 @@ def test_lines_before_broken_bytes_are_counted(file: Path) -> None:
 def value(cell: str, signal: str = "gz_dps", column: Column | None = None) -> Raw | None:
     convert = converter(column or Column(signal), SIGNALS[signal], True, comma=False)
     (one,) = convert([cell])
+    wrong = convert.without_meaning([cell])
     assert convert([cell, cell]) == [one, one]
+    assert [why for _, why in convert.without_meaning([cell, cell])] == [why for _, why in 2 * wrong]
+    if wrong:
+        raise LogError(wrong[0][1])
     return one
 
 
@@ -179,3 +183,11 @@ def test_what_is_no_time(cell: str) -> None:
 def test_times_in_other_units() -> None:
     assert value("0.04", "now_ms", Column("now_ms", unit="s")) == 40
     assert value("40", "now_ms", Column("now_ms", offset=20)) == 60
+
+
+def test_names_that_were_quoted_for_spreadsheets_are_found_again(tmp_path: Path) -> None:
+    file = tmp_path / "log.csv"
+    file.write_text("'=a,''b,c\n1,2,3\n")
+    rows = opened(file, Map())
+    rows.close()
+    assert rows.header == ("=a", "'b", "c")

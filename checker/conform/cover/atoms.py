@@ -7,8 +7,9 @@ from math import prod
 
 from spec_model.lang.domain import Bool, Num
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import COMPARISONS, TRUE, Apply, Const, Expr, Op, Temporal, Var, When
+from spec_model.lang.expr import TRUE, Apply, Const, Expr, Temporal, Var, When
 from spec_model.lang.label import text
+from spec_model.lang.operators import COMPARISONS, Op
 from spec_model.lang.time import ticks
 from spec_model.lang.walk import children, structure, variables
 

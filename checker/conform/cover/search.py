@@ -8,9 +8,9 @@ from itertools import groupby
 from checker.conform.cover.goals import Goal, Kind, Watched
 from checker.conform.cover.scripts import Script, script
 from checker.conform.cover.watch import watched
-from checker.decide import AUTO, Task
-from checker.engine import Limits
-from checker.searches import Doing, Over, searches
+from checker.engine import AUTO, Limits
+from checker.searches import Doing, Over, Warned, searches
+from checker.tasks import Task
 from checker.trace import Trace
 from checker.verdict import Proved, Unknown, Verdict, Violated
 from properties.forms import Property, reachable
@@ -134,6 +134,8 @@ def _verdicts(
             match one:
                 case Doing(task, line):
                     yield "", f"{task.title}: {line}"
+                case Warned(text):
+                    yield "", text
                 case Over():
                     pass
                 case _:

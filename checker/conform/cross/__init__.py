@@ -2,13 +2,13 @@
 
 from checker.conform.cross.beside import Difference, Mismatch, Step
 from checker.conform.cross.check import cross_check, known_runs, quick_check, replay
-from checker.conform.cross.result import SHOWN, Failure, Result
+from checker.conform.cross.result import Allowance, Failure, Result, Stage
 from checker.conform.cross.search import Effort, effort
 from checker.conform.cross.stimulus import SILENT, Block, Every, Stimulus
 
 __all__ = [
-    "SHOWN",
     "SILENT",
+    "Allowance",
     "Block",
     "Difference",
     "Effort",
@@ -16,6 +16,7 @@ __all__ = [
     "Failure",
     "Mismatch",
     "Result",
+    "Stage",
     "Step",
     "Stimulus",
     "cross_check",

@@ -13,7 +13,8 @@ from spec_model.lang.action import Action, Assign, each_action, expressions
 from spec_model.lang.chart import Component, Enabled
 from spec_model.lang.domain import Num, Unit
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import COMPARISONS, Apply, Const, Expr, Named, Op, Temporal, Var
+from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var
+from spec_model.lang.operators import COMPARISONS, Op
 from spec_model.lang.system import System
 from spec_model.lang.walk import nodes, variables
 

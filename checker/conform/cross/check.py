@@ -12,7 +12,7 @@ from checker.conform.cross.beside import Mismatch, compared, played, rerun
 from checker.conform.cross.environment import Environment
 from checker.conform.cross.fixed import fixed
 from checker.conform.cross.recorded import counterexamples, tests
-from checker.conform.cross.result import Result
+from checker.conform.cross.result import ALLOWED, Allowance, Result
 from checker.conform.cross.search import Progress, Run, Search, effort
 from checker.conform.cross.smaller import BUDGET
 from checker.conform.cross.stimulus import Stimulus
@@ -35,6 +35,7 @@ def cross_check(
     stop_early: bool = False,
     folder: Path | None = None,
     budget: int = BUDGET,
+    allowance: Allowance = ALLOWED,
     progress: Progress = lambda search: None,
     charts: Board | None = None,
 ) -> Result:
@@ -42,8 +43,9 @@ def cross_check(
 
     ``profile`` is ``ci`` or ``nightly``; ``examples`` and ``seed`` replace what it says.  With ``stop_early``
     the first mismatch ends the search, and is not made small.  ``folder`` holds further tests.
-    ``budget`` is how many steps may be spent on making one mismatch small.  ``charts`` is the board with
-    changed charts; kept runs are inputs only, of which it is computed anew what they require.
+    ``budget`` is how many steps may be spent on making one mismatch small, ``allowance`` says of how many.
+    ``charts`` is the board with changed charts; kept runs are inputs only, of which it is computed anew what
+    they require.
     """
     env = ENVIRONMENTS[board] if charts is None else replace(ENVIRONMENTS[board], board=charts)
     search = Search(
@@ -51,6 +53,7 @@ def cross_check(
         implementation,
         effort(profile, examples, seed),
         stop_early,
+        allowance,
         budget=budget,
         progress=progress,
     )

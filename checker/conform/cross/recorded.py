@@ -13,6 +13,7 @@ from checker.conform.cross.search import Run
 from checker.conform.cross.smaller import columns
 from checker.conform.cross.stimulus import SILENT, Block, Change, Every, Stimulus
 from checker.conform.implementation import Value
+from checker.files import csv_plain
 from spec_model.abstraction import Board
 from spec_model.lang.errors import ModelError
 from spec_model.lang.system import TICK_MS
@@ -102,13 +103,18 @@ def tests(folder: Path, board: Board) -> Iterator[Run]:
 def _rows(file: Path) -> list[dict[str, object]]:
     try:
         text = file.read_text(encoding="utf-8")
-        found = list(csv.DictReader(text.splitlines())) if file.suffix == ".csv" else json.loads(text)
+        found = _table(text) if file.suffix == ".csv" else json.loads(text)
     except (OSError, ValueError, csv.Error) as error:
         raise ModelError(f"{file}: {error}. Write one step a line, with the inputs by name.") from error
     steps = found.get("steps", []) if isinstance(found, dict) else found
     if not (isinstance(steps, list) and all(isinstance(row, dict) for row in steps)):
         raise ModelError(f"{file} holds no list of steps; write the inputs of each step by name.")
     return steps
+
+
+def _table(text: str) -> list[dict[str, object]]:
+    names, *rows = csv.reader(text.splitlines()) if text.strip() else [[]]
+    return [dict(zip(map(csv_plain, names), row, strict=False)) for row in rows if row]
 
 
 def _steps(file: Path, board: Board, rows: Sequence[Mapping[str, object]]) -> list[Step]:

@@ -7,8 +7,31 @@ from checker.conform.cross.beside import Mismatch, Step
 from checker.conform.cross.coverage import Arrow, Coverage, arrows
 from spec_model.abstraction import Board
 
-SHOWN = 5
-"""Distinct mismatches that are made small and shown; how many there are is always said."""
+FIXED, RANDOM = "fixed runs", "random runs"
+"""The two kinds of runs, in the order in which they are tried."""
+
+
+@dataclass(frozen=True)
+class Allowance:
+    """What is spent on an implementation that differs; the rest is told, but not looked into."""
+
+    mismatches: int = 5
+    """Distinct mismatches, the shortest, that are made small and told in full; the others in a line each."""
+    failures: int = 3
+    """Runs that the implementation may fail to survive before no more are tried."""
+
+
+ALLOWED = Allowance()
+
+
+@dataclass(frozen=True)
+class Stage:
+    """How many runs of a kind were tried, of how many (None: not counted), and why not all, if not all."""
+
+    kind: str
+    tried: int
+    of: int | None
+    because: str = ""
 
 
 @dataclass(frozen=True)
@@ -33,20 +56,24 @@ class Failure:
 class Result:
     """One cross-check of one implementation.
 
-    ``mismatches`` are the distinct ones, by output and arrow, at most ``SHOWN`` of the ``distinct`` that were
-    met.  ``uncompared`` are outputs that the implementation never gave.
+    ``mismatches`` are the distinct ones, by output and arrow; the first ``small`` of them are made small.
+    ``uncompared`` are outputs that the implementation never gave, ``compared`` the steps in which it was: a
+    run ends at its first mismatch.  ``stages`` say what was tried.
     """
 
     board: Board
     coverage: Coverage
     mismatches: tuple[Mismatch, ...] = ()
-    distinct: int = 0
+    small: int = 0
     failures: tuple[Failure, ...] = ()
     uncompared: tuple[str, ...] = ()
     notes: Sequence[str] = field(default=())
     examples: int = 0
     seed: int = 0
     interrupted: bool = False
+    stages: tuple[Stage, ...] = ()
+    compared: int = 0
+    allowance: Allowance = ALLOWED
 
     @property
     def conclusive(self) -> bool:

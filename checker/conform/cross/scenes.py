@@ -113,6 +113,9 @@ def rotating(speeds: Sequence[str], wheels: str, imu: str) -> Iterator[Blocks]:
         yield [Block(310, (*fresh, (front, one), (rear, other)))]
     for speed in (0, 0.004, 0.005, 0.006):
         yield [Block(80, (*fresh, ("gz_dps", 10), (front, speed), (rear, speed)))]
+    for speed, rate in ((80, 147), (-80, -147), (136, 249)):  # on the spot, as fast as can be told
+        sides = zip(speeds, (speed, -speed, speed, -speed), strict=True)
+        yield [Block(310, (*fresh, *sides, ("gz_dps", rate)))]
     for gap in (4, 5, 6):
         for rate in (60, 250):
             yield [Block(320, (*fresh, ("gz_dps", rate), (imu, Every((gap,)))))]

@@ -1,6 +1,6 @@
-"""The search for mismatches: fixed runs, recorded runs, then random ones by Hypothesis."""
+"""The search for mismatches: fixed runs, recorded runs, then random ones that Hypothesis draws."""
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from random import SystemRandom
@@ -10,7 +10,7 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 from checker.conform.cross.beside import Mismatch, Step, compared, played
 from checker.conform.cross.coverage import Coverage
 from checker.conform.cross.environment import Environment
-from checker.conform.cross.result import SHOWN, Failure, Result
+from checker.conform.cross.result import ALLOWED, FIXED, RANDOM, Allowance, Failure, Result, Stage
 from checker.conform.cross.smaller import BUDGET, Budget, smaller
 from checker.conform.cross.stimulus import Stimulus
 from checker.conform.cross.strategy import stimuli
@@ -19,10 +19,6 @@ from checker.conform.implementation import Implementation, ImplementationError, 
 CI_SEED = 5
 NIGHTLY = 20
 """Nightly examples for each one in CI."""
-SHRINKING = 20_000
-"""Steps of the charts that Hypothesis may spend after the first new mismatch."""
-FAILURES = 3
-"""Runs that an implementation may fail to survive before the search gives it up."""
 
 
 @dataclass(frozen=True)
@@ -53,10 +49,6 @@ class Enough(BaseException):
     """Nothing more is to be tried; Hypothesis lets it through at once."""
 
 
-class _Found(Exception):
-    """A mismatch, for Hypothesis; each key has a class of its own, so that each is shrunk by itself."""
-
-
 @dataclass
 class Search:
     """One cross-check under way."""
@@ -65,74 +57,104 @@ class Search:
     implementation: Implementation
     effort: Effort
     stop_early: bool = False
+    allowance: Allowance = ALLOWED
     budget: int = BUDGET
     progress: Progress = lambda search: None
     record: Callable[[str, list[Step]], None] = lambda origin, steps: None
     coverage: Coverage = field(init=False)
     found: dict[tuple[object, ...], Mismatch] = field(default_factory=dict)
     failures: list[Failure] = field(default_factory=list)
-    doing: str = ""
-    tried: int = 0
+    doing: str = FIXED
+    tried: dict[str, int] = field(default_factory=lambda: {FIXED: 0, RANDOM: 0})
+    compared: int = 0
     interrupted: bool = False
 
     def __post_init__(self) -> None:
         self.coverage = Coverage(self.env.board)
         self._seen: set[str] = set()
-        self._classes: dict[tuple[object, ...], type[_Found]] = {}
-        self._failing: dict[Stimulus, _Found] = {}
-        self._shrinking = Budget(min(SHRINKING, self.budget))
+        self._complete = False
+        self._small: dict[tuple[object, ...], Mismatch] = {}
 
     def run(self, runs: Iterable[Run] = ()) -> Result:
         """Try these runs, then random ones; what was found so far also after Ctrl-C."""
         try:
             with suppress(Enough):
-                self._try_all("fixed runs", runs)
+                self._try_all(runs)
                 self._random()
-            shown = [] if self.stop_early else list(self._small())
+            if not self.stop_early:
+                self._make_small()
         except KeyboardInterrupt:
-            self.interrupted, shown = True, list(self.found.values())
-        return self._result(shown or list(self.found.values()))
+            self.interrupted = True
+        return self._result()
 
-    def _result(self, shown: list[Mismatch]) -> Result:
-        shown.sort(key=lambda m: (m.tick, str(m.key)))
+    def _result(self) -> Result:
+        small = sorted(self._small.values(), key=_length)
+        others = sorted((m for key, m in self.found.items() if key not in self._small), key=_length)
         return Result(
             self.env.board,
             self.coverage,
-            tuple(shown[:SHOWN]),
-            len(self.found),
+            (*small, *others),
+            len(small),
             tuple(sorted(self.failures, key=lambda f: f.tick)),
             tuple(o.name for o in self.env.board.outputs if o.name not in self._seen),
             notes(self.implementation),
             self.effort.examples,
             self.effort.seed,
             self.interrupted,
+            self._stages(),
+            self.compared,
+            self.allowance,
         )
 
-    def _small(self) -> Iterator[Mismatch]:
-        """The mismatches to be shown, made small; the shortest first."""
-        todo = sorted(self.found.values(), key=lambda m: (m.tick, str(m.key)))[:SHOWN]
-        for number, mismatch in enumerate(todo, 1):
+    def _stages(self) -> tuple[Stage, ...]:
+        """How much of each kind of runs was tried, and why not all of it."""
+        if self.interrupted:
+            why = "interrupted"
+        elif self._hopeless:
+            why = f"given up after {len(self.failures)} run{'s' * (len(self.failures) != 1)} not survived"
+        else:
+            why = "only the first mismatch was wanted" if self.stop_early else "no more could be drawn"
+        drawn = self.tried[RANDOM]
+        return (
+            Stage(FIXED, self.tried[FIXED], None, "" if self._complete else why),
+            Stage(RANDOM, drawn, self.effort.examples, "" if drawn >= self.effort.examples else why),
+        )
+
+    @property
+    def _hopeless(self) -> bool:
+        return len(self.failures) >= self.allowance.failures
+
+    def _make_small(self) -> None:
+        """Make the mismatches small that are told in full, the shortest first."""
+        todo = sorted(self.found.items(), key=lambda item: _length(item[1]))[: self.allowance.mismatches]
+        for number, (key, mismatch) in enumerate(todo, 1):
             self.doing = f"making mismatch {number} of {len(todo)} small"
             self.progress(self)
-            yield smaller(self.env, mismatch, self.implementation, Budget(self.budget))
+            self._small[key] = smaller(self.env, mismatch, self.implementation, Budget(self.budget))
 
-    def _try_all(self, doing: str, runs: Iterable[Run]) -> None:
-        self.doing = doing
+    def _try_all(self, runs: Iterable[Run]) -> None:
         for origin, steps in runs:
-            self.attempt(origin, steps)
-            self.progress(self)
+            self._try(origin, steps)
+        self._complete = True
+
+    def _try(self, origin: str, steps: list[Step]) -> None:
+        self.tried[self.doing] += 1
+        self.attempt(origin, steps)
+        self.progress(self)
 
     def attempt(self, origin: str, steps: list[Step]) -> Mismatch | None:
         """Compare one run.  Raises ``Enough`` when the search is over."""
         self.coverage.add(steps)
         self.record(origin, steps)
+        answered = len(steps)
         try:
             mismatch = self._compared(steps)
         except ImplementationError as error:
-            mismatch = self._failed(origin, steps, error)
+            mismatch, answered = self._failed(origin, steps, error), max(0, error.step - 1)
+        self.compared += answered if mismatch is None else mismatch.tick
         if mismatch is not None:
             mismatch = self._keep(replace(mismatch, origin=origin))
-        if len(self.failures) >= FAILURES or (self.stop_early and (self.failures or self.found)):
+        if self._hopeless or (self.stop_early and (self.failures or self.found)):
             raise Enough
         return mismatch
 
@@ -156,44 +178,29 @@ class Search:
     # --- by Hypothesis ---
 
     def _random(self) -> None:
-        """Random runs; those with a new mismatch are shrunk as long as the budget lasts."""
-        self.doing = "random runs"
+        """Random runs: all that were asked for, whatever is found in them."""
+        self.doing = RANDOM
         if not self.effort.examples:
             return
-        before = frozenset(self.found)
 
         def one(stimulus: Stimulus) -> None:
-            self._example(stimulus, before)
+            steps = played(self.env.board, self.env.fields, stimulus)
+            self._try(f"random run {self.tried[RANDOM] + 1}", steps)
 
-        phases = (Phase.generate,) if self.stop_early else (Phase.generate, Phase.shrink)
         drawing = settings(
             max_examples=self.effort.examples,
             deadline=None,
             database=None,
-            phases=phases,
+            phases=(Phase.generate,),
             print_blob=False,
             suppress_health_check=list(HealthCheck),
         )
-        test = seed(self.effort.seed)(drawing(given(stimuli(self.env))(one)))
-        try:
-            test()
-        except* _Found:
-            pass
+        seed(self.effort.seed)(drawing(given(stimuli(self.env))(one)))()
 
-    def _example(self, stimulus: Stimulus, before: frozenset[tuple[object, ...]]) -> None:
-        if stimulus in self._failing:
-            raise self._failing[stimulus]
-        if self._failing and not self._shrinking.take(len(stimulus)):
-            return
-        if not self._failing:
-            self.tried += 1
-        steps = played(self.env.board, self.env.fields, stimulus)
-        mismatch = self.attempt(f"random run {self.tried}", steps)
-        self.progress(self)
-        if mismatch is not None and mismatch.key not in before:
-            kind = self._classes.setdefault(mismatch.key, type("Found", (_Found,), {}))
-            self._failing[stimulus] = kind()
-            raise self._failing[stimulus]
+
+def _length(mismatch: Mismatch) -> tuple[int, str]:
+    """The order in which mismatches are told."""
+    return mismatch.tick, str(mismatch.key)
 
 
 @dataclass

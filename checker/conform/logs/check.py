@@ -8,6 +8,7 @@ from pathlib import Path
 from checker.conform.logs.against import Against, as_drawn
 from checker.conform.logs.behaviour import Behaviour, Follow
 from checker.conform.logs.choosing import Choice
+from checker.conform.logs.invalid import Invalid
 from checker.conform.logs.log import Block, Layout, Log, open_log
 from checker.conform.logs.mapping import Map
 from checker.conform.logs.monitors import Monitors, Verdict
@@ -29,7 +30,10 @@ class Gap:
 
 @dataclass(frozen=True)
 class Result:
-    """What was found in one log; ``gaps`` are the first ones, ``missing`` the steps lost in all."""
+    """What was found in one log; ``gaps`` are the first ones, ``missing`` the steps lost in all.
+
+    ``invalid``: cells without meaning; their values are unknown in all the rest.
+    """
 
     name: str
     layout: Layout
@@ -41,6 +45,7 @@ class Result:
     verdicts: tuple[Verdict, ...]
     choice: Choice
     behaviour: Behaviour
+    invalid: Invalid
 
     @property
     def unexpected(self) -> tuple[Verdict, ...]:
@@ -50,6 +55,11 @@ class Result:
     @property
     def deviates(self) -> bool:
         return bool(self.behaviour.deviations or self.unexpected)
+
+    @property
+    def conforms(self) -> bool:
+        """Whether nothing at all is wrong with the log, and all could be decided."""
+        return not (self.deviates or self.invalid or self.behaviour.undecided)
 
     @property
     def seconds(self) -> float:
@@ -119,6 +129,7 @@ class _Run:
             tuple(self._on_record(v) for v in self._monitors.verdicts()),
             self._choice,
             self._follow.end(),
+            self._log.invalid,
         )
 
     def _on_record(self, verdict: Verdict) -> Verdict:

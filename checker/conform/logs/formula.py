@@ -9,7 +9,8 @@ from numpy.typing import NDArray
 
 from spec_model.lang.domain import Bool
 from spec_model.lang.evaluate import operate as on_values
-from spec_model.lang.expr import COMPARISONS, Apply, Const, Expr, Named, Op, Temporal, Var, When
+from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
+from spec_model.lang.operators import COMPARISONS, Op
 from spec_model.lang.system import TICK_MS
 from spec_model.lang.walk import nodes, variables
 
@@ -178,7 +179,9 @@ def operate(op: Op, v: list[Array]) -> Array:
         case Op.ABS:
             return np.asarray(abs(v[0]))
         case Op.BIT:
-            return np.asarray((v[0].astype(np.int64) >> v[1].astype(np.int64)) & 1 != 0)
+            with np.errstate(invalid="ignore"):  # of a value that is not known nobody asks for the result
+                mask, bit = (value.astype(np.int64) for value in v)
+            return np.asarray((mask >> bit) & 1 != 0)
         case _:
             return np.asarray(_BINARY[op](v[0], v[1]))
 

@@ -21,7 +21,8 @@ from properties.forms import (
     Until,
     formulas,
 )
-from spec_model.lang.expr import Apply, Expr, Op
+from spec_model.lang.expr import Apply, Expr
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TICK_MS
 from spec_model.lang.walk import plain
 

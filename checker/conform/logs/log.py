@@ -2,14 +2,16 @@
 
 from collections.abc import Generator, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from itertools import islice
+from itertools import compress, islice
 from pathlib import Path
 
 from checker.conform.logs.cells import Convert, Raw, converter
-from checker.conform.logs.errors import LogError, at
+from checker.conform.logs.errors import LogError, at, shortened
 from checker.conform.logs.files import Rows, opened
+from checker.conform.logs.invalid import Invalid, InvalidCell
 from checker.conform.logs.mapping import Column, Map
 from checker.conform.logs.signals import TIME, Vocabulary
+from checker.printable import one_line
 from spec_model.abstraction import Signal, boards
 from spec_model.lang.domain import boolean
 from spec_model.lang.errors import did_you_mean
@@ -23,6 +25,9 @@ TOGETHER = 8
 CLOCK = 1 << 32
 EARLY_MS = 2 * TICK_MS
 """A log whose first step is not later begins at power-up."""
+
+SOME = 8
+"""Columns that are named where none has a meaning."""
 
 Cells = list[Raw | None]
 _FLAG = Signal("update", boolean, False)
@@ -66,7 +71,10 @@ class Layout:
 
 @dataclass
 class Log:
-    """An open log; ``blocks`` reads it once.  ``start`` is known after the first block."""
+    """An open log; ``blocks`` reads it once.  ``start`` is known after the first block.
+
+    ``invalid``: the cells without meaning of the rows read so far.
+    """
 
     name: str
     layout: Layout
@@ -74,6 +82,7 @@ class Log:
     how: Map
     start: str = ""
     converters: list[tuple[int, str, Convert]] = field(default_factory=list)
+    invalid: Invalid = field(default_factory=Invalid)
 
     def blocks(self) -> Generator[Block, None, None]:
         """The steps, block by block.  Raises ``LogError`` with the line of what is wrong."""
@@ -84,45 +93,73 @@ class Log:
 
     def _blocks(self) -> Iterator[Block]:
         clock, stamps = _Clock(self.how.start), _Stamps(self.layout)
+        time = next((self.rows.header[i] for i, signal, _ in self.converters if signal == TIME), TIME)
         while (read := self._read()).lines:
-            ticks, missing = clock.steps(read.lines, read.values.get(TIME))
-            self.start = clock.start
-            yield stamps.of(Block(read.lines, ticks, missing, read.values))
-        if not clock.start:
+            timed = read.timed(time)
+            if timed.lines[:1] != read.lines[:1]:
+                clock.passed_over()
+            ticks: Sequence[int] = ()
+            if timed.lines:
+                ticks, missing = clock.steps(timed.lines, timed.values.get(TIME))
+                self.start = clock.start
+            self._note(timed, ticks)
+            if timed.lines:
+                yield stamps.of(Block(timed.lines, ticks, missing, timed.values))
+        if not self.start and not self.invalid:
             raise LogError("has column names but no rows.")
+        if not self.start:
+            first = self.invalid.cells[0]
+            raise at(first.line, f"column {first.name}: {first.because} No row has a time; mend the column.")
+
+    def _note(self, rows: "_Values", ticks: Sequence[int]) -> None:
+        """The cells without meaning, each with its tick."""
+        if rows.invalid:
+            tick_of = dict(zip(rows.lines, ticks, strict=True))
+            for cell in sorted(rows.invalid, key=lambda c: c.line):
+                self.invalid.add(replace(cell, tick=tick_of.get(cell.line)))
 
     def _read(self) -> "_Values":
         """The next rows."""
         lines: list[int] = []
         values: dict[str, Cells] = {signal: [] for _, signal, _ in self.converters}
+        invalid: list[InvalidCell] = []
         for texts in islice(self.rows.blocks, TOGETHER):
             lines += texts.lines
             for i, signal, convert in self.converters:
-                name = self.rows.header[i]
-                values[signal] += _convert(texts.columns[i], convert, texts.lines, name, signal)
-        return _Values(lines, values)
+                cells = texts.columns[i]
+                values[signal] += convert(cells)
+                for row, because in convert.without_meaning(cells):
+                    shown = shortened(cells[row].strip())
+                    invalid.append(InvalidCell(self.rows.header[i], signal, shown, because, texts.lines[row]))
+        return _Values(lines, values, invalid)
 
 
 @dataclass(frozen=True)
 class _Values:
-    """The lines of successive rows, and their values by signal."""
+    """The lines of successive rows, their values by signal, and the cells that have none."""
 
     lines: Sequence[int]
     values: Mapping[str, Cells]
+    invalid: Sequence[InvalidCell] = ()
 
-
-def _convert(texts: Sequence[str], convert: Convert, lines: Sequence[int], name: str, signal: str) -> Cells:
-    try:
-        return convert(texts)
-    except LogError:
-        pass
-    for line, text in zip(lines, texts, strict=True):
-        try:
-            convert([text])
-        except LogError as error:
-            shown = name if name == signal else f"{name} ({signal})"
-            raise at(line, f"column {shown}: {error}") from error
-    raise AssertionError(name)
+    def timed(self, column: str) -> "_Values":
+        """The rows whose time is known: of another one nobody knows which step it is."""
+        times = self.values.get(TIME)
+        if times is None or None not in times:
+            return self
+        keep = [time is not None for time in times]
+        rows = {name: list(compress(cells, keep)) for name, cells in self.values.items()}
+        told = {c.line for c in self.invalid if c.signal == TIME}
+        empty = (
+            InvalidCell(column, TIME, "", "the time of the step is empty.", line)
+            for line, kept in zip(self.lines, keep, strict=True)
+            if not kept and line not in told
+        )
+        found = [
+            replace(c, because=f"{c.because} The row is passed over.") if c.signal == TIME else c
+            for c in (*self.invalid, *empty)
+        ]
+        return _Values(list(compress(self.lines, keep)), rows, found)
 
 
 class _Clock:
@@ -134,10 +171,15 @@ class _Clock:
         self._before: int | None = None
         self._tick = 0
 
+    def passed_over(self) -> None:
+        """Rows without a time: a log that begins with them does not begin at power-up."""
+        if not self.start:
+            self.start = "any"
+
     def steps(self, lines: Sequence[int], times: Cells | None) -> tuple[Sequence[int], list[int]]:
         """Numbers of the steps and of those missing before each.  Raises ``LogError``."""
         if not self.start:
-            self._begin(lines[0], times)
+            self._begin(times)
         if times is None or self._regular(times):
             first, self._tick = self._tick + 1, self._tick + len(lines)
             return range(first, self._tick + 1), [0] * len(lines)
@@ -159,17 +201,13 @@ class _Clock:
         self._before = last
         return True
 
-    def _begin(self, line: int, times: Cells | None) -> None:
-        if times is None:
-            self.start = self._asked or "power-up"
-            return
-        if times[0] is None:
-            raise at(line, "the time of the step is empty.")
-        self.start = self._asked or ("power-up" if times[0] <= EARLY_MS else "any")
+    def _begin(self, times: Cells | None) -> None:
+        first = 0 if times is None else times[0]
+        assert first is not None, "rows without a time are passed over"
+        self.start = self._asked or ("power-up" if first <= EARLY_MS else "any")
 
     def _lost(self, line: int, time: Raw | None) -> int:
-        if time is None:
-            raise at(line, "the time of the step is empty.")
+        assert time is not None, "rows without a time are passed over"
         now, before = int(time), self._before
         self._before = now
         if before is None:
@@ -250,8 +288,9 @@ def _converter(column: Column, vocabulary: Vocabulary, comma: bool) -> Convert:
 
 
 def _layout(header: Sequence[str], how: Map, system: str) -> Layout:
+    names = set(header)
     for name in how.columns:
-        if name not in header:
+        if name not in names:
             raise LogError(f"has no column {name!r}, which the map names. {did_you_mean(name, header)}")
     board = system or _board_of(header, how)
     if board not in boards():
@@ -291,6 +330,12 @@ def _stated(header: Sequence[str], how: Map, vocabulary: Vocabulary) -> dict[str
     return found
 
 
+def _named(header: Sequence[str]) -> str:
+    """The first names of columns."""
+    rest = ", ..." if len(header) > SOME else ""
+    return ", ".join(shortened(one_line(name)) for name in header[:SOME]) + rest
+
+
 def _board_of(header: Sequence[str], how: Map) -> str:
     names = {how.columns[name].signal if name in how.columns else name for name in header}
     scores = {n: len(names & Vocabulary(b).signals.keys() - {TIME}) for n, b in boards().items()}
@@ -299,7 +344,7 @@ def _board_of(header: Sequence[str], how: Map) -> str:
     if not scores[best]:
         some = ", ".join(list(Vocabulary(boards()["board1"]).signals)[:8])
         raise LogError(
-            f"no column has the name of a signal ({some} ...): its columns are {', '.join(header[:8])}. "
+            f"no column has the name of a signal ({some} ...): its columns are {_named(header)}. "
             "Write a map of the columns, and name it with --map."
         )
     if others:

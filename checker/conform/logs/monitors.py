@@ -27,8 +27,9 @@ from properties.forms import (
     Responds,
     Until,
 )
-from spec_model.lang.expr import FALSE, Apply, Expr, Op, Var
+from spec_model.lang.expr import FALSE, Apply, Expr, Var
 from spec_model.lang.label import text
+from spec_model.lang.operators import Op
 from spec_model.lang.walk import plain, variables
 
 

@@ -6,6 +6,7 @@ from io import StringIO
 
 from checker.conform.cover.formats.expected import Expected
 from checker.conform.cover.scripts import CLOCK
+from checker.files import csv_cell
 from spec_model.abstraction import Board, Value
 
 TIME = "time_ms"
@@ -15,14 +16,14 @@ GOALS = "goals.csv"
 def csv_files(board: Board, tests: Sequence[Expected]) -> Mapping[str, str]:
     """A file for each test, and one that lists the goals of each."""
     files = {f"{test.name}.csv": _text(_table(board, test)) for test in tests}
-    pairs = [[test.name, goal] for test in tests for goal in test.goals]
+    pairs = [[test.name, csv_cell(goal)] for test in tests for goal in test.goals]
     return {**files, f"{board.name}_{GOALS}": _text([["test", "goal"], *pairs])}
 
 
 def _table(board: Board, test: Expected) -> Iterator[list[str]]:
     inputs = [s.name for s in board.inputs if s.name != CLOCK]
     outputs = [o.name for o in board.outputs]
-    yield [TIME, *inputs, *outputs]
+    yield [TIME, *map(csv_cell, (*inputs, *outputs))]
     for given, required in zip(test.inputs, test.outputs, strict=True):
         cells = [given[n] for n in (CLOCK, *inputs)] + [required.get(n) for n in outputs]
         yield [_cell(value) for value in cells]
