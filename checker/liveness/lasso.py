@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 from properties.reduce import Goal
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import Bool, boolean, integer
-from spec_model.lang.expr import Apply, Const, Expr, Op, Var, all_of, implies
+from spec_model.lang.expr import Apply, Const, Expr, Var, all_of, implies
+from spec_model.lang.operators import Op
 from spec_model.lang.system import Statement, TransitionSystem
 
 BEFORE, INSIDE, FAILED = range(3)

@@ -10,18 +10,18 @@ from dataclasses import dataclass, replace
 from checker.engine import Progress
 from checker.explore import Search, TooLarge
 from checker.graph import Values
+from checker.lowered import lowered
 from checker.result import Ask, check_domains
 from checker.runs.calm import calmed
 from checker.runs.replay import replay
 from checker.slice import sliced
-from checker.verdict import Exhausted, Proved, Reached, Unknown, Verdict, Violated
+from checker.verdict import Exhausted, Open, Proved, Reached, Unknown, Verdict, Violated
 from properties.forms import Property
 from properties.reduce import Goal, Question, reduce
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import boolean
 from spec_model.lang.expr import Const, Var, all_of
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System
+from spec_model.lang.system import System, TransitionSystem
 
 ENGINE = "graph"
 MOST_VALUATIONS = 20_000
@@ -39,10 +39,13 @@ class Trap:
 
 def recovered(prop: Property, system: System, ask: Ask, progress: Progress) -> Verdict:
     """The verdict on a ``Recoverable``: proved, a run into a trap, or unknown for a large system."""
+    question = reduce(lowered(system), [prop])
+    open_ = left_open(question.system, ask)
+    if open_ is not None:
+        return open_
     if system.over:
         reason = f"{system.name} is an over-approximation, whose ways back need not be ways of the charts"
         return Unknown(reason, 0, ENGINE)
-    question = reduce(lower(system), [prop])
     try:
         found = trapped(question, question.goals[0].var, progress)
     except TooLarge:
@@ -53,6 +56,23 @@ def recovered(prop: Property, system: System, ask: Ask, progress: Progress) -> V
     return shown(question, found, ask)
 
 
+def left_open(system: TransitionSystem, ask: Ask) -> Unknown | None:
+    """Unknown, unless every run stays in all domains: a graph of valuations goes on where a run does not.
+
+    Raises ``LeavesDomain`` if some run is known to leave one.
+    """
+    if not system.checks:
+        return None
+    found = ask(system, [])
+    check_domains(system, found)
+    for check, _ in system.checks:
+        answer, by = found[check.name]
+        if isinstance(answer, Open):
+            reason = f"it is not known whether values stay in their domains; {check.doc}? {answer.reason}"
+            return Unknown(reason, answer.depth, by)
+    return None
+
+
 def trapped(question: Question, to: Var, progress: Progress) -> Trap | Exhausted:
     """The first valuation after some tick from which no run reaches ``to``, if there is one."""
     part = sliced(question.system, [to])
@@ -61,9 +81,9 @@ def trapped(question: Question, to: Var, progress: Progress) -> Trap | Exhausted
     search = Search(part, variables, MOST_VALUATIONS, MOST_TICKS, progress)
     depth = dict.fromkeys(search.initial(), 0)
     following: dict[Values, set[Values]] = {}
-    tried = 0
+    leaving_own: dict[Values, int] = {}
     for valuation, leaving in search:
-        tried += len(leaving)
+        leaving_own[valuation[:-1]] = len(leaving)
         following[valuation] = {after for after, _ in leaving}
         for after in following[valuation]:
             depth.setdefault(after, depth[valuation] + 1)
@@ -71,8 +91,13 @@ def trapped(question: Question, to: Var, progress: Progress) -> Trap | Exhausted
     lost = [after for afters in following.values() for after in afters if after not in back]
     if lost:
         nearest = min(lost, key=lambda v: (depth[v], v))
-        return Trap(variables, nearest, len(_reached([nearest], following)))
-    return Exhausted(len(following), tried, max(depth.values()), tuple(v.name for v in variables))
+        return Trap(variables, nearest, len({v[:-1] for v in _reached([nearest], following)}))
+    # The flag that says where to come back to is none of the system's own variables.
+    nearest_own: dict[Values, int] = {}
+    for valuation, ticks in depth.items():
+        nearest_own[valuation[:-1]] = min(ticks, nearest_own.get(valuation[:-1], ticks))
+    names = tuple(v.name for v in carried)
+    return Exhausted(len(nearest_own), sum(leaving_own.values()), max(nearest_own.values()), names)
 
 
 def _reversed(following: Mapping[Values, set[Values]]) -> Mapping[Values, set[Values]]:

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 
 from checker.engine import Progress
+from checker.faults import attempted
 from checker.liveness.loops import Hunt, hunt, looped
 from checker.liveness.recover import recovered
 from checker.liveness.settling import settled
@@ -16,12 +17,11 @@ from checker.portfolio.question import Hint, Question
 from checker.portfolio.shape import VAST, shape
 from checker.result import Ask, Result, check_domains
 from checker.runs.reproduce import only_there
-from checker.slice import always_met
+from checker.slice import check_way_back
 from checker.trace import counted_ticks
 from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Violated
 from properties.forms import Form, HoldsAfter, LeadsTo, Property, Recoverable, Responds, Settles
 from properties.reduce import reduce
-from spec_model.lang.errors import ModelError
 from spec_model.lang.system import System
 from spec_model.lang.time import Span
 
@@ -72,11 +72,7 @@ def _bounded(prop: Property, systems: Systems) -> tuple[Form, Span] | None:
             return HoldsAfter(premise, bound, then), bound
         case Recoverable(to, by, Span() as within) if by is not None:
             concrete = systems[systems[prop.on].concrete or prop.on]
-            if not always_met(lowered(concrete), by):
-                raise ModelError(
-                    f"{prop.id}: by = {by} must be a condition on inputs of {concrete.name} that can be met "
-                    "in every tick; leave variables and other inputs out of it."
-                )
+            check_way_back(prop, lowered(concrete))
             return HoldsAfter(by, within, to), within
         case _:
             return None
@@ -107,8 +103,10 @@ def _by_loop(prop: Property, systems: Systems, ask: Ask, progress: Progress) -> 
 def _hunted(prop: Property, system: System, ask: Ask, progress: Progress) -> tuple[Hunt, Answer, str]:
     question = reduce(lowered(system), [prop])
     hunted = hunt(question, question.goals[0])
-    loop = settled(hunted, progress) if _vast(hunted) else None
-    if loop is not None:
+    loop = attempted(SETTLING, system.name, lambda: settled(hunted, progress)) if _vast(hunted) else None
+    if isinstance(loop, Reached):
+        if question.system.checks and shape(Question(question.system, ())).kind == "narrow":
+            check_domains(question.system, ask(question.system, []))
         return hunted, loop, SETTLING
     found = ask(hunted.lasso.system, [hunted.lasso.goal], Hint.SHORT)
     check_domains(hunted.lasso.system, found)

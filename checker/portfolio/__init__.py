@@ -1,7 +1,7 @@
 """The portfolio: which engines a question is put to, in which order, and what their answers make together."""
 
-from checker.portfolio.answers import ALL, AUTO, answers, as_found
+from checker.portfolio.answers import answers, as_found
 from checker.portfolio.disagreement import Disagreement
 from checker.portfolio.question import Found, Hint, Question, Told
 
-__all__ = ["ALL", "AUTO", "Disagreement", "Found", "Hint", "Question", "Told", "answers", "as_found"]
+__all__ = ["Disagreement", "Found", "Hint", "Question", "Told", "answers", "as_found"]

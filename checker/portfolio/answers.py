@@ -2,14 +2,11 @@
 
 from collections.abc import Iterator
 
-from checker.engine import Engine, Limits, engines
+from checker.engine import ALL, AUTO, Engine, Limits, engines
 from checker.portfolio.compare import compared
-from checker.portfolio.question import Found, Question, Told, conclusive
+from checker.portfolio.question import Found, Question, Told, conclusive, stays
 from checker.portfolio.turns import asked, in_turn
 from checker.verdict import Answer, Open, Reached, Unreachable
-
-ALL, AUTO = "all", "auto"
-"""What may be written instead of the name of an engine: every engine, or engines in turn."""
 
 
 def answers(question: Question, engine: str | Engine, limits: Limits, told: Told) -> Found:
@@ -23,7 +20,7 @@ def answers(question: Question, engine: str | Engine, limits: Limits, told: Told
 def as_found(question: Question, engine: str | Engine, limits: Limits, told: Told) -> Iterator[Found]:
     """The same answers, each once: runs as they are found, the rest when no more can change.
 
-    That a goal is never reached counts only if the model never leaves a domain.
+    That a goal is never reached counts only if the model never leaves a domain; that it does is told at once.
     """
     given: set[str] = set()
     found: Found = {}
@@ -57,8 +54,9 @@ def _rounds(question: Question, engine: str | Engine, limits: Limits, told: Told
 def _final(question: Question, found: Found, goal: str) -> bool:
     """Whether an answer counts whatever other engines say."""
     answer, _ = found[goal]
-    sound = all(isinstance(found[c.name][0], Unreachable) for c in question.checks)
-    return conclusive(answer) and (sound or isinstance(answer, Reached))
+    if isinstance(answer, Reached) and goal in {check.name for check in question.checks}:
+        return True
+    return conclusive(answer) and (isinstance(answer, Reached) or stays(question, found))
 
 
 def _meant(question: Question, found: Found, goal: str) -> tuple[Answer, str]:

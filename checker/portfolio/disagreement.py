@@ -4,7 +4,6 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 
 from checker.portfolio.question import in_words, light
-from checker.runs.calm import transferred
 from checker.verdict import Answer, Open, Reached, Unreachable
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
@@ -63,4 +62,6 @@ def said(system: TransitionSystem, goal: Var, each: Iterable[tuple[Answer, str]]
 
 def _replays(system: TransitionSystem, goal: Var, answer: Answer) -> bool | None:
     """Whether the run of an answer reaches the goal by the reference semantics."""
+    from checker.runs.calm import transferred
+
     return transferred(answer.run, system, goal) is not None if isinstance(answer, Reached) else None

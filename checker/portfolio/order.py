@@ -44,6 +44,16 @@ def _least(first: int | None, second: int | None) -> int | None:
 
 MB = 1 << 20
 
+CHECKS = Turn("explicit", memory=128 * MB, transitions=250_000_000, share=0.5)
+"""The turn in which it is asked at last whether a model of few valuations leaves a domain at all, where a run
+that counts whatever other runs do has ended the other turns before that was known."""
+
+_RUNS = Turn("simulation", share=0.2)
+"""A second or two for runs that a person would think of; of no use where runs are short or loops."""
+
+_PARTS = Turn("localisation", seconds=300, share=0.5)
+"""Proofs about whole boards, of which few variables matter; of no use where little is asked about."""
+
 _PROOFS = (
     Turn("kinduction", seconds=120, share=0.4),
     Turn("pdr", seconds=60, share=0.4),
@@ -54,7 +64,8 @@ _PROOFS = (
 ORDERS: Mapping[str, tuple[Turn, ...]] = MappingProxyType(
     {
         "narrow": (
-            Turn("explicit", memory=128 * MB, transitions=250_000_000, share=0.5),
+            CHECKS,
+            _RUNS,
             *_PROOFS,
             Turn("explicit", share=0.8),
             Turn("bmc"),
@@ -62,11 +73,15 @@ ORDERS: Mapping[str, tuple[Turn, ...]] = MappingProxyType(
         "wide": (
             Turn("bmc", depth=32, share=0.3),
             Turn("explicit", memory=64 * MB, seconds=60, share=0.3),
+            _RUNS,
+            _PARTS,
             *_PROOFS,
             Turn("bmc"),
         ),
         "vast": (
             Turn("bmc", depth=32, share=0.6),
+            _RUNS,
+            _PARTS,
             Turn("pdr", seconds=120, share=0.6),
             Turn("kinduction", seconds=120, share=0.4),
             Turn("bmc"),

@@ -1,6 +1,6 @@
 """A question to engines, and who is told what while it is asked."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
@@ -12,6 +12,11 @@ from spec_model.lang.system import TransitionSystem
 
 Found = Mapping[str, tuple[Answer, str]]
 """An answer for each goal, and the name of the engine that gave it."""
+
+
+def stays(question: "Question", found: Found) -> bool:
+    """Whether it is shown among the answers that no run leaves a domain."""
+    return all(c.name in found and isinstance(found[c.name][0], Unreachable) for c in question.checks)
 
 
 def conclusive(answer: Answer) -> bool:
@@ -49,7 +54,15 @@ class Question:
 
     def open(self, found: Found) -> list[Var]:
         """The goals without a conclusive answer; a run that may not be a shortest one is none."""
-        return [g for g in self.goals if g.name not in found or not conclusive(found[g.name][0])]
+        return [*_open(self.wanted, found), *self.unsettled(found)]
+
+    def unsettled(self, found: Found) -> list[Var]:
+        """The checks of which it is not known whether the model breaks them."""
+        return _open(self.checks, found)
+
+
+def _open(goals: Sequence[Var], found: Found) -> list[Var]:
+    return [g for g in goals if g.name not in found or not conclusive(found[g.name][0])]
 
 
 def _nothing(_: object) -> None:

@@ -1,9 +1,12 @@
 """What a question looks like: the few facts about it that choose the order of the engines."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from checker.portfolio.question import Hint, Question
 from checker.slice import sliced
+from spec_model.lang.chart import Chart, Path
+from spec_model.lang.system import TransitionSystem
 
 WIDE, VAST = 200, 800
 """Bits of a valuation, of what the goals depend on: up to the first, enumerating valuations is worth much
@@ -12,20 +15,51 @@ effort, up to the second some, above it none (compiling such a step takes longer
 
 @dataclass(frozen=True)
 class Shape:
-    """``bits`` of a valuation of what the goals depend on, and what whoever asks knows of the answer."""
+    """``bits`` of a valuation of what the goals depend on, and what whoever asks knows of the answer.
+
+    ``at_once`` of the bits can differ from their start in one valuation: of the counters of states that are
+    never active together all but one are 0.  None: all of them.
+    """
 
     bits: int
     hint: Hint = Hint.NONE
+    at_once: int | None = None
 
     @property
     def kind(self) -> str:
         """The row of the table of orders that is meant for it."""
-        if self.bits > VAST:
+        wide = (self.bits if self.at_once is None else self.at_once) > WIDE
+        if wide and self.bits > VAST:
             return "vast"
-        return self.hint.value or ("wide" if self.bits > WIDE else "narrow")
+        return self.hint.value or ("wide" if wide else "narrow")
 
 
 def shape(question: Question) -> Shape:
     """The shape of a question."""
     part = sliced(question.system, question.goals)
-    return Shape(sum((len(v.domain) - 1).bit_length() for v in part.variables), question.hint)
+    bits = {v.name: (len(v.domain) - 1).bit_length() for v in part.variables}
+    return Shape(sum(bits.values()), question.hint, _at_once(question.system, bits))
+
+
+def _at_once(system: TransitionSystem, bits: Mapping[str, int]) -> int:
+    left = dict(bits)
+    charts = system.source.charts if system.source else ()
+    return sum(_counting(chart, (), _counters(chart, left)) for chart in charts) + sum(left.values())
+
+
+def _counters(chart: Chart, left: dict[str, int]) -> dict[Path, int]:
+    """The bits of the counters of each state, taken out of those that are ``left``."""
+    owners = {".".join((chart.name, *path)): path for path in chart.states}
+    found: dict[Path, int] = {}
+    for name in list(left):
+        owner, _, word = name.rpartition(".")
+        if owner in owners and word.rstrip("0123456789") in ("after", "duration"):
+            found[owners[owner]] = found.get(owners[owner], 0) + left.pop(name)
+    return found
+
+
+def _counting(chart: Chart, path: Path, counters: Mapping[Path, int]) -> int:
+    """The most bits of counters in and below a state that can count in one valuation."""
+    state = chart.states[path]
+    inside = [_counting(chart, (*path, child.name), counters) for child in state.states]
+    return counters.get(path, 0) + (sum(inside) if state.parallel else max(inside, default=0))

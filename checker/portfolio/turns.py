@@ -4,12 +4,14 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from time import monotonic
 
-from checker.engine import Engine, Limits, engines
+from checker.engine import Engine, Limits, Stage, engines
+from checker.faults import Failed, attempted
 from checker.portfolio.disagreement import contradict, said
-from checker.portfolio.order import ORDERS
+from checker.portfolio.order import CHECKS, ORDERS, Turn
 from checker.portfolio.question import Found, Question, Told
 from checker.portfolio.shape import shape
-from checker.verdict import Answer, Open, Reached
+from checker.runs.domains import stray
+from checker.verdict import Answer, Open, Reached, Run
 from spec_model.lang.expr import Var
 
 OUT_OF_MEMORY = "the memory limit is reached"
@@ -23,23 +25,36 @@ def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
 
     Raises ``Disagreement`` when a turn contradicts what an earlier one left to be confirmed.
     """
-    known = engines()
-    turns = ORDERS[shape(question).kind]
-    present = [t for t in turns if t.engine in known]
-    deadline = limits.deadline()
-    found: dict[str, tuple[Answer, str]] = {}
-    for turn in present:
-        if found and _over(question, found, limits, deadline):
-            break
+    known, deadline = engines(), limits.deadline()
+    found: Found = {}
+    for turn in ORDERS[shape(question).kind]:
         goals = [g for g in question.open(found) if _worth(found.get(g.name))]
-        if not goals:
+        if not goals or (found and _over(question, found, limits, deadline)):
             break
-        left = None if deadline is None else max(0.0, deadline - monotonic())
-        told.granted(left)
-        answers = asked(known[turn.engine], question, turn.within(limits, left), told, goals)
-        found |= {g.name: _both(question, g, found.get(g.name), answers[g.name]) for g in goals}
-        told.granted(limits.seconds)  # for what is made of the answers
-        yield dict(found)
+        if turn.engine in known:
+            found = _turn(known[turn.engine], turn, question, goals, found, limits, deadline, told)
+            yield found
+    unsettled = question.unsettled(found)
+    if unsettled and _affordable(question, deadline) and CHECKS.engine in known:
+        yield _turn(known[CHECKS.engine], CHECKS, question, unsettled, found, limits, deadline, told)
+
+
+def _turn(
+    engine: Engine, turn: Turn, question: Question, goals: Sequence[Var], found: Found, limits: Limits,
+    deadline: float | None, told: Told,
+) -> Found:  # fmt: skip
+    """What is found so far, with what an engine says of some goals in its turn."""
+    left = None if deadline is None else max(0.0, deadline - monotonic())
+    told.granted(left)
+    answers = asked(engine, question, turn.within(limits, left), told, goals)
+    told.granted(limits.seconds)  # for what is made of the answers
+    return {**found, **{g.name: _both(question, g, found.get(g.name), answers[g.name]) for g in goals}}
+
+
+def _affordable(question: Question, deadline: float | None) -> bool:
+    """Whether it is soon found out that the model has no meaning, though a run has decided what was asked."""
+    wide = shape(question).kind == "narrow" or shape(Question(question.system, ())).kind != "narrow"
+    return not wide and (deadline is None or monotonic() < deadline)
 
 
 def _both(
@@ -65,8 +80,8 @@ def _over(question: Question, found: Found, limits: Limits, deadline: float | No
         return True
     looked = limits.depth is not None and all(_looked(found[g.name][0], limits.depth) for g in open_)
     # Whether other runs leave a domain does not matter to a run that is replayed.
-    shown = all(_shortest(found[g.name][0]) for g in question.wanted)
-    return looked or shown or (deadline is not None and monotonic() >= deadline)
+    shown = question.wanted and all(_shortest(found[g.name][0]) for g in question.wanted)
+    return looked or bool(shown) or (deadline is not None and monotonic() >= deadline)
 
 
 def _shortest(answer: Answer) -> bool:
@@ -80,12 +95,39 @@ def _looked(answer: Answer, depth: int) -> bool:
 def asked(
     engine: Engine, question: Question, limits: Limits, told: Told, goals: Sequence[Var]
 ) -> dict[str, tuple[Answer, str]]:
-    """What one engine says of some goals."""
+    """What one engine says of some goals; nothing, if it fails: the others have their turns all the same."""
+    told.progress(Stage(f"{engine.NAME}: searching"))
+
+    def work() -> Mapping[str, Answer]:
+        answers = engine.check(question.system, goals, limits, told.progress)
+        meant = _without_strays(question, answers) if question.checks else answers
+        return {**{goal.name: meant[goal.name] for goal in goals}, **meant}
+
+    meant: Mapping[str, Answer] | Failed
     try:
-        answers: Mapping[str, Answer] = engine.check(question.system, goals, limits, told.progress)
+        meant = attempted(engine.NAME, question.system.name, work)
     except MemoryError:
-        answers = {g.name: Open(OUT_OF_MEMORY, 0) for g in goals}
-    return {name: (answer, engine.NAME) for name, answer in answers.items()}
+        meant = Failed(OUT_OF_MEMORY)
+    except OSError as error:
+        meant = Failed(f"the operating system refuses: {error}")
+    if isinstance(meant, Failed):
+        meant = {goal.name: Open(meant.reason, 0) for goal in goals}
+    return {name: (answer, engine.NAME) for name, answer in meant.items()}
+
+
+def _without_strays(question: Question, answers: Mapping[str, Answer]) -> dict[str, Answer]:
+    """The answers, where a run that leaves a domain shows that, and not what it comes to afterwards."""
+    meant = dict(answers)
+    runs = {goal: answer.run for goal, answer in answers.items() if isinstance(answer, Reached)}
+    for goal, run in runs.items():
+        found = stray(question.system, run)
+        if found is None or goal == found.check.name:
+            continue
+        meant[goal] = Open(f"the run that was found leaves a domain in tick {found.tick}", 0)
+        if not isinstance(meant.get(found.check.name), Reached):
+            short = Run(run.frozen, run.inputs[: found.tick])
+            meant[found.check.name] = Reached(short, shortest=False)
+    return meant
 
 
 def better(first: tuple[Answer, str], second: tuple[Answer, str]) -> tuple[Answer, str]:
@@ -108,5 +150,10 @@ def better(first: tuple[Answer, str], second: tuple[Answer, str]) -> tuple[Answe
 def _deeper(first: tuple[Answer, str], second: tuple[Answer, str]) -> tuple[Answer, str]:
     (a, by_a), (b, by_b) = first, second
     assert isinstance(a, Open) and isinstance(b, Open)
-    reason = f"{by_a}: {a.reason}; {by_b}: {b.reason}"
+    reason = f"{_by(by_a, a.reason)}; {_by(by_b, b.reason)}"
     return Open(reason, max(a.depth, b.depth)), by_a if a.depth > b.depth else by_b
+
+
+def _by(engine: str, reason: str) -> str:
+    """The reason with the engine whose it is, unless those that were put together already say it."""
+    return reason if reason.startswith(tuple(f"{name}: " for name in engines())) else f"{engine}: {reason}"

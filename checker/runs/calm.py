@@ -7,6 +7,7 @@ reference semantics; the budget counts ticks, not seconds, so that the result is
 
 from collections.abc import Iterator, Mapping
 
+from checker.runs.domains import stayed, stray
 from checker.slice import sliced
 from checker.verdict import Run
 from spec_model.lang.evaluate import admissible, evaluate, step
@@ -23,12 +24,12 @@ Column = list[int]
 
 
 def calmed(system: TransitionSystem, goal: Var, run: Run) -> Run:
-    """A run of the same length that reaches the goal in its last tick.
+    """A run of the same length that reaches the goal in its last tick, and leaves no domain.
 
     Every input is, in this order of preference, at its initial value throughout, constant, or with
-    changes none of which can be left out alone.
+    changes none of which can be left out alone.  A run that leaves a domain remains as it is.
     """
-    if not system.inputs:
+    if not system.inputs or stray(system, run) is not None:
         return run
     work = _Rerun(system, goal, run)
     before = None
@@ -95,13 +96,13 @@ class _Rerun:
 
     def __init__(self, system: TransitionSystem, goal: Var, run: Run) -> None:
         read = [v for v in system.variables if v.name in variables(system.assume)]
-        self.part = sliced(system, [goal, *read])
+        self.part = sliced(system, [goal, *read, *(check for check, _ in system.checks)])
         self.kept = {v.name: v.init for v in (*self.part.variables, *read, goal)}
         self.system = system
         self.goal = goal
         self.frozen = dict(run.frozen)
         self.columns = {v.name: [tick[v.name] for tick in run.inputs] for v in system.inputs}
-        self.budget = BUDGET
+        self.budget = BUDGET + len(run)
         self.before = list(self._along(0, {**self.kept, **self.frozen}))
 
     @property
@@ -146,6 +147,8 @@ class _Rerun:
             self.budget -= 1
             after = {**at, **inputs}
             execute(self.part.step, after)
+            if not stayed(self.system, after):
+                return
             at = {**self.frozen, **{name: after[name] for name in self.kept}}
             yield at
 

@@ -6,6 +6,7 @@ trace that both produce is evidence about the charts.
 
 from collections.abc import Iterator, Mapping, Sequence
 
+from checker.runs.domains import leaves, stayed, stray
 from checker.slice import sliced
 from checker.trace import Arrow, Tick, Trace
 from checker.verdict import Run
@@ -26,7 +27,8 @@ def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
     """The trace of a run that reaches the goal in its last tick.
 
     Raises ``ReplayError`` when the run is not admissible, does not reach the goal, or when the
-    interpreter of the charts computes another valuation or refuses a step.
+    interpreter of the charts computes another valuation or refuses a step; ``LeavesDomain`` when the run
+    leaves a domain, which is no fault of ours but one of the model.
     """
     ticks, last = followed(system, run, goal.var.name)
     if not ticks or not last[goal.var.name]:
@@ -50,7 +52,8 @@ def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
 def followed(system: TransitionSystem, run: Run, what: str) -> tuple[tuple[Tick, ...], Mapping[str, int]]:
     """The ticks of a run, ``what`` it shows being named in errors, and the valuation after the last.
 
-    Raises ``ReplayError`` when the run is not admissible, or the interpreter of the charts disagrees.
+    Raises ``ReplayError`` when the run is not admissible, or the interpreter of the charts disagrees, and
+    ``LeavesDomain`` when a tick leaves a domain.
     """
     interpreter = Interpreter(system.source, run.frozen) if system.source is not None else None
     at: Mapping[str, int] = {**system.init, **run.frozen}
@@ -59,6 +62,8 @@ def followed(system: TransitionSystem, run: Run, what: str) -> tuple[tuple[Tick,
         if not admissible(system, at, inputs):
             raise ReplayError(f"{what}: the inputs of tick {number} are not admissible.")
         after = step(system, at, inputs)
+        if not stayed(system, after) and (found := stray(system, run)) is not None:
+            raise leaves(system, found)
         fired = _interpreted(interpreter, inputs, after, number) if interpreter else ()
         ticks.append(Tick(number, dict(inputs), _visible(system, after), tuple(map(arrow_of, fired))))
         at = {n: v for n, v in after.items() if n not in inputs}

@@ -5,6 +5,8 @@ from dataclasses import replace
 
 from checker.lowered import lowered
 from checker.portfolio.question import Hint
+from checker.portfolio.question import Question as Asked
+from checker.portfolio.shape import shape
 from checker.result import Ask, Result, check_domains, result
 from checker.runs.calm import calmed, transferred
 from checker.trace import counted_ticks
@@ -24,6 +26,9 @@ def reproduced(question: Question, runs: Runs, concrete: System, ask: Ask) -> li
     """
     reached = [g for g in question.goals if g.var.name in runs]
     there = reduce(lowered(concrete), [replace(g.property, on=concrete.name) for g in reached])
+    asked = Asked(there.system, ())
+    if there.system.checks and shape(asked).kind == "narrow":  # else it costs too much
+        check_domains(there.system, ask(there.system, []))
     found: list[Result] = []
     left: list[tuple[Goal, Goal]] = []
     for goal, same in zip(reached, there.goals, strict=True):

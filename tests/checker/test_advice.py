@@ -6,10 +6,11 @@ import pytest
 
 from checker.encode.counting import counters
 from checker.encode.native import NativeSearch, Task, layout, shifts
-from checker.engine import Limits, quiet
+from checker.engine import Limits, Timers, quiet
 from checker.engines import explicit
 from checker.engines.explicit.advice import Advisor
 from checker.engines.explicit.levels import Search
+from checker.engines.explicit.lines import LineSearch
 from checker.slice import sliced
 from checker.verdict import Open
 from spec_model.lang.action import Assign
@@ -70,20 +71,20 @@ def test_a_variable_that_another_one_determines_multiplies_nothing() -> None:
     assert multiplied(searched(system)) is None
 
 
-def stopped(system: TransitionSystem, goal: Var) -> str:
-    answer = explicit.check(system, [goal], Limits(memory=900 << 10), quiet)[goal.name]
+def stopped(system: TransitionSystem, goal: Var, timers: Timers = Timers.EXACT) -> str:
+    answer = explicit.check(system, [goal], Limits(memory=900 << 10, timers=timers), quiet)[goal.name]
     assert isinstance(answer, Open)
     return answer.reason
 
 
-def counting() -> TransitionSystem:
-    """An age that restarts at any moment, beside a number that anything may be."""
+def counting(*, always: bool) -> TransitionSystem:
+    """An age that restarts at any moment, and a number that changes in every tick, or only then."""
     age, level, reset = var("age", integer(0, 900)), var("level", integer(0, 200)), flag("reset")
     other = var("other", level.domain)
     step = (
         Assign(end, (age == 900) & (level == 200) & reset & ~reset),
-        Assign(age, ite(reset, 0, minimum(age + 1, 900))),
-        Assign(level, other),
+        Assign(age, ite(reset, 1, ite(age > 0, minimum(age + 1, 900), 0))),
+        Assign(level, other if always else ite(reset, other, level)),
     )
     return TransitionSystem("", (reset, other), (), (age, level, end), (), step)
 
@@ -92,10 +93,29 @@ def test_the_reason_names_the_limit_the_valuations_and_the_variable() -> None:
     said = re.fullmatch(
         r"the memory limit of 1 MiB is reached at ([\d,]+) valuations: (\w+) multiplies them by about "
         r"([\d.,]+)( \(try --timers skip\))?",
-        stopped(counting(), end),
+        stopped(counting(always=False), end),
     )
     assert said and int(said[1].replace(",", "")) > 10_000
     assert (said[2] == "age") == bool(said[4])
+
+
+def test_skipping_is_advised_only_where_most_ticks_are_quiet() -> None:
+    """It was advised wherever a counter multiplies: a monitor was then no longer decided."""
+    for always in (False, True):
+        search = searched(counting(always=always))
+        stored = search.store.words[: search["count"]]
+        wanted = "" if always else "try --timers skip"
+        assert search.advisor.remedy("age", stored, memory=True) == wanted
+        assert search.advisor.remedy("age", stored, memory=False) == ""
+        skipped = LineSearch(lines(counting(always=always)), Limits(), None, quiet).run()
+        assert (10 * skipped.states < search["count"]) == bool(wanted)
+
+
+def lines(system: TransitionSystem) -> NativeSearch:
+    """The search that skips quiet ticks."""
+    part = sliced(system, [end])
+    packing = layout(part.variables)
+    return NativeSearch.compile(Task(part, packing, (end,), shifts(packing, counters(part))))
 
 
 def _waiting(again: Var) -> State:
@@ -112,17 +132,11 @@ def test_a_timer_of_a_chart_can_be_free() -> None:
         "timed", system.inputs, (), (*system.variables, end), system.temps, step, source=system.source
     )
     assert stopped(made, end).endswith("(try --timers free)")
+    assert "--timers free" not in stopped(made, end, Timers.FREE), "it was advised to who had tried it"
 
 
 def test_nothing_is_advised_that_is_done_already() -> None:
-    system = counting()
-    part = sliced(system, [end])
-    packing = layout(part.variables)
-    moved = shifts(packing, counters(part))
-    for made, said in (
-        (Task(part, packing, (end,)), "try --timers skip"),
-        (Task(part, packing, (end,), moved), ""),
-    ):
-        advisor = Advisor(NativeSearch.compile(made))
-        assert advisor.remedy("age") == said
-        assert advisor.remedy("level") == ""
+    search = searched(counting(always=False))
+    stored = search.store.words[: search["count"]]
+    assert Advisor(lines(counting(always=False))).remedy("age", stored, memory=True) == ""
+    assert search.advisor.remedy("level", stored, memory=True) == ""

@@ -20,7 +20,8 @@ from checker.engines.bdd.search import search
 from checker.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import Bool, chosen, integer
-from spec_model.lang.expr import FALSE, TRUE, Apply, Op, Var, all_of, const, flag, ite, var
+from spec_model.lang.expr import FALSE, TRUE, Apply, Var, all_of, const, flag, ite, var
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
 from tests import naive

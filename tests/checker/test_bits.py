@@ -14,7 +14,8 @@ from checker.encode.bits.blast import as_word, bits_needed
 from checker.encode.bits.words import value_of
 from spec_model.lang.domain import Bool
 from spec_model.lang.evaluate import admissible, evaluate, step
-from spec_model.lang.expr import Apply, Expr, Op, Var
+from spec_model.lang.expr import Apply, Expr, Var
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from tests.checker.test_bitvector import CASES, sort_of
 from tests.strategies_ts import goals, transition_systems

@@ -10,7 +10,8 @@ from checker.encode.bitvector import OPERATORS, Encoder, literal, member, symbol
 from checker.encode.intervals import Interval, intervals
 from spec_model.lang.domain import Bool, Domain, Num, Sort, boolean, chosen, enumeration, integer
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Apply, Const, Expr, Op, Var, ite
+from spec_model.lang.expr import Apply, Const, Expr, Var, ite
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables
 from tests.strategies_ts import transition_systems

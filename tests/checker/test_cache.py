@@ -10,9 +10,10 @@ from pathlib import Path
 
 import pytest
 
+from checker import cache
 from checker.encode import native
 from checker.encode.counting import counters
-from checker.encode.native import NativeSearch, Task, cache, fingerprint, jit, layout, shifts
+from checker.encode.native import NativeSearch, Task, fingerprint, jit, layout, shifts
 from checker.encode.native.jit import Level
 from checker.engine import Limits, quiet
 from checker.engines import explicit
@@ -29,8 +30,9 @@ ROOT = Path(__file__).parents[2]
 
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
-    """A cache of its own for each test."""
+    """A cache and a secret of its own for each test."""
     made = tmp_path / "cache"
+    monkeypatch.setenv(cache.SECRET, str(tmp_path / "state" / "secret"))
     monkeypatch.setenv(cache.VARIABLE, str(made))
     return made
 
@@ -39,6 +41,11 @@ def system(top: int = 9, init: int = 0, low: int = 0) -> TransitionSystem:
     go, count, end = flag("go"), var("count", integer(low, 30), init), flag("end")
     step = (Assign(end, count == top), If(go, (Assign(count, minimum(count + 1, top)),)))
     return TransitionSystem("counting", (go,), (), (count, end), (), step)
+
+
+def key(number: int) -> str:
+    """The name of an entry."""
+    return f"{number:064x}-search-quick"
 
 
 def answers(made: TransitionSystem) -> list[Answer]:
@@ -102,11 +109,15 @@ def test_switched_off_by_an_empty_variable(
 
 def test_the_users_folder_by_default(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.delenv(cache.VARIABLE)
-    for name in ("XDG_CACHE_HOME", "LOCALAPPDATA", "HOME", "USERPROFILE"):
+    monkeypatch.delenv(cache.SECRET)
+    for name in ("XDG_CACHE_HOME", "XDG_STATE_HOME", "LOCALAPPDATA", "APPDATA"):
+        monkeypatch.setenv(name, "not/absolute")  # to be ignored, says their standard
+    for name in ("HOME", "USERPROFILE"):
         monkeypatch.setenv(name, str(tmp_path))
     cache.write("key", b"code")
     assert cache.read("key") == b"code"
     assert [p.parent.name for p in tmp_path.rglob("key.o")] == ["rovercheck"]
+    assert [p.parent.name for p in tmp_path.rglob("cache-secret")] == ["rovercheck"]
 
 
 # --- the key says all that matters -------------------------------------------------------------------
@@ -226,12 +237,25 @@ def test_a_folder_that_others_may_write_to_is_not_used(folder: Path, compiled: l
 def test_its_size_is_bounded_and_the_longest_unused_go_first(
     monkeypatch: pytest.MonkeyPatch, folder: Path
 ) -> None:
-    monkeypatch.setattr(cache, "MOST_BYTES", 1000)
+    monkeypatch.setattr(cache.entries, "MOST_BYTES", 1000)
     for number in range(20):
-        cache.write(f"key{number}", bytes(100))
-        os.utime(folder / f"key{number}.o", (number, number))
+        cache.write(key(number), bytes(100))
+        os.utime(folder / f"{key(number)}.o", (number, number))
         assert sum(p.stat().st_size for p in folder.iterdir()) <= 1000
-    assert cache.read("key19") is not None and cache.read("key0") is None
+    assert cache.read(key(19)) is not None and cache.read(key(0)) is None
+
+
+def test_what_else_lies_in_the_folder_is_never_removed(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
+    """Somebody names a folder in which there is more than the cache."""
+    monkeypatch.setattr(cache.entries, "MOST_BYTES", 1000)
+    folder.mkdir()
+    kept = [folder / name for name in ("firmware.o", "rovercheck-report.html", f"{key(1)}.c", "notes")]
+    for file in kept:
+        file.write_bytes(bytes(5000))
+        os.utime(file, (0, 0))
+    for number in range(20):
+        cache.write(key(number), bytes(100))
+    assert all(file.exists() for file in kept) and cache.read(key(19)) is not None
 
 
 def test_a_folder_that_may_only_be_read_is_used(
@@ -249,13 +273,13 @@ def test_a_folder_that_may_only_be_read_is_used(
 
 
 def test_what_is_used_is_not_the_first_to_go(monkeypatch: pytest.MonkeyPatch, folder: Path) -> None:
-    monkeypatch.setattr(cache, "MOST_BYTES", 1000)
+    monkeypatch.setattr(cache.entries, "MOST_BYTES", 1000)
     for number in range(7):
-        cache.write(f"key{number}", bytes(100))
-        os.utime(folder / f"key{number}.o", (number, number))
-    assert cache.read("key0") is not None
-    cache.write("last", bytes(100))
-    assert cache.read("key0") is not None and cache.read("key1") is None
+        cache.write(key(number), bytes(100))
+        os.utime(folder / f"{key(number)}.o", (number, number))
+    assert cache.read(key(0)) is not None
+    cache.write(key(7), bytes(100))
+    assert cache.read(key(0)) is not None and cache.read(key(1)) is None
 
 
 def test_many_at_once() -> None:

@@ -17,7 +17,8 @@ from checker.certify.tick import executed
 from checker.verdict import Inductive
 from spec_model.lang.evaluate import evaluate as value_of
 from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Expr, Op, Var
+from spec_model.lang.expr import Expr, Var
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from tests.strategies_ts import booleans, goals, transition_systems
 

@@ -21,7 +21,8 @@ from checker.certify.reduction import diagram
 from checker.certify.sweep import OPERATORS, Column, column, contained, levels, swept, unfolded
 from checker.certify.tick import executed
 from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Op, Var
+from spec_model.lang.expr import Var
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from tests.certifying import BACK, BOTH, COUNT, certified, closed_set, counting, many, proofs
 from tests.checker.test_certify_diagram import sets

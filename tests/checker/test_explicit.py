@@ -15,7 +15,8 @@ from checker.slice import sliced
 from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Op, Var, all_of, const, flag, ite, var
+from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Var, all_of, const, flag, ite, var
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
 from tests.naive import Searched, State, projected, replay, search

@@ -16,11 +16,12 @@ from checker.encode.native.expressions import BIT, INT, Expressions
 from checker.engine import Limits, Timers
 from checker.engine import quiet as silent
 from checker.engines import explicit
-from checker.engines.explicit import levels, parents, runs
+from checker.engines.explicit import answers, levels, parents, runs
 from checker.partition import Partition, partitions
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import integer
-from spec_model.lang.expr import Op, Var, const, flag, var
+from spec_model.lang.expr import Var, const, flag, var
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
 from tests import naive
@@ -102,7 +103,7 @@ def fields_overlap(patch: pytest.MonkeyPatch) -> None:
         return replace(made, fields=tuple(replace(f, shift=max(0, f.shift - 1)) for f in made.fields))
 
     real = native.layout
-    patch.setattr(explicit, "layout", overlapping)
+    patch.setattr(answers, "layout", overlapping)
 
 
 def a_low_end_is_forgotten(patch: pytest.MonkeyPatch) -> None:
@@ -181,7 +182,7 @@ def nothing_is_known(patch: pytest.MonkeyPatch) -> None:
     """The table never recognises a valuation; the search ends all the same, by its depth."""
     patch.setattr(table.Table, "_same", lambda *_: BIT(0))
     patch.setattr(
-        explicit, "Search", lambda n, limits, *rest: levels.Search(n, replace(limits, depth=4), *rest)
+        answers, "Search", lambda n, limits, *rest: levels.Search(n, replace(limits, depth=4), *rest)
     )
 
 
@@ -226,7 +227,7 @@ def rehashing_forgets(patch: pytest.MonkeyPatch) -> None:
 
     real = native.NativeSearch.rehash
     patch.setattr(native.NativeSearch, "rehash", rehash)
-    patch.setattr(explicit, "Search", _small)
+    patch.setattr(answers, "Search", _small)
 
 
 def _small(*args: Any) -> levels.Search:
@@ -284,7 +285,7 @@ def test_a_fault_is_seen(fault: Fault, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_small_table_is_no_fault(monkeypatch: pytest.MonkeyPatch) -> None:
     """What ``rehashing_forgets`` adds to the fault does no harm alone."""
-    monkeypatch.setattr(explicit, "Search", _small)
+    monkeypatch.setattr(answers, "Search", _small)
     assert not list(differences())
 
 

@@ -16,7 +16,8 @@ from checker.encode.native.jit import Library
 from checker.encode.native.table import WORDS, function
 from spec_model.lang.domain import Bool, Num, chosen, integer
 from spec_model.lang.evaluate import evaluate, operate
-from spec_model.lang.expr import COMPARISONS, Apply, Expr, Op, Var, flag, var
+from spec_model.lang.expr import Apply, Expr, Var, flag, var
+from spec_model.lang.operators import COMPARISONS, Op
 from spec_model.lang.walk import variables
 from tests.strategies_ts import MODE, booleans, integers, number
 

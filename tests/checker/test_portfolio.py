@@ -2,15 +2,14 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import reduce
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.engine import Engine, Limits, Progress, engines
+from checker.engine import ALL, AUTO, Engine, Limits, Progress, engines
 from checker.portfolio import (
-    ALL,
-    AUTO,
     Disagreement,
     Found,
     Hint,
@@ -23,6 +22,7 @@ from checker.portfolio import (
 )
 from checker.portfolio.order import ORDERS, Turn
 from checker.portfolio.shape import VAST, WIDE, Shape
+from checker.portfolio.turns import better
 from checker.verdict import Answer, Exhausted, Inductive, Open, Reached, Run, Unreachable
 from spec_model.lang.action import Assign
 from spec_model.lang.expr import Var, flag
@@ -241,3 +241,12 @@ def test_no_turn_grants_more_than_the_user_allows(
     assert granted.memory <= memory
     assert depth is None or (granted.depth is not None and granted.depth <= depth)
     assert left is None or (granted.seconds is not None and granted.seconds <= left)
+
+
+def test_each_reason_is_told_once_with_its_engine() -> None:
+    """Each further turn named the first engine once more: ``bmc: bmc: bmc: no run ...``."""
+    answers: list[tuple[Answer, str]] = [
+        (Open(f"reason {n}", n), name) for n, name in enumerate(("bmc", "explicit", "pdr"), start=1)
+    ]
+    answer, by = reduce(better, answers)
+    assert answer == Open("bmc: reason 1; explicit: reason 2; pdr: reason 3", 3) and by == "pdr"

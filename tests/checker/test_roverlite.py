@@ -236,12 +236,12 @@ def test_its_properties_get_the_known_verdicts() -> None:
     results = decide(Task(system, tuple(properties)), {system.name: system}, "explicit", Limits(), quiet)
     words = {r.property.id: r.verdict.word for r in results}
     assert words == {
-        "P1": "proved",
-        "P2": "proved",
-        "P3": "proved",
-        "P3h": "proved",
-        "P4": "violated",
-        "P5": "violated",
+        "RL-P1": "proved",
+        "RL-P2": "proved",
+        "RL-P3": "proved",
+        "RL-P3h": "proved",
+        "RL-P4": "violated",
+        "RL-P5": "violated",
     }
 
 

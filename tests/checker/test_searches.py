@@ -8,11 +8,12 @@ from dataclasses import dataclass, replace
 
 import pytest
 
-from checker.decide import MOST, Task, tasks
 from checker.engine import Limits, Progress
 from checker.engines import explicit
+from checker.faults import Fault, listening
 from checker.result import Result
 from checker.searches import Over, searches
+from checker.tasks import MOST, Task, tasks
 from checker.verdict import Answer, Proved, Unknown, Violated
 from properties.catalogue import catalogue
 from properties.forms import Always, Never, Property
@@ -78,13 +79,21 @@ def work() -> list[Task]:
 def decided(what: str, seconds: float | None = None) -> dict[str, Result]:
     """The results of all tasks by property, when the second one goes wrong."""
     limits = Limits(seconds=seconds, memory=1 << 30)
-    heard = list(searches(work(), KNOWN, Erratic("two", what), limits, 2))
+    faults: list[Fault] = []
+    with listening(faults.append):
+        heard = list(searches(work(), KNOWN, Erratic("two", what), limits, 2))
+    assert [(f.who, f.system) for f in faults] == ([("erratic", "two")] if what == "raise" else [])
     assert sum(isinstance(one, Over) for one in heard) == len(KNOWN)
     return {one.property.id: one for one in heard if isinstance(one, Result)}
 
 
 @pytest.mark.parametrize(
-    ("what", "reason"), [("crash", "SIGSEGV"), ("hang", "did not stop"), ("raise", "ValueError: no such")]
+    ("what", "reason"),
+    [
+        ("crash", "SIGSEGV"),
+        ("hang", "time: 6 s ended while searching (erratic)"),
+        ("raise", "ValueError: no such"),
+    ],
 )
 def test_only_the_goals_of_the_search_that_went_wrong_are_unknown(what: str, reason: str) -> None:
     found = decided(what, 6.0 if what == "hang" else None)
@@ -115,7 +124,7 @@ def test_properties_are_grouped_as_the_lowered_system_says(
 ) -> None:
     about = [p for p in catalogue().values() if p.on == name]
     quick = [task.properties for task in tasks(about, systems())]
-    monkeypatch.setattr("checker.decide._names_of", lower)
+    monkeypatch.setattr("checker.tasks.without_step", lower)
     assert quick == [task.properties for task in tasks(about, systems())]
     assert max(map(len, quick)) <= MOST
     assert sorted(p.id for group in quick for p in group) == sorted(p.id for p in about)

@@ -11,7 +11,8 @@ from checker.encode.unrolling import Outside
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import chosen
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Op, var
+from spec_model.lang.expr import var
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from tests import naive
 from tests.strategies_ts import transition_systems

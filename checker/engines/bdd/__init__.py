@@ -7,14 +7,17 @@ from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from time import monotonic
+from typing import TYPE_CHECKING
 
 from checker.engine import Limits, Progress
 from checker.engines.bdd.events import Bound, Closed, Event, Found, Stuck
 from checker.isolate import Send, Stopped, messages
 from checker.trace import counted_ticks
 from checker.verdict import Answer, Open, Reached, Unreachable
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+
+if TYPE_CHECKING:  # `list engines` reads this file for two lines
+    from spec_model.lang.expr import Var
+    from spec_model.lang.system import TransitionSystem
 
 NAME = "bdd"
 SUMMARY = "all reachable valuations as binary decision diagrams (OxiDD); proofs and shortest runs"
@@ -26,7 +29,7 @@ _STACKS = 2 << 30
 
 
 def check(
-    system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
+    system: "TransitionSystem", goals: Sequence["Var"], limits: Limits, progress: Progress
 ) -> Mapping[str, Answer]:
     """Shortest runs to the goals, or the closed set of valuations that shows that there is none."""
     names = tuple(g.name for g in goals)
@@ -73,7 +76,9 @@ class _Known:
         return f"bdd: depth {at.depth}, {counts}, {left} goal{'s' * (left != 1)} open"
 
 
-def _work(send: Send, system: TransitionSystem, names: tuple[str, ...], most: int | None, nodes: int) -> None:
+def _work(
+    send: Send, system: "TransitionSystem", names: tuple[str, ...], most: int | None, nodes: int
+) -> None:
     """In the child: send the events of the search."""
     from checker.engines.bdd.search import search
 

@@ -6,14 +6,17 @@ The step is unrolled over bit-vectors and Z3 searches; runs come shortest first.
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from checker.engine import Limits, Progress
 from checker.engines.bmc.events import Bound, Event, Found, Undefined
 from checker.isolate import Send, Stopped, messages
 from checker.trace import counted_ticks
 from checker.verdict import Answer, Open, Reached
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+
+if TYPE_CHECKING:  # `list engines` reads this file for two lines
+    from spec_model.lang.expr import Var
+    from spec_model.lang.system import TransitionSystem
 
 NAME = "bmc"
 SUMMARY = "shortest runs by unrolling the step over bit-vectors (Z3); a bounded search, never a proof"
@@ -22,7 +25,7 @@ DEPTH = 300
 
 
 def check(
-    system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
+    system: "TransitionSystem", goals: Sequence["Var"], limits: Limits, progress: Progress
 ) -> Mapping[str, Answer]:
     """Shortest runs to the goals; ``Open`` with the depth searched for those not reached."""
     depth = DEPTH if limits.depth is None else limits.depth
@@ -68,7 +71,7 @@ def _line(deep: Mapping[str, int], found: Mapping[str, Answer]) -> str:
     return text + (f", {len(found)} decided" if found else "")
 
 
-def _work(send: Send, system: TransitionSystem, goals: tuple[str, ...], depth: int) -> None:
+def _work(send: Send, system: "TransitionSystem", goals: tuple[str, ...], depth: int) -> None:
     """In the child: Z3 is loaded here only."""
     from checker.engines.bmc.search import search
 

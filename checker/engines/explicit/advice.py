@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from checker.encode.counting import counters
-from checker.encode.native import Field, NativeSearch
+from checker.encode.native import Field, NativeSearch, NativeSuccessors, Task, moved_on, shifts
+from checker.encode.native.quiet import NOTHING
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expiry import free_timers
 from spec_model.lang.lower import lower
@@ -20,6 +21,12 @@ from spec_model.lang.system import System, TransitionSystem
 
 MOST_ASKED = 1 << 15
 """Valuations looked up for one estimate."""
+_MOST_EXPANDED, _ROOM = 1 << 12, 1 << 20
+"""Valuations whose ticks are looked at for another estimate, and how many ticks of theirs."""
+_WORTH_SKIPPING = 10
+"""Times fewer valuations that make it worth while to skip quiet ticks."""
+_KNOWN = 0.25
+"""The part of all ticks that must lead to what other ticks lead to, or the estimate is none."""
 _MOST_VALUES = 256
 _MOST_SAMPLED = 256
 _WORTH_NAMING = 1.5
@@ -36,10 +43,13 @@ class Multiplier:
 
 
 class Advisor:
-    """Names what multiplies the valuations of one search."""
+    """Names what multiplies the valuations of one search.
 
-    def __init__(self, native: NativeSearch) -> None:
-        self.native = native
+    ``freed``: what is searched is what was left open with timers that run out at will.
+    """
+
+    def __init__(self, native: NativeSearch, *, freed: bool = False) -> None:
+        self.native, self.freed = native, freed
         self.system: TransitionSystem = native.task.system
 
     def multiplier(self, words: Words, table: Words, count: int) -> Multiplier | None:
@@ -68,18 +78,47 @@ class Advisor:
         return float(len(sample) / np.sum(1 / groups))
 
     def sentence(self, most: Multiplier) -> str:
-        """``window_12 multiplies them by about 150 (try --timers free)``."""
-        said = f"{most.field.var.name} multiplies them by about {_round(most.factor)}"
-        help_ = self.remedy(most.field.var.name)
-        return f"{said} ({help_})" if help_ else said
+        """``window_12 multiplies them by about 150``."""
+        return f"{most.field.var.name} multiplies them by about {_round(most.factor)}"
 
-    def remedy(self, name: str) -> str:
-        """The option that would help most with a variable; empty where there is none."""
+    def remedy(self, name: str, stored: Words, *, memory: bool) -> str:
+        """The option that would help with a variable in a search that has ``stored`` valuations; or nothing.
+
+        ``memory``: it was that which ran out.  Skipping quiet ticks saves no time.
+        """
         if name not in self._counters:
             return ""
-        if name in self._freed:
+        if not self.freed and name in self._freed:
             return "try --timers free"
-        return "" if self.native.task.shifts else "try --timers skip"
+        if memory and not self.native.task.shifts and self.anchors(stored) < len(stored) / _WORTH_SKIPPING:
+            return "try --timers skip"
+        return ""
+
+    def anchors(self, stored: Words) -> float:
+        """About how many of the valuations would still be stored if quiet ticks were skipped.
+
+        All ticks from a sample are looked at: those that are not quiet lead to valuations that are stored
+        in any case.  How many there are is estimated from how often one that is met is met only once (Good,
+        *The population frequencies of species and the estimation of population parameters*, 1953); as some
+        are met more easily than others, there may be three times as many.
+        """
+        task, total = self.native.task, len(stored)
+        moved = shifts(task.layout, counters(self.system))
+        if not moved or not total:
+            return float(total)
+        chosen = np.random.default_rng(0).permutation(total)[:_MOST_EXPANDED]
+        native = NativeSuccessors.compile(Task(task.system, task.layout, ()))
+        _, expanded, rows, origins = native(stored[chosen], _ROOM)
+        onward = [
+            moved_on(words, moved) or (NOTHING,) * task.layout.words for words in stored[chosen].tolist()
+        ]
+        eventful = (rows.astype(np.int64) != np.array(onward)[origins]).any(axis=1)
+        ticks = np.unique(np.column_stack([rows[eventful], origins[eventful].astype(np.uint64)]), axis=0)
+        met, times = np.unique(ticks[:, :-1], axis=0, return_counts=True)
+        if expanded == total:
+            return float(len(met))
+        known = 1 - (times == 1).sum() / max(1, len(ticks))
+        return len(met) / known if known > _KNOWN else float(total)
 
     @cached_property
     def _counters(self) -> set[str]:

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from checker.encode.native import CONTEXT, NativeSearch, Status, Task
-from checker.engine import Limits, Progress
+from checker.engine import Limits, Progress, Timers
 from checker.engines.explicit.advice import Advisor, Multiplier
 from checker.engines.explicit.parents import Unary
 from checker.engines.explicit.store import Store
@@ -81,7 +81,7 @@ class Search:
         self.native, self.limits, self.deadline, self.progress = native, limits, deadline, progress
         self.spent = spent
         self.store = Store(native, limits.memory - spent.bytes)
-        self.advisor = Advisor(native)
+        self.advisor = Advisor(native, freed=limits.timers is Timers.FREE)
         self.context: NDArray[np.int64] = np.zeros(len(CONTEXT), dtype=np.int64)
         self.hits: NDArray[np.int64] = np.zeros(max(1, len(native.task.goals)), dtype=np.int64)
         self["pending"] = len(native.task.goals)
@@ -215,11 +215,13 @@ class Search:
 
     def _out_of_room(self) -> bool:
         if self["count"] >= self.store.most:
-            return self._gave_up(f"the most that an explicit search can number, {self.store.most:,},")
+            return self._gave_up(
+                f"the most that an explicit search can number, {self.store.most:,},", memory=True
+            )
         return self._out_of_memory()
 
     def _out_of_memory(self) -> bool:
-        return self._gave_up(f"the memory limit of {self.limits.memory / 2**20:.0f} MiB")
+        return self._gave_up(f"the memory limit of {self.limits.memory / 2**20:.0f} MiB", memory=True)
 
     def _in_time(self) -> bool:
         return self.deadline is None or monotonic() <= self.deadline or self._out_of_time()
@@ -244,12 +246,14 @@ class Search:
         """What multiplies the valuations stored so far."""
         return self.advisor.multiplier(self.store.words, self.store.table, self["count"])
 
-    def _gave_up(self, limit: str) -> bool:
+    def _gave_up(self, limit: str, *, memory: bool = False) -> bool:
         """Note the limit that ends the search, how far it came, and what would help; False."""
         most = self._multiplier()
         self.stopped = f"{limit} is reached at {self['count']:,} valuations"
         if most is not None:
-            self.stopped += f": {self.advisor.sentence(most)}"
+            stored = self.store.words[: self["count"]]
+            remedy = self.advisor.remedy(most.field.var.name, stored, memory=memory)
+            self.stopped += f": {self.advisor.sentence(most)}" + (f" ({remedy})" if remedy else "")
         return False
 
     def _found(self) -> Found:

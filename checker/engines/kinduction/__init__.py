@@ -8,20 +8,23 @@ by that run.
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from checker.engine import Limits, Progress
 from checker.engines.kinduction.events import Bound, Closed, Doing, Event, Found, Stuck
 from checker.isolate import Send, Stopped, messages
 from checker.verdict import Answer, Open, Reached, Unreachable
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+
+if TYPE_CHECKING:  # `list engines` reads this file for two lines
+    from spec_model.lang.expr import Var
+    from spec_model.lang.system import TransitionSystem
 
 NAME = "kinduction"
 SUMMARY = "proofs by k-induction with invariants that are found by simulation and Houdini (Z3)"
 
 
 def check(
-    system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
+    system: "TransitionSystem", goals: Sequence["Var"], limits: Limits, progress: Progress
 ) -> Mapping[str, Answer]:
     """``Unreachable`` with an inductive invariant, ``Reached`` by a run (``shortest`` only where it is known
     to be), or ``Open`` with the ticks that were searched exhaustively and the reason."""
@@ -68,7 +71,7 @@ class _Answers:
         return text + (f", {len(self.found)} decided" if self.found else "")
 
 
-def _work(send: Send, system: TransitionSystem, goals: tuple[str, ...], depth: int | None) -> None:
+def _work(send: Send, system: "TransitionSystem", goals: tuple[str, ...], depth: int | None) -> None:
     """In the child: Z3 is loaded here only."""
     from checker.engines.kinduction.search import search
 

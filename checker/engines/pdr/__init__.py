@@ -6,21 +6,24 @@ Works on the circuit of a system with an incremental SAT solver, without unrolli
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 from checker.engine import Limits, Progress
 from checker.engines.pdr.events import Bound, Decided, Event, Undefined
 from checker.isolate import Send, Stopped, messages
 from checker.trace import counted_ticks
 from checker.verdict import Answer, Open
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+
+if TYPE_CHECKING:  # `list engines` reads this file for two lines
+    from spec_model.lang.expr import Var
+    from spec_model.lang.system import TransitionSystem
 
 NAME = "pdr"
 SUMMARY = "proofs by inductive invariants over bits, and runs, not always the shortest (IC3 over MiniSat)"
 
 
 def check(
-    system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
+    system: "TransitionSystem", goals: Sequence["Var"], limits: Limits, progress: Progress
 ) -> Mapping[str, Answer]:
     """Invariants and runs; ``Open`` with the ticks known to be free of a goal where neither was found.
 
@@ -80,7 +83,7 @@ class _State:
         )
 
 
-def _work(send: Send, system: TransitionSystem, goals: tuple[str, ...], depth: int | None) -> None:
+def _work(send: Send, system: "TransitionSystem", goals: tuple[str, ...], depth: int | None) -> None:
     """In the child: the solver is loaded here only."""
     from checker.engines.pdr.groups import decisions
 

@@ -6,7 +6,8 @@ from checker.encode.bits import Bit
 from checker.encode.bits.blast import bits_needed
 from checker.engines.pdr.cubes import Cube
 from spec_model.lang.domain import Bool, Num
-from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Op, Var, any_of
+from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var, any_of
+from spec_model.lang.operators import Op
 
 _LISTED = 1 << 12
 """Values of a domain that are looked at one by one to find a readable formula."""

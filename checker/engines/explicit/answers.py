@@ -1,0 +1,107 @@
+"""The answers of the explicit search: goals that depend on nearly the same variables are decided together."""
+
+from collections.abc import Mapping, Sequence
+from time import monotonic
+
+from checker.closed import ClosedSet, Place
+from checker.encode.counting import counters
+from checker.encode.gather import bits, gathered
+from checker.encode.native import Field, NativeSearch, Task, TooWide, layout, shifts
+from checker.engine import Limits, Progress, Stage, Timers
+from checker.engines.explicit.levels import Found, Search, Spent
+from checker.engines.explicit.lines import LineSearch
+from checker.engines.explicit.runs import Runs
+from checker.slice import sliced
+from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable
+from spec_model.lang.errors import ModelError
+from spec_model.lang.expr import Var
+from spec_model.lang.system import TransitionSystem
+
+EXTRA, APART = 10, 128
+"""Bits that a goal may add to those of others and still be searched with them, and bits of all goals from
+which on they are anyhow: compiling so wide a step takes longer than most searches."""
+
+
+def answers(
+    system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
+) -> Mapping[str, Answer]:
+    """An answer for each goal, by name; raises what ``check`` of the engine raises."""
+    _check_goals(system, goals)
+    deadline, spent = limits.deadline(), Spent()
+    answered: dict[str, Answer] = {}
+    for wanted in _groups(system, goals):
+        if answered and deadline is not None and monotonic() > deadline:
+            late = Open(f"the time limit of {limits.seconds:g} s is reached before it is searched for", 0)
+            answered |= {g.name: late for g in wanted}
+        else:
+            found, spent = _searched(system, wanted, limits, deadline, spent, progress)
+            answered |= found
+    return answered
+
+
+def _check_goals(system: TransitionSystem, goals: Sequence[Var]) -> None:
+    own = {v.name for v in (*system.variables, *system.frozen)}
+    for goal in goals:
+        if goal.name not in own:
+            raise ModelError(
+                f"{goal.name} is no variable of {system.name}, so no run reaches it; "
+                "ask for a variable that the system writes."
+            )
+
+
+def _groups(system: TransitionSystem, goals: Sequence[Var]) -> list[list[Var]]:
+    """The goals that are searched together, those that depend on little first."""
+    by_name = {g.name: g for g in goals}
+    if len(goals) < 2 or bits(_part(system, goals)) > APART:
+        return [list(goals)] if goals else []
+    parts = {g.name: _part(system, [g]) for g in goals}
+    return [[by_name[name] for name in together] for together in gathered(parts, EXTRA)]
+
+
+def _part(system: TransitionSystem, goals: Sequence[Var]) -> dict[str, Var]:
+    part = sliced(system, goals)
+    return {v.name: v for v in (*part.frozen, *part.variables)}
+
+
+def _searched(
+    system: TransitionSystem,
+    goals: Sequence[Var],
+    limits: Limits,
+    deadline: float | None,
+    spent: Spent,
+    progress: Progress,
+) -> tuple[Mapping[str, Answer], Spent]:
+    """One search: an answer for each goal, and what is spent after it."""
+    part = sliced(system, goals)
+    try:
+        packing = layout((*part.frozen, *part.variables))
+        moved = shifts(packing, counters(part)) if limits.timers is Timers.SKIP else ()
+        task = Task(part, packing, tuple(goals), moved)
+        progress(Stage(f"explicit: compiling {len(packing.fields)} variables in {packing.bits} bits"))
+        native = NativeSearch.compile(task)
+    except (TooWide, ValueError) as problem:
+        return {g.name: Open(str(problem), 0) for g in goals}, spent
+    search = (LineSearch if task.shifts else Search)(native, limits, deadline, progress, spent)
+    found = search.run()
+    runs = Runs(system, task, found)
+    if found.outside is not None:
+        raise runs.left_domain(found.outside)
+    answers = {g.name: _answer(found, runs, number, g) for number, g in enumerate(goals)}
+    kept = search.store.words.nbytes if any(isinstance(a, Unreachable) for a in answers.values()) else 0
+    return answers, Spent(spent.transitions + found.transitions, spent.bytes + kept)
+
+
+def _answer(found: Found, runs: Runs, number: int, goal: Var) -> Answer:
+    if found.hits[number] is not None:
+        return Reached(runs.to_goal(number, goal))
+    if found.stopped:
+        return Open(found.stopped, found.depth)
+    packing = runs.task.layout
+    counted = tuple(f.var.name for f in packing.fields)
+    skipped = bool(runs.task.shifts)
+    closed = None if skipped else ClosedSet(tuple(map(_place, packing.fields)), found.words)
+    return Unreachable(Exhausted(found.states, found.transitions, found.depth, counted, skipped, closed))
+
+
+def _place(field: Field) -> Place:
+    return Place(field.var, field.word, field.shift, field.bits, field.stride)

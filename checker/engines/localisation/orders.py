@@ -1,0 +1,50 @@
+"""Questions to the bounded search, which goes on in a child process from one to the next."""
+
+from queue import Empty, SimpleQueue
+from time import monotonic
+from types import TracebackType
+from typing import Self
+
+from checker.engines.localisation.bounded import Bounded, Core, Hit
+from checker.isolate import Child, End, Stopped
+from spec_model.lang.system import TransitionSystem
+
+
+class Orders:
+    """A child that knows the system.  Raises ``Stopped`` when it dies or the time is over."""
+
+    def __init__(self, system: TransitionSystem, deadline: float | None, memory: int) -> None:
+        self._inbox: SimpleQueue[object] = SimpleQueue()
+        self._deadline = deadline
+        self._child = Child(self._inbox.put, Bounded, system, memory=memory)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, where: TracebackType | None
+    ) -> None:
+        self._child.kill()
+
+    def why(self, goal: str, depth: int, kept: frozenset[str]) -> Hit | Core:
+        """A run to the goal of at most so many ticks, or what stands in its way beside what is kept."""
+        self._child.order(goal, depth, kept)
+        said: Hit | Core | None = None
+        while True:
+            match self._next():
+                case Hit() | Core() as found:
+                    said = found
+                case str(reason):
+                    raise Stopped(reason)
+                case End(failure) if failure is not None or said is None:
+                    raise Stopped(failure or "the bounded search ended without a word")
+                case End():
+                    assert said is not None
+                    return said
+
+    def _next(self) -> object:
+        left = None if self._deadline is None else max(0.0, self._deadline - monotonic())
+        try:
+            return self._inbox.get(timeout=left)
+        except Empty:
+            raise Stopped("the time limit is reached") from None

@@ -1,0 +1,40 @@
+"""What counts as a wide question: what one valuation can hold at once, not all that is declared."""
+
+import pytest
+
+from checker.portfolio import Question
+from checker.portfolio.shape import VAST, WIDE, Shape, shape
+from spec_model.lang.chart import Chart, State, to
+from spec_model.lang.lower import lower
+from spec_model.lang.system import in_order
+from spec_model.lang.time import ticks
+from spec_model.lang.words import after
+
+REGION = 100
+PAIR = {"One": 0, "Two": REGION}
+
+
+def region(first: int) -> list[State]:
+    """States in a ring, each left after twenty ticks: five bits of a counter for each."""
+    names = [f"S{first + n}" for n in range(REGION)]
+    return [State(name, transitions=[to(names[n - 1], after(20 * ticks))]) for n, name in enumerate(names)]
+
+
+def asked(chart: Chart) -> Shape:
+    return shape(Question(lower(in_order("c", chart)), tuple(chart.locations)))
+
+
+def test_counters_of_states_that_are_never_active_together_do_not_make_a_question_wide() -> None:
+    one = asked(Chart("C", region(0), default="S0"))
+    assert (one.bits, one.at_once, one.kind) == (7 + REGION * 5, 7 + 5, "narrow")
+    regions = [State(name, states=region(first), default=f"S{first}") for name, first in PAIR.items()]
+    both = asked(Chart("C", regions, parallel=True))
+    assert (both.bits, both.at_once) == (1 + 2 * (7 + REGION * 5), 1 + 2 * (7 + 5))
+
+
+@pytest.mark.parametrize(("bits", "at_once", "kind"), [
+    (WIDE, None, "narrow"), (WIDE + 1, None, "wide"), (VAST + 1, None, "vast"),
+    (VAST + 1, WIDE, "narrow"), (VAST + 1, WIDE + 1, "vast"),
+])  # fmt: skip
+def test_the_kind_follows_from_what_is_there_at_once(bits: int, at_once: int | None, kind: str) -> None:
+    assert Shape(bits, at_once=at_once).kind == kind
