@@ -1,0 +1,202 @@
+"""Faults of one chart: of its arrows with guards, targets and priorities, its actions, its regions."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from checker.mutate.actions import action_slips, paired
+from checker.mutate.formulas import BESIDE, slips
+from spec_model.lang.action import Action, reads, writes
+from spec_model.lang.chart import Block, Chart, Junction, Path, State, Transition
+from spec_model.lang.domain import Bool
+from spec_model.lang.edit import edit_at
+from spec_model.lang.expr import FALSE, TRUE, Apply, Expr
+from spec_model.lang.operators import Op
+from spec_model.lang.place import Place
+from spec_model.lang.walk import plain, variables
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A chart or block with one fault: where, by which operator, in words, and what the place was to say."""
+
+    site: str
+    operator: str
+    text: str
+    place: Place | None
+    part: Chart | Block
+    meant: str = ""
+
+
+@dataclass(frozen=True)
+class _Arrows:
+    """The arrows of a state or junction, or the default arrows of a level, and how to change them."""
+
+    site: str
+    level: Path
+    segments: tuple[Transition, ...]
+    changed: Callable[[Sequence[Transition]], Chart]
+    default: bool = False
+
+
+def block_faults(block: Block, step_ms: int) -> Iterator[Fault]:
+    """Every fault of a function block."""
+    for slip in action_slips(block.do, step_ms, paired(block.do)):
+        changed = Block(block.name, slip.whole, text=block.text, place=block.place)
+        yield Fault("block", slip.operator, slip.text, block.place, changed)
+
+
+def chart_faults(chart: Chart, step_ms: int) -> Iterator[Fault]:
+    """Every fault of a chart."""
+    fields = paired(chart.all_actions)
+    for arrows in _arrows(chart):
+        for number, segment in enumerate(arrows.segments):
+            put = _putter(arrows, number)
+            site = f"{arrows.site}.{number + 1}"
+            meant = "" if segment.guard is None else str(segment.guard)
+            for operator, text, new in _segment(chart, arrows, segment, step_ms):
+                yield Fault(site, operator, text, segment.place, put(new), meant)
+            for kind in ("do", "then"):
+                actions: tuple[Action, ...] = getattr(segment, kind)
+                for slip in action_slips(actions, step_ms, fields):
+                    new = (
+                        replace(segment, do=slip.whole) if kind == "do" else replace(segment, then=slip.whole)
+                    )
+                    yield Fault(site, slip.operator, slip.text, segment.place, put(new), meant)
+        yield from _priorities(arrows)
+    for path, state in chart.states.items():
+        yield from _in_state(chart, path, state, step_ms)
+        if state.parallel:
+            yield from _regions(chart, path, state)
+
+
+def _arrows(chart: Chart) -> Iterator[_Arrows]:
+    """Every list of arrows of the chart."""
+    for path, state in chart.states.items():
+        of = ".".join(path)
+
+        def default(new: Sequence[Transition], path: Path = path) -> Chart:
+            return edit_at(chart, path, lambda s: replace(s, default=tuple(new)))
+
+        def drawn(new: Sequence[Transition], path: Path = path) -> Chart:
+            return edit_at(chart, path, lambda s: replace(s, transitions=tuple(new)))
+
+        yield _Arrows(f"default/{of}" if of else "default", path, state.default, default, True)
+        yield _Arrows(f"arrow/{of}", path[:-1], state.transitions, drawn)
+        for junction in state.junctions:
+            name = ".".join((*path, junction.name))
+            yield _Arrows(f"arrow/{name}", path, junction.transitions, _of_junction(chart, path, junction))
+
+
+def _of_junction(chart: Chart, path: Path, junction: Junction) -> Callable[[Sequence[Transition]], Chart]:
+    def changed(new: Sequence[Transition]) -> Chart:
+        def put(state: State) -> State:
+            junctions = [Junction(j.name, new) if j.name == junction.name else j for j in state.junctions]
+            return replace(state, junctions=tuple(junctions))
+
+        return edit_at(chart, path, put)
+
+    return changed
+
+
+def _putter(arrows: _Arrows, number: int) -> Callable[[Transition], Chart]:
+    def put(new: Transition) -> Chart:
+        return arrows.changed([new if i == number else s for i, s in enumerate(arrows.segments)])
+
+    return put
+
+
+def _segment(
+    chart: Chart, arrows: _Arrows, segment: Transition, step_ms: int
+) -> Iterator[tuple[str, str, Transition]]:
+    """Faults of the guard and the target of an arrow."""
+    if segment.guard is not None:
+        yield from _guard(segment, segment.guard, step_ms)
+    elif not arrows.default:
+        yield "arrow-missing", f"the arrow to {segment.target} is missing", replace(segment, guard=FALSE)
+    sibling = _sibling(chart, arrows.level, segment.target)
+    if sibling is not None:
+        text = f"the arrow to {segment.target} leads to {sibling}"
+        yield "target", text, replace(segment, target=sibling)
+
+
+def _guard(segment: Transition, guard: Expr, step_ms: int) -> Iterator[tuple[str, str, Transition]]:
+    negated = Apply(Op.NOT, (guard,), Bool())
+    yield "guard-negated", f"`[{guard}]` is negated", replace(segment, guard=negated)
+    yield "guard-true", f"`[{guard}]` is always true", replace(segment, guard=TRUE)
+    yield "guard-false", f"`[{guard}]` is never true: the arrow is missing", replace(segment, guard=FALSE)
+    whole = plain(guard)
+    opposite = BESIDE[whole.op] if isinstance(whole, Apply) and whole.op in (Op.EQ, Op.NE) else None
+    for slip in slips(guard, step_ms):
+        if not (isinstance(slip.whole, Apply) and slip.whole.op is opposite):  # the same as negating it
+            yield slip.operator, slip.text, replace(segment, guard=slip.whole)
+
+
+def _sibling(chart: Chart, level: Path, target: str) -> str | None:
+    """The next state beside the target, as it can be written there; None where there is no other."""
+    path = chart.resolve(level, target)
+    if path is None or not path or path not in chart.states:
+        return None
+    beside = [s.name for s in chart.states[path[:-1]].states]
+    wanted = (*path[:-1], beside[(beside.index(path[-1]) + 1) % len(beside)])
+    names = [".".join(wanted[depth:]) for depth in range(len(wanted) - 1, -1, -1)]
+    return next((n for n in names if wanted != path and chart.resolve(level, n) == wanted), None)
+
+
+def _priorities(arrows: _Arrows) -> Iterator[Fault]:
+    """Two arrows that follow each other, tested in the other order."""
+    for number, (one, two) in enumerate(zip(arrows.segments, arrows.segments[1:], strict=False)):
+        new = [*arrows.segments[:number], two, one, *arrows.segments[number + 2 :]]
+        text = f"the arrows {number + 1} and {number + 2} are tested in the other order"
+        yield Fault(f"{arrows.site}.{number + 1}", "priority", text, one.place, arrows.changed(new))
+
+
+def _in_state(chart: Chart, path: Path, state: State, step_ms: int) -> Iterator[Fault]:
+    for kind in ("entry", "during", "exit"):
+        actions: tuple[Action, ...] = getattr(state, kind)
+        for slip in action_slips(actions, step_ms, paired(chart.all_actions)):
+
+            def put(old: State, kind: str = kind, new: tuple[Action, ...] = slip.whole) -> State:
+                match kind:
+                    case "entry":
+                        return replace(old, entry=new)
+                    case "during":
+                        return replace(old, during=new)
+                    case _:
+                        return replace(old, exit=new)
+
+            site = f"state/{'.'.join(path)}/{kind}"
+            yield Fault(site, slip.operator, slip.text, state.place, edit_at(chart, path, put))
+
+
+def _regions(chart: Chart, path: Path, state: State) -> Iterator[Fault]:
+    """Two regions that follow each other and share data, executed in the other order."""
+    for number, (one, two) in enumerate(zip(state.states, state.states[1:], strict=False)):
+        if not _shared(one, two):
+            continue
+        order = (*state.states[:number], two, one, *state.states[number + 2 :])
+
+        def put(old: State, order: tuple[State, ...] = order) -> State:
+            return replace(old, states=order)
+
+        text = f"the regions {one.name} and {two.name} are executed in the other order"
+        site = "/".join(filter(None, ("regions", ".".join(path))))
+        yield Fault(f"{site}.{number + 1}", "order", text, two.place, edit_at(chart, path, put))
+
+
+def _shared(one: State, two: State) -> bool:
+    (read, written), (also_read, also_written) = _data(one), _data(two)
+    return bool(written & (also_read | also_written) or also_written & read)
+
+
+def _data(region: State) -> tuple[set[str], set[str]]:
+    """What a region reads and writes."""
+    actions: list[Action] = []
+    guards: list[Expr] = []
+    for _, state in region.walk():
+        arrows = (*state.default, *state.transitions, *(t for j in state.junctions for t in j.transitions))
+        actions += [*state.entry, *state.during, *state.exit, *(a for t in arrows for a in (*t.do, *t.then))]
+        guards += [t.guard for t in arrows if t.guard is not None]
+    return set(reads(actions)) | set(variables(*guards)), set(writes(actions))
+
+
+__all__ = ["Fault", "block_faults", "chart_faults"]

@@ -1,0 +1,215 @@
+"""What becomes of one mutant: who notices it, or that nobody can, or a run that nobody forbids."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from time import monotonic
+
+from checker.decide import decide
+from checker.engine import AUTO, Limits, Progress
+from checker.lowered import lowered
+from checker.mutate.observing import Difference, difference, observable
+from checker.mutate.product import product, same
+from checker.portfolio import Question, Told, answers
+from checker.result import Result, check_domains
+from checker.runs.domains import LeavesDomain
+from checker.tasks import Task, tasks
+from checker.trace import Trace
+from checker.verdict import Open, Proved, Reached, Unknown, Unreachable, Violated
+from properties.forms import Property
+from spec_model.lang.errors import ModelError
+from spec_model.lang.lower import lower
+from spec_model.lang.system import System
+
+DOMAINS, REFUSED = "(leaves a domain)", "(refused)"
+"""Who kills a mutant that no property is needed for: the commands refuse such a model whatever is asked."""
+SHARE = 0.5
+"""Of the time that is left, what one search may take at most while others wait."""
+
+
+class Fate(StrEnum):
+    """What becomes of a mutant."""
+
+    KILLED = "killed"
+    NOTICED = "noticed"
+    """Only a recorded finding is gone: the mutant mends something, and nothing else notices it."""
+    EQUIVALENT = "equivalent"
+    SURVIVOR = "survivor"
+    UNKNOWN = "unknown"
+    NO_CHART = "not a chart"
+    NO_CHANGE = "no change"
+
+
+@dataclass(frozen=True)
+class Judged:
+    """The fate of a mutant: the killer with the ticks of its run, the proof, or the run that differs.
+
+    ``why`` is the reason of what is unknown, the proof of what is equivalent, or what refuses the mutant.
+    ``asked`` counts the properties that were decided, ``open`` those that were not.
+    """
+
+    fate: Fate
+    killer: str = ""
+    on: str = ""
+    ticks: int | None = None
+    shortest: bool = False
+    why: str = ""
+    asked: int = 0
+    open: int = 0
+    difference: Difference | None = None
+
+
+@dataclass(frozen=True)
+class Case:
+    """A mutant in one system, with the properties to ask and whether each is proved of the original.
+
+    ``sure``: that was found out, and not only read from a record.  ``named`` are the variables that
+    properties of the system speak of.
+    """
+
+    original: System
+    mutant: System
+    parts: tuple[str, ...]
+    properties: tuple[Property, ...]
+    proved: Mapping[str, bool]
+    sure: bool = True
+    named: frozenset[str] = frozenset()
+
+
+def judged(cases: Sequence[Case], limits: Limits, progress: Progress, before: Judged | None = None) -> Judged:
+    """The fate of a mutant; the first case is the system in which it is compared with the original.
+
+    With ``before``, what became of it in another system, it is not compared again.
+
+    Raises ``ReplayError`` and ``Disagreement``, which are bugs of ours.
+    """
+    first = cases[0]
+    try:
+        for case in cases:
+            lower(case.mutant)
+    except ModelError as error:
+        if before is not None:
+            return Judged(Fate.KILLED, REFUSED, first.mutant.name, why=str(error).splitlines()[0])
+        return Judged(Fate.NO_CHART, why=str(error).splitlines()[0])
+    if before is None and all(same(lowered(case.original), lowered(case.mutant)) for case in cases):
+        return Judged(Fate.NO_CHANGE, why="both are lowered to the same step")
+    deadline = limits.deadline()
+    hunt = _Hunt(cases, limits, deadline, progress)
+    try:
+        killed = hunt.killed()
+        if killed is not None:
+            return killed
+        if before is not None:
+            return _still(before, hunt)
+        return _compared(first, hunt, limits.until(deadline), progress)
+    except LeavesDomain as error:
+        return Judged(Fate.KILLED, DOMAINS, hunt.on, why=str(error).splitlines()[0])
+    except ModelError as error:
+        return Judged(Fate.KILLED, REFUSED, hunt.on, why=str(error).splitlines()[0])
+
+
+class _Hunt:
+    """Asks properties about a mutant until one notices it."""
+
+    def __init__(
+        self, cases: Sequence[Case], limits: Limits, deadline: float | None, progress: Progress
+    ) -> None:
+        self._cases = cases
+        self._limits = limits
+        self._deadline = deadline
+        self._progress = progress
+        self.asked = 0
+        self.on = cases[0].mutant.name
+        self.gone: Judged | None = None
+        self.open: list[str] = []
+
+    def killed(self) -> Judged | None:
+        """The mutant killed by the first property that notices it, if one does."""
+        for case, task in self._tasks():
+            self.on = task.system.name
+            for result in self._decided(task):
+                self.asked += not isinstance(result.verdict, Unknown)
+                judged = self._judged(case, result)
+                if judged is not None and judged.fate is Fate.KILLED:
+                    return judged
+                self.gone = self.gone or judged
+        return None
+
+    def _tasks(self) -> Iterator[tuple[Case, Task]]:
+        for case in self._cases:
+            place = {p.id: number for number, p in enumerate(case.properties)}
+            found = tasks(case.properties, {case.mutant.name: case.mutant})
+            for task in sorted(found, key=lambda t: min(place[p.id] for p in t.properties)):
+                yield case, task
+
+    def _decided(self, task: Task) -> Iterator[Result]:
+        deadline = self._deadline
+        if deadline is not None:
+            deadline = monotonic() + SHARE * max(0.0, deadline - monotonic())
+        limits = self._limits.until(deadline)
+        yield from decide(task, {task.system.name: task.system}, AUTO, limits, self._progress, None, deadline)
+
+    def _judged(self, case: Case, result: Result) -> Judged | None:
+        """What one verdict means: a kill, a finding that is gone, or nothing."""
+        prop, verdict = result.property, result.verdict
+        if isinstance(verdict, Unknown):
+            self.open.append(f"{prop.id}: {verdict.reason}")
+            return None
+        if isinstance(verdict, Proved) is case.proved[prop.id] or not self._confirmed(case, prop):
+            return None
+        fate = Fate.KILLED if isinstance(verdict, Violated) else Fate.NOTICED
+        run = verdict.because if isinstance(verdict.because, Trace) else None
+        ticks, shortest = (None, False) if run is None else (len(run), run.shortest)
+        return Judged(fate, prop.id, case.mutant.name, ticks, shortest, asked=self.asked)
+
+    def _confirmed(self, case: Case, prop: Property) -> bool:
+        """Whether the verdict on the original is as it is on record."""
+        if case.sure:
+            return True
+        [found] = self._decided(Task(case.original, (prop,)))
+        if isinstance(found.verdict, Unknown):
+            self.open.append(f"{prop.id}: of the original, {found.verdict.reason}")
+            return False
+        return isinstance(found.verdict, Proved) is case.proved[prop.id]
+
+
+def _still(before: Judged, hunt: _Hunt) -> Judged:
+    """What a mutant that survived in one system is after others were looked at."""
+    asked, left = before.asked + hunt.asked, len(hunt.open)
+    if hunt.gone is not None:
+        return hunt.gone
+    if not left:
+        return replace(before, asked=asked)
+    why = f"{left} of {asked + left} properties are not decided; {hunt.open[0]}"
+    return replace(before, fate=Fate.UNKNOWN, why=why, asked=asked, open=left)
+
+
+def _compared(case: Case, hunt: _Hunt, limits: Limits, progress: Progress) -> Judged:
+    """The fate of a mutant that no property kills."""
+    original, mutant = lowered(case.original), lowered(case.mutant)
+    seen = observable(case.original, case.parts, case.named) | observable(case.mutant, case.parts, case.named)
+    both = product(original, mutant, seen & {v.name for v in original.variables})
+    asked, left = hunt.asked, len(hunt.open)
+    if both is None:
+        why = "no observable variable depends on what is changed"
+        return hunt.gone or Judged(Fate.EQUIVALENT, why=why, asked=asked, open=left)
+    found = answers(Question(both.system, (both.goal,)), AUTO, limits, Told(progress))
+    answer, by = found[both.goal.name]
+    if not isinstance(answer, Reached):
+        check_domains(both.system, found)
+    match answer:
+        case Unreachable(because):
+            return hunt.gone or Judged(Fate.EQUIVALENT, why=f"{by}: {because.how}", asked=asked, open=left)
+        case Open(reason, _):
+            return hunt.gone or Judged(Fate.UNKNOWN, why=reason, asked=asked, open=left)
+        case Reached(run, shortest):
+            apart = difference(original, mutant, both, run, shortest)
+            if hunt.gone is not None:
+                return hunt.gone
+            if hunt.open:
+                why = f"{left} of {asked + left} properties are not decided; {hunt.open[0]}"
+                return Judged(Fate.UNKNOWN, why=why, asked=asked, open=left, difference=apart)
+            return Judged(Fate.SURVIVOR, asked=asked, difference=apart)
+
+
+__all__ = ["Case", "Fate", "Judged", "judged"]

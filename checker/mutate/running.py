@@ -1,0 +1,103 @@
+"""Mutants judged in child processes, several at a time, each within its own time."""
+
+from collections.abc import Generator, Mapping, Sequence
+from contextlib import closing
+from dataclasses import dataclass, replace
+
+from checker.cache.telling import listening
+from checker.engine import Limits
+from checker.faults import Fault, described, is_fault, tell
+from checker.faults import listening as attending
+from checker.isolate import Send
+from checker.mutate.judging import Case, Fate, Judged
+from checker.mutate.mutants import Mutant
+from checker.mutate.planning import Planned
+from checker.pool import Event, Granted, Order, Pool
+from checker.searches import SLACK, cores
+
+
+@dataclass(frozen=True)
+class Doing:
+    """One line on what is being done about a mutant."""
+
+    mutant: Mutant
+    line: str
+
+
+@dataclass(frozen=True)
+class Told:
+    """A mutant and its fate."""
+
+    mutant: Mutant
+    judged: Judged
+
+
+def fates(
+    planned: Sequence[Planned],
+    limits: Limits,
+    jobs: int | None = None,
+    before: Mapping[str, Judged] | None = None,
+) -> Generator[Doing | Told, None, None]:
+    """The fate of each mutant as it is found; the time of ``limits`` is for each of them.
+
+    A child that dies, or does not stop in time, makes its mutant unknown, with the reason.  Raises
+    ``ReplayError`` and ``Disagreement``, which are bugs of ours.  Closing the generator ends all children.
+    """
+    pool = Pool(jobs or cores(), _Judging, (limits,), limits.memory + SLACK)
+    known = before or {}
+    orders = [
+        Order((one.mutant.id, one.cases, known.get(one.mutant.id)), one.cases[0].mutant.name)
+        for one in planned
+    ]
+    found: dict[int, Judged] = {}
+    with closing(pool.run(orders)) as events:
+        for event in events:
+            mutant = planned[event.number].mutant
+            match event.message:
+                case Exception() as error:
+                    raise error
+                case Fault() as fault:
+                    tell(fault)
+                case Judged() as heard:
+                    found[event.number] = heard
+                case str(line):
+                    yield Doing(mutant, line)
+            if event.done:
+                judged = found.pop(event.number) if event.number in found else None
+                yield Told(mutant, judged or _ended(event, limits, known.get(mutant.id)))
+
+
+def _ended(event: Event, limits: Limits, before: Judged | None) -> Judged:
+    """The fate of a mutant whose search ended without a word on it."""
+    why = event.failure or "the search ended without a word on it"
+    if event.late and limits.seconds is not None:
+        why = f"time: {limits.seconds:g} s ended"
+    return replace(before or Judged(Fate.UNKNOWN), fate=Fate.UNKNOWN, why=why)
+
+
+class _Judging:
+    """Judges one mutant after the other, in a child."""
+
+    def __init__(self, limits: Limits) -> None:
+        self._limits = limits
+
+    def __call__(self, send: Send, id: str, cases: tuple[Case, ...], before: Judged | None) -> None:
+        from checker.mutate.judging import judged
+        from checker.portfolio import Disagreement
+        from checker.runs.replay import ReplayError
+
+        send(Granted(self._limits.seconds))
+        try:
+            with listening(send, anew=False), attending(send):
+                send(judged(cases, self._limits, send, before))
+        except ReplayError as error:
+            send(ReplayError(f"{id}: {error}"))
+        except Disagreement as error:
+            send(error)
+        except Exception as error:  # this mutant stays open
+            if is_fault(error):
+                send(Fault("the search", id, described(error)))
+            raise
+
+
+__all__ = ["Doing", "Told", "fates"]

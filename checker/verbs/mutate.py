@@ -1,0 +1,59 @@
+"""The verb ``mutate``: how strong the properties are."""
+
+from pathlib import Path
+
+import click
+
+from checker.commands.codes import Exit
+from checker.commands.options import GIB, SECONDS, modelling, quietly
+from checker.engine import LOADED, Limits
+
+
+@click.command(short_help="Put faults into the charts, and see whether the properties notice.")
+@click.option(
+    "--system",
+    "about",
+    multiple=True,
+    metavar="NAME",
+    help="Only charts and blocks of this system, or these.",
+)
+@click.option("--alone", is_flag=True, help="Ask only properties about the system that a fault is put into.")
+@click.option(
+    "--timeout", type=SECONDS, default=60.0, show_default=True, metavar="SEC", help="Seconds per mutant."
+)
+@click.option(
+    "--memory", type=GIB, default=8.0, show_default=True, metavar="GIB", help="What each search may take."
+)
+@click.option(
+    "--jobs", type=click.IntRange(min=1), metavar="N", help="Mutants at a time; by default one per processor."
+)
+@click.option("--sample", type=click.IntRange(min=1), metavar="N", help="Only so many, drawn at random.")
+@click.option("--seed", type=int, default=0, show_default=True, metavar="N", help="Which ones are drawn.")
+@click.option("--json", "as_json", is_flag=True, help="Every mutant as JSON (checker/schemas/mutate-1.json).")
+@modelling
+@quietly
+def mutate(
+    about: tuple[str, ...],
+    alone: bool,
+    timeout: float,
+    memory: float,
+    jobs: int | None,
+    sample: int | None,
+    seed: int,
+    as_json: bool,
+    model: Path | None,
+) -> Exit:
+    """Put one fault at a time into charts, blocks and wiring, and tell which property notices it.
+
+    Whatever none of them notices is proved to change nothing, or shown with a run that it changes.
+    """
+    from checker.isolate import prepared
+
+    with prepared(*LOADED):
+        from checker.commands.mutating import Wanted
+        from checker.commands.mutating import mutate as run
+        from checker.commands.variant import pick_variant
+
+        wanted = Wanted(about, sample, seed, alone, jobs)
+        limits = Limits(None, timeout, int(memory * 2**30))
+        return run(pick_variant((), None, (), model).model, wanted, limits, as_json)

@@ -1,0 +1,124 @@
+"""``rovercheck mutate``: what is said of survivors, counts, exit codes, JSON, and mistakes."""
+
+import json
+from collections.abc import Generator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from jsonschema import Draft202012Validator
+
+import checker
+from checker.cli import run
+from checker.commands import mutating
+from checker.commands.codes import Exit
+from checker.mutate.running import Told, fates
+from tests.cli.test_widths import at_terminal, too_long
+from tests.mutate import lamp
+
+SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "mutate-1.json").read_text("utf-8"))
+MODEL = Path(lamp.__file__)
+LAMP = ["mutate", "--model", str(MODEL), "--quiet", "--jobs", "2"]
+
+WEAK = """
+from properties.forms import always
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Block
+from spec_model.lang.expr import flag
+from spec_model.lang.system import in_order
+
+go, out = flag("go"), flag("out")
+copying = in_order("copying", Block("Copy", [assign(out, go)]))
+REQUIREMENTS = {"R": "It copies."}
+P = always("P", "TEXT", that=THAT, covers=["R"], on=copying)
+"""
+
+
+def model(folder: Path, that: str) -> list[str]:
+    """The command about a block that copies, with one property."""
+    file = folder / "copy_model.py"
+    file.write_text(WEAK.replace("THAT", that).replace("TEXT", "It is so."), encoding="utf-8")
+    return ["mutate", "--model", str(file), "--quiet", "--jobs", "1"]
+
+
+def test_a_strong_property_leaves_no_survivor(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(model(tmp_path, "(out & go) | (~out & ~go)")) is Exit.AS_EXPECTED
+    said = capsys.readouterr().out
+    assert "3 mutants of copying:" in said and "Killers: P 3." in said
+    assert "Survivors" not in said
+
+
+def test_a_weak_property_leaves_survivors(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert run(model(tmp_path, "~out | go")) is Exit.CHANGED
+    said = capsys.readouterr().out
+    assert "Survivors: no property notices the fault, and a run shows what it changes (2):" in said
+    assert "copy_model.py:9: `out := go` is missing" in said
+    assert "tick 1  go = true" in said and "then out is true, in the mutant false" in said
+    assert "Nothing demands: when go = true, then out is true." in said
+
+
+def test_the_document_holds_every_mutant(capsys: pytest.CaptureFixture[str]) -> None:
+    code = run([*LAMP, "--json", "--sample", "12", "--seed", "3"])
+    document = json.loads(capsys.readouterr().out)
+    Draft202012Validator.check_schema(SCHEMA)
+    Draft202012Validator(SCHEMA).validate(document)
+    assert (document["schema"], document["exit"]) == ("rovercheck/mutate/1", int(code))
+    assert document["complete"] and document["chosen"] == 12 < document["made"]
+    assert len(document["mutants"]) == sum(document["counts"].values()) == 12
+
+
+def test_a_seed_draws_the_same_mutants_again(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    command = [*model(tmp_path, "~out | go"), "--sample", "2", "--json"]
+    drawn = []
+    for seed in ("1", "1", "2", "3", "4"):
+        run([*command, "--seed", seed])
+        drawn.append([m["id"] for m in json.loads(capsys.readouterr().out)["mutants"]])
+    assert drawn[0] == drawn[1] and len({tuple(d) for d in drawn}) > 1
+
+
+def test_an_interruption_keeps_what_was_found(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def interrupted(*args: Any) -> Generator[Any, None, None]:
+        yield from [one for one in fates(*args) if isinstance(one, Told)][:1]
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(mutating, "fates", interrupted)
+    assert run([*model(tmp_path, "(out & go) | (~out & ~go)"), "--json"]) is Exit.INTERRUPTED
+    said = capsys.readouterr()
+    document = json.loads(said.out)
+    Draft202012Validator(SCHEMA).validate(document)
+    assert not document["complete"] and len(document["mutants"]) == 1
+    assert "Interrupted: 1 of 3 mutants judged." in said.err
+
+
+def test_alone_asks_only_properties_about_the_system(capsys: pytest.CaptureFixture[str]) -> None:
+    """That Board 1 begins with the actuation is demanded of larger systems only."""
+    command = ["mutate", "--system", "relay", "--quiet", "--jobs", "2", "--alone", "--json"]
+    assert run(command) is Exit.CHANGED
+    document = json.loads(capsys.readouterr().out)
+    assert [m["id"] for m in document["mutants"] if m["fate"] == "survivor"] == ["Relay/default.1/target"]
+    assert document["counts"]["unknown"] == 0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code", "said"),
+    [
+        (["--system", "relais"], Exit.USAGE, "There is no system 'relais'. Did you mean 'relay'"),
+        (["--model", "nowhere.py"], Exit.USAGE, "nowhere.py"),
+        (["--sample", "0"], Exit.USAGE, "0"),
+        (["--timeout", "nan"], Exit.USAGE, "is not a number"),
+    ],
+)
+def test_mistakes_are_told_at_once(
+    arguments: list[str], code: Exit, said: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["mutate", *arguments]) is code
+    assert said in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("columns", [60, 80, 120])
+def test_survivors_are_readable_at_any_width(columns: int, tmp_path: Path) -> None:
+    seen = at_terminal(columns, *model(tmp_path, "~out | go")).seen
+    assert too_long(seen, columns) == []
+    assert "Nothing demands" in seen

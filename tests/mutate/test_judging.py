@@ -1,0 +1,159 @@
+"""The fate of every mutant of a small model, against a naive search of pairs of valuations."""
+
+from functools import cache
+
+import pytest
+
+from checker.engine import Limits, quiet
+from checker.mutate.asked import cones
+from checker.mutate.judging import DOMAINS, Case, Fate, Judged, judged
+from checker.mutate.mutants import Mutant, mutants
+from checker.mutate.observing import observable
+from checker.mutate.planning import Plan, homes
+from properties.reduce import reduce
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Block
+from spec_model.lang.domain import integer
+from spec_model.lang.errors import ModelError
+from spec_model.lang.evaluate import step
+from spec_model.lang.expr import flag, ite, var
+from spec_model.lang.interpret import Interpreter
+from spec_model.lang.lower import lower
+from spec_model.lang.system import System, in_order
+from tests.mutate.lamp import LIT, NEVER, NIGHT, QUIET, lamps
+from tests.naive import search, vectors
+
+PROPERTIES = (LIT, QUIET, NIGHT, NEVER)
+PROVED = {"LIT": True, "QUIET": True, "NIGHT": True, "NEVER": False}
+PLAN = Plan({"lamps": lamps}, PROPERTIES, PROVED, dict[str, bool | None](PROVED))
+MUTANTS = mutants(lamps)
+
+
+@cache
+def fate(mutant: Mutant) -> Judged:
+    return judged(PLAN.own(mutant, "lamps").cases, Limits(), quiet)
+
+
+def proved(system: System) -> dict[str, bool]:
+    """The verdicts on a system by the naive search."""
+    question = reduce(lower(system), PROPERTIES)
+    reached = search(question.system, [g.var for g in question.goals]).reached
+    return {g.property.id: (g.var.name in reached) == g.reach for g in question.goals}
+
+
+def apart(original: System, mutant: System, names: set[str]) -> int | None:
+    """After how many ticks the two can be told apart; None if they cannot."""
+    one, other = lower(original), lower(mutant)
+    frontier = [(one.init, other.init)]
+    seen = {(tuple(one.init.items()), tuple(other.init.items()))}
+    depth = 0
+    while frontier:
+        depth += 1
+        following = []
+        for ours, theirs in frontier:
+            for inputs in vectors(one.inputs):
+                after, beside = step(one, ours, inputs), step(other, theirs, inputs)
+                if any(after[n] != beside[n] for n in names):
+                    return depth
+                pair = {n: after[n] for n in one.init}, {n: beside[n] for n in other.init}
+                key = tuple(pair[0].items()), tuple(pair[1].items())
+                if key not in seen:
+                    seen.add(key)
+                    following.append(pair)
+        frontier = following
+    return None
+
+
+def test_the_naive_search_knows_the_original() -> None:
+    assert proved(lamps) == PROVED
+    assert apart(lamps, lamps, set(lamps.written)) is None
+
+
+@pytest.mark.parametrize("mutant", MUTANTS, ids=lambda m: m.id)
+def test_fates_agree_with_a_naive_search(mutant: Mutant) -> None:
+    found = fate(mutant)
+    try:
+        lower(mutant.system)
+    except ModelError:
+        assert found.fate is Fate.NO_CHART
+        return
+    if found.killer == DOMAINS:
+        return
+    now = proved(mutant.system)
+    killers = {id for id in now if PROVED[id] and not now[id]}
+    if killers:
+        assert found.fate is Fate.KILLED and found.killer in killers
+        return
+    if any(now[id] and not PROVED[id] for id in now):
+        assert found.fate is Fate.NOTICED
+        return
+    names = observable(lamps, mutant.parts, {"lit", "shade", "alarm"})
+    ticks = apart(lamps, mutant.system, names)
+    if ticks is None:
+        assert found.fate in (Fate.EQUIVALENT, Fate.NO_CHANGE)
+        return
+    assert found.fate is Fate.SURVIVOR
+    assert found.difference is not None
+    assert len(found.difference) == ticks and found.difference.shortest
+
+
+def test_every_kind_of_fate_occurs() -> None:
+    fates = {fate(m).fate for m in MUTANTS}
+    assert {Fate.KILLED, Fate.NOTICED, Fate.EQUIVALENT, Fate.SURVIVOR} <= fates
+
+
+def raw(system: System, values: dict[str, str]) -> dict[str, int]:
+    """Values as people write them, as the interpreter takes them."""
+    table = {v.name: v for v in lower(system).inputs}
+    return {
+        n: next(r for r in table[n].domain.values if table[n].domain.show(r) == s) for n, s in values.items()
+    }
+
+
+def test_the_run_of_a_survivor_replays_on_the_interpreter() -> None:
+    survivors = [m for m in MUTANTS if fate(m).fate is Fate.SURVIVOR]
+    assert survivors
+    for mutant in survivors:
+        shown = fate(mutant).difference
+        assert shown is not None
+        one, other = Interpreter(lamps, {}), Interpreter(mutant.system, {})
+        for inputs in shown.inputs:
+            given = raw(lamps, dict(inputs))
+            one.step(given)
+            other.step(given)
+        ours, theirs = one.data, other.data
+        table = lamps.written
+        assert {n: table[n].domain.show(ours[n]) for n in shown.original} == dict(shown.original)
+        assert {n: table[n].domain.show(theirs[n]) for n in shown.mutant} == dict(shown.mutant)
+        assert shown.original and all(ours[n] != theirs[n] for n in shown.original)
+
+
+def test_a_mutant_that_leaves_a_domain_is_killed_without_a_property() -> None:
+    go, n = flag("go"), var("n", integer(0, 3))
+    system = in_order("count", Block("Count", [assign(n, ite(go & (n < 3), n + 1, 0))]))
+    [wrong] = [m for m in mutants(system) if m.operator == "comparison"]
+    found = judged([Case(system, wrong.system, wrong.parts, (), {})], Limits(), quiet)
+    assert (found.fate, found.killer) == (Fate.KILLED, DOMAINS)
+    assert "outside integer in 0..3" in found.why
+
+
+def test_only_properties_that_depend_on_the_part_are_asked() -> None:
+    by_id = {c.property.id: c for c in cones(lamps, PROPERTIES)}
+    assert "alarm" in by_id["QUIET"].written and "alarm" not in by_id["LIT"].written
+    of = {m.part: {p.id for p in PLAN.own(m, "lamps").cases[0].properties} for m in MUTANTS}
+    assert of == {"Lamp": {"LIT", "QUIET", "NIGHT", "NEVER"}, "Alarm": {"QUIET"}}
+
+
+def test_a_time_that_is_over_makes_unknown() -> None:
+    [one] = [m for m in MUTANTS if m.id == "Alarm/data/seen/initial"]
+    found = judged(PLAN.own(one, "lamps").cases, Limits(seconds=1e-9), quiet)
+    assert found.fate is Fate.UNKNOWN and "time" in found.why
+
+
+def test_a_part_is_made_faulty_in_its_smallest_system() -> None:
+    small = in_order("small", lamps.charts[0])
+    assert homes({"lamps": lamps, "small": small}, ["lamps", "small"]) == {
+        "lamps": ["Alarm"],
+        "small": ["Lamp"],
+    }
+    assert homes({"lamps": lamps, "small": small}, ["lamps"]) == {"lamps": ["Lamp", "Alarm"]}
