@@ -1,9 +1,9 @@
-"""The catalogue: every property of ``properties/areas`` and the verdict expected of each."""
+"""The catalogue: every property of ``areas`` and ``promises``, and the verdict expected of each."""
 
 import importlib
 import pkgutil
 import tomllib
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -59,14 +59,16 @@ def read_by(prop: Property) -> set[str]:
 @cache
 def as_written() -> dict[str, Property]:
     """Every property by id, with its readings open.  Raises ``ModelError`` for an id used twice."""
-    import properties.areas as folder
+    import properties.areas
+    import properties.promises
 
     found: dict[str, Property] = {}
-    for entry in sorted(pkgutil.iter_modules(folder.__path__), key=lambda e: e.name):
-        module = importlib.import_module(f"{folder.__name__}.{entry.name}")
-        for thing in vars(module).values():
-            if isinstance(thing, Property):
-                _add(found, replace(thing, area=entry.name))
+    for folder in (properties.areas, properties.promises):
+        for entry in sorted(pkgutil.iter_modules(folder.__path__), key=lambda e: e.name):
+            module = importlib.import_module(f"{folder.__name__}.{entry.name}")
+            for thing in vars(module).values():
+                if isinstance(thing, Property):
+                    _add(found, replace(thing, area=entry.name))
     return found
 
 
@@ -91,21 +93,26 @@ def baseline() -> dict[str, Expected]:
 def on_record(table: Mapping[str, Any], known: Collection[str], file: str) -> dict[str, Expected]:
     """The verdicts that a baseline file states of the properties ``known``.
 
-    Raises ``ModelError`` for an entry that names no property, has no reason or says something else.
+    Raises ``ModelError`` with a line for each entry that names no property, has no reason or says
+    something else.
     """
-    expected: dict[str, Expected] = {}
-    for id, row in table.items():
-        if id not in known:
-            raise ModelError(f"{file} lists {id!r}, which is no property. {did_you_mean(id, known)}")
-        if not isinstance(row, dict) or not row.get("because") or row.get("verdict") not in EXCEPTIONS:
-            raise ModelError(f"{file}: {id} needs because = and verdict = 'violated' or 'unknown'.")
-        for name, value in row.items():
-            if name not in FIELDS:
-                raise ModelError(f"{file}: {id} has no {name!r}. {did_you_mean(name, FIELDS)}")
-            if type(value) is not FIELDS[name]:
-                raise ModelError(f"{file}: {id} has {name} = {value!r}; write a {KINDS[FIELDS[name]]}.")
-        expected[id] = Expected(**row)
-    return expected
+    faults = [f"{file}{fault}" for id, row in table.items() for fault in _entry_faults(id, row, known)]
+    if faults:
+        raise ModelError("\n".join(faults))
+    return {id: Expected(**row) for id, row in table.items()}
+
+
+def _entry_faults(id: str, row: Any, known: Collection[str]) -> Iterator[str]:
+    if id not in known:
+        yield f" lists {id!r}, which is no property. {did_you_mean(id, known)}"
+    if not isinstance(row, dict) or not row.get("because") or row.get("verdict") not in EXCEPTIONS:
+        yield f": {id} needs because = and verdict = 'violated' or 'unknown'."
+        return
+    for name, value in row.items():
+        if name not in FIELDS:
+            yield f": {id} has no {name!r}. {did_you_mean(name, FIELDS)}"
+        elif type(value) is not FIELDS[name]:
+            yield f": {id} has {name} = {value!r}; write a {KINDS[FIELDS[name]]}."
 
 
 def expected(id: str) -> Expected:

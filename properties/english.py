@@ -25,7 +25,8 @@ from properties.forms import (
 )
 from properties.phrases import Voice, as_implication, begins, clause, ends, final, part, quoted, term
 from spec_model.lang.domain import Bool
-from spec_model.lang.expr import Apply, Expr, Named, Op
+from spec_model.lang.expr import Apply, Expr, Named
+from spec_model.lang.operators import Op
 from spec_model.lang.time import Span
 from spec_model.lang.walk import nodes
 

@@ -9,9 +9,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import Union
 
-from spec_model.lang.errors import ModelError
+from spec_model.lang.chart import Chart
+from spec_model.lang.errors import ModelError, several
 from spec_model.lang.expr import Expr
 from spec_model.lang.place import Place, here
+from spec_model.lang.system import System
 from spec_model.lang.time import Span
 
 
@@ -161,8 +163,8 @@ class Property:
     """A requirement made precise: id, sentence, form, the requirements it covers, the system it is about.
 
     ``readings`` names the readings of ambiguous sentences under which it is stated.  ``costly``: it is
-    decided only on request and in the full profile, not in the default one.  ``place`` is where it is
-    written.
+    decided only on request and in the full profile, not in the default one.  ``about`` is what was given
+    for ``on``, if that was no name; ``place`` is where it is written.
     """
 
     id: str
@@ -174,7 +176,8 @@ class Property:
     readings: tuple[str, ...] = ()
     costly: bool = False
     area: str = field(default="", compare=False)
-    place: Place | None = field(default=None, compare=False, repr=False)
+    about: Chart | System | None = field(default=None, compare=False, repr=False)
+    place: Place | None = field(default_factory=lambda: here(__name__), compare=False, repr=False)
 
 
 def costly(prop: Property) -> Property:
@@ -182,81 +185,85 @@ def costly(prop: Property) -> Property:
     return replace(prop, costly=True)
 
 
+On = str | Chart | System
+"""What a property is about: a system or its name, or a chart that runs alone, under its own name."""
+
+
 def _property(
-    id: str, text: str, form: Form, covers: Sequence[str], on: str, from_tick: int, readings: Sequence[str]
+    id: str, text: str, form: Form, covers: Sequence[str], on: On, from_tick: int, readings: Sequence[str]
 ) -> Property:
-    if isinstance(covers, str):
-        raise ModelError(f"{id}: covers={covers!r} is one text; write covers=[{covers!r}].")
-    if not covers:
+    about, name = (on, on.name) if isinstance(on, Chart | System) else (None, on)
+    ids = several(id, "covers", covers)
+    if not ids:
         raise ModelError(f"{id} covers no requirement; write covers=[...] with at least one requirement id.")
-    return Property(id, text, form, tuple(covers), on, from_tick, tuple(readings), place=here(__name__))
+    return Property(id, text, form, ids, name, from_tick, several(id, "readings", readings), about=about)
 
 
-def always(id: str, text: str, *, that: Expr, covers: Sequence[str], on: str,
+def always(id: str, text: str, *, that: Expr, covers: Sequence[str], on: On,
            from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
     return _property(id, text, Always(that), covers, on, from_tick, readings)
 
 
-def never(id: str, text: str, *, that: Expr, covers: Sequence[str], on: str,
+def never(id: str, text: str, *, that: Expr, covers: Sequence[str], on: On,
           from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
     return _property(id, text, Never(that), covers, on, from_tick, readings)
 
 
 def responds(id: str, text: str, *, trigger: Expr, response: Expr, within: Span, covers: Sequence[str],
-             on: str, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+             on: On, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
     return _property(id, text, Responds(trigger, response, within), covers, on, from_tick, readings)
 
 
 def holds_after(id: str, text: str, *, premise: Expr, for_: Span, then: Expr, covers: Sequence[str],
-                on: str, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+                on: On, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
     return _property(id, text, HoldsAfter(premise, for_, then), covers, on, from_tick, readings)
 
 
 def holds_for(id: str, text: str, *, start: Expr, that: Expr, for_: Span, covers: Sequence[str],
-              on: str, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+              on: On, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
     return _property(id, text, HoldsFor(start, that, for_), covers, on, from_tick, readings)
 
 
-def leaves_only_if(id: str, text: str, *, leaving: Expr, only_if: Expr, covers: Sequence[str], on: str,
+def leaves_only_if(id: str, text: str, *, leaving: Expr, only_if: Expr, covers: Sequence[str], on: On,
                    from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
     return _property(id, text, LeavesOnlyIf(leaving, only_if), covers, on, from_tick, readings)
 
 
-def enters_only_if(id: str, text: str, *, entering: Expr, only_if: Expr, covers: Sequence[str], on: str,
+def enters_only_if(id: str, text: str, *, entering: Expr, only_if: Expr, covers: Sequence[str], on: On,
                    from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
     return _property(id, text, EntersOnlyIf(entering, only_if), covers, on, from_tick, readings)
 
 
-def precedes(id: str, text: str, *, first: Expr, then: Expr, covers: Sequence[str], on: str,
+def precedes(id: str, text: str, *, first: Expr, then: Expr, covers: Sequence[str], on: On,
              from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
     return _property(id, text, Precedes(first, then), covers, on, from_tick, readings)
 
 
-def until(id: str, text: str, *, start: Expr, holds: Expr, release: Expr, covers: Sequence[str], on: str,
+def until(id: str, text: str, *, start: Expr, holds: Expr, release: Expr, covers: Sequence[str], on: On,
           from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
     return _property(id, text, Until(start, holds, release), covers, on, from_tick, readings)
 
 
-def reachable(id: str, text: str, *, that: Expr, covers: Sequence[str], on: str,
+def reachable(id: str, text: str, *, that: Expr, covers: Sequence[str], on: On,
               from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
     return _property(id, text, Reachable(that), covers, on, from_tick, readings)
 
 
-def leads_to(id: str, text: str, *, trigger: Expr, response: Expr, covers: Sequence[str], on: str,
+def leads_to(id: str, text: str, *, trigger: Expr, response: Expr, covers: Sequence[str], on: On,
              bound: Span | None = None, fair: Sequence[Expr] = (),
              from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
-    form = LeadsTo(trigger, response, bound, tuple(fair))
+    form = LeadsTo(trigger, response, bound, several(id, "fair", fair))
     return _property(id, text, form, covers, on, from_tick, readings)
 
 
-def settles(id: str, text: str, *, premise: Expr, then: Expr, covers: Sequence[str], on: str,
+def settles(id: str, text: str, *, premise: Expr, then: Expr, covers: Sequence[str], on: On,
             bound: Span | None = None, fair: Sequence[Expr] = (),
             readings: Sequence[str] = ()) -> Property:  # fmt: skip
-    form = Settles(premise, then, bound, tuple(fair))
+    form = Settles(premise, then, bound, several(id, "fair", fair))
     return _property(id, text, form, covers, on, 1, readings)
 
 
-def recoverable(id: str, text: str, *, to: Expr, covers: Sequence[str], on: str,
+def recoverable(id: str, text: str, *, to: Expr, covers: Sequence[str], on: On,
                 by: Expr | None = None, within: Span | None = None,
                 readings: Sequence[str] = ()) -> Property:  # fmt: skip
     if (by is None) != (within is None):

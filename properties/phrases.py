@@ -12,8 +12,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from spec_model.lang.domain import Bool, Enum, Num
-from spec_model.lang.expr import FALSE, Apply, Const, Expr, Named, Op, Temporal, Var, When
+from spec_model.lang.expr import FALSE, Apply, Const, Expr, Named, Temporal, Var, When
 from spec_model.lang.label import constant
+from spec_model.lang.operators import Op
 from spec_model.lang.time import Span
 from spec_model.lang.walk import structure
 

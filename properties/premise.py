@@ -19,7 +19,8 @@ from properties.forms import (
     Until,
 )
 from properties.phrases import as_implication
-from spec_model.lang.expr import Apply, Expr, Op
+from spec_model.lang.expr import Apply, Expr
+from spec_model.lang.operators import Op
 from spec_model.lang.words import held, previous
 
 

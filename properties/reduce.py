@@ -24,14 +24,16 @@ from properties.forms import (
     Until,
 )
 from spec_model.lang.action import Assign
-from spec_model.lang.domain import Domain, boolean, integer
+from spec_model.lang.domain import MOST, Domain, boolean, integer
 from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Op, Temporal, Var, When, all_of, ite
+from spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Temporal, Var, When, all_of, ite
 from spec_model.lang.lower.ranges import possible
-from spec_model.lang.system import Statement, TransitionSystem
+from spec_model.lang.operators import Op
+from spec_model.lang.system import Statement, System, TransitionSystem
 from spec_model.lang.time import Span
 from spec_model.lang.walk import plain, structure, variables
+from spec_model.lang.wellformed.data import twin_faults
 from spec_model.lang.words import maximum, minimum
 
 
@@ -64,6 +66,16 @@ class Question:
     goals: tuple[Goal, ...]
 
 
+def without_step(system: System) -> TransitionSystem:
+    """What properties of a system may speak of, without the step: enough to see which memories they need."""
+    places = [v for c in system.charts for v in (*c.locations, c.entered)]
+    own = [v for v in system.written.values() if v.name not in {f.name for f in system.frozen}]
+    inputs = tuple(system.inputs.values())
+    return TransitionSystem(
+        system.name, inputs, system.frozen, (*places, *own), (), (), tick_ms=system.tick_ms
+    )
+
+
 def reduce(system: TransitionSystem, properties: Sequence[Property]) -> Question:
     """Monitor the properties on the system.
 
@@ -86,7 +98,8 @@ class _Monitors:
 
     def __init__(self, system: TransitionSystem) -> None:
         self.system = system
-        self.known = {v.name for v in (*system.variables, *system.inputs, *system.frozen)}
+        self.known = {v.name: v for v in (*system.variables, *system.inputs, *system.frozen)}
+        self.taken = {*self.known, *(v.name for v in system.temps)}
         self.variables: dict[str, Var] = {}
         self.before: list[Statement] = []
         self.goals: list[Statement] = []
@@ -127,12 +140,13 @@ class _Monitors:
             case Reachable(that):
                 return all_of(armed, f(that)), None
             case Responds(trigger, response, within):
-                return self._responds(all_of(armed, f(trigger)), f(response), self._ticks(within)), response
+                ticks = self._ticks("within", within)
+                return self._responds(all_of(armed, f(trigger)), f(response), ticks), response
             case HoldsAfter(premise, for_, then):
-                held = self._held(all_of(armed, f(premise)), self._ticks(for_))
+                held = self._held(all_of(armed, f(premise)), self._ticks("for_", for_))
                 return held & ~f(then), then
             case HoldsFor(start, that, for_):
-                return self._holds_for(f(start), armed, f(that), self._ticks(for_)), that
+                return self._holds_for(f(start), armed, f(that), self._ticks("for_", for_)), that
             case LeavesOnlyIf(leaving, only_if):
                 left = self._previous(f(leaving), 0) & ~f(leaving)
                 return all_of(armed, left, ~f(only_if)), only_if
@@ -167,18 +181,23 @@ class _Monitors:
                 return Named(name, self.formula(body))
             case Apply(op, args, sort):
                 return Apply(op, tuple(self.formula(a) for a in args), sort)
-            case Var(name):
-                if name not in self.known:
-                    self._unknown(name)
-                return expr
+            case Var():
+                return self._known(expr)
             case _:
                 return expr
 
-    def _unknown(self, name: str) -> None:
-        raise ModelError(
-            f"{self._owner} reads {name}, which system {self.system.name} does not have. "
-            f"{did_you_mean(name, self.known)}"
-        )
+    def _known(self, var: Var) -> Var:
+        """The variable of the system.  Raises ``ModelError`` where raw values mean something else."""
+        own = self.known.get(var.name)
+        if own is None:
+            raise ModelError(
+                f"{self._owner} reads {var.name}, which system {self.system.name} does not have. "
+                f"{did_you_mean(var.name, self.known)}"
+            )
+        if own.sort != var.sort:
+            faults = " ".join(twin_faults(own, var))
+            raise ModelError(f"{self._owner} and system {self.system.name}: {faults}")
+        return own
 
     def _temporal(self, word: Temporal, arg: Expr) -> Expr:
         match word.when:
@@ -188,7 +207,7 @@ class _Monitors:
                 return arg & ~self._previous(arg, 1)
             case When.HELD:
                 assert word.span is not None
-                return self._held(arg, self._ticks(word.span))
+                return self._held(arg, self._ticks_of(word, word.span))
             case _:
                 return self._once(arg)
 
@@ -223,6 +242,10 @@ class _Monitors:
     def _armed(self, from_tick: int) -> Expr:
         if from_tick <= 1:
             return TRUE
+        if from_tick > MOST:
+            raise ModelError(
+                f"{self._owner}: from_tick={from_tick} is later than any board counts in 64 bits; write less."
+            )
 
         def make(name: str) -> Expr:
             past = self._variable(name, integer(0, from_tick - 1), 0, "ticks so far, saturating")
@@ -258,22 +281,42 @@ class _Monitors:
 
     def _memory(self, key: tuple[object, ...], name: str, make: Callable[[str], Expr]) -> Expr:
         if key not in self._shared:
-            unique = name if name not in self.variables else f"{name} #{len(self.variables)}"
-            self._shared[key] = make(unique)
+            self._shared[key] = make(self._unique(name))
         self._used |= set(variables(self._shared[key]))
         return self._shared[key]
+
+    def _unique(self, name: str) -> str:
+        unique, number = name, len(self.variables)
+        while unique in self.variables or unique in self.taken:
+            unique, number = f"{name} #{number}", number + 1
+        return unique
 
     def _own(self, name: str, domain: Domain, doc: str) -> Var:
         return self._variable(f"{self._owner}.{name}", domain, 0, doc)
 
     def _variable(self, name: str, domain: Domain, init: int, doc: str) -> Var:
+        if name in self.taken or name in self.variables:
+            whose = f"a variable of system {self.system.name}" if name in self.taken else "another property"
+            said = f"its monitor has the name {name}, as {whose} has"
+            raise ModelError(f"{self._owner}: {said}; give the property another id.")
         made = Var(name, domain, init, doc, hidden=True)
         self.variables[name] = made
         self._used.add(name)
         return made
 
-    def _ticks(self, span: Span) -> int:
-        return span.ticks(self.system.tick_ms)
+    def _ticks(self, argument: str, span: Span) -> int:
+        """The ticks of an argument.  Raises ``ModelError`` that names it."""
+        try:
+            return span.ticks(self.system.tick_ms)
+        except ModelError as error:
+            raise ModelError(f"{self._owner}: {argument}={error}") from None
+
+    def _ticks_of(self, word: Temporal, span: Span) -> int:
+        """The ticks of a temporal word.  Raises ``ModelError`` that shows it."""
+        try:
+            return span.ticks(self.system.tick_ms)
+        except ModelError as error:
+            raise ModelError(f"{self._owner}: `{word}`: {error}") from None
 
     def _initial(self, arg: Expr) -> int:
         """The value of a formula before the first tick; inputs have their initial values then."""
@@ -316,4 +359,4 @@ def _count(counter: Var, condition: Expr) -> Assign:
     return Assign(counter, ite(condition, minimum(counter + 1, counter.domain.high), _zero(counter)))
 
 
-__all__ = ["Goal", "Question", "reduce"]
+__all__ = ["Goal", "Question", "reduce", "without_step"]

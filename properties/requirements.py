@@ -25,6 +25,14 @@ class Requirement:
     reason: str = ""
 
 
+PROMISES = (
+    "B2-OBS-01", "B1-REF-06", "B1-REL-02", "B1-REL-04",
+    "B2-OBS-04", "B1-EST-01", "B1-REF-03", "B1-REF-05", "B1-REL-03", "B2-ACT-01",
+)  # fmt: skip
+"""What the rover is trusted with: it stops for an obstacle, stands still when something is critical, hands
+the motors over; then the same when it is degraded, what else stops it, and who may move it."""
+
+
 @cache
 def requirements() -> dict[str, Requirement]:
     """Every requirement by id, in document order."""

@@ -1,8 +1,8 @@
 """What must be true of the sonar and joystick tasks of Board 2, and of stale sonar data [seed §1.3]."""
 
+from properties.document.distances import NO_ECHO
 from properties.forms import always, enters_only_if, reachable, responds
 from spec_model.board2.acquisition import (
-    NO_ECHO,
     axis_x,
     axis_y,
     both_edges,

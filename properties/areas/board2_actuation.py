@@ -1,7 +1,6 @@
 """What must be true of the wheel speeds that Board 2 commands [seed §3.1] (E25)."""
 
 from properties.forms import always, holds_after, reachable
-from spec_model.board2.actuation import LIMIT, RAMP
 from spec_model.lang.expr import all_of, implies
 from spec_model.lang.time import ticks
 from spec_model.lang.words import absolute, named, previous
@@ -18,6 +17,8 @@ from spec_model.signals.board2_supervisor import (
 ON, ALONE = "actuation_2", "board2_on_its_own"
 autorized = autorized_to_send_command
 at_rest = named("wheel speeds of 0 commanded", (left_rpm == 0) & (right_rpm == 0))
+LIMIT, RAMP = 80, 4
+"""Half of the full scale of 160 rpm; rpm from one command to the next [design] (E25)."""
 no_motion = named("zero references", (v_ref_actuation == 0) & (omega_ref_actuation == 0))
 
 PB2_16m = always(

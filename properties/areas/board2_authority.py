@@ -1,5 +1,8 @@
 """What must be true of the authorisation of Board 2 and of the state it then works in (E22) [seed §3.1]."""
 
+from properties.document.causes import emergency, q
+from properties.document.distances import within
+from properties.document.sources import RX, SUP, silent
 from properties.forms import (
     always,
     enters_only_if,
@@ -8,16 +11,12 @@ from properties.forms import (
     leaves_only_if,
     reachable,
 )
-from spec_model.board2.failure_check import check_board1, q
-from spec_model.board2.monitors import silent
-from spec_model.board2.safety import emergency, safety_state_2
+from spec_model.board2.failure_check import check_board1
+from spec_model.board2.safety import safety_state_2
 from spec_model.lang.expr import implies
 from spec_model.lang.time import tick, ticks
 from spec_model.lang.words import held, named, previous
-from spec_model.signals.board2 import within
 from spec_model.signals.board2_supervisor import (
-    RX,
-    SUP,
     autorized_to_send_command,
     cmd,
     rover_safety_state,

@@ -1,21 +1,34 @@
 """What must be true of the coherence of IMU and odometry on Board 2 [seed §2.2 for the purpose]."""
 
+from collections.abc import Sequence
+
 from properties.forms import always, reachable, until
 from spec_model.board2.coherence import (
     differs,
-    hits,
     long_ends,
     long_result,
+    ring,
     short_ends,
     short_result,
 )
-from spec_model.lang.expr import implies
-from spec_model.lang.words import previous
+from spec_model.lang.expr import Expr, const, implies, ite
+from spec_model.lang.words import bit, previous
 from spec_model.signals.board2_supervisor import is_motion_consistent
 
 LONG, SHORT = "coherence_long", "coherence_short"
 BLOCKED, SPINNING = "coherence_blocked", "coherence_spinning"
 incoherent = ~is_motion_consistent
+
+
+def _number(conditions: Sequence[Expr]) -> Expr:
+    total: Expr = const(0)
+    for condition in conditions:
+        total = total + ite(condition, const(1), const(0))
+    return total
+
+
+hits = _number([bit(ring, i) for i in range(10)])
+"""Hits among the last ten short windows [design]."""
 
 PB2_28a = always(
     "PB2-28a", "A long window that ends with a difference of 5° or more makes the motion inconsistent.",

@@ -1,7 +1,7 @@
 """What must be true of the fault masks of Board 2 and of the classes of faults [seed §2.2, §3.1] (E24)."""
 
+from properties.document.masks import BOARD_2
 from properties.forms import always, reachable
-from spec_model.board2.masks import COMPONENTS
 from spec_model.lang.expr import all_of, any_of
 from spec_model.lang.words import bit
 from spec_model.signals.board2_supervisor import (
@@ -20,17 +20,17 @@ COVERS = ["B1-MASK-01", "B2-FLT-02", "B2-COM-07"]
 
 PB1_10d = always(
     "PB1-10d", "Board 2: bit i of the critical mask is set if and only if source i is critical.",
-    that=all_of(*(bit(critical_mask, i) == (s == critical) for i, (s, critical, _) in enumerate(COMPONENTS))),
+    that=all_of(*(bit(critical_mask, i) == (s == critical) for i, (s, critical, _) in enumerate(BOARD_2))),
     covers=COVERS, on=ON, from_tick=2, readings=["E24"],
 )  # fmt: skip
 PB1_10e = always(
     "PB1-10e", "Board 2: bit i of the degraded mask is set if and only if source i is degraded.",
-    that=all_of(*(bit(degraded_mask, i) == (s == degraded) for i, (s, _, degraded) in enumerate(COMPONENTS))),
+    that=all_of(*(bit(degraded_mask, i) == (s == degraded) for i, (s, _, degraded) in enumerate(BOARD_2))),
     covers=COVERS, on=ON, from_tick=2, readings=["E24"],
 )  # fmt: skip
 PB1_10f = always(
     "PB1-10f", "Board 2: no bit is set in both masks.",
-    that=all_of(*(~(bit(critical_mask, i) & bit(degraded_mask, i)) for i in range(len(COMPONENTS)))),
+    that=all_of(*(~(bit(critical_mask, i) & bit(degraded_mask, i)) for i in range(len(BOARD_2)))),
     covers=COVERS, on=ON, from_tick=2, readings=["E24"],
 )  # fmt: skip
 PB2_14e = always(

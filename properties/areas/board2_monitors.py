@@ -5,6 +5,7 @@
 
 from collections.abc import Sequence
 
+from properties.document.sources import BLE, IMU, RX, SUP, Source, silent
 from properties.forms import (
     Property,
     always,
@@ -15,12 +16,16 @@ from properties.forms import (
     reachable,
     until,
 )
-from spec_model.board2.monitor_systems import twin
-from spec_model.board2.monitors import monitor_sources, silent
-from spec_model.lang.expr import Expr, all_of, any_of, implies
+from spec_model.board2.monitor_systems import (
+    twin_esp_status,
+    twin_imu_status,
+    twin_rx_status,
+    twin_sup_status,
+)
+from spec_model.board2.monitors import monitor_sources
+from spec_model.lang.expr import Expr, Var, all_of, any_of, implies
 from spec_model.lang.time import ticks
 from spec_model.lang.words import held, previous
-from spec_model.signals.board2_supervisor import BLE, IMU, RX, SUP, Source
 
 TICK = 20
 
@@ -91,6 +96,32 @@ PB2_19g = holds_for(
     covers=["B2-FLT-01"], on=alone(SUP), from_tick=2, readings=["E29"],
 )  # fmt: skip
 
+
+def _at_once(id: str, source: Source, what: str) -> Property:
+    fine = previous(ok(source) & ~source.deg)
+    return always(
+        id, f"{what}, OK and not slow, is critical as soon as its stamp is over {source.limit} ms old.",
+        that=implies(fine & silent(source), critical(source)),
+        covers=["B2-FLT-01"], on=alone(source), from_tick=2,
+    )  # fmt: skip
+
+
+def _only_silent(id: str, source: Source, what: str) -> Property:
+    return always(
+        id, f"{what} becomes critical only with a stamp that is over {source.limit} ms old.",
+        that=implies(critical(source) & ~previous(critical(source)), silent(source)),
+        covers=["B2-FLT-01"], on=alone(source), from_tick=2,
+    )  # fmt: skip
+
+
+PB2_19h = _at_once("PB2-19h", SUP, "The supervisor of Board 1")
+PB2_19i = _at_once("PB2-19i", BLE, "The joystick link")
+PB2_19j = _at_once("PB2-19j", IMU, "The IMU")
+PB2_19k = _at_once("PB2-19k", RX, "The reception from Board 1")
+PB2_19l = _only_silent("PB2-19l", SUP, "The supervisor of Board 1")
+PB2_19m = _only_silent("PB2-19m", BLE, "The joystick link")
+PB2_19n = _only_silent("PB2-19n", IMU, "The IMU")
+
 # --- PB2-20: while the silence lasts the source stays critical -----------------------------------------
 
 
@@ -153,18 +184,18 @@ PB2_21j = precedes(
 )  # fmt: skip
 
 
-def _alone(id: str, source: Source, what: str) -> Property:
+def _alone(id: str, source: Source, twin: Var, what: str) -> Property:
     return always(
         id, f"Two boards that see the same stamps of {what} give it the same status, whatever else they see.",
-        that=source.status == twin(source).status,
+        that=source.status == twin,
         covers=["B2-FLT-01"], on=f"monitors_2_twice_{source.region}",
     )  # fmt: skip
 
 
-PB2_21k = _alone("PB2-21k", SUP, "the supervisor of Board 1")
-PB2_21l = _alone("PB2-21l", BLE, "the joystick link")
-PB2_21m = _alone("PB2-21m", IMU, "the IMU")
-PB2_21n = _alone("PB2-21n", RX, "the reception")
+PB2_21k = _alone("PB2-21k", SUP, twin_sup_status, "the supervisor of Board 1")
+PB2_21l = _alone("PB2-21l", BLE, twin_esp_status, "the joystick link")
+PB2_21m = _alone("PB2-21m", IMU, twin_imu_status, "the IMU")
+PB2_21n = _alone("PB2-21n", RX, twin_rx_status, "the reception")
 
 # --- reachability --------------------------------------------------------------------------------------
 
@@ -191,9 +222,10 @@ REACH_B2_RX_DEG_OK = reachable(
 REACH_B2_BLE_CRIT = _arrow("REACH-B2-BLE-CRIT", BLE, "OK", "CRIT", "The joystick link can fall silent.")
 REACH_B2_IMU_CRIT = _arrow("REACH-B2-IMU-CRIT", IMU, "OK", "CRIT", "The IMU can fall silent.")
 REACH_B2_RX_CRIT = _arrow("REACH-B2-RX-CRIT", RX, "OK", "CRIT", "The reception can fall silent.")
+NOT_SHARED = ((SUP, twin_sup_status), (IMU, twin_imu_status), (RX, twin_rx_status))
 REACH_B2_TWICE = reachable(
     "REACH-B2-TWICE", "With the same joystick stamps the two boards can differ in everything else.",
-    that=all_of(ok(BLE), *(ok(s) & critical(twin(s)) for s in (SUP, IMU, RX))),
+    that=all_of(ok(BLE), *(ok(s) & (twin == s.levels[2]) for s, twin in NOT_SHARED)),
     covers=["B2-FLT-01"], on="monitors_2_apart_BLE",
 )  # fmt: skip
 REACH_B2_BLE_PERIODIC = reachable(

@@ -1,13 +1,13 @@
 """What must be true of the references with which Board 2 moves the rover [seed §3.1, §3.4.2, Fig 20]."""
 
+from properties.document.causes import emergency
+from properties.document.distances import within
 from properties.forms import Property, always, enters_only_if, holds_after, leaves_only_if, never, reachable
 from spec_model.board2.backward import toggle_2
 from spec_model.board2.motion import motion_supervision_2
-from spec_model.board2.safety import emergency
 from spec_model.lang.expr import TRUE, Expr, all_of, any_of, implies
 from spec_model.lang.time import Span, tick, ticks
 from spec_model.lang.words import absolute, held, named, previous, rising
-from spec_model.signals.board2 import within
 from spec_model.signals.board2_motion import (
     actuate_emergency_stop,
     angle_err,

@@ -1,5 +1,6 @@
 """What must be true of both boards together, step by step: relay, authorisation, stops across the link."""
 
+from properties.document.distances import within
 from properties.forms import always, costly, holds_after, leaves_only_if, never, responds, settles, until
 from spec_model.board1.motion import motion_supervision
 from spec_model.composition.motors import board1_powered, connected, followed, motors_zero, runs_1
@@ -13,7 +14,7 @@ from spec_model.signals import board2_supervisor as b2
 
 drive1 = named("Board 1 actuates", ~b1.give_b2_actuation)
 drive2 = named("Board 2 is authorised", b2.autorized_to_send_command)
-near_70, near_300 = obstacles.within(70), obstacles.within(300)
+near_70, near_300 = within(70), within(300)
 zero_1 = named("zero references of Board 1", (b1.v_ref == 0) & (b1.omega_ref == 0))
 COMMANDS = ("CMD_NORMAL", "CMD_GO_LEFT", "CMD_GO_RIGHT", "CMD_ESTOP")
 stop_commanded = b1.cmd == "CMD_ESTOP"
@@ -37,7 +38,7 @@ PSY_02a = never(
 )  # fmt: skip
 PSY_02b = never(
     "PSY-02b", "Board 1 actuates and Board 2 is authorised in four steps in a row in which no frame is lost.",
-    that=held(drive1 & drive2 & b1.rx_update & b2.RX.update, for_=3 * ticks),
+    that=held(drive1 & drive2 & b1.rx_update & b2.rx_update, for_=3 * ticks),
     covers=["B1-REL-03", "B2-ACT-01"], on="rover_plain", from_tick=2, readings=["E22"],
 )  # fmt: skip
 PSY_07a = always(
@@ -91,18 +92,18 @@ PSY_15 = holds_after(
     "PSY-15",
     "When Board 2 has received no frame for 200 ms, Board 1 driving and receiving, both references are at "
     "most 0.5.",
-    premise=~b2.RX.update & b1.rx_update & drive1, for_=9 * ticks,
+    premise=~b2.rx_update & b1.rx_update & drive1, for_=9 * ticks,
     then=(absolute(b1.v_ref) <= 0.5) & (absolute(b1.omega_ref) <= 0.5),
     covers=["B1-REF-05", "B1-REF-07"], on="rover_plain", from_tick=2, readings=["S55"],
 )  # fmt: skip
 PSY_17a = never(
     "PSY-17a", "A non-zero speed reaches the motors before Board 2 has read the IMU once.",
-    that=~motors_zero & ~once(b2.IMU.update),
+    that=~motors_zero & ~once(b2.imu_update),
     covers=["B2-FLT-01"], on="rover_no_loss", readings=[],
 )  # fmt: skip
 PSY_17b = costly(never(
     "PSY-17b", "A non-zero speed reaches the motors before Board 2 has read the joystick once.",
-    that=~motors_zero & ~once(b2.BLE.update),
+    that=~motors_zero & ~once(b2.ble_update),
     covers=["B1-REF-02"], on="rover_no_loss", readings=[],
 ))  # fmt: skip
 PSY_20a = always(
@@ -125,19 +126,19 @@ PSY_05c = always(
 )  # fmt: skip
 PSY_07b = always(
     "PSY-07b", "Board 2 is authorised in the first step with a last frame of Board 1 over 120 ms old.",
-    that=implies(b2.RX.age > 120, drive2),
+    that=implies(b2.rx_age > 120, drive2),
     covers=["B1-REL-05", "B2-ACT-01"], on="check_board1_fading", from_tick=2, readings=["S47"],
 )  # fmt: skip
 PSY_07c = holds_after(
     "PSY-07c", "Board 2 is authorised in the second step with a last frame of Board 1 over 120 ms old.",
-    premise=b2.RX.age > 120, for_=1 * tick, then=drive2,
+    premise=b2.rx_age > 120, for_=1 * tick, then=drive2,
     covers=["B1-REL-05", "B2-ACT-01"], on="check_board1_links_free", from_tick=2, readings=["S47"],
 )  # fmt: skip
 PSY_09 = costly(responds(
     "PSY-09",
     "Within 100 ms of Board 1 taking the motors back, both links without loss for 3.02 s, Board 2 is no "
     "longer authorised.",
-    trigger=drive1 & previous(~drive1) & held(b1.rx_update & b2.RX.update, for_=151 * ticks),
+    trigger=drive1 & previous(~drive1) & held(b1.rx_update & b2.rx_update, for_=151 * ticks),
     response=~drive2, within=5 * ticks,
     covers=["B1-REL-03", "B2-ACT-01"], on="rover_plain", from_tick=2, readings=["S45", "E22"],
 ))  # fmt: skip

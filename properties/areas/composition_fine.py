@@ -1,5 +1,6 @@
 """Latencies through both boards in milliseconds, for arbitrary phases [system: chains of hops]."""
 
+from properties.document.distances import within
 from properties.forms import always, holds_after, responds, until
 from spec_model.composition.fine_systems import (
     critical_sent,
@@ -16,7 +17,7 @@ from spec_model.lang.expr import implies
 from spec_model.lang.time import ms, tick
 from spec_model.lang.words import named, previous
 from spec_model.signals.board1 import cmd, give_b2_actuation, is_rotating180, rx_status, v_ref, y_norm
-from spec_model.signals.board2 import command, within
+from spec_model.signals.board2 import command
 from spec_model.signals.board2_supervisor import autorized_to_send_command, sends_speeds
 
 driven_forward = named(

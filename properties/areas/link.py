@@ -5,6 +5,9 @@ from spec_model.composition import counters, receiver
 from spec_model.lang.expr import Expr, implies, ite
 from spec_model.lang.words import modulo, previous
 
+FRAME, MODULUS = 6, 16
+"""Bytes of a frame and range of the alive counter, both as small as the model of the link has them."""
+
 
 def _ago(condition: Expr, count: int) -> Expr:
     """The condition ``count`` ticks ago."""
@@ -30,13 +33,13 @@ PSY_16c = always(
 )  # fmt: skip
 REACH_RECEIVER_ACCEPTS = reachable(
     "REACH-RECEIVER-ACCEPTS", "Two frames can be accepted one directly after the other.",
-    that=receiver.accepted & _ago(receiver.accepted, receiver.LENGTH),
+    that=receiver.accepted & _ago(receiver.accepted, FRAME),
     covers=["B2-COM-03"], on="receiver",
 )  # fmt: skip
 PSY_21a = always(
     "PSY-21a", "The alive counter rises by exactly 1 in each execution and stays in between.",
     that=counters.counter
-    == modulo(previous(counters.counter) + ite(counters.executes, 1, 0), counters.MODULUS),
+    == modulo(previous(counters.counter) + ite(counters.executes, 1, 0), MODULUS),
     covers=["B2-COM-06", "B1-SUP-01"], on="counters", from_tick=2, readings=["S40"],
 )  # fmt: skip
 PSY_21b = always(

@@ -2,13 +2,11 @@
 
 from properties.areas.motion import calm, resumed
 from properties.forms import leads_to, recoverable, settles
-from spec_model.board2.obstacles import obstacles_n
+from spec_model.board2.obstacles import drawn_n as chart
 from spec_model.lang.expr import all_of
 from spec_model.lang.time import ticks
 from spec_model.signals.board1 import is_rotating180
-from spec_model.signals.board2 import SONARS, B2Decision, prevDEG_B1
-
-chart = obstacles_n()
+from spec_model.signals.board2 import B2Decision, d1, d2, d3, prevDEG_B1
 
 # --- the stop of Board 1 is released [seed §2.3]; steps are those in which Board 1 actuates ----------
 
@@ -63,6 +61,6 @@ PB2_09c_ends_right = leads_to(
 PB2_23_back = recoverable(
     "PB2-23-back", "From everywhere the chart can come back to Waiting.",
     to=chart.active("B2Decisions.Waiting"),
-    by=all_of(prevDEG_B1, *(d > 300 for d in SONARS)), within=2 * ticks,
+    by=all_of(prevDEG_B1, *(d > 300 for d in (d1, d2, d3))), within=2 * ticks,
     covers=["B2-OBS-05"], on="obstacles_n_free",
 )  # fmt: skip

@@ -1,27 +1,33 @@
 """What must be true of the fault masks of Board 1 [seed §2.3, §2.6, Tables 1 and 3]."""
 
+from properties.document.masks import BOARD_1, WHEELS
 from properties.forms import always, reachable
-from spec_model.board1.masks import COMPONENTS
 from spec_model.lang.expr import all_of
 from spec_model.lang.words import bit
-from spec_model.signals.board1 import WHEELS, critical_mask, degraded_mask, wheel_status
+from spec_model.signals.board1 import b1_critical, b1_degraded, critical_mask, degraded_mask, wheel_status
 
 ON = "masks"
 
 PB1_10a = always(
     "PB1-10a", "Bit i of the critical mask is set if and only if component i is critical.",
-    that=all_of(*(bit(critical_mask, i) == (s == critical) for i, (s, critical, _) in enumerate(COMPONENTS))),
+    that=all_of(*(bit(critical_mask, i) == (s == critical) for i, (s, critical, _) in enumerate(BOARD_1))),
     covers=["B1-MASK-01", "B1-MASK-02"], on=ON, from_tick=2, readings=["S51"],
 )  # fmt: skip
 PB1_10b = always(
     "PB1-10b", "Bit i of the degraded mask is set if and only if component i is degraded.",
-    that=all_of(*(bit(degraded_mask, i) == (s == degraded) for i, (s, _, degraded) in enumerate(COMPONENTS))),
+    that=all_of(*(bit(degraded_mask, i) == (s == degraded) for i, (s, _, degraded) in enumerate(BOARD_1))),
     covers=["B1-MASK-01", "B1-MASK-03"], on=ON, from_tick=2, readings=["S51"],
 )  # fmt: skip
 PB1_10c = always(
     "PB1-10c", "No bit is set in both masks.",
-    that=all_of(*(~(bit(critical_mask, i) & bit(degraded_mask, i)) for i in range(len(COMPONENTS)))),
+    that=all_of(*(~(bit(critical_mask, i) & bit(degraded_mask, i)) for i in range(len(BOARD_1)))),
     covers=["B1-MASK-02", "B1-MASK-03"], on=ON, from_tick=2, readings=["S52"],
+)  # fmt: skip
+PB1_10g = always(
+    "PB1-10g",
+    "A bit of the critical mask is a critical cause of Board 1, one of the degraded mask a degraded one.",
+    that=all_of(b1_critical == (critical_mask != 0), b1_degraded == (degraded_mask != 0)),
+    covers=["B1-REF-07"], on=ON,
 )  # fmt: skip
 PB1_31a = always(
     "PB1-31a", "Bit i + 2 of one of the two masks is set if and only if wheel i is not OK.",

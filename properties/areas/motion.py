@@ -1,9 +1,11 @@
 """What must be true of the stop, the 180° rotation and backward mode of Board 1 [seed §2.2, §2.3, Fig 19]."""
 
 from properties.areas.references import drives, running
+from properties.document.causes import critical
 from properties.forms import (
     Property,
     always,
+    costly,
     enters_only_if,
     holds_after,
     leaves_only_if,
@@ -12,8 +14,7 @@ from properties.forms import (
 )
 from spec_model.board1.backward import toggle
 from spec_model.board1.motion import motion_supervision
-from spec_model.board1.safety import critical
-from spec_model.lang.expr import TRUE, Expr, implies
+from spec_model.lang.expr import TRUE, Expr, all_of, implies
 from spec_model.lang.time import ticks
 from spec_model.lang.words import absolute, held, named, once, previous, rising
 from spec_model.signals.board1 import (
@@ -30,6 +31,7 @@ from spec_model.signals.board1 import (
     rover_safety_state,
     v_ref,
     v_user,
+    wheel_speed_rpm,
     wheels_below_2_5,
     x_norm,
     y_norm,
@@ -61,6 +63,12 @@ PB1_24c = enters_only_if(
     entering=at_rest, only_if=previous(held(stopped & wheels_below_2_5, for_=49 * ticks)),
     covers=["B1-EST-01"], on=EXECUTED, from_tick=2, readings=["S62"],
 )  # fmt: skip
+
+PB1_24d = costly(always(
+    "PB1-24d", "The rover counts as standing where all four wheels are slower than 2.5 rpm.",
+    that=wheels_below_2_5 == all_of(*(absolute(speed) < 2.5 for speed in wheel_speed_rpm.values())),
+    covers=["B1-EST-01"], on="board1", readings=["S62"],
+))  # fmt: skip
 
 calm = named(
     "calm",

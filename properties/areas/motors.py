@@ -1,14 +1,16 @@
 """What must be true of the motor driver behind the relay: when the motors move, and when they stop."""
 
 from properties.forms import always, holds_after
-from spec_model.composition.motors import connected, followed, motors_zero, zero_1, zero_2
+from spec_model.composition.motors import connected, followed, motors_zero
 from spec_model.lang.expr import any_of, implies
 from spec_model.lang.time import ticks
 from spec_model.lang.words import named
-from spec_model.signals.board1 import actuate_emergency_stop
-from spec_model.signals.board2_supervisor import stop_pin
+from spec_model.signals.board1 import actuate_emergency_stop, omega_ref, v_ref
+from spec_model.signals.board2_supervisor import left_rpm, right_rpm, stop_pin
 
 ON = "motors"
+zero_1 = (v_ref == 0) & (omega_ref == 0)
+zero_2 = (left_rpm == 0) & (right_rpm == 0)
 stopped = named(
     "the stop pin of the connected board stops",
     ((connected == "Board1") & actuate_emergency_stop) | ((connected == "Board2") & stop_pin),

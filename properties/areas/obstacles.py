@@ -4,8 +4,9 @@ The systems named ``..._free``, ``..._straight`` and so on have every run of the
 more, so that what is proved on them holds for the chart; ``obstacles_n`` is the chart as drawn.
 """
 
+from properties.document.distances import within
 from properties.forms import always, enters_only_if, holds_after, leaves_only_if, never, responds
-from spec_model.board2.obstacles import obstacles_n
+from spec_model.board2.obstacles import drawn_n as chart
 from spec_model.board2.systems import targetAngle, yaw
 from spec_model.environment2 import echo
 from spec_model.lang.expr import all_of, any_of, implies
@@ -16,13 +17,14 @@ from spec_model.signals.board2 import (
     B2Dec,
     B2Decision,
     command,
-    objDetected,
+    obj1Detected,
+    obj2Detected,
+    obj3Detected,
     prevDEG_B1,
     stop,
-    within,
 )
 
-chart = obstacles_n()
+DETECTED = (obj1Detected, obj2Detected, obj3Detected)
 near = within(70)
 echo_near = named("nearest echo <= 70", any_of(*(e <= 70 for e in echo)))
 stopped = named("DEC = 1", B2Decision == 1)
@@ -133,7 +135,7 @@ PB2_04_start = enters_only_if(
 
 PB2_04b = always(
     "PB2-04b", "While an obstacle is at 70 cm or less the three detection flags do not change.",
-    that=implies(stop, all_of(*(detected == previous(detected) for detected in objDetected))),
+    that=implies(stop, all_of(*(seen == previous(seen) for seen in DETECTED))),
     covers=["B2-OBS-15"], on="obstacles_n_free", readings=("E02", "E18", "E27"),
 )  # fmt: skip
 

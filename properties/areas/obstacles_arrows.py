@@ -4,7 +4,7 @@ An arrow is known by what it alone does: the states before and after it, or the 
 """
 
 from properties.forms import Property, reachable
-from spec_model.board2.obstacles import obstacles_n
+from spec_model.board2.obstacles import drawn_n as chart
 from spec_model.lang.expr import Expr, all_of
 from spec_model.lang.words import previous, rising
 from spec_model.signals.board2 import (
@@ -14,7 +14,6 @@ from spec_model.signals.board2 import (
     prevDEG_B1,
 )
 
-chart = obstacles_n()
 again = chart.active("check_sonars_for_moving_again")
 waiting, emergency = chart.active("B2Decisions.Waiting"), chart.active("InEmergency")
 to_S1, to_S2, to_S3 = (chart.active(f"MoveToS{i}") for i in (1, 2, 3))

@@ -1,9 +1,10 @@
 """Obstacles in the degraded state, the choice between the two charts, and the command for Board 1."""
 
+from properties.document.distances import within
 from properties.forms import always, holds_after
 from spec_model.lang.expr import any_of, implies
 from spec_model.lang.time import tick
-from spec_model.signals.board2 import DEG_B1, B2Dec, B2DecDegraded, command, within
+from spec_model.signals.board2 import DEG_B1, B2Dec, B2DecDegraded, command
 
 inside_3m = within(300)
 

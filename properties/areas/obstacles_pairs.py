@@ -5,26 +5,27 @@ A pair is named by its sonars, first seen first: pair 12 sees an obstacle move f
 
 from dataclasses import dataclass
 
+from properties.document.distances import in_range, within
 from properties.forms import Property, always, enters_only_if, until
-from spec_model.board2.obstacles import obstacles_n
+from spec_model.board2.obstacles import drawn_n as chart
 from spec_model.lang.expr import Expr, Var, all_of, any_of, implies
 from spec_model.lang.time import ticks
 from spec_model.lang.words import held, named, previous
 from spec_model.signals.board2 import (
-    SONARS,
     B2Decision,
-    in_range,
+    d1,
+    d2,
+    d3,
+    isClose,
     obj1Detected,
     obj2Detected,
     obj3Detected,
-    objDetected,
     prevDEG_B1,
-    within,
 )
 
-chart = obstacles_n()
+SONARS, DETECTED = (d1, d2, d3), (obj1Detected, obj2Detected, obj3Detected)
 near = within(70)
-lost = tuple(named(f"S{i} loses its object", previous(d) & ~d) for i, d in enumerate(objDetected, 1))
+lost = tuple(named(f"S{i} loses its object", previous(d) & ~d) for i, d in enumerate(DETECTED, 1))
 
 
 @dataclass(frozen=True)
@@ -73,6 +74,14 @@ def recently(event: Expr) -> Expr:
     """The event was in this step or one of the 149 before it."""
     return ~held(~event, 149 * ticks)
 
+
+# --- the range in which a moving obstacle is looked for --------------------------------------------
+
+PB2_05c = always(
+    "PB2-05c", "A sonar is said to be close at the end of a step if it measures more than 100, up to 300 cm.",
+    that=all_of(*(said == in_range(d) for said, d in zip(isClose, SONARS, strict=True))),
+    covers=["B2-OBS-16"], on="obstacles_n_free", readings=("E01", "E03"),
+)  # fmt: skip
 
 # --- no signal without its cause -------------------------------------------------------------------
 

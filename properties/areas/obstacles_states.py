@@ -1,13 +1,10 @@
 """Every state of the obstacle charts can be reached, and every window of 3 s can end either way."""
 
 from properties.forms import Property, reachable
-from spec_model.board2.obstacles import obstacles_n
-from spec_model.board2.obstacles_degraded import obstacles_degraded
+from spec_model.board2.obstacles import drawn_n as chart
+from spec_model.board2.obstacles_degraded import drawn_d as degraded
 from spec_model.lang.words import previous
 from spec_model.signals.board2 import obj2Detected
-
-chart = obstacles_n()
-degraded = obstacles_degraded()
 
 
 def reached(id: str, state: str, *covers: str) -> Property:

@@ -1,8 +1,8 @@
 """What must be true of the references and the emergency stop of Board 1 [seed §2.2, §2.3, §2.7, Fig 20]."""
 
+from properties.document.causes import critical, degraded
 from properties.forms import always, holds_after, reachable, until
 from spec_model.board1.motion import motion_supervision
-from spec_model.board1.safety import critical, degraded
 from spec_model.lang.expr import Expr, all_of, any_of, implies
 from spec_model.lang.time import tick, ticks
 from spec_model.lang.words import absolute, named, previous

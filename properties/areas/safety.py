@@ -1,11 +1,20 @@
 """What must be true of the safety state of the rover [seed §2.7, Fig 21]."""
 
+from properties.document.causes import critical, degraded
 from properties.forms import always, holds_after, reachable, responds
-from spec_model.board1.safety import critical, degraded, safety_state
-from spec_model.lang.expr import implies
+from spec_model.board1.safety import safety_state
+from spec_model.lang.expr import all_of, implies
 from spec_model.lang.time import tick
-from spec_model.lang.words import named
-from spec_model.signals.board1 import give_b2_actuation, rover_safety_state
+from spec_model.lang.words import bit, named
+from spec_model.readings import choose
+from spec_model.signals.board1 import (
+    b2_critical,
+    b2_degraded,
+    crit_mask_b2,
+    degr_mask_b2,
+    give_b2_actuation,
+    rover_safety_state,
+)
 
 ON = "safety"
 CRITICAL = rover_safety_state == "SAFETY_CRITICAL"
@@ -51,6 +60,20 @@ PB1_16g = always(
     "PB1-16g", "While Board 1 actuates, without any cause the safety state is OK in the same step.",
     that=implies(drives & ~critical & ~degraded, ~NOT_OK),
     covers=["B1-REF-07"], on=ON, from_tick=2, readings=["S55", "S56"],
+)  # fmt: skip
+
+bit_0, bit_1, bit_2, bit_3 = (bit(crit_mask_b2, i) for i in range(4))
+any_critical, any_degraded = crit_mask_b2 != 0, degr_mask_b2 != 0
+stops = choose("S54", {"B2BITS": bit_0 | bit_1, "SAME-AS-B1": bit_0 | bit_1 | bit_3})
+slows = choose("S54", {"B2BITS": bit_2 | bit_3, "SAME-AS-B1": bit_2})
+PB1_16h = always(
+    "PB1-16h",
+    "Of Board 2, critical bits 0 and 1 are a critical cause; 2, 3 and any degraded bit are a degraded one.",
+    that=all_of(
+        b2_critical == choose("S55", {"CLASSIFIED": stops, "ANY-BIT": any_critical}),
+        b2_degraded == choose("S55", {"CLASSIFIED": slows | any_degraded, "ANY-BIT": any_degraded}),
+    ),
+    covers=["B1-REF-07"], on=ON, readings=["S54", "S55"],
 )  # fmt: skip
 
 REACH_SAFETY_DEGRADED = reachable(

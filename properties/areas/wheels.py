@@ -2,10 +2,11 @@
 
 from collections.abc import Callable, Iterator
 
+from properties.document.masks import WHEELS
 from properties.forms import Property, always, reachable
-from spec_model.board1.wheels import monitor_wheels
+from spec_model.board1.wheels import monitor_wheel_FL, monitor_wheel_FR
 from spec_model.lang.expr import Expr, implies
-from spec_model.signals.board1 import WHEELS, has_no_feedback, is_motion_consistent, wheel_status
+from spec_model.signals.board1 import has_no_feedback, is_motion_consistent, wheel_status
 
 consistent = is_motion_consistent
 
@@ -61,14 +62,14 @@ PB1_30c_FL, PB1_30c_FR, PB1_30c_RL, PB1_30c_RR = _each(
 
 REACH_WHEEL_DEG = reachable(
     "REACH-WHEEL-DEG", "A wheel can have a degraded encoder.",
-    that=monitor_wheels[0].active("Wheel_DEG"), covers=["B1-WHL-01"], on="wheel_FL",
+    that=monitor_wheel_FL.active("Wheel_DEG"), covers=["B1-WHL-01"], on="wheel_FL",
 )  # fmt: skip
 REACH_WHEEL_CRIT = reachable(
     "REACH-WHEEL-CRIT", "A wheel can be critical.",
-    that=monitor_wheels[0].active("Wheel_CRIT"), covers=["B1-WHL-03"], on="wheel_FL",
+    that=monitor_wheel_FL.active("Wheel_CRIT"), covers=["B1-WHL-03"], on="wheel_FL",
 )  # fmt: skip
 REACH_WHEELS_DIFFER = reachable(
     "REACH-WHEELS-DIFFER", "One wheel can be critical while another is not.",
-    that=monitor_wheels[0].active("Wheel_CRIT") & ~monitor_wheels[1].active("Wheel_CRIT"),
+    that=monitor_wheel_FL.active("Wheel_CRIT") & ~monitor_wheel_FR.active("Wheel_CRIT"),
     covers=["B1-WHL-03"], on="board1", readings=["S33"],
 )  # fmt: skip

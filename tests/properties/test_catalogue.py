@@ -4,6 +4,7 @@ from functools import cache
 
 import pytest
 
+from checker.model.checks import property_faults, system_faults
 from properties.catalogue import baseline, catalogue
 from properties.forms import Property
 from properties.reduce import reduce
@@ -25,6 +26,11 @@ def test_a_property_is_one_sentence_about_a_known_system(prop: Property) -> None
     assert prop.text.endswith(".") and (first[0].isupper() or "_" in first or "." in first)
     assert prop.on in systems()
     assert reduce(lowered(prop.on), [prop]).goals[0].property is prop
+
+
+def test_systems_and_properties_are_what_a_model_of_a_user_must_be() -> None:
+    assert [fault for system in systems().values() for fault in system_faults(system, "here")] == []
+    assert [fault for prop in ALL for fault in property_faults(prop, systems())] == []
 
 
 def test_every_chart_is_spoken_of() -> None:

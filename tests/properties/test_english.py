@@ -13,8 +13,9 @@ from properties.english import definitions, sentence
 from properties.forms import Property
 from properties.phrases import Voice, clause, term
 from spec_model.lang.domain import enumeration, fixed, integer
-from spec_model.lang.expr import FALSE, TRUE, Expr, Named, Op, any_of, const, flag, implies, ite, var
+from spec_model.lang.expr import FALSE, TRUE, Expr, Named, any_of, const, flag, implies, ite, var
 from spec_model.lang.label import text
+from spec_model.lang.operators import Op
 from spec_model.lang.time import ms, sec, ticks
 from spec_model.lang.walk import nodes, structure
 from spec_model.lang.words import (

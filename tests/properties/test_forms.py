@@ -1,6 +1,7 @@
 """Every form of property against its definition, written out over finite runs."""
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 import pytest
 from hypothesis import given
@@ -9,11 +10,14 @@ from hypothesis import strategies as st
 from properties import forms
 from properties.forms import Form, Property
 from properties.reduce import reduce
-from spec_model.lang.action import Assign
+from spec_model.lang.action import Assign, assign
+from spec_model.lang.chart import Block
+from spec_model.lang.domain import enumeration, fixed, integer
 from spec_model.lang.errors import ModelError
 from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Expr, flag
-from spec_model.lang.system import TransitionSystem
+from spec_model.lang.expr import Expr, Var, flag, var
+from spec_model.lang.lower import lower
+from spec_model.lang.system import TransitionSystem, in_order
 from spec_model.lang.time import ms, ticks
 from spec_model.lang.words import after, held, once, previous, rising
 
@@ -134,6 +138,7 @@ def test_the_false_conjuncts_of_a_property_are_its_parts() -> None:
     [
         (flag("xx") | p, r"A reads xx, which system free does not have\. Did you mean 'x'"),
         (after(20 * ms) | p, r"A: `after\(20 ms\)` belongs to an arrow of a chart; in a property write"),
+        (held(p, 10**30 * ticks), r"`held\(p, 10{30} ticks\)`: 10{30} ticks is longer than any board counts"),
         (held(p, 30 * ms), r"30 ms is not a whole number of ticks of 20 ms; write a multiple"),
     ],
 )
@@ -149,3 +154,84 @@ def test_a_property_covers_at_least_one_requirement() -> None:
 
 def _first(broken: list[bool]) -> int | None:
     return broken.index(True) if True in broken else None
+
+
+MODE, EDOM = enumeration("Mode", ["STOP", "GO"]), enumeration("Mode", ["GO", "STOP"])
+LEVEL = fixed(0, 10, 0.1, "m")
+
+
+@pytest.mark.parametrize(
+    ("written", "other"),
+    [
+        (var("y", LEVEL), var("y", integer(0, 1000, "cm")) <= 100),
+        (var("y", LEVEL), var("y", fixed(0, 100, 0.1, "mm")) <= 1),
+        (var("y", MODE), var("y", EDOM) == "GO"),
+        (flag("y"), previous(var("y", integer(0, 3)) > 1)),
+    ],
+    ids=["another unit", "another scale", "members in another order", "a number for a boolean"],
+)
+def test_a_name_means_one_thing_in_a_property_and_its_system(written: Var, other: Expr) -> None:
+    """``y`` in m never above 100 cm was proved: what is compared are raw values."""
+    system = TransitionSystem("S", (), (), (written,), (), ())
+    with pytest.raises(ModelError, match="P and system S: two variables are named y"):
+        reduce(system, [Property("P", "a property", forms.Always(other), ("R",), "S")])
+
+
+def test_what_monitors_remember_has_a_name_of_its_own() -> None:
+    """An input was taken for the memory of a property, whatever it was called."""
+    other = flag("previous(p)")
+    system = replace(FREE, inputs=(*FREE.inputs, other))
+    question = reduce(
+        system, [Property("P", "a property", forms.Always(previous(p) | ~other), ("R",), "free")]
+    )
+    names = [v.name for v in (*question.system.variables, *question.system.inputs)]
+    assert len(set(names)) == len(names) and sum(n.startswith("previous(p)") for n in names) == 2
+
+
+@pytest.mark.parametrize("taken", ["x", "p", "Q", "Q.waiting"])
+def test_an_id_is_the_name_of_no_variable(taken: str) -> None:
+    """The monitor wrote that variable: properties that are false were proved beside it, and certified."""
+    waiting = Property("Q", "another", forms.Responds(p, q, 3 * ticks), ("R",), "free")
+    with pytest.raises(ModelError, match="its monitor has the name"):
+        reduce(FREE, [waiting, Property(taken, "a property", forms.Always(p), ("R",), "free")])
+
+
+def test_variables_of_a_system_have_names_of_their_own() -> None:
+    """A flag named as the check of a domain switched it off."""
+    n, check = var("n", integer(0, 3)), flag("n.out_of_domain")
+    counting = Block("Count", [assign(n, n + 1), assign(check, False)])
+    with pytest.raises(ModelError, match=r"S: two variables would be named n\.out_of_domain"):
+        lower(in_order("S", counting))
+
+
+def test_a_property_reads_the_variable_of_its_system() -> None:
+    """With its domain: memories of a narrower twin would be too small."""
+    system = TransitionSystem("S", (), (), (var("y", integer(0, 9)),), (), ())
+    narrow = previous(var("y", integer(0, 3))) < 2
+    [memory] = [
+        v
+        for v in reduce(
+            system, [Property("P", "a property", forms.Always(narrow), ("R",), "S")]
+        ).system.variables
+        if v.name.startswith("previous")
+    ]
+    assert memory.domain == integer(0, 9)
+
+
+@pytest.mark.parametrize(
+    ("form", "argument"),
+    [
+        (forms.Responds(p, q, 10**30 * ticks), "within"),
+        (forms.HoldsAfter(p, 10**30 * ticks, q), "for_"),
+        (forms.HoldsFor(p, q, 10**30 * ticks), "for_"),
+    ],
+)
+def test_a_time_that_nobody_counts_names_its_argument(form: Form, argument: str) -> None:
+    """What was told was the size of a domain that nobody had written."""
+    with pytest.raises(ModelError, match=f"^P: {argument}=10{{30}} ticks is longer than any board counts"):
+        reduce(FREE, [Property("P", "", form, (), "free")])
+
+
+def test_a_first_tick_that_nobody_counts_is_named() -> None:
+    with pytest.raises(ModelError, match=r"^P: from_tick=10{20} is later than any board counts"):
+        reduce(FREE, [Property("P", "", forms.Always(p), (), "free", from_tick=10**20)])

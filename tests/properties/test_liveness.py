@@ -1,6 +1,7 @@
 """Properties about infinite runs against a naive search for fair cycles in the graph of all valuations."""
 
 from collections.abc import Mapping, Sequence
+from typing import NoReturn
 
 import jsonschema
 import networkx as nx
@@ -10,6 +11,8 @@ from hypothesis import strategies as st
 
 from checker.decide import AUTO, Task, decide, tasks
 from checker.engine import Limits, engines, quiet
+from checker.faults import Fault, listening
+from checker.liveness import recover, verdicts
 from checker.liveness.loops import hunt, looped
 from checker.liveness.recover import Trap, trapped
 from checker.liveness.verdicts import NO_LOOP
@@ -244,3 +247,30 @@ def test_loops_are_not_proved_absent_when_the_search_is_cut_short() -> None:
     prop = Property("P-1", "sentence", LeadsTo(busy, ~busy, fair=(~stay,)), ("R",), "calm")
     [result] = decide(Task(SYSTEMS["calm"], (prop,)), SYSTEMS, AUTO, Limits(depth=4), quiet)
     assert isinstance(result.verdict, Unknown) and result.verdict.depth == 4
+
+
+def _faulty(*_: object) -> NoReturn:
+    raise AssertionError("of ours")
+
+
+def _heard(*forms_: Form) -> tuple[list[Result], list[Fault]]:
+    """What comes of properties of ``plant``, and the faults that are told."""
+    props = tuple(Property(f"P-{n}", "sentence", form, ("R",), "plant") for n, form in enumerate(forms_))
+    faults: list[Fault] = []
+    with listening(faults.append):
+        return list(decide(Task(SYSTEMS["plant"], props), SYSTEMS, AUTO, Limits(), quiet)), faults
+
+
+def test_a_search_for_a_way_back_that_fails_costs_no_other_verdict(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(recover, "trapped", _faulty)
+    (back, leads), faults = _heard(Recoverable(PLANT.active("Idle")), LeadsTo(busy, ~busy))
+    assert isinstance(back.verdict, Unknown) and "AssertionError: of ours" in back.verdict.reason
+    assert isinstance(leads.verdict, Violated)
+    assert [(f.who, f.system) for f in faults] == [("the search about P-0", "plant")]
+
+
+def test_random_runs_that_fail_leave_the_engines_their_turns(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(verdicts, "settled", _faulty)
+    monkeypatch.setattr(verdicts, "_vast", lambda _: True)
+    [leads], faults = _heard(LeadsTo(busy, ~busy))
+    assert isinstance(leads.verdict, Violated) and [f.who for f in faults] == [verdicts.SETTLING]

@@ -1,0 +1,47 @@
+"""The four sources that Board 2 monitors, and how old and how slow each may be [design] (E26, E29)."""
+
+from dataclasses import dataclass
+
+from spec_model.lang.expr import Expr, Var
+from spec_model.lang.words import named
+from spec_model.signals import board2_supervisor as b2
+
+
+@dataclass(frozen=True)
+class Source:
+    """A source, by the name of its region: levels OK, degraded and critical of its status.
+
+    ``mean`` is the largest mean gap of its stamps and ``limit`` the largest age, in ms, without a fault.
+    """
+
+    region: str
+    update: Var
+    age: Var
+    deg: Var
+    status: Var
+    levels: tuple[str, str, str]
+    mean: int
+    limit: int
+
+
+SUP = Source(
+    "Board1Supervisor", b2.sup_update, b2.sup_age, b2.deg_sup,
+    b2.b1_sup_status, ("SUP_OK", "SUP_DEGRADED", "SUP_CRITICAL"), mean=60, limit=150,
+)  # fmt: skip
+BLE = Source(
+    "BLE", b2.ble_update, b2.ble_age, b2.deg_ble,
+    b2.esp_status, ("OK", "DEGRADED", "CRITICAL"), mean=40, limit=120,
+)  # fmt: skip
+IMU = Source(
+    "IMU", b2.imu_update, b2.imu_age, b2.deg_imu,
+    b2.imu_status, ("OK", "DEGRADED", "CRITICAL"), mean=100, limit=200,
+)  # fmt: skip
+RX = Source(
+    "Rx", b2.rx_update, b2.rx_age, b2.deg_rx,
+    b2.rx_status, ("RX_OK", "RX_DEGRADED", "RX_CRITICAL"), mean=40, limit=120,
+)  # fmt: skip
+
+
+def silent(source: Source) -> Expr:
+    """The stamp is older than the limit (strict)."""
+    return named(f"now_ms - ts > {source.limit} ms", source.age > source.limit)

@@ -1,0 +1,52 @@
+"""Obstacle => stop: from the sonars to the command for Board 1, and to the references of who drives."""
+
+from properties.document.distances import within
+from properties.forms import costly, holds_after
+from properties.promises.critical import drives_1, drives_2, zero_1
+from properties.promises.promise import Promise
+from spec_model.lang.time import tick, ticks
+from spec_model.signals import board1 as b1
+from spec_model.signals import board2 as sonar
+from spec_model.signals import board2_supervisor as b2
+
+COMMANDED = sonar.command == "CMD_ESTOP"
+
+NEAR = costly(holds_after(
+    "P-STOP-NEAR",
+    "An obstacle at 70 cm or less in two successive steps: Board 2 commands CMD_ESTOP in the second.",
+    premise=within(70), for_=1 * tick, then=COMMANDED,
+    covers=["B2-OBS-01", "B2-OBS-11"], on="board2", from_tick=2, readings=["E02", "E12"],
+))  # fmt: skip
+DEGRADED = costly(holds_after(
+    "P-STOP-DEGRADED",
+    "An obstacle at 300 cm or less in two successive steps, a fault of Board 1 received in both: Board 2 "
+    "commands CMD_ESTOP in the second.",
+    premise=within(300) & ((b2.crit_mask_b1 != 0) | (b2.degr_mask_b1 != 0)), for_=1 * tick, then=COMMANDED,
+    covers=["B2-OBS-04", "B2-OBS-22"], on="board2", from_tick=2, readings=["E09", "E12"],
+))  # fmt: skip
+WHILE_2_DRIVES = costly(holds_after(
+    "P-STOP-WHILE-2-DRIVES",
+    "An obstacle at 300 cm or less while Board 2 is authorised, in three successive steps: Board 2 commands "
+    "CMD_ESTOP in the last.",
+    premise=within(300) & drives_2, for_=2 * ticks, then=COMMANDED,
+    covers=["B2-OBS-04", "B2-OBS-22"], on="board2", from_tick=2, readings=["E09", "E12"],
+))  # fmt: skip
+OBEYED = costly(holds_after(
+    "P-STOP-OBEYED",
+    "CMD_ESTOP received in two successive steps of actuation, stick forward, no 180° rotation: zero "
+    "references in the second.",
+    premise=(b1.cmd == "CMD_ESTOP") & (b1.y_norm > 0) & ~b1.is_rotating180 & drives_1, for_=1 * tick,
+    then=zero_1,
+    covers=["B1-EST-01", "B2-OBS-01"], on="board1", from_tick=2, readings=["S63", "E11"],
+))  # fmt: skip
+
+STOP = Promise(
+    "STOP",
+    "Obstacle: stop",
+    "With an obstacle at 70 cm or less, degraded at 300 cm or less, the rover must stop immediately.",
+    "§3.4, §3.4.1, §3.4.2",
+    "at once",
+    "commanded in the second step; obeyed by Board 1 one step after it has the command, stick forward",
+    ("PB2-01", "PB2-12", "PB2-13a-0", "PSY-10a", "PSY-11"),
+    (NEAR, DEGRADED, WHILE_2_DRIVES, OBEYED),
+)
