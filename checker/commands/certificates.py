@@ -1,10 +1,29 @@
 """What came of checking proofs again, in words: one for a verdict, a few lines for all of them."""
 
+import os
 from collections.abc import Sequence
+from pathlib import Path
+from tempfile import TemporaryFile
 
 from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
+from checker.commands.codes import UsageError
 from checker.commands.output import err, out
+from checker.commands.wrapping import whole
 from checker.result import Result
+
+
+def writable(folder: Path) -> None:
+    """Raises ``UsageError`` if no certificates can be written there, before long work is done for them.
+
+    A folder that is not there yet is made with the first of them: perhaps nothing is proved.
+    """
+    try:
+        there = next(p for p in (folder.absolute(), *folder.absolute().parents) if os.path.lexists(p))
+        with TemporaryFile(dir=there):
+            pass
+    except OSError as error:
+        reason = f"Cannot write {whole(folder)}: {error.strerror}"
+        raise UsageError(f"{reason}. Choose another --certificates.") from error
 
 
 def certified(found: Outcome | None) -> str:

@@ -1,11 +1,11 @@
 """``rovercheck certify``: verdicts derived again from certificates, each checked by other means."""
 
-import json
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Generator, Iterator, Sequence
 from contextlib import closing
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
+from shlex import quote
 
 from checker.certify.check import Effort
 from checker.certify.file import Unwritable, Written, read
@@ -13,12 +13,17 @@ from checker.certify.outcome import Accepted, Rejected, Undecided
 from checker.certify.terms import Malformed
 from checker.commands.codes import Exit, UsageError
 from checker.commands.deriving import Deriving, Told
-from checker.commands.output import counted, out
+from checker.commands.output import counted, out, wrapped
+from checker.commands.progress import ProgressLine
+from checker.commands.wrapping import whole
 from checker.engine import Limits
 from checker.model.load import load
 from checker.pool import Order, Pool
+from checker.printable import json_text
 
 WORKERS = 2
+WHY = 34
+"""The column in which the reason of an outcome begins."""
 SCHEMA = 1
 """The version of the JSON document."""
 SIGNS = {Accepted: "✓", Rejected: "✗", Undecided: "?"}
@@ -46,12 +51,14 @@ def certify(
     if smt2 is not None:
         _folder(smt2)
     found: list[Told] = []
-    for told in _told(written, Deriving(effort, smt2, model)):
-        if not as_json:
-            out.print(line(told, verbose), markup=False)
-        found.append(told)
+    deriving = Deriving(effort, smt2, model)
+    with ProgressLine() as progress, closing(_told(written, deriving, progress)) as heard:
+        for told in heard:
+            if not as_json:
+                out.print(wrapped(line(told, verbose, several=len(written) > 1), WHY), markup=False)
+            found.append(told)
     if as_json:
-        print(json.dumps(document(found, len(written)), indent=2, ensure_ascii=False))
+        print(json_text(document(found, len(written))))
     else:
         summary(found, len(written))
     return code(found)
@@ -65,9 +72,8 @@ def files(paths: Sequence[Path]) -> Iterator[Path]:
             continue
         inside = sorted(p for p in _inside(path) if p.name.endswith((".json", ".json.gz")))
         if not inside:
-            raise UsageError(
-                f"{path} holds no certificates; rovercheck check --certificates {path} writes some."
-            )
+            writes = whole(f"rovercheck check --certificates {quote(str(path))}")
+            raise UsageError(f"{whole(path)} holds no certificates; {writes} writes some.")
         yield from inside
 
 
@@ -75,26 +81,28 @@ def _inside(folder: Path) -> list[Path]:
     try:
         return list(folder.iterdir())
     except OSError as error:
-        raise UsageError(f"Cannot read {folder}: {error.strerror}.") from error
+        raise UsageError(f"Cannot read {whole(folder)}: {error.strerror}.") from error
 
 
 def _read(path: Path) -> Written:
     try:
         return read(path)
     except Malformed as error:
-        raise UsageError(f"{path} is no file of certificates: {shown(str(error))}.") from error
+        raise UsageError(f"{whole(path)} is no file of certificates: {shown(str(error))}.") from error
     except OSError as error:
-        raise UsageError(f"Cannot read {path}: {error.strerror}.") from error
+        raise UsageError(f"Cannot read {whole(path)}: {error.strerror}.") from error
 
 
 def _folder(place: Path) -> None:
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise UsageError(f"Cannot write {place}: {error.strerror}. Choose another --smt2.") from error
+        raise UsageError(f"Cannot write {whole(place)}: {error.strerror}. Choose another --smt2.") from error
 
 
-def _told(written: Sequence[tuple[Path, Written]], deriving: Deriving) -> Iterator[Told]:
+def _told(
+    written: Sequence[tuple[Path, Written]], deriving: Deriving, progress: ProgressLine
+) -> Generator[Told, None, None]:
     """What is said of each property that some file is to prove, as it is found."""
     left = [dict.fromkeys(found.origin.proved) for _, found in written]
     stems = Counter[str]()
@@ -103,26 +111,30 @@ def _told(written: Sequence[tuple[Path, Written]], deriving: Deriving) -> Iterat
         stem = path.name.partition(".json")[0]
         stems[stem] += 1
         orders.append(Order((f"{stem}-{stems[stem]}" if stems[stem] > 1 else stem, found)))
+    done = 0
     pool = Pool(WORKERS, _itself, (deriving,), Limits().memory)
     with closing(pool.run(orders)) as events:
         for event in events:
+            file = str(written[event.number][0])
             match event.message:
                 case Unwritable() as error:
                     raise UsageError(str(error))
                 case Told() as told:
                     del left[event.number][told.id]
-                    yield told
+                    yield replace(told, file=file)
             if event.done:
+                done += 1
+                progress.show(f"{done} of {counted(len(written), 'file', 'files')} checked")
                 reason = event.failure or "the check ended without a word on it"
-                yield from (Told(id, Undecided(reason)) for id in left[event.number])
+                yield from (Told(id, Undecided(reason), file=file) for id in left[event.number])
 
 
 def _itself(deriving: Deriving) -> Deriving:
     return deriving
 
 
-def line(told: Told, verbose: bool) -> str:
-    """Sign, id, outcome and why."""
+def line(told: Told, verbose: bool, several: bool = False) -> str:
+    """Sign, id, outcome and why; of ``several`` files also in which one what is not accepted stands."""
     match told.outcome:
         case Accepted(how):
             why = f"{told.verdict}: {how}"
@@ -131,6 +143,8 @@ def line(told: Told, verbose: bool) -> str:
         case Undecided(reason):
             why = reason
     word = WORDS[type(told.outcome)]
+    if several and not isinstance(told.outcome, Accepted):
+        why = f"{told.file}: {why}"
     cut = why if verbose or len(why) <= _SHOWN else f"{why[:_SHOWN]} … (all of it: -v)"
     return f"{SIGNS[type(told.outcome)]} {shown(f'{told.id:<21} {word:<9} {cut}')}"
 
@@ -142,13 +156,19 @@ def shown(text: str) -> str:
 
 def document(found: Sequence[Told], count: int) -> dict[str, object]:
     """All of it for machines; ``checker/schemas/certify-1.json`` describes it."""
-    told = sorted(found, key=lambda one: one.id)
+    told = sorted(found, key=lambda one: (one.id, one.file))
     return {
         "schema": f"rovercheck/certify/{SCHEMA}",
         "exit": int(code(found)),
         "files": count,
         "properties": [
-            {"id": one.id, "outcome": WORDS[type(one.outcome)], "verdict": one.verdict, **asdict(one.outcome)}
+            {
+                "id": one.id,
+                "file": one.file,
+                "outcome": WORDS[type(one.outcome)],
+                "verdict": one.verdict,
+                **asdict(one.outcome),
+            }
             for one in told
         ],
     }

@@ -1,29 +1,37 @@
 """``rovercheck check``: verdicts against the baseline."""
 
-import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, Protocol
 
-from checker.certify.file import Unwritable
 from checker.certify.outcome import Rejected
-from checker.certifying import Certifying
 from checker.commands.certificates import certificates, certified, outcome
 from checker.commands.codes import Exit, UsageError
-from checker.commands.output import counted, err, out
+from checker.commands.failing import alarm, code_of, told
+from checker.commands.findings import ALONE, Guide, read_on, totals
+from checker.commands.output import err, out, wrapped
 from checker.commands.progress import Watch
-from checker.decide import tasks
+from checker.commands.wrapping import plain
 from checker.engine import Limits
+from checker.faults import Fault, heard, listening, tell
+from checker.printable import json_text
 from checker.render.story import repeating
 from checker.result import Result
-from checker.searches import Doing, Over, searches
+from checker.searches import Doing, Over, Warned, searches
+from checker.tasks import tasks
 from checker.trace import Trace, counted_ticks
 from checker.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
 from properties.catalogue import Expected, expected
 from properties.forms import Property, Reachable
 from spec_model.lang.system import System
 
+if TYPE_CHECKING:
+    from checker.certifying import Certifying
+
 SCHEMA = 1
+EVIDENCE = 33
+"""The column in which the evidence of a verdict begins."""
 SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
 
 
@@ -53,6 +61,11 @@ class Compared:
         return depth is None or not isinstance(self.verdict, Violated) or length(self.verdict) == depth
 
     @property
+    def length(self) -> int | None:
+        """The number of ticks of the run that the verdict rests on, if it rests on one."""
+        return length(self.verdict)
+
+    @property
     def code(self) -> Exit:
         if isinstance(self.result.certificate, Rejected):
             return Exit.INTERNAL
@@ -73,9 +86,9 @@ def results(
     engine: str,
     limits: Limits,
     jobs: int | None = None,
-    certifying: Certifying | None = None,
+    certifying: "Certifying | None" = None,
     quiet: bool = False,
-) -> Iterator[Result]:
+) -> Generator[Result, None, None]:
     """Decide the properties, several searches at a time; results come as they are found.
 
     With ``quiet``, nothing is said meanwhile.
@@ -92,6 +105,8 @@ def results(
                     watch.say(task.title, line)
                 case Over(task):
                     watch.finished(task.title)
+                case Warned(text):
+                    err.print(text, markup=False)
                 case Result():
                     yield replace(
                         one, in_part=_in_part(one, systems.get(one.system, systems[one.property.on]))
@@ -104,11 +119,13 @@ def _in_part(result: Result, system: System) -> bool:
     return system.under and not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace)
 
 
-Deliver = Callable[[Sequence[Compared], int], None]
-"""Takes what was decided, and how many properties were asked for."""
+class Deliver(Protocol):
+    """Takes what was decided, how many properties were asked for, and the error that ended it early."""
+
+    def __call__(self, found: Sequence[Compared], wanted: int, ended: str = "") -> None: ...
 
 
-def undelivered(found: Sequence[Compared], wanted: int) -> None:
+def undelivered(found: Sequence[Compared], wanted: int, ended: str = "") -> None:
     """No report beside what is printed."""
 
 
@@ -121,30 +138,39 @@ def check(
     variant: str = "",
     expect: Callable[[str], Expected] = expected,
     jobs: int | None = None,
-    certifying: Certifying | None = None,
-    options: str = "",
+    certifying: "Certifying | None" = None,
+    guide: Guide = ALONE,
     deliver: Deliver = undelivered,
     quiet: bool = False,
 ) -> Exit:
     """Print every verdict with its evidence and what the baseline says of it.
 
-    ``options`` is what a command needs to speak of the same properties: ``--model heater.py``.  ``deliver``
-    is called once at the end, however that comes.  With ``quiet``, only what is not as expected is printed.
+    ``guide`` is what helps to read on.  ``deliver`` is called once at the end, however that comes.  With
+    ``quiet``, only what is not as expected is printed.
     """
     if not properties:
         err.print("Nothing to check: the selection holds no property.")
         deliver([], 0)
         return Exit.NOTHING
     found: list[Compared] = []
+    faults: list[Fault] = []
     try:
-        for result in results(properties, systems, engine, limits, jobs, certifying, quiet):
-            found.append(Compared(result, expect(result.property.id), variant))
-            if not as_json and not (quiet and found[-1].code is Exit.AS_EXPECTED):
-                out.print(line(found[-1]), markup=False)
+        with (
+            listening(faults.append),
+            closing(results(properties, systems, engine, limits, jobs, certifying, quiet)) as coming,
+        ):
+            for result in coming:
+                found.append(Compared(result, expect(result.property.id), variant))
+                if not as_json and not (quiet and found[-1].code is Exit.AS_EXPECTED):
+                    out.print(wrapped(line(found[-1]), EVIDENCE), markup=False)
     except BaseException as error:
         if as_json:
-            print(json.dumps(document(found, complete=False), indent=2))
-        deliver(found, len(properties))
+            gravest = bool(faults) and not isinstance(error, KeyboardInterrupt)
+            print(json_text(document(found, code_of(error), gravest), ascii=True))
+        alarms = _alarmed(faults)
+        deliver(found, len(properties), " ".join(filter(None, (_why(error), alarms))))
+        from checker.certify.file import Unwritable
+
         if isinstance(error, Unwritable):
             raise UsageError(str(error)) from error
         if not isinstance(error, KeyboardInterrupt):
@@ -152,12 +178,31 @@ def check(
         err.print(f"Interrupted: {len(found)} of {len(properties)} properties decided.")
         return Exit.INTERRUPTED
     if as_json:
-        print(json.dumps(document(found, complete=True), indent=2))
+        print(json_text(document(found, faulty=bool(faults)), ascii=True))
     elif not quiet:
         out.print()
-        summary(found, options)
-    deliver(found, len(properties))
-    return worst(found)
+        summary(found, guide)
+        for text in read_on(found, systems, guide):
+            out.print(wrapped(text, 4), markup=False)
+    deliver(found, len(properties), _alarmed(faults))
+    return Exit.INTERNAL if faults else worst(found)
+
+
+def _alarmed(faults: Sequence[Fault]) -> str:
+    """Pass on every error of ours that the search went on without; all of them in one text."""
+    for fault in faults:
+        if heard():
+            tell(fault)
+        else:
+            err.print(alarm(fault), markup=False)
+    return " ".join(dict.fromkeys(map(alarm, faults)))
+
+
+def _why(error: BaseException) -> str:
+    """What those are told who read no terminal; nothing of an interruption."""
+    if not isinstance(error, Exception):
+        return ""
+    return plain(str(error)) if code_of(error) is Exit.USAGE else told(error)
 
 
 def worst(found: Sequence[Compared]) -> Exit:
@@ -234,12 +279,10 @@ def ticks(trace: Trace) -> str:
     return f"{counted_ticks(len(trace))} = {seconds:g} s{repeating(trace)}"
 
 
-def summary(found: Sequence[Compared], options: str = "") -> None:
+def summary(found: Sequence[Compared], guide: Guide) -> None:
     """Counts, and for each change what to do next."""
-    words = [c.verdict.word for c in found]
-    counts = ", ".join(f"{words.count(w)} {w}" for w in ("proved", "violated", "unknown") if w in words)
     changed = [c for c in found if not c.as_expected]
-    out.print(f"{counted(len(found), 'property', 'properties')}: {counts}.", markup=False)
+    out.print(totals(found), markup=False)
     parts = sum(c.result.in_part for c in found)
     if parts:
         out.print(f"≈ {parts} of them for some runs only: see the notes of their systems.", markup=False)
@@ -251,10 +294,10 @@ def summary(found: Sequence[Compared], options: str = "") -> None:
         out.print(f"{len(changed)} of them differ {changed[0].variant}.", markup=False)
         return
     for compared in changed:
-        _explain(compared, options)
+        _explain(compared, guide)
 
 
-def _explain(compared: Compared, options: str) -> None:
+def _explain(compared: Compared, guide: Guide) -> None:
     prop, verdict = compared.result.property, compared.verdict
     out.print(f"\n{prop.id} is {verdict.word}, on record is {recorded(compared.expected)}.", markup=False)
     out.print(f"  {prop.text}", markup=False)
@@ -262,17 +305,20 @@ def _explain(compared: Compared, options: str) -> None:
         fired = [a for t in verdict.because.ticks for a in t.arrows if a.order]
         for arrow in fired[-3:]:
             out.print(f"  fired: {arrow}", markup=False)
-        command = " ".join(filter(None, ("rovercheck trace", prop.id, options)))
-        out.print(f"  See it whole: {command}", markup=False)
+        out.print(f"  See it whole: {guide.command('trace', prop.id)}", markup=False)
 
 
-def document(found: Sequence[Compared], complete: bool) -> dict[str, object]:
-    """The verdicts as JSON; ``complete`` is false after an interruption."""
+def document(found: Sequence[Compared], ended: Exit | None = None, faulty: bool = False) -> dict[str, object]:
+    """The verdicts as JSON; ``ended`` is the exit code of what ended the command before it was complete.
+
+    ``faulty``: an engine failed, which is a bug of ours whatever the others found.
+    """
+    code = Exit.INTERNAL if faulty else worst(found) if ended is None else ended
     return {
         "schema": f"rovercheck/check/{SCHEMA}",
         "variant": found[0].variant if found else "",
-        "complete": complete,
-        "exit": int(worst(found)) if complete else int(Exit.INTERRUPTED),
+        "complete": ended is None,
+        "exit": int(code),
         "results": [_row(c) for c in sorted(found, key=lambda c: c.result.property.id)],
     }
 

@@ -11,6 +11,7 @@ from checker.certify.outcome import Rejected
 from checker.commands.check import Compared, evidence, length, recorded
 from checker.commands.codes import Exit, UsageError
 from checker.commands.output import possible, write
+from checker.commands.wrapping import whole
 from checker.render.ci import Finding, Level, Report
 from checker.render.ci.github import annotations, summary
 from checker.render.ci.junit import junit
@@ -57,10 +58,10 @@ class Reports:
         if self._in_log:
             print(f"::stop-commands::{self._token}", flush=True)
 
-    def write(self, found: Sequence[Compared], wanted: int) -> None:
+    def write(self, found: Sequence[Compared], wanted: int, ended: str = "") -> None:
         """Write all of them.  Raises ``UsageError`` for a place that cannot be written."""
         findings = tuple(finding(c, self.systems, self.options) for c in found)
-        report = Report(findings, wanted, self.variant)
+        report = Report(findings, wanted, self.variant, ended)
         if self.annotations:
             text = annotations(report)  # the runner reads both streams
             if self._in_log:
@@ -82,7 +83,7 @@ def _summarised(report: Report) -> None:
             with Path(file).open("a", encoding="utf-8") as stream:
                 stream.write(summary(report))
         except OSError as error:
-            raise UsageError(f"Cannot write {file}: {error.strerror}. Unset {SUMMARY}.") from error
+            raise UsageError(f"Cannot write {whole(file)}: {error.strerror}. Unset {SUMMARY}.") from error
 
 
 def finding(compared: Compared, systems: Mapping[str, System], options: str = "") -> Finding:

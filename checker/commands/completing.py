@@ -3,13 +3,16 @@
 import pkgutil
 from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import click
 from click.shell_completion import CompletionItem
 from click.types import StringParamType
 
 from spec_model.lang.errors import ModelError
-from spec_model.lang.system import System
+
+if TYPE_CHECKING:
+    from spec_model.lang.system import System
 
 Completing = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
@@ -37,7 +40,7 @@ def _properties(context: click.Context) -> Iterable[str]:
     return load(own).stated()
 
 
-def _systems(context: click.Context) -> Mapping[str, System]:
+def _systems(context: click.Context) -> "Mapping[str, System]":
     own: Path | None = context.params.get("model")
     if own is None:
         from spec_model.rover import systems
@@ -96,7 +99,7 @@ readings = _offering(_readings)
 
 BY_NAME: dict[str, Completing] = {
     "ids": properties, "id": properties, "traced": properties, "bad": properties, "system": systems,
-    "engine": engines, "repair": repairs, "chosen": readings,
+    "about": systems, "engine": engines, "repair": repairs, "chosen": readings,
 }  # fmt: skip
 """What a parameter of this name means in every verb."""
 IN_VERB: dict[tuple[str, str], Completing] = {

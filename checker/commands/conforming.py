@@ -1,24 +1,26 @@
 """``rovercheck conform``: logs checked against the properties and the charts."""
 
-import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from checker.commands.codes import Exit, UsageError
 from checker.commands.conforming_json import as_json
-from checker.commands.conforming_text import page, summary
+from checker.commands.conforming_text import Fault, Outcome, page, summary
+from checker.commands.failing import told
 from checker.commands.output import err, out
-from checker.commands.silence import silent
+from checker.commands.progress import ProgressLine
 from checker.commands.variant import Variant, pick_variant
 from checker.conform.logs import Against, LogError, Map, Result, examine, read_map
 from checker.conform.varied import varied
+from checker.printable import json_text
 
 SCHEMA = "rovercheck/conform/1"
 """The format of the JSON documents, and its version."""
 
 SUFFIXES = (".csv", ".csv.gz", ".tsv", ".tsv.gz", ".parquet")
-Outcome = Result | LogError
+GRAVEST = (Exit.INTERNAL, Exit.CHANGED, Exit.USAGE, Exit.INCONCLUSIVE)
+"""Of a folder the first of these that applies to some log."""
 
 
 @dataclass(frozen=True)
@@ -32,12 +34,20 @@ class Asked:
     charts: str = ""
     against: Against | None = None
 
-    def examined(self, path: Path) -> Outcome:
-        """What one log says."""
+    def examined(self, path: Path) -> Result:
+        """What one log says.  Raises ``LogError``."""
+        return examine(path, self.how, self.system, self.against)
+
+    def outcome(self, path: Path) -> Outcome:
+        """What one of many logs says, or why it says nothing, whatever that is: the others are judged."""
         try:
-            return examine(path, self.how, self.system, self.against)
+            return self.examined(path)
         except LogError as error:
             return error
+        except MemoryError:
+            return LogError("takes more memory than there is; cut it into several logs.")
+        except Exception as error:
+            return Fault(told(error))
 
 
 def conform(
@@ -60,14 +70,16 @@ def conform(
 
 
 def _log(place: Path, asked: Asked) -> Exit:
-    found = asked.examined(place)
-    if isinstance(found, LogError):
-        raise UsageError(f"{place}: {found}")
+    try:
+        found = asked.examined(place)
+    except LogError as error:
+        raise UsageError(f"{place}: {error}") from error
+    code = _code_of(found)
     if asked.as_json:
-        print(json.dumps({"schema": SCHEMA, **as_json(found, asked.charts)}, indent=2, ensure_ascii=False))
+        print(json_text({"schema": SCHEMA, "exit": code, **as_json(found, asked.charts)}))
     else:
         out.print(page(found, asked.verbose, asked.charts), markup=False)
-    return _code([found])
+    return code
 
 
 def _against(variant: Variant) -> Against:
@@ -87,35 +99,50 @@ def _map(file: Path | None) -> Map:
 
 
 def _folder(folder: Path, asked: Asked) -> Exit:
-    """Every log of a folder; one that cannot be read leaves the others' results."""
-    logs = sorted(p for p in folder.iterdir() if p.is_file() and p.name.lower().endswith(SUFFIXES))
+    """Every log of a folder; one that cannot be read or judged leaves the others' results."""
+    try:
+        logs = sorted(p for p in folder.iterdir() if p.is_file() and p.name.lower().endswith(SUFFIXES))
+    except OSError as error:
+        raise UsageError(f"Cannot read the folder {folder}: {error.strerror}. Write another.") from error
     if not logs:
         err.print(f"{folder} holds no log ({', '.join(SUFFIXES)}).", markup=False)
         return Exit.NOTHING
     found: dict[str, Outcome] = {}
-    for number, log in enumerate(logs, 1):
-        if err.is_terminal and not silent():
-            err.print(f"{number} of {len(logs)}: {log.name}", markup=False)
-        found[log.name] = asked.examined(log)
+    with ProgressLine() as line:
+        for number, log in enumerate(logs, 1):
+            line.show(f"{number} of {len(logs)}: {log.name}")
+            found[log.name] = asked.outcome(log)
+    code = _code(list(found.values()))
     if asked.as_json:
         entries = [_entry(n, r, asked.charts) for n, r in found.items()]
-        print(json.dumps({"schema": SCHEMA, "logs": entries}, indent=2, ensure_ascii=False))
+        print(json_text({"schema": SCHEMA, "exit": code, "logs": entries}))
     else:
         out.print(summary(found, asked.charts), markup=False)
-    return _code(list(found.values()))
+    return code
 
 
 def _entry(name: str, found: Outcome, charts: str) -> Mapping[str, object]:
-    return as_json(found, charts) if isinstance(found, Result) else {"log": name, "error": str(found)}
+    match found:
+        case Result():
+            return as_json(found, charts)
+        case Fault(message):
+            return {"log": name, "error": message, "internal": True}
+        case _:
+            return {"log": name, "error": str(found)}
 
 
-def _code(found: list[Outcome]) -> Exit:
-    """What deviates counts first, then a log that cannot be read, then what is open."""
-    results = [r for r in found if isinstance(r, Result)]
-    if any(r.deviates for r in results):
+def _code(found: Sequence[Outcome]) -> Exit:
+    """The gravest code of all logs."""
+    codes = set(map(_code_of, found))
+    return next((code for code in GRAVEST if code in codes), Exit.AS_EXPECTED)
+
+
+def _code_of(found: Outcome) -> Exit:
+    match found:
+        case Fault():
+            return Exit.INTERNAL
+        case LogError():
+            return Exit.USAGE
+    if found.deviates or found.invalid:
         return Exit.CHANGED
-    if len(results) < len(found):
-        return Exit.USAGE
-    if any(r.behaviour.undecided for r in results):
-        return Exit.INCONCLUSIVE
-    return Exit.AS_EXPECTED
+    return Exit.INCONCLUSIVE if found.behaviour.undecided else Exit.AS_EXPECTED

@@ -2,6 +2,7 @@
 
 from checker.conform.logs import Result, as_on_record
 from checker.conform.logs.deviations import Deviation
+from checker.conform.logs.invalid import InvalidCell
 from checker.conform.logs.monitors import Verdict
 
 Entry = dict[str, object]
@@ -17,6 +18,8 @@ def as_json(found: Result, charts: str = "") -> Entry:
         "rows": found.rows,
         "ticks": found.ticks,
         "missing_steps": found.missing,
+        "invalid_cells": [_cell(c) for c in found.invalid.cells],
+        "invalid_cells_of_other_values": dict(found.invalid.others),
         "ignored_columns": list(found.layout.ignored),
         "inferred": list(found.behaviour.inferred),
         "compared": list(found.behaviour.compared),
@@ -28,7 +31,20 @@ def as_json(found: Result, charts: str = "") -> Entry:
         "unknown": [
             {"part": u.part, "from_tick": u.tick, "because": u.because} for u in found.behaviour.undecided
         ],
-        "conforms": not found.deviates and not found.behaviour.undecided,
+        "conforms": found.conforms,
+    }
+
+
+def _cell(cell: InvalidCell) -> Entry:
+    return {
+        "column": cell.column,
+        "signal": cell.signal,
+        "value": cell.text,
+        "because": cell.because,
+        "first_tick": cell.tick,
+        "first_line": cell.line,
+        "last_line": cell.last_line,
+        "rows": cell.count,
     }
 
 

@@ -2,14 +2,16 @@
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from textwrap import fill, shorten
 
-from checker.commands.output import counted
+from checker.commands.output import counted, text_width
 from checker.conform.logs import LogError, Result, as_on_record
 from checker.conform.logs.deviations import Deviation
+from checker.conform.logs.invalid import Invalid
 from checker.conform.logs.monitors import Verdict
+from checker.printable import one_line
 
-WIDTH = 80
 KINDS = {
     "value": "",
     "late": "one tick late",
@@ -17,39 +19,80 @@ KINDS = {
     "swapped": "swapped: each holds what is required of the other",
 }
 MOST_PAIRS = 6
+MOST_NAMES = 40
+"""Columns without meaning that are named unless everything is asked for."""
+
+
+@dataclass(frozen=True)
+class Fault:
+    """A log on which rovercheck itself failed, and what is said of that."""
+
+    message: str
+
+
+Outcome = Result | LogError | Fault
+"""What came of one of many logs."""
 
 
 def page(found: Result, verbose: bool, charts: str = "") -> str:
     """All about one log; ``charts``: how the charts differ from those specified, in words."""
-    return "\n\n".join(
-        "\n".join(part) for part in (_head(found, charts), _properties(found, verbose), _behaviour(found))
+    parts = (
+        _head(found, charts, verbose),
+        _cells(found.invalid),
+        _properties(found, verbose),
+        _behaviour(found),
     )
+    return "\n\n".join(text for part in parts if (text := "\n".join(part)))
 
 
 def _lines(label: str, text: str, indent: int = 2, hang: int = 15) -> str:
     """A label and a text that is folded beside it."""
     start = " " * indent + label
     first = start.ljust(hang) if len(start) < hang else start + " "
-    return fill(text, WIDTH, initial_indent=first, subsequent_indent=" " * hang, break_long_words=False)
+    return fill(
+        text, text_width(), initial_indent=first, subsequent_indent=" " * hang, break_long_words=False
+    )
 
 
 # --- the log ---------------------------------------------------------------------------------------
 
 
-def _head(found: Result, charts: str) -> Iterator[str]:
+def _some(names: Sequence[str], most: int) -> str:
+    """The names, or the first of them and how many more there are."""
+    more = len(names) - most if most else 0
+    shown = ", ".join(one_line(name) for name in (names[:most] if more > 0 else names))
+    return f"{shown} and {more:,} more; --verbose names them" if more > 0 else shown
+
+
+def _head(found: Result, charts: str, verbose: bool) -> Iterator[str]:
     start = "from power-up" if found.start == "power-up" else "from some tick on"
     ticks = counted(found.ticks, "tick", "ticks")
-    yield f"{found.name}: {found.layout.board} {start}, {ticks} = {found.seconds:g} s"
+    yield f"{one_line(found.name)}: {found.layout.board} {start}, {ticks} = {found.seconds:g} s"
     if charts:
         yield _lines("charts", charts)
     if found.behaviour.inferred:
         yield _lines("inferred", ", ".join(found.behaviour.inferred))
     if found.layout.ignored:
-        yield _lines("ignored", ", ".join(found.layout.ignored))
+        yield _lines("ignored", _some(found.layout.ignored, MOST_NAMES if not verbose else 0))
     if found.missing:
         where = ", ".join(f"{g.steps} before line {g.line} (tick {g.tick})" for g in found.gaps)
         rest = ", ..." if found.missing > sum(g.steps for g in found.gaps) else ""
         yield _lines("missing", f"{counted(found.missing, 'step', 'steps')}: {where}{rest}")
+
+
+def _cells(invalid: Invalid) -> Iterator[str]:
+    """The cells without meaning, those with the same text together."""
+    if not invalid:
+        return
+    number = counted(invalid.count, "cell", "cells")
+    yield fill(f"Cells: {number} without meaning, taken as not logged.", text_width())
+    for cell in invalid.cells:
+        where = f"line {cell.line}" if cell.tick is None else f"tick {cell.tick}, line {cell.line}"
+        rows = f"; {counted(cell.count, 'row', 'rows')} up to line {cell.last_line}" if cell.count > 1 else ""
+        yield _lines(f"✗ {cell.name}:", cell.because, hang=6)
+        yield _lines("", f"{where}{rows}", hang=6)
+    for column, count in invalid.others.items():
+        yield _lines(f"✗ {column}:", f"{counted(count, 'cell', 'cells')} more, with other values", hang=6)
 
 
 # --- properties ------------------------------------------------------------------------------------
@@ -60,7 +103,8 @@ def _properties(found: Result, verbose: bool) -> Iterator[str]:
     known = sum(v.word == "violated" and as_on_record(v) for v in found.verdicts)
     parts = [f"{number} {word}" for word, number in words.most_common()]
     yield fill(
-        f"Properties: {counted(len(found.verdicts), 'monitor', 'monitors')}: {', '.join(parts)}.", WIDTH
+        f"Properties: {counted(len(found.verdicts), 'monitor', 'monitors')}: {', '.join(parts)}.",
+        text_width(),
     )
     for verdict in found.unexpected:
         yield from _verdict(verdict, "✗")
@@ -76,7 +120,7 @@ def _properties(found: Result, verbose: bool) -> Iterator[str]:
 def _verdict(verdict: Verdict, mark: str) -> Iterator[str]:
     yield fill(
         f"{verdict.prop.id}: {verdict.prop.text}",
-        WIDTH,
+        text_width(),
         initial_indent=f"  {mark} ",
         subsequent_indent="      ",
     )
@@ -136,7 +180,10 @@ def _behaviour(found: Result) -> Iterator[str]:
 def _deviation(number: int, one: Deviation) -> Iterator[str]:
     kind = f" {KINDS[one.kind]}" if KINDS[one.kind] else ""
     yield fill(
-        f"{', '.join(one.outputs)}{kind}", WIDTH, initial_indent=f"{number:>3}. ", subsequent_indent="     "
+        f"{', '.join(one.outputs)}{kind}",
+        text_width(),
+        initial_indent=f"{number:>3}. ",
+        subsequent_indent="     ",
     )
     yield _lines("when", _when(one), indent=5, hang=14)
     for difference in one.differences[:MOST_PAIRS]:
@@ -164,16 +211,22 @@ def _when(one: Deviation) -> str:
 # --- many logs -------------------------------------------------------------------------------------
 
 
-def summary(found: Mapping[str, Result | LogError], charts: str = "") -> str:
+def summary(found: Mapping[str, Outcome], charts: str = "") -> str:
     """A line for each log, then what is wrong with those that could not be read."""
-    width = min(max(map(len, found)), 30)
-    rows: list[tuple[str, ...]] = [("log", "board", "ticks", "violated", "known", "deviations", "unknown")]
+    found = {one_line(name): one for name, one in found.items()}
+    width = min(max(map(len, found)), 24)
+    rows: list[tuple[str, ...]] = [
+        ("log", "board", "ticks", "violated", "known", "deviations", "unknown", "cells")
+    ]
     rows += [_row(name, one, width) for name, one in found.items() if isinstance(one, Result)]
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
-    lines = [_aligned(row, widths) for row in rows] if len(rows) > 1 else []
+    gap = "  " if sum(widths) + 2 * (len(widths) - 1) <= text_width() else " "
+    lines = [_aligned(row, widths, gap) for row in rows] if len(rows) > 1 else []
     for name, one in found.items():
         if isinstance(one, LogError):
             lines.append(_lines("", f"{name}: not read: {one}", indent=0, hang=0))
+        elif isinstance(one, Fault):
+            lines.append(_lines("", f"{name}: not judged: {one.message}", indent=0, hang=0))
     head = [_lines("charts", charts, indent=0, hang=8)] if charts else []
     return "\n".join([*head, *lines, "", _total(list(found.values()))])
 
@@ -188,20 +241,25 @@ def _row(name: str, one: Result, width: int) -> tuple[str, ...]:
         str(known),
         str(len(one.behaviour.deviations)),
         str(len(one.behaviour.undecided)),
+        f"{one.invalid.count:,}",
     )
 
 
-def _aligned(row: Sequence[str], widths: Sequence[int]) -> str:
+def _aligned(row: Sequence[str], widths: Sequence[int], gap: str) -> str:
     cells = [row[0].ljust(widths[0]), row[1].ljust(widths[1])]
-    return "  ".join([*cells, *(c.rjust(w) for c, w in zip(row[2:], widths[2:], strict=True))])
+    return gap.join([*cells, *(c.rjust(w) for c, w in zip(row[2:], widths[2:], strict=True))])
 
 
-def _total(found: Sequence[Result | LogError]) -> str:
+def _total(found: Sequence[Outcome]) -> str:
     results = [r for r in found if isinstance(r, Result)]
     bad = sum(r.deviates for r in results)
     parts = [f"{bad} with deviations or unexpected violations" if bad else "none deviates"]
+    if holes := sum(bool(r.invalid) for r in results):
+        parts.append(f"{holes} with cells without meaning")
     if still := sum(bool(r.behaviour.undecided) for r in results):
         parts.append(f"{still} not wholly decided")
-    if len(results) < len(found):
-        parts.append(f"{len(found) - len(results)} not read")
+    if unread := sum(isinstance(one, LogError) for one in found):
+        parts.append(f"{unread} not read")
+    if faults := sum(isinstance(one, Fault) for one in found):
+        parts.append(f"{faults} not judged for an internal error")
     return f"{counted(len(found), 'log', 'logs')}: {', '.join(parts)}."

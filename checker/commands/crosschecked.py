@@ -1,23 +1,22 @@
 """The report of a cross-check, for people in 80 columns and for machines."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
-from textwrap import fill
+from shlex import quote
 
-from checker.commands.output import counted
+from checker.commands.output import counted, text_width
+from checker.commands.wrapping import filled, whole
 from checker.conform.cross.beside import Charts, Mismatch, author_of
 from checker.conform.cross.coverage import taken
 from checker.conform.cross.reproduce import stimulus_of
-from checker.conform.cross.result import Failure, Result
-from checker.conform.cross.search import FAILURES
+from checker.conform.cross.result import Failure, Result, Stage
 from checker.conform.cross.smaller import columns
 from checker.conform.cross.stimulus import SILENT, Change, Every
 from checker.conform.cross.strategy import ENVIRONMENTS
 from spec_model.abstraction import Signal, Value
 from spec_model.lang.system import TICK_MS
 
-WIDTH = 80
 BEFORE = 3
 """Steps before that of the mismatch of which the arrows are told."""
 
@@ -43,16 +42,18 @@ def report(of: Report) -> str:
     for failure in result.failures:
         if not failure.steps:
             lines += ["", _wrapped(f"✗ In {failure.origin}: {failure.message}")]
+    if others := result.mismatches[result.small :]:
+        lines += ["", *(_wrapped(f"✗ {_in_short(one)}") for one in others)]
     return "\n".join([*lines, *([""] if lines else []), *_summary(result)])
 
 
 def shown(result: Result) -> Sequence[Mismatch | Failure]:
-    """What is told with inputs and a test: the mismatches, then each way to fail, where it is shortest."""
+    """What is told with inputs and a test: the small mismatches, then each way to fail, at its shortest."""
     causes: dict[str, Failure] = {}
     for failure in result.failures:
         if failure.steps:
             causes.setdefault(_cause(failure), failure)
-    return [*result.mismatches, *causes.values()]
+    return [*result.mismatches[: result.small], *causes.values()]
 
 
 def _cause(failure: Failure) -> str:
@@ -61,11 +62,16 @@ def _cause(failure: Failure) -> str:
 
 
 def _wrapped(text: str, indent: str = "") -> str:
-    return "\n".join(
-        fill(line, WIDTH, initial_indent=indent, subsequent_indent=indent + "  ", break_on_hyphens=False,
-             break_long_words=False)
-        for line in text.splitlines()
-    )  # fmt: skip
+    width, then = text_width(), indent + "  "
+    return "\n".join(filled(line, width, indent, then) for line in text.splitlines())
+
+
+def _in_short(mismatch: Mismatch) -> str:
+    """A mismatch in a line: which output differs, where, after which arrow of its chart."""
+    first = mismatch.differences[0].name
+    fired = [f for f in mismatch.steps[-1].fired if f.chart == author_of(mismatch.board, first)]
+    arrow = f"; {taken(fired[-1])}" if fired else ""
+    return f"{mismatch.board.name}, step {mismatch.tick} of {mismatch.origin}: {first} differs{arrow}"
 
 
 # --- a mismatch ---------------------------------------------------------------------------------------
@@ -179,7 +185,7 @@ def _states(mismatch: Mismatch, author: str) -> str:
 
 def _test(files: Sequence[Path], number: int) -> Iterator[str]:
     if number <= len(files):
-        yield f"   pytest {files[number - 1]}"
+        yield "   " + whole(f"pytest {quote(str(files[number - 1]))}")
 
 
 # --- all of it ------------------------------------------------------------------------------------------
@@ -188,16 +194,34 @@ def _test(files: Sequence[Path], number: int) -> Iterator[str]:
 def _summary(result: Result) -> Iterator[str]:
     cover, (took, of) = result.coverage, result.arrows
     met, sides = cover.boundaries()
+    ended = result.compared < cover.steps
+    part = f", {result.compared:,} of them compared, as a run ends where it differs" if ended else ""
     yield _wrapped(
         f"{_sign(result)} {result.board.name} {_verdict(result)}: {cover.steps:,} steps in "
-        f"{counted(cover.runs, 'run', 'runs')}; the charts took {took} of {of} arrows, "
+        f"{counted(cover.runs, 'run', 'runs')}{part}; the charts took {took} of {of} arrows, "
         f"and inputs met {met} of {sides} sides of boundaries."
     )
+    for stage in result.stages:
+        if stage.because:
+            yield _wrapped(_untried(stage), "  ")
+    if _given_up(result):
+        yield _wrapped(f"Try more with --failures N (now {result.allowance.failures}).", "  ")
+    if result.small < len(result.mismatches):
+        yield _wrapped(
+            f"Mismatches with inputs and a test: {result.small} of {len(result.mismatches)}; "
+            f"all of them with --mismatches {len(result.mismatches)}.", "  "
+        )  # fmt: skip
     if result.uncompared:
         yield _wrapped(f"Not compared, because it never gave them: {', '.join(result.uncompared)}.", "  ")
     if result.missing and not _given_up(result):
         yield f"  Arrows that no run took ({len(result.missing)}; some cannot be):"
         yield from (_wrapped(str(arrow), "    ") for arrow in result.missing)
+
+
+def _untried(stage: Stage) -> str:
+    """``Random runs: 21 of 240 tried; given up after 3 runs not survived.``"""
+    tried = f"{stage.tried} tried, not all" if stage.of is None else f"{stage.tried} of {stage.of} tried"
+    return f"{stage.kind.capitalize()}: {tried}; {stage.because}."
 
 
 def _sign(result: Result) -> str:
@@ -213,18 +237,15 @@ def _verdict(result: Result) -> str:
 
 
 def _differences(result: Result) -> Iterator[str]:
-    few = len(result.mismatches)
-    if few:
-        yield counted(result.distinct, "mismatch", "mismatches")
-    if few < result.distinct:
-        yield f"the {few} shortest of them shown"
+    if result.mismatches:
+        yield counted(len(result.mismatches), "mismatch", "mismatches")
     if result.failures:
         gave_up = ", then the search gave up" if _given_up(result) else ""
         yield f"{counted(len(result.failures), 'run', 'runs')} not survived{gave_up}"
 
 
 def _given_up(result: Result) -> bool:
-    return len(result.failures) >= FAILURES
+    return len(result.failures) >= result.allowance.failures
 
 
 def row(of: Report) -> dict[str, object]:
@@ -243,8 +264,12 @@ def row(of: Report) -> dict[str, object]:
         "arrows": {"taken": took, "all": every, "missing": [str(a) for a in result.missing]},
         "boundaries": {"met": met, "all": sides},
         "uncompared": list(result.uncompared),
-        "distinct": result.distinct,
-        "mismatches": [_row(m, _file_of(m, of)) for m in result.mismatches],
+        "tried": [asdict(stage) for stage in result.stages],
+        "compared": result.compared,
+        "distinct": len(result.mismatches),
+        "mismatches": [
+            _row(m, _file_of(m, of), number < result.small) for number, m in enumerate(result.mismatches)
+        ],
         "failures": [_failed(f, _file_of(f, of)) for f in result.failures],
     }
 
@@ -268,10 +293,11 @@ def _failed(failure: Failure, file: str) -> dict[str, object]:
     return {**place, "message": failure.message, "test": file}
 
 
-def _row(mismatch: Mismatch, file: str) -> dict[str, object]:
+def _row(mismatch: Mismatch, file: str, small: bool) -> dict[str, object]:
     return {
         "step": mismatch.tick,
         "origin": mismatch.origin,
+        "small": small,
         "inputs": dict(mismatch.steps[-1].inputs),
         "differences": [
             {"output": d.name, "expected": d.expected, "actual": d.actual} for d in mismatch.differences

@@ -1,6 +1,5 @@
 """``rovercheck crosscheck``: an implementation and the charts side by side, under the same inputs."""
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,14 +8,17 @@ from pathlib import Path
 from checker.commands.codes import Exit, UsageError
 from checker.commands.crosschecked import Report, report, row, shown
 from checker.commands.output import counted, err, out, write
-from checker.commands.progress import Watch
+from checker.commands.progress import ProgressLine
 from checker.commands.variant import Variant, pick_variant
+from checker.commands.wrapping import whole
 from checker.conform.adapters import start
-from checker.conform.cross import Result, cross_check, effort
+from checker.conform.cross import Allowance, Result, cross_check, effort
 from checker.conform.cross.reproduce import file_name, pytest_file
+from checker.conform.cross.result import ALLOWED, RANDOM
 from checker.conform.cross.search import Search
 from checker.conform.implementation import ImplementationError
 from checker.conform.varied import varied
+from checker.printable import json_text
 from spec_model.abstraction import Board
 from spec_model.lang.errors import did_you_mean
 
@@ -38,6 +40,7 @@ class Asked:
     examples: int | None
     seed: int | None
     tests: Path | None
+    allowance: Allowance = ALLOWED
     chosen: tuple[str, ...] = ()
     repair: str | None = None
 
@@ -69,7 +72,7 @@ def crosscheck(asked: Asked, output: Path | None, as_json: bool) -> Exit:
             break
     code = worst(reports)
     if as_json:
-        print(json.dumps(document(reports, code), indent=2))
+        print(json_text(document(reports, code), ascii=True))
     return code
 
 
@@ -105,7 +108,7 @@ def _checked(asked: Asked, board: Board, address: str, seed: int) -> Result:
     except ImplementationError as error:
         raise UsageError(str(error)) from error
     try:
-        with _Line(board.name) as line:
+        with ProgressLine() as line:
             return cross_check(
                 board.name,
                 implementation,
@@ -113,37 +116,22 @@ def _checked(asked: Asked, board: Board, address: str, seed: int) -> Result:
                 examples=asked.examples,
                 seed=seed,
                 folder=asked.tests,
-                progress=line.show,
+                allowance=asked.allowance,
+                progress=lambda search: line.show(_doing(board, search)),
                 charts=board if asked.variant.name else None,
             )
     finally:
         implementation.close()
 
 
-class _Line(Watch):
-    """The progress of one cross-check, on a terminal or every ten seconds in a log."""
-
-    def __init__(self, board: str) -> None:
-        super().__init__(err, 0)
-        self._board, self._said = board, ""
-
-    def __enter__(self) -> "_Line":
-        super().__enter__()
-        return self
-
-    def show(self, search: Search) -> None:
-        """What the search is doing."""
-        of = f" {search.tried} of {search.effort.examples}" if search.doing.startswith("random") else ""
-        found = counted(len(search.found), "mismatch", "mismatches")
-        self._said = (
-            f"{self._board}: {search.doing}{of} | {search.coverage.steps:,} steps, "
-            f"{len(search.coverage.taken)} arrows, {found}"
-        )
-        self._show()
-
-    def line(self, width: int | None = None) -> str:
-        """What is shown, cut to the width."""
-        return self._said[:width]
+def _doing(board: Board, search: Search) -> str:
+    """One line on what a cross-check is doing."""
+    of = f" {search.tried[RANDOM]} of {search.effort.examples}" if search.doing == RANDOM else ""
+    found = counted(len(search.found), "mismatch", "mismatches")
+    return (
+        f"{board.name}: {search.doing}{of} | {search.coverage.steps:,} steps, "
+        f"{len(search.coverage.taken)} arrows, {found}"
+    )
 
 
 def _write_tests(result: Result, address: str, variant: Variant, folder: Path) -> list[Path]:
@@ -154,7 +142,9 @@ def _write_tests(result: Result, address: str, variant: Variant, folder: Path) -
         try:
             folder.mkdir(parents=True, exist_ok=True)
         except OSError as error:
-            raise UsageError(f"Cannot make {folder}: {error.strerror}. Choose another --output.") from error
+            raise UsageError(
+                f"Cannot make {whole(folder)}: {error.strerror}. Choose another --output."
+            ) from error
         repair = variant.repair.name if variant.repair else ""
         write(pytest_file(found, address, variant.choices, repair), place)
         written.append(place)

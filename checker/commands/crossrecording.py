@@ -11,8 +11,7 @@ from pathlib import Path
 import checker.conform.cross
 from checker.commands.check import results
 from checker.conform.cross.recorded import COUNTEREXAMPLES, Kept, encoded, kept
-from checker.decide import AUTO
-from checker.engine import Limits
+from checker.engine import AUTO, Limits
 from checker.files import replaced
 from checker.trace import Trace
 from checker.verdict import Unknown

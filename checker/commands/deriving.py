@@ -17,6 +17,7 @@ from checker.certify.tick import executed
 from checker.commands.codes import UsageError
 from checker.commands.select import pick
 from checker.commands.variant import Variant, pick_variant
+from checker.commands.wrapping import whole
 from checker.decide import Task, decide
 from checker.engine import Limits, Timers, quiet
 from checker.files import replaced
@@ -35,6 +36,7 @@ class Told:
     id: str
     outcome: Outcome
     verdict: str = ""
+    file: str = ""
 
 
 @dataclass(frozen=True)
@@ -89,7 +91,7 @@ class Checking:
                 replaced(target, obligation.script.encode())
             except OSError as error:
                 raise Unwritable(
-                    f"Cannot write {target}: {error.strerror}. Choose another --smt2."
+                    f"Cannot write {whole(target)}: {error.strerror}. Choose another --smt2."
                 ) from error
 
 

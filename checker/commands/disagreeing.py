@@ -10,6 +10,7 @@ from pathlib import Path
 
 from checker.commands.codes import UsageError
 from checker.commands.output import write
+from checker.commands.wrapping import whole
 from checker.decide import Disagreement
 from checker.portfolio.disagreement import Saying
 from checker.verdict import Reached, Run
@@ -29,7 +30,9 @@ def bundle(found: Disagreement, command: list[str], folder: Path) -> Path:
     try:
         target.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise UsageError(f"Cannot write {target}: {error.strerror}. Run it in another folder.") from error
+        raise UsageError(
+            f"Cannot write {whole(target)}: {error.strerror}. Run it in another folder."
+        ) from error
     write(document + "\n", target / "disagreement.json")
     write("\n".join(_readme(found, command)), target / "README.md")
     return target

@@ -1,6 +1,5 @@
 """``rovercheck doctor``: what is installed, what is missing and would add, and whether it works."""
 
-import json
 import os
 import platform
 import shutil
@@ -17,7 +16,10 @@ from rich.table import Table
 from rich.text import Text
 
 from checker.commands.codes import Exit
-from checker.commands.output import counted, out, trimmed
+from checker.commands.output import counted, out
+from checker.commands.tables import laid
+from checker.faults import Fault, listening
+from checker.printable import json_text
 from properties.forms import Property, always
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block
@@ -48,7 +50,7 @@ REQUIRED = {
     "python-sat": "the engine pdr, reasons of traces",
     "pyvcd": "VCD files",
     "rich": "tables and colours in the terminal",
-    "z3-solver": "the engines bmc and kinduction",
+    "z3-solver": "the engines bmc, kinduction and localisation",
 }
 """Packages that rovercheck cannot do without, and what for."""
 
@@ -85,8 +87,11 @@ class Finding:
     adds: str = ""
 
 
-def doctor(as_json: bool) -> Exit:
-    """Look at everything, and say it; exit code 1 if something required is missing or does not work."""
+def doctor(as_json: bool, quiet: bool = False) -> Exit:
+    """Look at everything, and say it, or with ``quiet`` only what is missing or does not work.
+
+    Exit code 1 if something required is among that.
+    """
     found = list(findings())
     broken = [f for f in found if f.required and not f.ok]
     if as_json:
@@ -95,9 +100,9 @@ def doctor(as_json: bool) -> Exit:
             "ok": not broken,
             "findings": [asdict(f) for f in found],
         }
-        print(json.dumps(document, indent=2))
+        print(json_text(document, ascii=True))
     else:
-        _tell(found, broken)
+        _tell([f for f in found if not (quiet and f.ok)], broken)
     return Exit.CHANGED if broken else Exit.AS_EXPECTED
 
 
@@ -152,19 +157,37 @@ def memory(table: Path = Path("/proc/meminfo")) -> tuple[int, int]:
 
 
 def _cache() -> Finding:
-    from checker.encode.native.cache import VARIABLE, chosen
+    from checker import cache
 
-    adds = f"compiled searches; ${VARIABLE} says where, and deleting them is always safe"
+    adds = f"compiled searches; ${cache.VARIABLE} says where, and deleting them is always safe"
     try:
-        place = chosen()
+        place, secret = cache.chosen(), cache.secret_place()
     except OSError as error:
-        return Finding("machine", "cache", f"none: {error}", os.environ.get(VARIABLE) == "", False, adds)
-    files = [p for p in place.rglob("*") if p.is_file()] if place.is_dir() else []
-    size = sum(p.stat().st_size for p in files)
-    above = next(p for p in (place, *place.parents) if p.exists())
-    writable = os.access(above, os.W_OK)
-    shown = f"{place}: {counted(len(files), 'file', 'files')}, {size / 2**20:.1f} MiB"
-    return Finding("machine", "cache", shown if writable else f"{shown}, not writable", writable, False, adds)
+        off = "" in (os.environ.get(cache.VARIABLE), os.environ.get(cache.SECRET))
+        return Finding("machine", "cache", f"none: {error}", off, False, adds)
+    files = list(place.glob(f"*{cache.ENDING}")) if place.is_dir() else []
+    size = sum(p.stat().st_size for p in files if p.is_file())
+    shown = f"{place}: {counted(len(files), 'file', 'files')}, {size / 2**20:.1f} MiB; sealed with {secret}"
+    wrong = _wrong_with_the_cache(place, secret)
+    return Finding("machine", "cache", f"{shown}; {wrong}" if wrong else shown, not wrong, False, adds)
+
+
+def _wrong_with_the_cache(place: Path, secret: Path) -> str:
+    """Why the cache is not used, as far as that is seen without making anything; empty if it is."""
+    from checker import cache
+
+    try:
+        if place.exists():
+            cache.usable(place, make=False)
+        cache.secret(place, make=False)
+    except FileNotFoundError:
+        pass  # it is made when the first search is kept
+    except OSError as error:
+        return f"not used: {error}"
+    for needed in (place, secret.parent if not secret.exists() else place):
+        if not os.access(next(p for p in (needed, *needed.parents) if p.exists()), os.W_OK):
+            return f"{needed} is not writable"
+    return ""
 
 
 def _trials() -> Iterator[Finding]:
@@ -177,8 +200,11 @@ def _trials() -> Iterator[Finding]:
 
 def _trial(name: str, work: Callable[[], str]) -> Finding:
     start = monotonic()
+    faults: list[Fault] = []
     try:
-        said = work()
+        with listening(faults.append):
+            said = work()
+        said = faults[0].error if faults else said
         ok = not said
     except Exception as error:  # whatever it is, it is what the user wants to know
         said, ok = f"{type(error).__name__}: {error}", False
@@ -189,7 +215,7 @@ def _trial(name: str, work: Callable[[], str]) -> Finding:
 def tried(engine: str) -> str:
     """What is wrong with the answers of an engine to two questions with known answers; empty if nothing."""
     from checker.decide import Task, decide
-    from checker.engine import Limits, quiet
+    from checker.engine import Limits, engines, quiet
     from checker.verdict import Proved, Unknown
 
     system = toy()
@@ -203,8 +229,8 @@ def tried(engine: str) -> str:
     match found["true"]:
         case Proved():
             return ""
-        case Unknown(_, depth) if depth == TRIAL_DEPTH:
-            return ""  # as deep as it was asked to look, which is all that bmc can do
+        case Unknown(_, depth) if depth == TRIAL_DEPTH or getattr(engines()[engine], "SAMPLES", False):
+            return ""  # as deep as it was asked to look, which is all that bmc can do, or at some runs only
         case other:
             return f"says {other.word} of what is true"
 
@@ -232,15 +258,18 @@ def _tell(found: Sequence[Finding], broken: Sequence[Finding]) -> None:
         "program": "Programs",
         "trial": "A question with a known answer, put to every engine",
     }
+    there = {one.kind for one in found}
     for kind, title in titles.items():
+        if kind not in there:
+            continue
         out.print(title, style="bold")
         table = Table.grid(padding=(0, 1))
         table.add_column(width=1)
         table.add_column(no_wrap=True)
-        table.add_column(ratio=1, overflow="fold")
+        table.add_column(ratio=1)
         for one in (f for f in found if f.kind == kind):
             table.add_row(_mark(one), one.name, _shown(one))
-        trimmed(out, table)
+        laid(out, table)
     missing = [f for f in found if not f.ok and not f.required]
     if broken:
         out.print(f"Broken: {', '.join(f.name for f in broken)}.", style="bold red", markup=False)

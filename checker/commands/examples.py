@@ -3,15 +3,14 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from shlex import quote
+from typing import TYPE_CHECKING
 
 from checker.commands.codes import UsageError
 from checker.commands.select import pick
 from checker.commands.variant import Variant
-from checker.conform.cover.goals import Goal, Kind, Watched
-from checker.conform.cover.watch import watched
-from checker.decide import Task
 from checker.lowered import lowered
 from checker.runs.replay import followed
+from checker.tasks import Task
 from checker.trace import Trace
 from checker.verdict import Run
 from properties.catalogue import Expected
@@ -19,6 +18,9 @@ from properties.forms import Property, reachable
 from spec_model.lang.chart import Chart
 from spec_model.lang.errors import did_you_mean
 from spec_model.lang.system import System
+
+if TYPE_CHECKING:  # with all that tests cover
+    from checker.conform.cover.goals import Goal, Watched
 
 COVERS = ("an example was asked for",)
 
@@ -37,7 +39,7 @@ class Wanted:
     expected: Callable[[str], Expected]
     example: bool = False
     plain: System | None = None
-    watched: Watched | None = None
+    watched: "Watched | None" = None
     again: str = ""
 
     def drawn(self, trace: Trace) -> Trace:
@@ -114,6 +116,9 @@ def of_arrow(wanted: str, systems: Mapping[str, System], system: str | None) -> 
     if not (colon and arrow):
         raise UsageError(f"{wanted!r} names no arrow; write 'CHART: A -> B', as traces show it.")
     on = _system(name, systems, system)
+    from checker.conform.cover.goals import Kind
+    from checker.conform.cover.watch import watched
+
     looked = watched(on, (Kind.ARROWS,))
     goal = _arrow(name, _plainly(arrow), looked.goals)
     id = f"arrow {name}: {goal.text}"
@@ -127,7 +132,7 @@ def _unwritten(made: Property) -> Property:
     return replace(made, place=None)
 
 
-def _arrow(chart: str, wanted: str, goals: Sequence[Goal]) -> Goal:
+def _arrow(chart: str, wanted: str, goals: Sequence["Goal"]) -> "Goal":
     """The arrow that is meant: by its ends, and its number where several have the same."""
     own = {g.text: g for g in goals if g.part == chart}
     found = [

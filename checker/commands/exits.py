@@ -6,7 +6,7 @@ from inspect import signature
 from pathlib import Path
 from typing import Any
 
-from checker.commands.output import write
+from checker.commands.output import text_width, write
 from checker.render import Renderer, named
 from checker.trace import Trace
 from spec_model.lang.system import System
@@ -29,7 +29,7 @@ def exit_written(
         from checker.commands.concrete import concrete
 
         trace = concrete(trace, systems[trace.system])
-    render: Any = renderer.render
+    render = fitted(renderer, output)
     if "everything" in signature(render).parameters:
         render = partial(render, everything=everything)
     beside = getattr(renderer, "BESIDE", "")
@@ -44,3 +44,11 @@ def exit_written(
     for place, content in zip((there, output), contents, strict=True):
         write(content, place)
     return [there]
+
+
+def fitted(renderer: Renderer, output: Path | None) -> Any:
+    """What renders; a text that is laid out in columns and goes to a terminal is as narrow as that."""
+    render: Any = renderer.render
+    if output is None and "width" in signature(render).parameters:
+        render = partial(render, width=text_width())
+    return render

@@ -6,8 +6,6 @@ from time import process_time
 
 from checker.commands.output import err
 from checker.commands.progress import Watch
-from checker.explain.explained import explained, unexplained
-from checker.explain.unrolled import OutOfTime
 from checker.trace import Trace
 from properties.forms import Property
 from spec_model.lang.system import System
@@ -18,10 +16,14 @@ SECONDS = 10.0
 
 @dataclass(frozen=True)
 class Explaining:
-    """Whether what forces the end of a trace is looked for, and for how long (None: as long as it takes)."""
+    """Whether what forces the end of a trace is looked for, and for how long (None: as long as it takes).
+
+    With ``quiet`` there is no progress line.
+    """
 
     wanted: bool = True
     seconds: float | None = SECONDS
+    quiet: bool = False
 
     @staticmethod
     def chosen(asked: bool | None) -> "Explaining":
@@ -32,12 +34,15 @@ class Explaining:
         """The trace with what forces its end, or as it is, with a word on why, after Ctrl-C too."""
         if not self.wanted:
             return trace
+        from checker.explain.explained import explained, unexplained  # by solvers, loaded for this alone
+        from checker.explain.unrolled import OutOfTime
+
         if why := unexplained(trace):
             err.print(f"What forces it is not looked for: {why}.", markup=False)
             return trace
         start, task = process_time(), f"{prop.id}: what forces it"
         try:
-            with Watch(err, 1) as watch:
+            with Watch(err, 1, self.quiet) as watch:
                 return explained(
                     trace,
                     prop,

@@ -7,7 +7,6 @@ from collections.abc import Callable, Iterable, Mapping
 from contextlib import suppress
 from functools import partial
 from pathlib import Path
-from textwrap import fill
 from types import FrameType
 from typing import NoReturn
 
@@ -17,6 +16,7 @@ from checker.commands.exploring_explorer import Explorer
 from checker.commands.output import out
 from checker.commands.select import pick
 from checker.commands.variant import Variant
+from checker.commands.wrapping import filled, whole
 from checker.exploring.session import Session
 from checker.exploring.written import Refused
 from spec_model.lang.chart import Chart
@@ -58,9 +58,12 @@ def _offer(by_name: Mapping[str, System]) -> Exit:
     """What can be explored."""
     for title, names in (("Charts, each alone", charts_of(by_name)), ("Systems", by_name)):
         out.print(f"{title}:", style="bold")
-        listed = fill(", ".join(names), min(out.width, 100), initial_indent="  ", subsequent_indent="  ")
+        listed = filled(", ".join(names), min(out.width, 100), "  ", "  ")
         out.print(listed, markup=False)
-    out.print("What each is: rovercheck list systems; rovercheck list charts. Begin: rovercheck explore NAME")
+    systems, charts, begin = (
+        whole(f"rovercheck {words}") for words in ("list systems", "list charts", "explore NAME")
+    )
+    out.print(f"What each is: {systems}; {charts}. Begin: {begin}")
     return Exit.AS_EXPECTED
 
 
@@ -68,7 +71,7 @@ def _read(script: Path) -> list[str]:
     try:
         return script.read_text(encoding="utf-8").splitlines()
     except (OSError, UnicodeDecodeError) as error:
-        raise UsageError(f"Cannot read {script}: {error}") from None
+        raise UsageError(f"Cannot read {whole(script)}: {error}") from None
 
 
 def _first(explorer: Explorer, line: str) -> None:

@@ -5,7 +5,7 @@ from rich.text import Text
 
 from checker.commands import exploring_choosing, exploring_keeping, exploring_looking, exploring_moving
 from checker.commands.exploring_explorer import Commands, Explorer
-from checker.commands.output import trimmed
+from checker.commands.tables import laid
 from checker.exploring.written import Refused
 from spec_model.lang.errors import did_you_mean
 
@@ -52,7 +52,7 @@ def _help(explorer: Explorer, rest: str) -> None:
     for name in chosen:
         usage, _, meaning = COMMANDS[name]
         table.add_row(Text(usage, style="bold"), meaning)
-    trimmed(explorer.console, table)
+    laid(explorer.console, table)
     if len(chosen) > 1:
         explorer.say(
             "The beginning of a command will do. Ctrl-C clears the line or ends a run, Ctrl-D quits."

@@ -1,13 +1,13 @@
 """Who steps through a system in ``rovercheck explore``, and what is said to them whatever they do."""
 
 from collections.abc import Callable
-from textwrap import fill
 
 from rich.console import Console
 
 from checker.commands.exploring_text import changes
 from checker.commands.output import counted
 from checker.commands.variant import Variant
+from checker.commands.wrapping import filled
 from checker.exploring.session import Ran, Session
 
 
@@ -27,7 +27,7 @@ class Explorer:
 
     def say(self, sentence: str, style: str = "") -> None:
         """A sentence in the width of the terminal."""
-        self.console.print(fill(sentence, self.console.width), markup=False, style=style)
+        self.console.print(filled(sentence, self.console.width), markup=False, style=style)
 
     def introduce(self) -> None:
         """What is explored, and how to get on."""

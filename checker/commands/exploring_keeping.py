@@ -8,6 +8,7 @@ from checker.commands.exploring_words import split
 from checker.commands.output import write
 from checker.commands.select import pick
 from checker.commands.variant import Variant
+from checker.commands.wrapping import whole
 from checker.exploring.session import Session
 from checker.exploring.written import Refused
 from checker.trace import Trace
@@ -35,8 +36,7 @@ def _trace(explorer: Explorer, rest: str) -> None:
 def _decided(prop: Property, variant: Variant) -> Trace:
     """The run that the verdict on a property rests on.  Raises ``Refused`` if there is none."""
     from checker.commands.check import evidence, results
-    from checker.decide import AUTO
-    from checker.engine import Limits
+    from checker.engine import AUTO, Limits
     from checker.verdict import Unknown
 
     [result] = results([prop], variant.systems(), AUTO, Limits())
@@ -54,7 +54,7 @@ def _save(explorer: Explorer, rest: str) -> None:
         raise Refused("There is no run before the first tick; write step first.")
     if target.suffix == ".txt" and len(words) == 1:
         write(session.script(), target)
-        explorer.say(f"{target} holds the commands that make this run again.")
+        explorer.say(f"{whole(target)} holds the commands that make this run again.")
         return
     from checker.commands.exits import exit_written
     from checker.render import renderers
@@ -68,7 +68,7 @@ def _save(explorer: Explorer, rest: str) -> None:
     systems = {**explorer.variant.systems(), session.simulation.system.name: session.simulation.system}
     trace = session.simulation.trace()
     for path in (target, *exit_written(pick("trace format", format, known), trace, systems, target)):
-        explorer.say(f"{path} is written ({format}).")
+        explorer.say(f"{whole(path)} is written ({format}).")
 
 
 COMMANDS: Commands = {

@@ -7,7 +7,7 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from checker.commands.output import trimmed
+from checker.commands.tables import laid
 from checker.exploring.session import Session
 from checker.exploring.simulation import Simulation
 from checker.render.limits import timer
@@ -37,19 +37,19 @@ def show(console: Console, session: Session, everything: bool = False) -> None:
     _row(grid, "values", [_outputs(sim, trace, everything)])
     _row(grid, "timers", list(timers(trace, sim.state())), "yellow")
     _row(grid, "watch", list(_watched(session, trace)))
-    trimmed(console, grid)
+    laid(console, grid)
 
 
 def _grid() -> Table:
     grid = Table.grid(padding=(0, 1))
     grid.add_column(no_wrap=True, style="dim", width=7)
-    grid.add_column(ratio=1, overflow="fold")
+    grid.add_column(ratio=1)
     return grid
 
 
 def _row(grid: Table, title: str, lines: Sequence[str], style: str = "") -> None:
     for i, line in enumerate(filter(None, lines)):
-        grid.add_row("" if i else title, Text(line, style=style, overflow="fold"))
+        grid.add_row("" if i else title, Text(line, style=style))
 
 
 def where(chart: Chart, at: Mapping[str, int]) -> str:
@@ -119,7 +119,7 @@ def changes(console: Console, session: Session, first: int) -> None:
     grid = Table.grid(padding=(0, 1))
     grid.add_column(justify="right", no_wrap=True, width=5)
     grid.add_column(no_wrap=True, width=2)
-    grid.add_column(ratio=1, overflow="fold")
+    grid.add_column(ratio=1)
     found = list(rows(trace))
     if len(found) > MOST_ROWS:
         left = len(found) - MOST_ROWS
@@ -134,7 +134,7 @@ def changes(console: Console, session: Session, first: int) -> None:
             _event(grid, _unrepeated(row, session) if row.number == first else row)
     for line in _watched(session, trace):
         grid.add_row("", "=", Text(line, style="bold"))
-    trimmed(console, grid)
+    laid(console, grid)
 
 
 def _unrepeated(event: Event, session: Session) -> Event:

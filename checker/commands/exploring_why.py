@@ -7,7 +7,7 @@ from rich.table import Table
 from rich.text import Text
 
 from checker.commands.exploring_text import listed, timers, where
-from checker.commands.output import trimmed
+from checker.commands.tables import beside, laid
 from checker.exploring.session import Session
 from checker.exploring.simulation import Tested
 from checker.trace import Trace
@@ -28,20 +28,22 @@ def why(console: Console, session: Session, charts: Sequence[str]) -> None:
     for chart in (c for c in sim.system.charts if c.name in charts):
         own = [t for t in tested if t.chart == chart.name]
         place = where(chart, sim.state())
-        console.print(Text(place if own else f"{place}: no arrow was tested in this tick", style="bold"))
+        tested_here = place if own else f"{place}: no arrow was tested in this tick"
+        beside(console, Text(), Text(tested_here, style="bold"))
         for one in own:
-            trimmed(console, _test(chart, one))
+            beside(console, *_test(chart, one))
             if one.conjuncts:
-                trimmed(console, _conjuncts(one, trace, at))
+                laid(console, _conjuncts(one, trace, at))
 
 
-def _test(chart: Chart, one: Tested) -> Text:
+def _test(chart: Chart, one: Tested) -> tuple[Text, Text]:
     through = next((j.name for j in chart.junctions.values() if _has(j.transitions, one.segment)), "")
     start = through or (".".join(one.source) if one.source else "default")
     event = f" on {one.segment.event}" if one.segment.event else ""
     mark, style = ("✓", "green") if one.valid else ("✗", "")
     indent = "    " if through else "  "
-    return Text(f"{indent}{mark} {start} → {one.segment.target}{event}", style=style)
+    shown = Text(f"{start} → {one.segment.target}{event}", style=style)
+    return Text(f"{indent}{mark} ", style=style), shown
 
 
 def _has(arrows: Sequence[Transition], wanted: Transition) -> bool:
@@ -52,7 +54,7 @@ def _conjuncts(one: Tested, trace: Trace, at: Mapping[str, int]) -> Table:
     grid = Table.grid(padding=(0, 1))
     grid.add_column(width=6)
     grid.add_column(width=5)
-    grid.add_column(ratio=1, overflow="fold")
+    grid.add_column(ratio=1)
     for part, true in one.conjuncts:
         known = {n: at[n] for n in variables(part) if n in at}
         values = listed(trace, known)

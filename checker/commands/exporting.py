@@ -8,6 +8,7 @@ from checker.commands.codes import Exit, UsageError
 from checker.commands.output import err, write, wrote
 from checker.commands.select import pick, pick_properties
 from checker.commands.variant import Variant
+from checker.commands.wrapping import whole
 from checker.export import Exporter, exporters, problem
 from properties.english import sentence
 from properties.forms import Property
@@ -17,7 +18,7 @@ from spec_model.lang.system import System
 
 
 def export(
-    ids: Sequence[str], system: str | None, format: str, variant: Variant, output: Path | None
+    ids: Sequence[str], about: Sequence[str], format: str, variant: Variant, output: Path | None
 ) -> Exit:
     """Write the chosen properties in a format: one to a file or standard output, several to a folder.
 
@@ -25,13 +26,13 @@ def export(
     without meaning and for a place that cannot be written, ``ModelError`` when nothing can be exported.
     """
     exporter = pick("export format", format, exporters())
-    if not ids and system is None:
+    if not ids and not about:
         raise UsageError("Nothing names what to export; write the ids of properties, or --system NAME.")
-    chosen = pick_properties(ids, system, variant.properties(), True, variant.unchanged())
+    chosen = pick_properties(ids, about, variant.properties(), True, variant.unchanged())
     if variant.name:
         chosen = variant.askable(chosen)
     if not chosen:
-        raise UsageError("Nothing to export: no such property is about that system.")
+        raise UsageError("Nothing to export: no such property is about such a system.")
     systems = variant.systems()
     if len(chosen) == 1:
         [prop] = chosen
@@ -84,4 +85,6 @@ def _folder(place: Path) -> None:
     try:
         place.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise UsageError(f"Cannot write {place}: {error.strerror}. Choose another --output.") from error
+        raise UsageError(
+            f"Cannot write {whole(place)}: {error.strerror}. Choose another --output."
+        ) from error

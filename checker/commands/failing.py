@@ -2,8 +2,8 @@
 
 from errno import EDQUOT, EFBIG, ENOSPC
 
-from checker.portfolio import Disagreement
-from checker.runs.replay import ReplayError
+from checker.commands.codes import Exit, UsageError
+from checker.faults import Fault, place
 from spec_model.lang.errors import ModelError
 
 ROOM = "Make room for it, or write elsewhere, and run the command again."
@@ -15,27 +15,45 @@ def told(error: Exception) -> str:
     match error:
         case ModelError():
             return str(error)
-        case ReplayError():
-            return f"INTERNAL: {error}"
-        case Disagreement():
-            return f"INTERNAL: {error} At least one engine is wrong."
         case OSError():
             return f"The operating system refuses: {error}. {ROOM}"
         case MemoryError():
             return MEMORY
-    return f"INTERNAL: {type(error).__name__}: {error}. {_where(error)}"
+    from checker.portfolio import Disagreement
+    from checker.runs.replay import ReplayError
+
+    match error:
+        case ReplayError():
+            return f"INTERNAL: {error}"
+        case Disagreement():
+            return f"INTERNAL: {error} At least one engine is wrong."
+    return f"INTERNAL: {type(error).__name__}: {error}. {_report(place(error))}"
 
 
-def no_room(error: Exception) -> bool:
+def alarm(fault: Fault) -> str:
+    """What is said of an error of ours that the others have worked on without."""
+    return f"INTERNAL: {fault}. The verdicts of others stand. {_report('')}"
+
+
+def code_of(error: BaseException) -> Exit:
+    """The exit code that an error leads to."""
+    match error:
+        case KeyboardInterrupt() | SystemExit() | BrokenPipeError():
+            return Exit.INTERRUPTED
+        case ModelError() | UsageError():
+            return Exit.INCONCLUSIVE if no_room(error) else Exit.USAGE
+        case OSError() | MemoryError():
+            return Exit.INCONCLUSIVE
+    from checker.certify.file import Unwritable
+
+    return Exit.USAGE if isinstance(error, Unwritable) else Exit.INTERNAL
+
+
+def no_room(error: BaseException) -> bool:
     """Whether it stands for a full disk or a used-up quota, which is no mistake on the command line."""
     cause = error.__cause__
     return isinstance(cause, OSError) and cause.errno in (ENOSPC, EDQUOT, EFBIG)
 
 
-def _where(error: Exception) -> str:
-    """Where an error of ours arose, for the report of it."""
-    last = error.__traceback__
-    while last is not None and last.tb_next is not None:
-        last = last.tb_next
-    place = "" if last is None else f" ({last.tb_frame.f_globals.get('__name__')}, line {last.tb_lineno})"
+def _report(place: str) -> str:
     return f"This is a bug of rovercheck{place}; please report it with the command and the model."

@@ -1,18 +1,14 @@
 """``rovercheck testgen``: short tests that cover the charts, with the outputs that they require."""
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from textwrap import wrap
 from time import monotonic
 
-from rich.status import Status
-
 from checker.commands.codes import Exit, UsageError
-from checker.commands.output import counted, err, out, write
-from checker.commands.progress import PAUSE
-from checker.commands.silence import silent
+from checker.commands.output import counted, out, write
+from checker.commands.progress import ProgressLine
+from checker.commands.wrapping import filled, whole
 from checker.conform.cover import kept_text
 from checker.conform.cover.coverage import Coverage, Effort, cover
 from checker.conform.cover.fingerprint import fingerprint
@@ -20,6 +16,7 @@ from checker.conform.cover.generate import Aim, aims, files, only
 from checker.conform.cover.goals import Goal, Kind
 from checker.conform.cover.keep import Kept, kept_of, written
 from checker.conform.cover.watch import watched
+from checker.printable import json_text
 from spec_model.abstraction import Board
 from spec_model.lang.errors import ModelError
 from spec_model.rover import systems
@@ -63,11 +60,11 @@ def testgen(asked: Asked, output: Path, as_json: bool) -> Exit:
     for aim in aims(asked.names, asked.kinds):
         found.append(_kept(aim, asked, asked.keep) if asked.keep else _generated(aim, asked, output))
         if not as_json:
-            out.print("\n".join(report(found[-1], asked, output)), markup=False, soft_wrap=False)
+            out.print("\n".join(report(found[-1], asked, output)), markup=False)
         if found[-1].interrupted:
             break
     if as_json:
-        print(json.dumps(document(found), indent=2))
+        print(json_text(document(found), ascii=True))
     return _code(found)
 
 
@@ -107,7 +104,7 @@ def _set_of(board: Board, folder: Path | None) -> Kept:
     try:
         return kept_of(board, place.read_text(encoding="utf-8"))
     except (OSError, UnicodeDecodeError, ModelError) as error:
-        raise UsageError(f"Cannot go on from {place}: {error}") from error
+        raise UsageError(f"Cannot go on from {whole(place)}: {error}") from error
 
 
 def _write(content: str, place: Path) -> None:
@@ -122,48 +119,19 @@ def _write(content: str, place: Path) -> None:
 def _searched(coverage: Coverage, aim: Aim, effort: Effort) -> bool:
     """Search until all is known or the user has seen enough; whether that was so."""
     wanted = {g.id for g in aim.goals}
-    with Line() as line:
+    with ProgressLine() as line:
         try:
-            cover(coverage, systems()[aim.board.name], effort, line.say(coverage), wanted)
+            cover(coverage, systems()[aim.board.name], effort, Saying(line, coverage), wanted)
         except KeyboardInterrupt:
             return True
     return False
-
-
-class Line:
-    """One line on a terminal, a line every ten seconds in a log."""
-
-    def __init__(self) -> None:
-        self._silent = silent()
-        shown = err.is_terminal and not self._silent
-        self._status = Status("starting", console=err) if shown else None
-        self._last = monotonic()
-
-    def __enter__(self) -> "Line":
-        if self._status:
-            self._status.start()
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        if self._status:
-            self._status.stop()
-
-    def say(self, coverage: Coverage) -> "Saying":
-        return Saying(self, coverage)
-
-    def show(self, line: str) -> None:
-        if self._status:
-            self._status.update(line[: err.width - 4])
-        elif not self._silent and monotonic() - self._last >= PAUSE:
-            self._last = monotonic()
-            err.print(line, markup=False)
 
 
 @dataclass
 class Saying:
     """Tells how many goals are decided, and what is being done."""
 
-    line: Line
+    line: ProgressLine
     coverage: Coverage
     _decided: int = field(default=0)
     _at: float = field(default=0.0)
@@ -184,7 +152,7 @@ def report(found: Generated, asked: Asked, output: Path) -> Iterator[str]:
     for kind in Kind:
         mine = [g for g in goals if g.kind is kind]
         if mine:
-            yield f"  {counts(kept, kind, mine)}"
+            yield from _wrapped(counts(kept, kind, mine), "  ", "      ")
     yield from _listed("≈", "uncoverable", kept.uncoverable, goals)
     yield from _listed("?", "unknown", kept.unknown, goals)
     yield from _wrapped(_tests(found, asked, output), "  ", "  ")
@@ -198,9 +166,8 @@ def _tests(found: Generated, asked: Asked, output: Path) -> str:
     number = f"{counted(len(tests), 'test', 'tests')} of {counted(steps, 'step', 'steps')} together"
     if not found.files:
         return "no test was written"
-    return (
-        f"{number}, in the set of {asked.keep}" if asked.keep else f"{number}, as {asked.format} in {output}"
-    )
+    place = f"in the set of {whole(asked.keep)}" if asked.keep else f"as {asked.format} in {whole(output)}"
+    return f"{number}, {place}"
 
 
 def counts(kept: Kept, kind: Kind, goals: Sequence[Goal]) -> str:
@@ -226,7 +193,7 @@ def _listed(sign: str, word: str, why: Mapping[str, str], goals: Sequence[Goal])
 
 
 def _wrapped(text: str, first: str, then: str) -> list[str]:
-    return wrap(text, out.width, initial_indent=first, subsequent_indent=then, break_on_hyphens=False)
+    return filled(text, out.width, first, then).split("\n")
 
 
 def document(found: Sequence[Generated]) -> dict[str, object]:

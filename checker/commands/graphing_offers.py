@@ -1,5 +1,7 @@
 """How to project: the variables of a system, and projections with their predicted sizes."""
 
+from checker.commands.output import text_width
+from checker.commands.wrapping import whole
 from checker.graphs.suggesting import Offer, Suggestions
 from spec_model.lang.expr import Var
 
@@ -29,7 +31,8 @@ def projections(system: str, found: Suggestions, options: str = "") -> list[str]
     rows = [(f"{o.nodes:,}", _runs(o, found), ",".join(o.names)) for o in found.offers]
     lines = ["", "nodes  paths that are runs  command"]
     for nodes, runs, names in rows:
-        lines.append(f"{nodes:>5}  {runs:<19}  rovercheck graph {system} --project {names}{options}")
+        command = whole(f"rovercheck graph {system} --project {names}{options}")
+        lines.append(f"{nodes:>5}  {runs:<19}  {command}")
     return lines
 
 
@@ -41,5 +44,5 @@ def _runs(offer: Offer, found: Suggestions) -> str:
 def _doc(var: Var, wide: int) -> str:
     """What the variable is, where that fits into a line of a terminal."""
     doc = var.doc.split("\n")[0]
-    fits = wide + len("  00 of 00") + 4 + len(doc) <= 80
+    fits = wide + len("  00 of 00") + 4 + len(doc) <= text_width()
     return f"    {doc}" if doc and fits and not doc.startswith("active state of") else ""

@@ -1,6 +1,14 @@
 """The examples at the end of ``--help`` of the verbs that bring none of their own."""
 
+from collections.abc import Iterable
+from shutil import get_terminal_size
+
 import click
+
+from checker.commands.wrapping import filled
+
+COLUMNS, WIDE, NARROWEST, INDENT = 80, 60, 20, 4
+"""Of help at most; from which on options stand beside what they do; at least; of what stands below."""
 
 EXAMPLES: dict[str, tuple[str, ...]] = {
     "certify": (
@@ -27,6 +35,10 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     ),
     "init": ("rovercheck init heater", "rovercheck check --model heater/heater.py"),
     "list": ("rovercheck list properties PB1-15 --english", "rovercheck list systems"),
+    "mutate": (
+        "rovercheck mutate --system relay",
+        "rovercheck mutate --model heater.py --sample 50 --seed 1 --json",
+    ),
     "report": (
         "rovercheck report -o review.html",
         "rovercheck report --system relay --certify -o relay.html",
@@ -42,8 +54,43 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
 """By verb: command lines that can be typed as they are."""
 
 
+class Formatter(click.HelpFormatter):
+    """Help in the columns of the terminal, however few: click takes 50 at least, and would cut words."""
+
+    def __init__(self, indent_increment: int = 2, width: int | None = None, max_width: int | None = None):
+        columns = min(get_terminal_size().columns, max_width or COLUMNS)
+        narrow = max(NARROWEST, columns - 2 * (columns >= WIDE))
+        super().__init__(indent_increment, width or narrow, max_width)
+
+    def write_dl(self, rows: Iterable[tuple[str, str]], col_max: int = 30, col_spacing: int = 2) -> None:
+        """Options and what they do; below each other where a word has no room beside them."""
+        rows = list(rows)
+        room = self.width - min(col_max, max(len(name) for name, _ in rows)) - col_spacing - 2
+        fits = max(len(word) for _, told in rows for word in (told or "-").split()) <= room
+        super().write_dl(rows, col_max if fits and room >= NARROWEST else INDENT - 2, col_spacing)
+
+    def getvalue(self) -> str:
+        """The help; examples, which click leaves as they are, have what they do in a line below."""
+        lines = super().getvalue().split("\n")
+        return "\n".join(line if len(line) <= self.width else self._narrow(line) for line in lines)
+
+    def _narrow(self, line: str) -> str:
+        blanks = " " * (len(line) - len(line.lstrip()))
+        command, _, meaning = line.strip().partition("  ")
+        below = blanks + " " * INDENT
+        told = filled(meaning.strip(), self.width, below, below) if meaning else ""
+        return f"{blanks}{command}\n{told}" if told else line
+
+
+class Context(click.Context):
+    """Writes help with ``Formatter``."""
+
+    formatter_class = Formatter
+
+
 def helped(verb: click.Command) -> click.Command:
-    """The verb, with its examples at the end of its help."""
+    """The verb, with its examples at the end of its help, which fits into any terminal."""
+    verb.context_class = Context
     lines = EXAMPLES.get(verb.name or "", ())
     if lines and not verb.epilog:
         verb.epilog = "\n".join(["\b", "Examples:", *(f"  {line}" for line in lines)])

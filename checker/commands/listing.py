@@ -1,80 +1,60 @@
 """``rovercheck list``: what there is."""
 
-import json
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
-from textwrap import fill
-
-from rich.table import Table
+from typing import TYPE_CHECKING
 
 from checker.commands.codes import Exit, UsageError
-from checker.commands.listing_json import document
 from checker.commands.output import out
-from checker.commands.select import pick_properties
-from checker.commands.wording import in_english
-from checker.decide import ALL, AUTO
-from checker.engine import engines
-from checker.model import Model
-from checker.model.load import load
-from checker.model.rover import rover
-from properties.forms import Property
-from spec_model.readings import readings
-from spec_model.repairs import proposals
+from checker.commands.tables import listed
+from checker.commands.wrapping import filled
+from checker.engine import ALL, AUTO, engines
+from checker.printable import json_text
+
+if TYPE_CHECKING:  # each list reads only what is in it
+    from checker.model import Model
+    from properties.forms import Property
 
 
-def _table(*columns: str) -> Table:
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    for column in columns:
-        table.add_column(column, no_wrap=column == columns[0], overflow="fold")
-    return table
-
-
-def _print(columns: Iterable[str], rows: Iterable[tuple[str, ...]]) -> None:
-    from rich.markup import escape
-
-    table = _table(*columns)
-    for row in rows:
-        table.add_row(*map(escape, row))
-    out.print(table, soft_wrap=False)
-
-
-def list_properties(chosen: Iterable[Property], model: Model) -> None:
-    _print(
+def list_properties(chosen: Iterable["Property"], model: "Model") -> None:
+    listed(
         ("id", "system", "on record", "requires"),
-        ((p.id, p.on, model.expected(p.id).verdict, p.text) for p in chosen),
+        [(p.id, p.on, model.expected(p.id).verdict, p.text) for p in chosen],
     )
 
 
-def list_systems(model: Model) -> None:
-    _print(
+def list_systems(model: "Model") -> None:
+    listed(
         ("name", "charts", "what it is"),
-        (
+        [
             (s.name, ", ".join(c.name for c in s.charts), " ".join((s.text, *s.notes)))
             for s in model.systems.values()
-        ),
+        ],
     )
 
 
-def list_charts(model: Model) -> None:
-    _print(
+def list_charts(model: "Model") -> None:
+    listed(
         ("name", "states", "arrows", "what it is"),
-        ((c.name, str(len(c.states) - 1), str(len(c.arrows)), c.text) for c in model.charts.values()),
+        [(c.name, str(len(c.states) - 1), str(len(c.arrows)), c.text) for c in model.charts.values()],
     )
 
 
-def list_requirements(model: Model) -> None:
+def list_requirements(model: "Model") -> None:
     covered: dict[str, list[str]] = {}
     for prop in model.properties.values():
         for id in prop.covers:
             covered.setdefault(id, []).append(prop.id)
-    _print(
+    listed(
         ("id", "source", "requirement", "properties"),
-        ((r.id, r.source, r.text, ", ".join(covered.get(r.id, ["-"]))) for r in model.requirements.values()),
+        [(r.id, r.source, r.text, ", ".join(covered.get(r.id, ["-"]))) for r in model.requirements.values()],
     )
 
 
 def list_readings() -> None:
     """Every reading: the sentence, the choices (the default marked), what tells them apart."""
+    from spec_model.readings import readings
+
     about = ""
     for one in readings().values():
         if one.about != about:
@@ -92,24 +72,26 @@ def list_readings() -> None:
 
 
 def _hanging(text: str, indent: int = 5) -> None:
-    out.print(fill(text, out.width, subsequent_indent=" " * indent), markup=False)
+    out.print(filled(text, out.width, then=" " * indent), markup=False)
 
 
 def list_repairs() -> None:
-    _print(
+    from spec_model.repairs import proposals
+
+    listed(
         ("name", "repairs", "what changes"),
-        ((r.name, ", ".join(r.fixes), r.text) for r in proposals().values()),
+        [(r.name, ", ".join(r.fixes), r.text) for r in proposals().values()],
     )
 
 
-def list_assumptions(model: Model) -> None:
+def list_assumptions(model: "Model") -> None:
     holders: dict[tuple[str, str], list[str]] = {}
     for system in model.systems.values():
         for one in system.assumptions:
             holders.setdefault((one.id, one.text), []).append(system.name)
-    _print(
+    listed(
         ("id", "what is assumed", "of"),
-        ((id, text, ", ".join(names)) for (id, text), names in holders.items()),
+        [(id, text, ", ".join(names)) for (id, text), names in holders.items()],
     )
 
 
@@ -117,10 +99,10 @@ def list_engines() -> None:
     rows = [(e.NAME, e.SUMMARY) for e in engines().values()]
     rows.append((AUTO, "engines in turn, each with more to spend; the first conclusive answer counts"))
     rows.append((ALL, "every engine; answers that cannot both be true are an error (exit code 3)"))
-    _print(("name", "what it does"), rows)
+    listed(("name", "what it does"), rows)
 
 
-LISTS: dict[str, Callable[[Model], None]] = {
+LISTS: dict[str, Callable[["Model"], None]] = {
     "systems": list_systems,
     "charts": list_charts,
     "requirements": list_requirements,
@@ -153,17 +135,35 @@ def listing(
     if path is not None and what in OTHERS and what != "engines":
         raise UsageError(f"No model of your own has {what}; write `rovercheck list {what}` without --model.")
     model = None if what in OTHERS else _model(path)
-    chosen = pick_properties(ids, None, model.stated(), full=True) if model and what == "properties" else []
+    chosen = _chosen(ids, model) if model and what == "properties" else []
     if as_json:
-        print(json.dumps(document(what, chosen, model), indent=1, ensure_ascii=False))
+        from checker.commands.listing_json import document
+
+        print(json_text(document(what, chosen, model), indent=1))
     elif model is None:
         OTHERS[what]()
     elif what in LISTS:
         LISTS[what](model)
+    elif english:
+        from checker.commands.wording import in_english
+
+        in_english(chosen, model)
     else:
-        (in_english if english else list_properties)(chosen, model)
+        list_properties(chosen, model)
     return Exit.AS_EXPECTED
 
 
-def _model(path: Path | None) -> Model:
-    return rover() if path is None else load(path)
+def _model(path: Path | None) -> "Model":
+    if path is None:
+        from checker.model.rover import rover
+
+        return rover()
+    from checker.model.load import load
+
+    return load(path)
+
+
+def _chosen(ids: Sequence[str], model: "Model") -> Sequence["Property"]:
+    from checker.commands.select import pick_properties
+
+    return pick_properties(ids, (), model.stated(), full=True)

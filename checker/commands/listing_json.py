@@ -3,8 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 
 from checker.commands.wording import formally
-from checker.decide import ALL, AUTO
-from checker.engine import engines
+from checker.engine import ALL, AUTO, engines
 from checker.model import Model
 from properties.forms import Property
 from spec_model.lang.chart import Chart

@@ -9,8 +9,7 @@ import click
 
 from checker.commands.codes import Exit
 from checker.commands.silence import silence
-from checker.decide import AUTO
-from checker.engine import Timers
+from checker.engine import AUTO, Timers
 
 
 class Amount(click.FloatRange):

@@ -7,8 +7,7 @@ from html import escape
 
 from checker.commands.check import Compared, evidence, results
 from checker.commands.variant import Variant
-from checker.decide import AUTO
-from checker.engine import Limits, Timers
+from checker.engine import AUTO, Limits, Timers
 from checker.render import renderers
 from checker.render.drawing.changes import changes
 from checker.result import Result

@@ -8,13 +8,14 @@ from pathlib import Path
 
 from checker.commands.check import Compared, evidence, results
 from checker.commands.codes import Exit, UsageError
+from checker.commands.findings import totals
 from checker.commands.output import err, out, write
 from checker.commands.repairing import Proof, proofs, repair_pages, sections
 from checker.commands.requirements import page as matrix_page
 from checker.commands.reviewing_more import with_reasons
 from checker.commands.wording import formally
-from checker.decide import AUTO
-from checker.engine import Limits
+from checker.commands.wrapping import whole
+from checker.engine import AUTO, Limits
 from checker.explain.explained import unexplained
 from checker.render import renderers
 from checker.render.trace_markdown import reasons_told
@@ -56,7 +57,7 @@ def reports(folder: Path, stale: bool) -> Exit:
         return Exit.CHANGED if different else Exit.AS_EXPECTED
     for name in different:
         _put(folder, name, made)
-    out.print(f"{len(made)} files in {folder}, {len(different)} changed.", markup=False)
+    out.print(f"{len(made)} files in {whole(folder)}, {len(different)} changed.", markup=False)
     return Exit.AS_EXPECTED
 
 
@@ -106,13 +107,15 @@ def _beside_the_run(page: str) -> tuple[str, list[str]]:
 def _put(folder: Path, name: str, made: Pages) -> None:
     target = folder / name
     if name not in made:
-        err.print(f"removing {target}, which nothing makes any more", markup=False)
+        err.print(f"removing {whole(target)}, which nothing makes any more", markup=False)
         target.unlink()
         return
     try:
         target.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
-        raise UsageError(f"Cannot write {target}: {error.strerror}. Choose another --output.") from error
+        raise UsageError(
+            f"Cannot write {whole(target)}: {error.strerror}. Choose another --output."
+        ) from error
     write(made[name], target)
 
 
@@ -160,9 +163,7 @@ def _page(compared: Compared) -> str:
 
 
 def _index(found: Sequence[Compared]) -> str:
-    words = [c.verdict.word for c in found]
-    counts = ", ".join(f"{words.count(w)} {w}" for w in ("proved", "violated", "unknown"))
-    lines = ["# Verdicts", "", f"{len(found)} properties: {counts}.", ""]
+    lines = ["# Verdicts", "", totals(found), ""]
     lines += ["- [Charts](charts/README.md)", "- [Requirements](requirements.md)"]
     lines += [
         "- [Systems](systems.md)",
@@ -215,7 +216,7 @@ def _about(name: str, folder: str = "") -> str:
         return name
     kinds = [KINDS[system.over, system.under], f"{system.tick_ms} ms" if system.tick_ms != TICK_MS else ""]
     kind = ", ".join(filter(None, kinds))
-    return f"[{name}]({folder}systems.md#{name}){f' ({kind})' if kind else ''}"
+    return f"[{name}]({folder}systems.md#{name.lower()}){f' ({kind})' if kind else ''}"
 
 
 def _in_detail(prop: Property) -> str:

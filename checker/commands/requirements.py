@@ -1,19 +1,16 @@
 """``rovercheck requirements``: every requirement with the properties that cover it and their verdicts."""
 
-import json
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
-
-from rich.markup import escape
-from rich.table import Table
 
 from checker.commands.check import Compared, results, worst
 from checker.commands.codes import Exit
 from checker.commands.output import out
-from checker.decide import AUTO
-from checker.engine import Limits
+from checker.commands.tables import listed
+from checker.engine import AUTO, Limits
 from checker.model.load import load
 from checker.model.rover import rover
+from checker.printable import json_text
 from properties.coverage import Coverage, matrix
 from properties.forms import Property, Reachable
 
@@ -63,18 +60,15 @@ def show(rows: Sequence[Coverage], verdicts: Verdicts, origin: str, as_json: boo
     """Print the matrix as a table or as JSON."""
     code = Exit.CHANGED if any(row.open for row in rows) else Exit.AS_EXPECTED
     if as_json:
-        print(json.dumps(document(rows, verdicts, origin, code), indent=2))
+        print(json_text(document(rows, verdicts, origin, code), ascii=True))
         return code
-    table = Table(box=None, pad_edge=False, header_style="bold")
-    table.add_column("requirement", no_wrap=True)
-    table.add_column("state", no_wrap=True)
-    table.add_column("properties, or the reason why none covers it", overflow="fold")
-    for row in rows:
-        table.add_row(row.requirement.id, row.state(verdicts), escape(because(row, verdicts)))
-    out.print(table, soft_wrap=False)
+    listed(
+        ("requirement", "state", "properties, or the reason why none covers it"),
+        [(row.requirement.id, row.state(verdicts), because(row, verdicts)) for row in rows],
+    )
     out.print()
     for line in (*counts(rows, verdicts), REACHED, origin):
-        out.print(line, markup=False, soft_wrap=False)
+        out.print(line, markup=False)
     return code
 
 

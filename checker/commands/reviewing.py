@@ -12,14 +12,15 @@ from checker.certify.file import Unwritable
 from checker.certifying import Certifying
 from checker.commands.check import Compared, results, summary, worst
 from checker.commands.codes import Exit, UsageError
+from checker.commands.findings import Guide
 from checker.commands.output import counted, err, out, write
 from checker.commands.reviewed import Extras, concerned, reviewed
 from checker.commands.reviewing_graphs import state_graphs
 from checker.commands.reviewing_more import premises, with_reasons
 from checker.commands.reviewing_rover import extras
 from checker.commands.variant import Variant
-from checker.decide import AUTO
-from checker.engine import Limits
+from checker.commands.wrapping import whole
+from checker.engine import AUTO, Limits
 from checker.model import Model
 from checker.render.review import render
 from checker.render.review.model import Origin
@@ -72,7 +73,7 @@ def report(
         return Exit.NOTHING
     if not output.parent.is_dir() or output.is_dir():
         raise UsageError(
-            f"Cannot write {output}: it is no file in a folder that exists. Choose another --output."
+            f"Cannot write {whole(output)}: it is no file in a folder that exists. Choose another --output."
         )
     model = replace(variant.model, systems=variant.systems())
     found: list[Compared] = []
@@ -88,8 +89,8 @@ def report(
     except KeyboardInterrupt:
         err.print(f"Interrupted: {len(found)} of {len(properties)} properties decided; nothing was written.")
         return Exit.INTERRUPTED
-    summary(found, model.options)
-    out.print(f"{output}: {counted(output.stat().st_size, 'byte', 'bytes')}.", markup=False)
+    summary(found, Guide(variant.options))
+    out.print(f"{whole(output)}: {counted(output.stat().st_size, 'byte', 'bytes')}.", markup=False)
     return worst(found)
 
 

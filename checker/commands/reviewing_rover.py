@@ -10,7 +10,7 @@ from checker.conform.cover import kept_text
 from checker.conform.cover.goals import Kind
 from checker.conform.cover.keep import kept_of
 from checker.conform.cover.watch import watched
-from checker.decide import AUTO
+from checker.engine import AUTO
 from checker.render.drawing.changes import changes
 from checker.render.review.model import Ambiguity, Covered, Edit, Remedy
 from checker.result import Result

@@ -4,8 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from typing import TypeVar
 
 from checker.commands.codes import UsageError
-from checker.decide import ALL, AUTO
-from checker.engine import engines
+from checker.engine import ALL, AUTO, engines
 from properties.forms import Property
 from spec_model.lang.errors import did_you_mean
 from spec_model.lang.system import System
@@ -30,25 +29,24 @@ def pick_engine(name: str) -> str:
 
 def pick_properties(
     ids: Sequence[str],
-    system: str | None,
+    about: Sequence[str],
     known: Mapping[str, Property],
     full: bool = False,
     among: Mapping[str, System] | None = None,
 ) -> list[Property]:
     """Properties by id, or by the beginning that its forms share (PB1-16 is PB1-16a, PB1-16b...).
 
-    All of them when no id is given, the costly ones only in ``full``; only those about ``system`` when
-    one is named, a system ``among`` those given, by default the rover's.
+    All of them when no id is given, the costly ones only in ``full``; only those ``about`` some systems
+    where any are named, systems ``among`` those given, by default the rover's.
     """
     chosen = (
         _distinct(p for id in ids for p in _matching(id, known))
         if ids
         else [p for p in known.values() if full or not p.costly]
     )
-    if system is None:
-        return chosen
-    pick("system", system, systems() if among is None else among)
-    return [p for p in chosen if p.on == system]
+    for name in about:
+        pick("system", name, systems() if among is None else among)
+    return [p for p in chosen if not about or p.on in about]
 
 
 def _matching(id: str, known: Mapping[str, Property]) -> list[Property]:

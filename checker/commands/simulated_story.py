@@ -3,14 +3,14 @@
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from textwrap import fill
 
+from checker.commands.output import text_width
+from checker.commands.wrapping import filled
 from supervisor.bench import Outcome, Record, Scenario
 from supervisor.bench.changes import Change, changes
 from supervisor.bench.record import Traffic
 from supervisor.bench.signals import name_of
 
-COLUMNS = 80
 INDENT = 21
 LONGEST_CYCLE = 6
 """So many lines that repeat at once are told once."""
@@ -29,7 +29,7 @@ class Line:
     def text(self) -> str:
         """The line, broken where it is too long."""
         head = f"{self.time_us / 1000:>8,.0f} ms  {self.who:<8} "
-        return fill(head + self.what, COLUMNS, subsequent_indent=" " * INDENT, break_on_hyphens=False)
+        return filled(head + self.what, text_width(), then=" " * INDENT)
 
 
 def story(scenario: Scenario, record: Record) -> str:
@@ -95,7 +95,7 @@ def heading(scenario: Scenario, name: str) -> str:
     """What is run, in a few lines."""
     phase = f"Board 2 starts {scenario.phase_us / 1000:g} ms after Board 1"
     drift = f", and its clock gains {scenario.drift_ppm:g} ppm" if scenario.drift_ppm else ""
-    lines = [fill(scenario.title or name, COLUMNS), fill(scenario.about, COLUMNS)]
+    lines = [filled(scenario.title or name, text_width()), filled(scenario.about, text_width())]
     lines.append(f"{scenario.duration_us / 10**6:g} s; {phase}{drift}; seed {scenario.seed}.")
     return "\n".join(filter(None, lines))
 
@@ -112,10 +112,10 @@ def _frames(way: str, told: Traffic) -> str:
     parts += [f"{number:,} refused ({reason})" for reason, number in sorted(told.refused.items())]
     if told.dropped:
         parts.append(f"{told.dropped:,} not sent, the line was busy")
-    return fill(f"frames {way}: {', '.join(parts)}", COLUMNS, subsequent_indent=" " * 15)
+    return filled(f"frames {way}: {', '.join(parts)}", text_width(), then=" " * 15)
 
 
 def verdicts(outcomes: Iterable[Outcome]) -> str:
     """Each expectation with a tick or a cross."""
-    marked = (f"{'✓' if outcome.met else '✗'} {outcome.said}" for outcome in outcomes)
-    return "\n".join(fill(line, COLUMNS, subsequent_indent="  ", break_on_hyphens=False) for line in marked)
+    width, marked = text_width(), (f"{'✓' if outcome.met else '✗'} {outcome.said}" for outcome in outcomes)
+    return "\n".join(filled(line, width, then="  ") for line in marked)

@@ -8,8 +8,11 @@ from pathlib import Path
 
 from checker.commands.codes import Exit, UsageError
 from checker.commands.output import counted, err, out, write
+from checker.commands.progress import ProgressLine
+from checker.commands.silence import silent
 from checker.commands.simulated import lanes
 from checker.commands.simulated_story import heading, story, traffic, verdicts
+from checker.commands.wrapping import whole
 from checker.files import replaced
 from checker.render.run_plot import NEEDED, SUFFIXES, PlotError, available, draw
 from supervisor import bench
@@ -27,7 +30,7 @@ def simulate(place: Path, output: Path | None, log: Path | None, plot: bool) -> 
     is installed.  Raises ``UsageError`` for a scenario without meaning and a place that cannot be written.
     """
     if output is not None and not plot:
-        raise UsageError(f"--no-plot and --output {output} exclude each other; write one of them.")
+        raise UsageError(f"--no-plot and --output {whole(output)} exclude each other; write one of them.")
     suffix = _suffix(output)
     scenario = _read(place)
     record = _run(scenario)
@@ -43,8 +46,8 @@ def simulate(place: Path, output: Path | None, log: Path | None, plot: bool) -> 
 def _run(scenario: Scenario) -> Record:
     """The run; a terminal shows how far it is."""
     whole = f"{scenario.duration_us / 10**6:g} s"
-    with err.status(f"simulating {whole}") as status:
-        return bench.simulate(scenario, lambda at: status.update(f"simulated {at // 10**6} of {whole}"))
+    with ProgressLine() as line:
+        return bench.simulate(scenario, lambda at: line.show(f"simulated {at // 10**6} of {whole}"))
 
 
 def _suffix(output: Path | None) -> str:
@@ -56,10 +59,10 @@ def _suffix(output: Path | None) -> str:
     if suffix not in SUFFIXES:
         known = ", ".join((*SUFFIXES, TABLE))
         raise UsageError(
-            f"{output}: {suffix or 'a name without suffix'!r} is no format; write one of {known}."
+            f"{whole(output)}: {suffix or 'a name without suffix'!r} is no format; write one of {known}."
         )
     if not available():
-        raise UsageError(f"{output}: {NEEDED} Or write --no-plot.")
+        raise UsageError(f"{whole(output)}: {NEEDED} Or write --no-plot.")
     return suffix
 
 
@@ -67,11 +70,13 @@ def _read(place: Path) -> Scenario:
     try:
         return loads(place.read_text(encoding="utf-8"))
     except UnicodeDecodeError as error:
-        raise UsageError(f"{place} is no text in UTF-8, as TOML is: {error.reason}.") from error
+        raise UsageError(f"{whole(place)} is no text in UTF-8, as TOML is: {error.reason}.") from error
     except OSError as error:
-        raise UsageError(f"Cannot read {place}: {error.strerror}. Write the path of a scenario.") from error
+        raise UsageError(
+            f"Cannot read {whole(place)}: {error.strerror}. Write the path of a scenario."
+        ) from error
     except ScenarioError as error:
-        raise UsageError(f"{place}: {error}") from error
+        raise UsageError(f"{whole(place)}: {error}") from error
 
 
 def _tell(scenario: Scenario, record: Record, outcomes: list[Outcome], place: Path) -> None:
@@ -87,7 +92,7 @@ def _write_plot(scenario: Scenario, record: Record, place: Path, output: Path | 
     target = output or Path(place.stem + suffix)
     if suffix == TABLE:
         write(_csv("time_ms", ((s.time_us / 1000, s.columns()) for s in record.samples)), target)
-        err.print(f"The motion of the rover is {target}.", markup=False)
+        _say(f"The motion of the rover is {whole(target)}.")
         return
     try:
         picture = draw(lanes(scenario, record, place.stem), suffix)
@@ -95,7 +100,12 @@ def _write_plot(scenario: Scenario, record: Record, place: Path, output: Path | 
         err.print(f"No plot: {error}", markup=False)
         return
     write(picture, target)
-    err.print(f"The plot is {target}.", markup=False)
+    _say(f"The plot is {whole(target)}.")
+
+
+def _say(sentence: str) -> None:
+    if not silent():
+        err.print(sentence, markup=False)
 
 
 def _write_logs(record: Record, folder: Path) -> None:
@@ -106,9 +116,11 @@ def _write_logs(record: Record, folder: Path) -> None:
         for name, steps in (("board1", one), ("board2", two)):
             target = folder / f"{name}.csv"
             replaced(target, _csv("time_ms", ((step["now_ms"], step) for step in steps)).encode())
-            err.print(f"The log of {name} is {target}.", markup=False)
+            _say(f"The log of {name} is {whole(target)}.")
     except OSError as error:
-        raise UsageError(f"Cannot write into {folder}: {error.strerror}. Choose another --log.") from error
+        raise UsageError(
+            f"Cannot write into {whole(folder)}: {error.strerror}. Choose another --log."
+        ) from error
 
 
 def _csv(time: str, rows: Iterable[tuple[Scalar, Mapping[str, Scalar]]]) -> str:

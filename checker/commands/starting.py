@@ -6,6 +6,7 @@ from shlex import quote
 
 from checker.commands.codes import Exit, UsageError
 from checker.commands.output import err, write
+from checker.commands.wrapping import whole
 from checker.model import shown
 
 WRITTEN = {
@@ -24,14 +25,17 @@ def init(folder: Path) -> Exit:
     """
     there = [shown(folder / name) for name in WRITTEN.values() if (folder / name).exists()]
     if there:
-        raise UsageError(f"Already there: {', '.join(there)}. Nothing is overwritten; name another folder.")
+        raise UsageError(
+            f"Already there: {', '.join(map(whole, there))}. Nothing is overwritten; name another folder."
+        )
     _make(folder)
     source = files("checker.model").joinpath("start")
     for name, place in WRITTEN.items():
         _make((folder / place).parent)
         write(source.joinpath(name).read_bytes(), folder / place)
-        err.print(f"wrote {shown(folder / place)}", markup=False)
-    err.print(f"\nCheck it: rovercheck check --model {quote(shown(folder / 'heater.py'))}", markup=False)
+        err.print(f"wrote {whole(shown(folder / place))}", markup=False)
+    check = whole(f"rovercheck check --model {quote(shown(folder / 'heater.py'))}")
+    err.print(f"\nCheck it: {check}", markup=False)
     return Exit.AS_EXPECTED
 
 
@@ -40,5 +44,5 @@ def _make(folder: Path) -> None:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         raise UsageError(
-            f"Cannot make the folder {shown(folder)}: {error.strerror}. Name another."
+            f"Cannot make the folder {whole(shown(folder))}: {error.strerror}. Name another."
         ) from error

@@ -4,19 +4,18 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from textwrap import fill
+from typing import TYPE_CHECKING
 
 from checker.commands.check import evidence, results
 from checker.commands.codes import Exit, UsageError
 from checker.commands.examples import Wanted
-from checker.commands.exits import exit_written
+from checker.commands.exits import exit_written, fitted
 from checker.commands.explaining import Explaining
-from checker.commands.output import err, out, possible, write, wrote
+from checker.commands.output import err, out, possible, text_width, write, wrote
 from checker.commands.progress import Watch
 from checker.commands.select import pick
+from checker.commands.wrapping import filled
 from checker.engine import Limits
-from checker.explain.others import NoMore, Others
-from checker.explain.unlike import Unlike
 from checker.render import Renderer, named, renderers
 from checker.render.reasons import in_reason
 from checker.render.trace_markdown import SPECIAL
@@ -24,6 +23,9 @@ from checker.trace import Trace
 from checker.verdict import Unknown
 from properties.forms import Property, Unbounded
 from spec_model.lang.system import System
+
+if TYPE_CHECKING:
+    from checker.explain.others import NoMore
 
 FOR_READERS = ("table", "markdown")
 SECONDS = 30.0
@@ -123,9 +125,9 @@ def _only_some(system: str) -> str:
 def _print_heading(wanted: Wanted, verdict: str) -> None:
     prop, on_record = wanted.property, wanted.expected(wanted.property.id)
     said = prop.text if wanted.example else f"{prop.id} is {verdict}: {prop.text}"
-    out.print(said, markup=False, soft_wrap=False)
+    out.print(filled(said, text_width()), markup=False)
     if on_record.because and on_record.verdict == verdict:
-        out.print(f"Why: {on_record.because}", markup=False, soft_wrap=False)
+        out.print(filled(f"Why: {on_record.because}", text_width()), markup=False)
 
 
 def _show_several(wanted: Wanted, first: Trace, engine: str, limits: Limits, showing: Showing) -> None:
@@ -142,6 +144,9 @@ def _show_several(wanted: Wanted, first: Trace, engine: str, limits: Limits, sho
 
 def _several(wanted: Wanted, first: Trace, engine: str, limits: Limits, showing: Showing) -> Iterator[str]:
     """The text of several runs, each with what makes it different."""
+    from checker.explain.others import NoMore, Others
+    from checker.explain.unlike import Unlike
+
     prop, system = wanted.property, wanted.systems[first.system]
     limits = limits if limits.seconds is not None else replace(limits, seconds=SECONDS)
     runs = [showing.explaining(first, prop, wanted.systems)]
@@ -185,7 +190,7 @@ NO_MORE = {
 """What is said when there is no further run: not proved, and proved."""
 
 
-def _no_more(found: NoMore, system: System, by: str) -> list[str]:
+def _no_more(found: "NoMore", system: System, by: str) -> list[str]:
     unproved, proved = NO_MORE[by]
     if not found.proved:
         return [f"{unproved}; that there is none is not proved: {found.reason}."]
@@ -194,7 +199,7 @@ def _no_more(found: NoMore, system: System, by: str) -> list[str]:
 
 
 def _rendered(trace: Trace, showing: Showing) -> str:
-    shown = showing.renderer.render(showing.cut(trace))
+    shown = fitted(showing.renderer, showing.output)(showing.cut(trace))
     assert isinstance(shown, str), "formats for readers are text"
     return shown
 
@@ -202,4 +207,4 @@ def _rendered(trace: Trace, showing: Showing) -> str:
 def _heading(title: str, lines: Sequence[str], showing: Showing) -> str:
     if showing.format == "markdown":
         return "\n\n".join([f"### {title}", *(line.translate(SPECIAL) for line in lines)]) + "\n\n"
-    return "\n".join(["", f"--- {title} ---", *(fill(line, 80) for line in lines)]) + "\n"
+    return "\n".join(["", f"--- {title} ---", *(filled(line, text_width()) for line in lines)]) + "\n"

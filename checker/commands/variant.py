@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from shlex import quote
+from typing import TYPE_CHECKING
 
-from checker.certifying import Certifying
 from checker.commands.codes import UsageError
 from checker.commands.output import err
 from checker.commands.select import pick
@@ -22,6 +22,9 @@ from spec_model.lang.walk import variables
 from spec_model.readings import ANY, fixed, readings
 from spec_model.repairs import Repair, proposals, repaired, touches
 from spec_model.rover import systems
+
+if TYPE_CHECKING:
+    from checker.certifying import Certifying
 
 
 @dataclass(frozen=True)
@@ -105,8 +108,10 @@ class Variant:
                 asked.append(prop)
         return asked
 
-    def certifying(self, folder: Path | None, again: bool) -> Certifying:
+    def certifying(self, folder: Path | None, again: bool) -> "Certifying":
         """What to do with the proofs, with a note of how the charts are changed."""
+        from checker.certifying import Certifying
+
         repair = self.repair.name if self.repair else ""
         return Certifying(folder, again, dict(self.choices), repair, tuple(sorted(self.without)))
 

@@ -2,20 +2,18 @@
 
 from collections.abc import Sequence
 from functools import cache
-from textwrap import fill
 
-from checker.commands.output import out
+from checker.commands.output import out, text_width
+from checker.commands.wrapping import filled
 from checker.model import Model
 from properties.english import HOW_TO_READ, definitions, sentence
 from properties.forms import Property
 from spec_model.rover import systems
 
-COLUMNS = 80
-
 
 def in_english(properties: Sequence[Property], model: Model) -> None:
     """Print each property with its formal sentence, and the formulas it names spelled out."""
-    out.print(fill(HOW_TO_READ, COLUMNS), markup=False)
+    out.print(filled(HOW_TO_READ, text_width()), markup=False)
     for prop in properties:
         out.print("\n" + paragraph(prop, model), markup=False)
 
@@ -24,7 +22,11 @@ def paragraph(prop: Property, model: Model) -> str:
     """One property in lines of 80 columns."""
     head = f"{prop.id} (on {prop.on}, on record {model.expected(prop.id).verdict})"
     return "\n".join(
-        (head, fill(prop.text, COLUMNS), *map(_indented, formally(prop, model.systems[prop.on].tick_ms)))
+        (
+            head,
+            filled(prop.text, text_width()),
+            *map(_indented, formally(prop, model.systems[prop.on].tick_ms)),
+        )
     )
 
 
@@ -43,4 +45,4 @@ def _tick_ms() -> dict[str, int]:
 
 
 def _indented(text: str) -> str:
-    return fill(text, COLUMNS, initial_indent="  ", subsequent_indent="    ", break_on_hyphens=False)
+    return filled(text, text_width(), "  ", "    ")

@@ -8,7 +8,8 @@ from checker.render.durations import duration
 from checker.trace import Trace
 from spec_model.lang.chart import Chart, State
 from spec_model.lang.domain import Num, show
-from spec_model.lang.expr import Apply, Const, Expr, Op, Temporal, Var, When
+from spec_model.lang.expr import Apply, Const, Expr, Temporal, Var, When
+from spec_model.lang.operators import Op
 from spec_model.lang.walk import nodes, plain, structure
 
 _COUNTER = re.compile(r"(?P<place>.+)\.(?P<word>after|duration|held)(?P<number>\d*)")

@@ -1,13 +1,16 @@
 """A trace as comma-separated values: one row for each tick, for spreadsheets and data frames.
 
 Row 0 is the valuation before the first tick.  Numbers are in their units, truth values ``true`` and
-``false``; a cell is empty where nothing has that value in the tick.
+``false``; a cell is empty where nothing has that value in the tick.  Names and texts that a spreadsheet
+would compute begin with ``'``, as do those that begin so already.  A variable named as one of our columns
+(``tick``, ``time_ms``, ``arrows``) has ``_`` behind its name, as often as no other variable is named so.
 """
 
 import csv
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from io import StringIO
 
+from checker.files import csv_cell
 from checker.trace import Trace
 
 NAME = "csv"
@@ -26,15 +29,26 @@ def render(trace: Trace) -> str:
     names = [*trace.inputs, *others]
     out = StringIO()
     table = csv.writer(out, lineterminator="\n")
-    table.writerow([*FIRST, *names, LAST])
+    table.writerow([*FIRST, *map(csv_cell, _apart(names)), LAST])
     table.writerow([0, 0, *_cells(trace, names, trace.before), ""])
     fixed = {n: v for n, v in trace.before.items() if trace.ticks and n not in trace.ticks[0].after}
     for tick in trace.ticks:
         cells = _cells(trace, names, {**fixed, **tick.after, **tick.inputs})
-        arrows = "; ".join(map(str, tick.arrows))
+        arrows = csv_cell("; ".join(map(str, tick.arrows)))
         table.writerow([tick.number, tick.number * trace.tick_ms, *cells, arrows])
     return out.getvalue()
 
 
+def _apart(names: Sequence[str]) -> list[str]:
+    """The names of columns, none of them one of ours and no two alike."""
+    found = []
+    for name in names:
+        column = name
+        while column in (*FIRST, LAST) or (column != name and column in names):
+            column += "_"
+        found.append(column)
+    return found
+
+
 def _cells(trace: Trace, names: list[str], at: Mapping[str, int]) -> list[str]:
-    return [trace.show(name, at[name]) if name in at else "" for name in names]
+    return [csv_cell(trace.show(name, at[name])) if name in at else "" for name in names]

@@ -1,20 +1,18 @@
 """A trace as a table for the terminal: what changed, what fired, which part of the property is false."""
 
+from collections.abc import Iterator
 from io import StringIO
 
-from rich.console import Console
-from rich.padding import Padding
-from rich.table import Table
 from rich.text import Text
 
-from checker.render.again import Again, folded
+from checker.render.again import folded
+from checker.render.hanging import hanging
 from checker.render.reasons import forced, reasons
 from checker.render.story import (
     UNTOLD,
     Change,
     Conjunct,
     Event,
-    Quiet,
     Repeats,
     conjuncts,
     ending,
@@ -24,6 +22,7 @@ from checker.render.story import (
     start_values,
 )
 from checker.trace import Arrow, Trace
+from checker.unmarked import UnmarkedConsole
 
 NAME = "table"
 KIND = "trace"
@@ -39,80 +38,88 @@ _STYLES = {False: "bold red", True: "dim"}
 def render(trace: Trace, width: int = 80, color: bool = False) -> str:
     """The table as text of ``width`` columns, with ANSI colours if asked for."""
     out = StringIO()
-    console = Console(
+    console = UnmarkedConsole(
         file=out, width=width, force_terminal=color, color_system="standard" if color else None,
-        legacy_windows=False, highlight=False, emoji=False, markup=False, _environ={},
+        legacy_windows=False, _environ={},
     )  # fmt: skip
-    console.print(Text(heading(trace), style="bold"))
-    if chosen := start_values(trace):
-        console.print(Text("fixed: " + ", ".join(f"{n} = {v}" for n, v in chosen)))
-    console.print(_table(trace))
-    if last := ending(trace):
-        console.print(Text(last, style="bold"))
-    console.print(Text(UNTOLD, style="dim"))
-    for part in conjuncts(trace):
-        console.print(Text(f"{part.verdict}: {part.name or part.formula}", style=_STYLES[part.true]))
-        if not part.true:
-            console.print(Padding(Text("\n".join(_explained(part))), (0, 0, 0, 4)))
-    if said := forced(trace):
-        console.print(Text("What forces it", style="bold"))
-        console.print(_reasons(trace)) if trace.needed else None
-        console.print(Text(said))
+    for lead, shown in _parts(trace):
+        for line in hanging(console, lead, shown):
+            console.print(line, no_wrap=True, overflow="ignore", crop=False)
     return "\n".join(line.rstrip() for line in out.getvalue().splitlines()) + "\n"
 
 
-def _table(trace: Trace) -> Table:
-    table = Table(box=None, pad_edge=False, padding=(0, 1), show_edge=False)
-    table.add_column("tick", justify="right", no_wrap=True)
-    table.add_column("ms", justify="right", no_wrap=True)
-    table.add_column("what happened", ratio=1)
+Part = tuple[Text, Text]
+"""A text, and what stands before its first line."""
+
+
+def _parts(trace: Trace) -> Iterator[Part]:
+    none = Text()
+    yield none, Text(heading(trace), style="bold")
+    if chosen := start_values(trace):
+        yield none, Text("fixed: " + ", ".join(f"{n} = {v}" for n, v in chosen))
+    yield from _table(trace)
+    if last := ending(trace):
+        yield none, Text(last, style="bold")
+    yield none, Text(UNTOLD, style="dim")
+    for part in conjuncts(trace):
+        yield none, Text(f"{part.verdict}: {part.name or part.formula}", style=_STYLES[part.true])
+        if not part.true:
+            yield from ((Text("    "), Text(line)) for line in _explained(part))
+    if said := forced(trace):
+        yield none, Text("What forces it", style="bold")
+        if trace.needed:
+            yield from _reasons(trace)
+        yield none, Text(said)
+
+
+def _table(trace: Trace) -> Iterator[Part]:
+    rows: list[tuple[str, str, list[Part]]] = [("tick", "ms", [_marked("what happened", "", "bold")])]
     for row in folded(trace):
-        if isinstance(row, Repeats):
-            table.add_row("↻", "", _hanging(row.what, style="bold"))
-        elif isinstance(row, Again | Quiet):
-            table.add_row("·", "", _hanging(row.what, style="dim"))
+        if isinstance(row, Event):
+            rows.append((str(row.number), str(row.ms), list(_event(trace, row))))
         else:
-            _event(table, trace, row)
-    return table
+            style = "bold" if isinstance(row, Repeats) else "dim"
+            sign = "↻" if isinstance(row, Repeats) else "·"
+            rows.append((sign, "", [_marked(row.what, style=style)]))
+    wide, wider = (max(len(row[place]) for row in rows) for place in (0, 1))
+    for tick, ms, lines in rows:
+        before = Text(f"{tick:>{wide}}  {ms:>{wider}}  ", style="bold" if tick == "tick" else "")
+        for mark, shown in lines:
+            yield Text.assemble(before, mark), shown
+            before = Text(" " * len(before))
 
 
-def _event(table: Table, trace: Trace, event: Event) -> None:
-    lines: list[Table] = []
+def _event(trace: Trace, event: Event) -> Iterator[Part]:
     for needed in (True, False):
         given = [str(c) for c in event.changes if not c.old and c.needed is needed]
-        lines += [_hanging(", ".join(given), NEEDED if needed else INPUT, "cyan")] if given else []
-    lines += [_changed(c) for c in event.changes if c.old] + [_fired(a) for a in event.arrows]
-    for i, line in enumerate(lines or [_hanging(standstill(trace, event))]):
-        table.add_row(str(event.number) if not i else "", str(event.ms) if not i else "", line)
+        if given:
+            yield _marked(", ".join(given), NEEDED if needed else INPUT, "cyan")
+    changed = [c for c in event.changes if c.old]
+    yield from map(_changed, changed)
+    yield from map(_fired, event.arrows)
+    if not (event.changes or event.arrows):
+        yield _marked(standstill(trace, event))
 
 
-def _changed(change: Change) -> Table:
+def _changed(change: Change) -> Part:
     mark = (NEEDED if change.needed else INPUT) if change.is_input else "    "
-    return _hanging(str(change), mark, "cyan" if change.is_input else "")
+    return _marked(str(change), mark, "cyan" if change.is_input else "")
 
 
-def _fired(arrow: Arrow) -> Table:
+def _fired(arrow: Arrow) -> Part:
     label = f"  {arrow.label}" if arrow.label else ""
-    return _hanging(f"{arrow.chart}: {start_of(arrow)}{label}", "  ▸ ", "green")
+    return _marked(f"{arrow.chart}: {start_of(arrow)}{label}", "  ▸ ", "green")
 
 
-def _hanging(shown: str, mark: str = "    ", style: str = "") -> Table:
-    """A mark and a text whose further lines are set below its first."""
-    grid = Table.grid(padding=0)
-    grid.add_column(width=len(mark), no_wrap=True)
-    grid.add_column(ratio=1)
-    grid.add_row(Text(mark, style=style), Text(shown, style=style, overflow="fold"))
-    return grid
+def _marked(shown: str, mark: str = "    ", style: str = "") -> Part:
+    return Text(mark, style=style), Text(shown, style=style)
 
 
-def _reasons(trace: Trace) -> Table:
-    table = Table.grid(padding=(0, 2))
-    table.add_column(no_wrap=True)
-    table.add_column(justify="right", no_wrap=True)
-    table.add_column(ratio=1)
-    for reason in reasons(trace, regular=True):
-        table.add_row(f"{NEEDED}{reason.when}", reason.ms, Text(reason.what, style="cyan", overflow="fold"))
-    return table
+def _reasons(trace: Trace) -> Iterator[Part]:
+    found = list(reasons(trace, regular=True))
+    wide, wider = max(len(one.when) for one in found), max(len(one.ms) for one in found)
+    for one in found:
+        yield Text(f"{NEEDED}{one.when:<{wide}}  {one.ms:>{wider}}  "), Text(one.what, style="cyan")
 
 
 def _explained(part: Conjunct) -> list[str]:

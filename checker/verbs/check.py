@@ -1,19 +1,20 @@
 """The verb ``check``: properties against the verdicts on record."""
 
 from pathlib import Path
+from shlex import join
 
 import click
 
 from checker.commands.codes import Exit, UsageError
 from checker.commands.options import GIB, modelling, searching, varying
-from checker.decide import ALL, AUTO
-from checker.engine import Limits, Timers
-from checker.isolate import prepared
+from checker.engine import ALL, AUTO, LOADED, Limits, Timers
 
 
-@click.command()
+@click.command(short_help="Check properties, and compare with the verdicts on record.")
 @click.argument("ids", nargs=-1, metavar="[ID]...")
-@click.option("--system", metavar="NAME", help="Only properties about this system.")
+@click.option(
+    "--system", "about", multiple=True, metavar="NAME", help="Only properties about this system, or these."
+)
 @click.option("--full", is_flag=True, help="Also the properties that take long.")
 @click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
 @click.option("--quiet", "-q", is_flag=True, help="Only what is not as expected, and no progress.")
@@ -61,7 +62,7 @@ from checker.isolate import prepared
 @searching
 def check(
     ids: tuple[str, ...],
-    system: str | None,
+    about: tuple[str, ...],
     full: bool,
     as_json: bool,
     quiet: bool,
@@ -83,28 +84,33 @@ def check(
     timers: str,
 ) -> Exit:
     """Check properties and compare the verdicts with the baseline."""
-    with prepared("checker.searches"):
+    from checker.isolate import prepared
+
+    with prepared(*LOADED):
+        from checker.commands.certificates import writable
         from checker.commands.check import check as run
         from checker.commands.check import undelivered
+        from checker.commands.findings import Guide, causes
         from checker.commands.select import pick_engine, pick_properties
         from checker.commands.variant import pick_variant
 
         variant = pick_variant(chosen, repair, dropped, model)
-        properties = pick_properties(ids, system, variant.properties(), full, variant.unchanged())
+        properties = pick_properties(ids, about, variant.properties(), full, variant.unchanged())
         if variant.name and not ids:
             properties = list(filter(variant.concerns(), properties))
         if variant.name:
             properties = variant.askable(properties)
         limits = Limits(depth, timeout, int(memory * 2**30), timers=Timers(timers))
         asked = _asked(pick_engine(engine), all_engines)
+        if certificates:
+            writable(certificates)
         certifying = variant.certifying(certificates, certify) if certify or certificates else None
-        options = variant.model.options
         systems = variant.systems()
         deliver = undelivered
         if junit or sarif or annotations:
             from checker.commands.ci import Reports
 
-            again = _again(options, chosen, repair, dropped)
+            again = _again(variant.model.options, chosen, repair, dropped)
             reports = Reports(systems, junit, sarif, annotations or "", variant.name, again, as_json)
             reports.possible()
             deliver = reports.write
@@ -118,10 +124,16 @@ def check(
             variant.expected,
             jobs,
             certifying,
-            options,
+            Guide(variant.options, _selection(ids, about, full), variant.model.by_gravity, causes(variant)),
             deliver,
             quiet,
         )
+
+
+def _selection(ids: tuple[str, ...], about: tuple[str, ...], full: bool) -> str:
+    """The words that choose the same properties again."""
+    systems = (word for name in about for word in ("--system", name))
+    return join([*ids, *systems, *(("--full",) if full else ())])
 
 
 def _again(options: str, chosen: tuple[str, ...], repair: str | None, dropped: tuple[str, ...]) -> str:

@@ -1,10 +1,8 @@
 """The verb ``completion``: what makes the shell complete verbs, options and the names of the model."""
 
 import click
-from click.shell_completion import get_completion_class
 
 from checker.commands.codes import Exit
-from checker.commands.output import write
 
 SHELLS = ("bash", "zsh", "fish")
 VARIABLE = "_ROVERCHECK_COMPLETE"
@@ -23,6 +21,10 @@ Examples:
 @click.pass_context
 def completion(context: click.Context, shell: str) -> Exit:
     """Print the script that lets SHELL complete verbs, options, properties, systems, charts and formats."""
+    from click.shell_completion import get_completion_class
+
+    from checker.commands.output import write
+
     made = get_completion_class(shell)
     assert made is not None, "click knows these shells"
     write(made(context.find_root().command, {}, "rovercheck", VARIABLE).source(), None)

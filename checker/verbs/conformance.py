@@ -8,7 +8,7 @@ import click
 
 from checker.commands.codes import Exit
 from checker.commands.options import SECONDS, quietly, writing
-from checker.isolate import prepared
+from checker.engine import LOADED
 
 
 def _changing(command: Callable[..., Exit]) -> Callable[..., Exit]:
@@ -33,6 +33,7 @@ def _changing(command: Callable[..., Exit]) -> Callable[..., Exit]:
 @click.option("--log", type=click.Path(path_type=Path), metavar="DIR", help="Write every step there, as CSV.")
 @click.option("--no-plot", is_flag=True, help="Draw nothing.")
 @writing
+@quietly
 def simulate(scenario: Path, log: Path | None, no_plot: bool, output: Path | None) -> Exit:
     """Run both boards in the scenario of a TOML file; exit code 1 if it goes other than expected."""
     from checker.commands.simulating import simulate as run
@@ -80,13 +81,29 @@ def conform(
 @click.option(
     "--tests", type=click.Path(path_type=Path), metavar="DIR", help="Also the tests there, as CSV or JSON."
 )
+@click.option(
+    "--mismatches",
+    type=click.IntRange(min=0),
+    default=5,
+    show_default=True,
+    metavar="N",
+    help="Distinct mismatches told with inputs and a test; the others in a line each.",
+)
+@click.option(
+    "--failures",
+    type=click.IntRange(min=1),
+    default=3,
+    show_default=True,
+    metavar="N",
+    help="Runs it may fail to survive before no more are tried.",
+)
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option(
     "--output",
     "-o",
     type=click.Path(file_okay=False, path_type=Path),
     metavar="DIR",
-    help="Write a test for each mismatch there, not here.",
+    help="Write a test for each of these mismatches there, not here.",
 )
 @_changing
 @quietly
@@ -97,6 +114,8 @@ def crosscheck(
     examples: int | None,
     seed: int | None,
     tests: Path | None,
+    mismatches: int,
+    failures: int,
     as_json: bool,
     output: Path | None,
     chosen: tuple[str, ...],
@@ -105,8 +124,11 @@ def crosscheck(
     """Run a supervisor and the charts side by side; exit code 1 where they differ."""
     from checker.commands.crosschecking import Asked
     from checker.commands.crosschecking import crosscheck as run
+    from checker.conform.cross import Allowance
 
-    return run(Asked(system, impl, profile, examples, seed, tests, chosen, repair), output, as_json)
+    allowed = Allowance(mismatches, failures)
+    asked = Asked(system, impl, profile, examples, seed, tests, allowed, chosen, repair)
+    return run(asked, output, as_json)
 
 
 @click.command(short_help="Write tests that cover the charts, with expected outputs.")
@@ -183,7 +205,9 @@ def testgen(
     Exit code 0 if every goal is reached by a test or proved out of reach, 2 if some are not known to be
     either.  Ctrl-C writes what was found so far.
     """
-    with prepared("checker.searches"):
+    from checker.isolate import prepared
+
+    with prepared(*LOADED):
         from checker.commands.generating import Asked
         from checker.commands.generating import testgen as run
         from checker.conform.cover.coverage import Effort

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from checker.commands.codes import Exit
-from checker.commands.options import modelling, varying
+from checker.commands.options import modelling, quietly, varying
 
 EXAMPLES = """\b
 Examples:
@@ -26,6 +26,7 @@ Examples:
 )
 @modelling
 @varying
+@quietly
 def explore(
     name: str | None,
     traced: str | None,

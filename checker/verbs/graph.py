@@ -23,10 +23,9 @@ Examples:
 @click.option("--bad", metavar="PROPERTY", help="Mark where this property is broken (or reached).")
 @click.option(
     "--format",
-    default="svg",
-    show_default=True,
     metavar="FORMAT",
-    help="svg, html, dot, mermaid, graphml or json.",
+    help="svg, html, dot, mermaid or graphml; of a state graph also json. By default what the name of the "
+    "output says, else svg.",
 )
 @click.option(
     "--max-nodes",
@@ -54,7 +53,7 @@ def graph(
     project: str | None,
     trace: str | None,
     bad: str | None,
-    format: str,
+    format: str | None,
     most: int,
     summary: bool,
     depth: int | None,

@@ -26,6 +26,7 @@ LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs
     "--json", "as_json", is_flag=True, help="The outcomes as JSON (checker/schemas/certify-1.json)."
 )
 @modelling
+@quietly
 def certify(
     paths: tuple[Path, ...],
     solver: str,
@@ -70,7 +71,7 @@ def requirements(decide: bool, as_json: bool, model: Path | None) -> Exit:
 @click.command(short_help="Write properties for other model checkers.")
 @click.argument("ids", nargs=-1, metavar="PROPERTY...")
 @click.option(
-    "--system", metavar="NAME", help="Only properties about this system; all of them if none is named."
+    "--system", "about", multiple=True, metavar="NAME", help="All properties about this system, or these."
 )
 @click.option(
     "--format",
@@ -85,7 +86,7 @@ def requirements(decide: bool, as_json: bool, model: Path | None) -> Exit:
 @quietly
 def export(
     ids: tuple[str, ...],
-    system: str | None,
+    about: tuple[str, ...],
     format: str,
     model: Path | None,
     chosen: tuple[str, ...],
@@ -97,7 +98,7 @@ def export(
     from checker.commands.exporting import export as run
     from checker.commands.variant import pick_variant
 
-    return run(ids, system, format, pick_variant(chosen, repair, dropped, model), output)
+    return run(ids, about, format, pick_variant(chosen, repair, dropped, model), output)
 
 
 @click.command(short_help="Write the evidence: verdicts, diagrams, findings.")

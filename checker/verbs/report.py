@@ -8,8 +8,7 @@ from click.core import ParameterSource
 
 from checker.commands.codes import Exit
 from checker.commands.options import GIB, modelling, quietly, searching, varying
-from checker.engine import Limits, Timers
-from checker.isolate import prepared
+from checker.engine import LOADED, Limits, Timers
 
 FILE = "FILE"
 """What stands for the file in the command that the page shows."""
@@ -25,7 +24,9 @@ FILE = "FILE"
     metavar=FILE,
     help="The HTML file to write.",
 )
-@click.option("--system", metavar="NAME", help="Only properties about this system.")
+@click.option(
+    "--system", "about", multiple=True, metavar="NAME", help="Only properties about this system, or these."
+)
 @click.option("--full", is_flag=True, help="Also the properties that take long.")
 @click.option("--certify", is_flag=True, help="Check every proof again, without the engine that found it.")
 @click.option("--no-repairs", is_flag=True, help="Without deciding the proposed repairs.")
@@ -55,7 +56,7 @@ def report(
     context: click.Context,
     ids: tuple[str, ...],
     output: Path,
-    system: str | None,
+    about: tuple[str, ...],
     full: bool,
     certify: bool,
     no_repairs: bool,
@@ -74,19 +75,21 @@ def report(
     timers: str,
 ) -> Exit:
     """Check properties and write one HTML page for reviewers, which needs no network."""
-    with prepared("checker.searches"):
+    from checker.isolate import prepared
+
+    with prepared(*LOADED):
         from checker.commands.reviewing import Asked
         from checker.commands.reviewing import report as run
         from checker.commands.select import pick_engine, pick_properties
         from checker.commands.variant import pick_variant
 
         variant = pick_variant(chosen, repair, dropped, model)
-        properties = pick_properties(ids, system, variant.properties(), full, variant.unchanged())
+        properties = pick_properties(ids, about, variant.properties(), full, variant.unchanged())
         if variant.name and not ids:
             properties = list(filter(variant.concerns(), properties))
         if variant.name:
             properties = variant.askable(properties)
-        whole = not (ids or system or variant.name)
+        whole = not (ids or about or variant.name)
         return run(
             variant,
             properties,

@@ -1,12 +1,17 @@
 """A program at a terminal of its own, for tests of what people see there."""
 
+import fcntl
 import os
 import pty
 import select
+import struct
 import subprocess
 import sys
+import termios
 from collections.abc import Mapping, Sequence
 from time import monotonic
+
+import pyte
 
 OWN_TERMINAL = """
 import fcntl, os, signal, sys, termios
@@ -22,21 +27,38 @@ PATIENCE = 60.0
 
 
 class Terminal:
-    """Runs a command at a terminal of 80 columns; ``with`` it around the conversation."""
+    """Runs a command at a terminal; ``with`` it around the conversation.
 
-    def __init__(self, command: Sequence[str], **environment: str) -> None:
+    ``stdout`` and ``stderr`` are files to which one of the two goes instead of the terminal.
+    """
+
+    def __init__(
+        self,
+        command: Sequence[str],
+        columns: int = 80,
+        lines: int = 40,
+        stdout: int | None = None,
+        stderr: int | None = None,
+        environment: Mapping[str, str] | None = None,
+    ) -> None:
         self._ours, theirs = pty.openpty()
+        fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", lines, columns, 0, 0))
         kept: Mapping[str, str] = {
-            k: v for k, v in os.environ.items() if k not in ("NO_COLOR", "FORCE_COLOR")
+            k: v for k, v in os.environ.items() if k not in ("NO_COLOR", "FORCE_COLOR", "COLUMNS", "LINES")
         }
-        known = {**kept, "TERM": "xterm-256color", "COLUMNS": "80", "LINES": "40", **environment}
         self._process = subprocess.Popen(
-            [sys.executable, "-c", OWN_TERMINAL, *command], stdin=theirs, stdout=theirs, stderr=theirs,
-            env=known, start_new_session=True,
-        )  # fmt: skip
+            [sys.executable, "-c", OWN_TERMINAL, *command],
+            stdin=theirs,
+            stdout=theirs if stdout is None else stdout,
+            stderr=theirs if stderr is None else stderr,
+            env={**kept, "TERM": "xterm-256color", **(environment or {})},
+            start_new_session=True,
+        )
         os.close(theirs)
         self.seen = ""
         self._read = 0
+        self._screen = pyte.HistoryScreen(columns, lines, history=100_000, ratio=1)
+        self._stream = pyte.ByteStream(self._screen)
 
     def __enter__(self) -> "Terminal":
         return self
@@ -85,11 +107,32 @@ class Terminal:
             if select.select([self._ours], [], [], 5)[0] and not self._more():
                 break
 
+    def send(self, number: int) -> None:
+        """Send a signal to the program."""
+        self._process.send_signal(number)
+
     def ended(self) -> int:
         """The exit code, once the program has ended."""
         while self._more():
             pass
         return self._process.wait(PATIENCE)
+
+    def shown(self) -> list[str]:
+        """The lines on the terminal, after those that were scrolled away, without blanks at their ends."""
+        columns = range(self._screen.columns)
+        gone = ["".join(line[x].data for x in columns) for line in self._screen.history.top]
+        return "\n".join(line.rstrip() for line in (*gone, *self._screen.display)).rstrip().split("\n")
+
+    @property
+    def clean(self) -> bool:
+        """Whether a shell can go on: the cursor is shown, at the start of an empty line."""
+        cursor = self._screen.cursor
+        return not cursor.hidden and cursor.x == 0 and not self._screen.display[cursor.y].strip()
+
+    @property
+    def cursor_hidden(self) -> bool:
+        """Whether the cursor is hidden now."""
+        return bool(self._screen.cursor.hidden)
 
     def _more(self) -> bool:
         ready, _, _ = select.select([self._ours], [], [], PATIENCE)
@@ -98,4 +141,5 @@ class Terminal:
         except OSError:  # the other end is closed
             return False
         self.seen += data.decode(errors="replace")
+        self._stream.feed(data)
         return bool(data)

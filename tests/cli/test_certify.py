@@ -53,6 +53,18 @@ def test_outcomes_for_machines_are_as_the_schema_says(
         assert (told["exit"], [one["outcome"] for one in told["properties"]]) == (code, [word])
 
 
+def test_every_outcome_names_its_file(made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Of two files about one property nobody could tell which was rejected."""
+    good = counters(made)
+    bad = changed(good, tmp_path, lambda d: d["certificates"][0].update(digest="0" * 64))
+    assert cli.run(["certify", str(good), str(bad), "--solver", "bitwuzla", "--json"]) is Exit.CHANGED
+    told = [(one["file"], one["outcome"]) for one in json.loads(capsys.readouterr().out)["properties"]]
+    assert sorted(told) == sorted([(str(good), "accepted"), (str(bad), "rejected")])
+    cli.run(["certify", str(good), str(bad), "--solver", "bitwuzla"])
+    said = capsys.readouterr().out
+    assert f"rejected  {bad}: " in said and str(good) not in said
+
+
 def test_each_way_of_checking_alone(made: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.run(["certify", str(counters(made)), "--solver", "enumeration"]) is Exit.AS_EXPECTED
     assert "ticks tried" in capsys.readouterr().out

@@ -59,8 +59,21 @@ def test_what_comes_of_a_certificate_is_shown(
     assert ("please report it" in " ".join(shown.err.split())) == (code is Exit.INTERNAL)
 
 
-def test_a_folder_that_cannot_be_written(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+def test_a_folder_that_cannot_be_written_any_more(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("checker.commands.certificates.writable", lambda folder: None)
     (tmp_path / "taken").write_text("a file")
     assert run(["check", "PB1-11", "--certificates", str(tmp_path / "taken" / "in")]) == Exit.USAGE
     shown = capfd.readouterr()
     assert "PB1-11" in shown.out and "The verdicts stand." in shown.err and "INTERNAL" not in shown.err
+
+
+def test_no_folder_is_left_where_nothing_is_proved(tmp_path: Path) -> None:
+    """It was made before the search, and stayed empty."""
+    folder = tmp_path / "new" / "certificates"
+    asked = ["--certificates", str(folder)]
+    assert run(["check", "PB1-15", *asked]) == Exit.AS_EXPECTED
+    assert not folder.parent.exists()
+    assert run(["check", "PB1-11", *asked]) == Exit.AS_EXPECTED
+    assert list(folder.glob("relay-*.json*"))

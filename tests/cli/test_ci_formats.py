@@ -20,6 +20,7 @@ from checker.result import Result
 from checker.trace import Trace
 from checker.verdict import Exhausted, Proved, Unknown, Verdict, Violated
 from properties.catalogue import Expected, catalogue, expected
+from spec_model.lang.errors import ModelError
 from spec_model.rover import systems
 from tests.render.exits_zoo import told
 from tests.render.test_exits_ci import commands
@@ -109,11 +110,22 @@ def test_what_changed_fails_with_the_explained_run(
     assert rule["help"]["text"].startswith("From step 2 on") and "B1-REL-02" in rule["properties"]["tags"]
 
 
-@pytest.mark.parametrize(("end", "code"), [(KeyboardInterrupt(), Exit.INTERRUPTED),
-                                           (RuntimeError("a bug"), Exit.INTERNAL)])  # fmt: skip
-def test_an_end_before_the_end_is_written_down(written: Written, end: BaseException, code: Exit) -> None:
+@pytest.mark.parametrize(
+    ("end", "code", "case", "why"),
+    [
+        (KeyboardInterrupt(), Exit.INTERRUPTED, "interrupted", ""),
+        (RuntimeError("a bug"), Exit.INTERNAL, "stopped", "INTERNAL: RuntimeError: a bug"),
+        (ModelError("toy: x gives 4."), Exit.USAGE, "stopped", "toy: x gives 4. Incomplete:"),
+    ],
+)
+def test_an_end_before_the_end_is_written_down(
+    written: Written, end: BaseException, code: Exit, case: str, why: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """A model that leaves a domain was told as an interruption, without a reason."""
     assert written.check(CHANGED[:1], end=end) == code
-    assert set(written.cases) == {"PB1-11", "interrupted"}
+    assert set(written.cases) == {"PB1-11", case}
+    assert why in written.cases[case].result[0].message
+    assert f"::error title=rovercheck was {case}::{why}" in capsys.readouterr().out
     assert written.log["invocations"][0]["executionSuccessful"] is False
     assert "1 of 4 properties" in written.summary.read_text(encoding="utf-8")
 

@@ -44,13 +44,13 @@ def test_a_board_conforms(capsys: pytest.CaptureFixture[str], tmp_path: Path) ->
 
 
 def test_a_fault_is_shown_and_becomes_a_test(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    fault = f"python:{FAULTS}:StopsLate"
-    code = crosscheck("--system", "board2", "--impl", fault, "--examples", "0", "-o", str(tmp_path))
+    fault, folder = f"python:{FAULTS}:StopsLate", tmp_path / "with a blank"
+    code = crosscheck("--system", "board2", "--impl", fault, "--examples", "0", "-o", str(folder))
     said = capsys.readouterr().out
     assert code is Exit.CHANGED
     assert "board2 does not conform" in said and "the charts took" in said
-    written = min(tmp_path.glob("crosscheck_board2_*.py"))
-    assert f"pytest {written}" in said
+    written = min(folder.glob("crosscheck_board2_*.py"))
+    assert f"pytest '{written}'" in said, "a command that can be typed"
     ran = subprocess.run(
         [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(written)],
         capture_output=True,
@@ -72,6 +72,52 @@ def test_results_for_machines(capsys: pytest.CaptureFixture[str], tmp_path: Path
     first = result["mismatches"][0]
     assert first["differences"] and Path(first["test"]).is_file() and first["step"] > 0
     assert result["arrows"]["taken"] + len(result["arrows"]["missing"]) == result["arrows"]["all"]
+
+
+def test_what_is_not_told_in_full_is_told_in_a_line_and_how_to_see_it(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    fault = f"python:{FAULTS}:StalePayload"
+    asked = ["--system", "board1", "--impl", fault, "--examples", "0", "-o", str(tmp_path)]
+    assert crosscheck(*asked, "--mismatches", "1") is Exit.CHANGED
+    said = " ".join(capsys.readouterr().out.split())
+    assert crosscheck(*asked, "--mismatches", "1", "--json") is Exit.CHANGED
+    [result] = json.loads(capsys.readouterr().out)["results"]
+    found = result["mismatches"]
+    assert result["distinct"] == len(found) > 1 and [m["small"] for m in found] == [
+        True,
+        *[False] * (len(found) - 1),
+    ]
+    assert len(list(tmp_path.glob("crosscheck_*.py"))) == 1 and [m["test"] for m in found[1:]] == [""] * (
+        len(found) - 1
+    )
+    assert f"({len(found)} mismatches)" in said
+    assert (
+        f"Mismatches with inputs and a test: 1 of {len(found)}; all of them with --mismatches {len(found)}."
+        in said
+    )
+    for one in found[1:]:
+        assert f"step {one['step']} of {one['origin']}: {one['differences'][0]['output']} differs" in said
+    assert crosscheck(*asked, "--mismatches", str(len(found))) is Exit.CHANGED
+    assert "all of them with" not in " ".join(capsys.readouterr().out.split())
+
+
+def test_what_was_not_tried_is_said_with_the_reason(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.undo()
+    fault = f"python:{FAULTS}:Crashing"
+    asked = ["--system", "board2", "--impl", fault, "--examples", "7", "-o", str(tmp_path), "--failures", "2"]
+    assert crosscheck(*asked) is Exit.CHANGED
+    said = " ".join(capsys.readouterr().out.split())
+    assert "tried, not all; given up after 2 runs not survived." in said
+    assert "Random runs: 0 of 7 tried; given up after 2 runs not survived." in said
+    assert "Try more with --failures N (now 2)." in said
+    assert crosscheck(*asked, "--json") is Exit.CHANGED
+    [result] = json.loads(capsys.readouterr().out)["results"]
+    reason = "given up after 2 runs not survived"
+    assert result["tried"][1] == {"kind": "random runs", "tried": 0, "of": 7, "because": reason}
+    assert result["tried"][0]["because"] == reason and result["compared"] < result["steps"]
 
 
 def test_a_crash_is_a_finding_that_becomes_a_test(

@@ -1,14 +1,17 @@
 """``rovercheck doctor``: every part is named, what is missing is told with what it adds."""
 
 import json
+import os
 import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from importlib.metadata import PackageNotFoundError
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from checker import cache
 from checker.cli import run
 from checker.commands import doctor
 from checker.commands.codes import Exit
@@ -112,5 +115,52 @@ def test_a_cache_that_is_switched_off_is_no_fault(
 ) -> None:
     monkeypatch.setenv("ROVERCHECK_CACHE", "")
     run(["doctor", "--json"])
-    [cache] = [f for f in json.loads(capsys.readouterr().out)["findings"] if f["name"] == "cache"]
-    assert cache["ok"] and "switched off" in cache["found"]
+    [found] = [f for f in json.loads(capsys.readouterr().out)["findings"] if f["name"] == "cache"]
+    assert found["ok"] and "switched off" in found["found"]
+
+
+@pytest.mark.skipif(not hasattr(os, "getuid"), reason="there are no modes of files to look at")
+@pytest.mark.parametrize(
+    ("spoil", "said"),
+    [
+        ("", ""),
+        ("cache", "not used: Others may write to the folder {cache}: chmod go-w {cache}"),
+        (
+            "secret",
+            "not used: The secret of the cache, {secret}, can be read or written by others: delete it",
+        ),
+        ("inside", "not used: The secret of the cache, {inside}, would be inside the cache"),
+    ],
+)
+def test_where_the_cache_and_its_secret_are_and_why_they_are_not_used(
+    spoil: str,
+    said: str,
+    untried: None,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    places = {name: tmp_path / name for name in ("cache", "secret")} | {"inside": tmp_path / "cache" / "x"}
+    monkeypatch.setenv(cache.VARIABLE, str(places["cache"]))
+    monkeypatch.setenv(cache.SECRET, str(places["secret"]))
+    assert shown(capsys)["ok"], "neither is made yet"
+    assert not any(tmp_path.iterdir())
+    cache.write("key", b"code")
+    match spoil:
+        case "cache" | "secret":
+            places[spoil].chmod(0o777)
+        case "inside":
+            monkeypatch.setenv(cache.SECRET, str(places["inside"]))
+    found = shown(capsys)
+    assert found["ok"] == (not spoil) and not found["required"]
+    assert f"{places['cache']}: 1 file, 0.0 MiB; sealed with {tmp_path}" in found["found"]
+    assert said.format(**places) in found["found"]
+
+
+def shown(capsys: pytest.CaptureFixture[str]) -> dict[str, Any]:
+    """What is said of the cache."""
+    capsys.readouterr()
+    run(["doctor", "--json"])
+    [found] = [f for f in json.loads(capsys.readouterr().out)["findings"] if f["name"] == "cache"]
+    assert isinstance(found, dict)
+    return found

@@ -8,6 +8,7 @@ import pytest
 from checker.cli import run
 from checker.commands import graphing
 from checker.commands.codes import Exit
+from tests.model_files.files import HEATER
 
 Capture = pytest.CaptureFixture[str]
 
@@ -19,6 +20,47 @@ def test_a_system_alone_is_told_how_to_project(capsys: Capture) -> None:
     assert "Relay              3 of 3" in told
     assert "    3  some                 rovercheck graph relay --project Relay\n" in told
     assert "154  all                  rovercheck graph relay --project Relay,Relay.B2_actuating.dur" in told
+
+
+def test_the_offer_is_for_the_terminal_and_no_content_of_a_file(capsys: Capture, tmp_path: Path) -> None:
+    """The list of projections was written into the file."""
+    target = tmp_path / "relay.svg"
+    assert run(["graph", "relay", "-o", str(target)]) == Exit.USAGE
+    told = capsys.readouterr()
+    assert "rovercheck graph relay --project Relay\n" in told.out and not target.exists()
+    assert "Nothing is written to" in told.err and "needs --project" in told.err
+
+
+@pytest.mark.parametrize("what", [["Relay"], ["relay", "--project", "Relay"]])
+@pytest.mark.parametrize(
+    ("name", "begins"),
+    [("a.svg", "<svg"), ("a.HTML", "<!doctype"), ("a.mmd", ""), ("a.dot", "digraph"), ("a", "<svg")],
+)
+def test_the_name_of_a_file_says_its_format(what: list[str], name: str, begins: str, tmp_path: Path) -> None:
+    target = tmp_path / name
+    assert run(["graph", *what, "-o", str(target)]) == Exit.AS_EXPECTED
+    written = target.read_text(encoding="utf-8")
+    assert written.lower().startswith(begins) and ("<svg" in written) == (name not in ("a.mmd", "a.dot"))
+
+
+@pytest.mark.parametrize("what", [["Relay"], ["relay", "--project", "Relay"]])
+@pytest.mark.parametrize(
+    ("name", "options", "message"),
+    [
+        ("a.pdf", [], ".dot, .graphml, .html, "),
+        ("a.svg", ["--format", "dot"], "--format dot and "),
+    ],
+)
+def test_a_name_that_says_another_format_or_none_is_refused(
+    what: list[str], name: str, options: list[str], message: str, tmp_path: Path, capsys: Capture
+) -> None:
+    assert run(["graph", *what, "-o", str(tmp_path / name), *options]) == Exit.USAGE
+    assert message in " ".join(capsys.readouterr().err.split()) and not (tmp_path / name).exists()
+
+
+def test_a_format_that_is_named_may_have_any_suffix(tmp_path: Path) -> None:
+    asked = ["graph", "Relay", "--format", "mermaid", "-o", str(tmp_path / "relay.md")]
+    assert run(asked) == Exit.AS_EXPECTED and (tmp_path / "relay.md").exists()
 
 
 def test_the_offer_of_a_cut_exploration_is_a_lower_bound(capsys: Capture) -> None:
@@ -97,6 +139,32 @@ def test_mistakes_say_what_to_write(capsys: Capture, name: str) -> None:
     assert message in " ".join(capsys.readouterr().err.split())
 
 
+INSTEAD = {
+    "B1_actuating": "'B1_actuating' is a state of the charts Relay, Check_Board1; rovercheck graph Relay",
+    "Relay.B2_actuating": "is a state of the chart Relay; rovercheck graph Relay draws it.",
+    "targetAngle180": "is data of board1, board1_plain, board1_buttons, rover and others: "
+    "rovercheck graph board1 --project targetAngle180",
+    "rx_status": "is data of reception,",
+    "Rely": "There is no chart or system 'Rely'. Did you mean 'Relay'?",
+}
+
+
+@pytest.mark.parametrize("name", INSTEAD)
+def test_what_is_no_chart_is_told_where_it_is(capsys: Capture, name: str) -> None:
+    """A state's name was answered with names that look alike."""
+    assert run(["graph", name]) == Exit.USAGE
+    assert INSTEAD[name] in " ".join(capsys.readouterr().err.split())
+
+
+def test_every_format_that_is_offered_for_a_chart_is_written(capsys: Capture) -> None:
+    assert run(["graph", "--help"]) == Exit.AS_EXPECTED
+    offered = " ".join(capsys.readouterr().out.split()).partition("--format FORMAT ")[2].partition(";")[0]
+    formats = offered.replace(" or ", ", ").split(", ")
+    assert len(formats) == 5
+    for format in formats:
+        assert run(["graph", "Relay", "--format", format]) == Exit.AS_EXPECTED
+
+
 def test_ctrl_c_writes_nothing(monkeypatch: pytest.MonkeyPatch, capsys: Capture, tmp_path: Path) -> None:
     def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
@@ -105,3 +173,11 @@ def test_ctrl_c_writes_nothing(monkeypatch: pytest.MonkeyPatch, capsys: Capture,
     target = tmp_path / "relay.svg"
     assert run(["graph", "relay", "--project", "Relay", "-o", str(target)]) == Exit.INTERRUPTED
     assert "nothing was written" in capsys.readouterr().err and not target.exists()
+
+
+def test_where_data_of_the_only_system_is_has_no_comma_too_many(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "heater.py").write_text(HEATER)
+    assert run(["graph", "door_open", "--model", str(tmp_path / "heater.py")]) == Exit.USAGE
+    assert "'door_open' is an input of Heater: rovercheck graph Heater --model " in capfd.readouterr().err

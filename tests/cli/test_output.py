@@ -92,6 +92,15 @@ def test_a_path_that_is_no_text_is_written_all_the_same(tmp_path: Path) -> None:
     assert json.loads((tmp_path / "x.json").read_text(encoding="utf-8")) == {"file": path}
 
 
+def test_a_folder_for_certificates_is_tried_before_anything_is_searched(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """Nothing is proved here, so nothing would be written."""
+    (tmp_path / "file").touch()
+    assert run(["check", "PB1-15", "--certificates", str(tmp_path / "file" / "folder")]) == Exit.USAGE
+    assert capfd.readouterr().out == ""
+
+
 def test_certificates_that_cannot_be_written_are_a_mistake_of_the_user(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:

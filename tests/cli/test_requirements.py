@@ -13,8 +13,7 @@ from checker.commands.codes import Exit
 from checker.commands.reporting import NOT_ASKED, differences, pages_of_verdicts
 from checker.commands.requirements import DECIDED, ON_RECORD, because, counts, page, show, words
 from checker.commands.reviewing_more import with_reasons
-from checker.decide import AUTO
-from checker.engine import Limits
+from checker.engine import AUTO, Limits
 from checker.model.rover import rover
 from properties.catalogue import catalogue, expected
 from properties.coverage import Coverage, matrix
@@ -107,10 +106,9 @@ def test_an_open_row_is_exit_code_1(
 # --- the command on the rover --------------------------------------------------------------------
 
 
-def test_the_table_has_every_requirement_in_80_columns(capfd: pytest.CaptureFixture[str]) -> None:
+def test_the_table_has_a_line_for_every_requirement(capfd: pytest.CaptureFixture[str]) -> None:
     run(["requirements"])
     shown = capfd.readouterr().out.splitlines()
-    assert max(map(len, shown)) <= 80
     listed = [line.split()[0] for line in shown if re.match(r"B[12]-[A-Z]+-\d+ +[a-z]", line)]
     assert listed == list(requirements())
 

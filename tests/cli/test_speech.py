@@ -17,8 +17,7 @@ from checker.commands.codes import Exit
 from checker.commands.doctor import memory
 from checker.commands.progress import Watch
 from checker.commands.variant import Variant
-from checker.decide import AUTO
-from checker.engine import Limits
+from checker.engine import AUTO, Limits
 from properties.catalogue import Expected
 from spec_model.rover import systems
 from tests.cli.terminal import Terminal
@@ -35,7 +34,7 @@ def piped(*arguments: str, said: str = "") -> subprocess.CompletedProcess[str]:
 
 
 def at_terminal(*arguments: str, **environment: str) -> tuple[int, str]:
-    with Terminal([*COMMAND, *arguments], **environment) as terminal:
+    with Terminal([*COMMAND, *arguments], environment=environment) as terminal:
         return terminal.ended(), terminal.seen
 
 
@@ -57,7 +56,7 @@ def test_a_terminal_shows_colour_and_no_color_takes_it_away() -> None:
 
 def session(**environment: str) -> str:
     """What a terminal shows of a step of a chart."""
-    with Terminal([*COMMAND, "explore", "Relay"], **environment) as terminal:
+    with Terminal([*COMMAND, "explore", "Relay"], environment=environment) as terminal:
         terminal.until("tick 0, 0 ms> ")
         terminal.type("step\n")
         terminal.until("tick 1, 20 ms> ")

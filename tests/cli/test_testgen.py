@@ -55,7 +55,8 @@ def test_no_line_is_wider_than_the_terminal(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("COLUMNS", "80")
-    run(["testgen", "--kept", "--system", "board1", "-o", str(tmp_path)])
+    monkeypatch.chdir(tmp_path)
+    run(["testgen", "--kept", "--system", "board1", "-o", "tests"])
     assert max(map(len, capsys.readouterr().out.splitlines())) <= 80
 
 

@@ -24,8 +24,7 @@ from checker.commands.codes import Exit
 from checker.commands.concrete import concrete
 from checker.commands.exits import exit_written
 from checker.commands.tracing import Showing
-from checker.decide import AUTO
-from checker.engine import Limits
+from checker.engine import AUTO, Limits
 from checker.render import renderers, trace_itf, trace_json
 from checker.trace import Trace
 from checker.verdict import Violated

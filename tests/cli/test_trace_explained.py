@@ -6,7 +6,6 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands import explaining
 from checker.commands.codes import Exit
 from checker.commands.examples import Wanted
 from checker.commands.explaining import Explaining
@@ -78,7 +77,7 @@ def test_when_interrupted_the_run_is_shown_all_the_same(
     def interrupted(*_: object) -> Trace:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(explaining, "explained", interrupted)
+    monkeypatch.setattr("checker.explain.explained.explained", interrupted)
     assert trace_of(Explaining()).needed is None
     assert "Interrupted: the run is shown without what forces it." in capfd.readouterr().err
 

@@ -60,4 +60,3 @@ def test_the_lists_explain_readings_repairs_and_assumptions(capfd: pytest.Captur
         assert run(["list", what]) == Exit.AS_EXPECTED
         shown = capfd.readouterr().out
         assert word in shown
-        assert all(len(line) <= 80 for line in shown.splitlines())

@@ -72,20 +72,35 @@ class Finding:
 
 @dataclass(frozen=True)
 class Report:
-    """What was decided; ``wanted`` counts the properties asked for, more than are here if interrupted."""
+    """What was decided; ``wanted`` counts the properties asked for, more than are here if it ended early.
+
+    ``ended`` says why: an error, in the words of the message; nothing where somebody interrupted it.  It may
+    be one that ended nothing, as of an engine that failed where others did not.
+    """
 
     findings: tuple[Finding, ...]
     wanted: int
     variant: str = ""
+    ended: str = ""
 
     @property
     def complete(self) -> bool:
-        return len(self.findings) >= self.wanted
+        return len(self.findings) >= self.wanted and not self.ended
 
     @property
     def missing(self) -> str:
-        """What an interruption left undecided, in a sentence."""
-        return f"Incomplete: {len(self.findings)} of {self.wanted} properties were decided."
+        """What was left undecided, and why, in a sentence or two."""
+        if len(self.findings) >= self.wanted:
+            return self.ended
+        counts = f"Incomplete: {len(self.findings)} of {self.wanted} properties were decided."
+        return f"{self.ended} {counts}" if self.ended else counts
+
+    @property
+    def end(self) -> str:
+        """What came before all was decided, or besides, in a word."""
+        if len(self.findings) >= self.wanted:
+            return "faulty"
+        return "stopped" if self.ended else "interrupted"
 
     def worst_first(self) -> list[Finding]:
         """What failed first, then what is open, then what is known."""

@@ -32,7 +32,8 @@ def annotations(report: Report) -> str:
             lines += [f"::group::{_data(finding.headline)}", *_log(explained(finding)), "::endgroup::"]
     for kind in ("error", "warning", "notice"):
         lines += _of_kind(kind, [f for f in report.worst_first() if _KINDS.get(f.level) == kind])
-    lines += [] if report.complete else [command("error", report.missing, title="rovercheck was interrupted")]
+    if not report.complete:
+        lines.append(command("error", report.missing, title=f"rovercheck was {report.end}"))
     return "".join(f"{line}\n" for line in lines)
 
 

@@ -19,7 +19,7 @@ def junit(report: Report) -> str:
     """The report as XML text.
 
     A violation that is on record has passed and says so; what is not decided is an error, or skipped where
-    just that is on record, and never a pass.  An interruption is an error of its own.
+    just that is on record, and never a pass.  That not all was decided is an error of its own.
     """
     xml = JUnitXml(FIRST)
     found = sorted(report.findings, key=lambda f: (f.system, f.id))
@@ -70,8 +70,8 @@ def _results(finding: Finding) -> Iterator[FinalResult]:
 
 
 def _interrupted(report: Report) -> TestSuite:
-    suite, case = TestSuite("not decided"), TestCase("interrupted", classname=FIRST)
-    case.result = [Error(report.missing, "incomplete")]
+    suite, case = TestSuite("not decided"), TestCase(report.end, classname=FIRST)
+    case.result = [Error(_clean(report.missing), "incomplete")]
     suite.add_testcase(case)
     return suite
 

@@ -9,8 +9,9 @@ from checker.trace import Trace
 from spec_model.lang.chart import Chart, Path
 from spec_model.lang.domain import Num, show
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import COMPARISONS, Apply, Const, Expr, Op, Temporal, Var, When
+from spec_model.lang.expr import Apply, Const, Expr, Temporal, Var, When
 from spec_model.lang.lower.timers import Timers
+from spec_model.lang.operators import COMPARISONS, Op
 from spec_model.lang.walk import nodes, plain
 
 Limits = Mapping[str, tuple[Limit, ...]]

@@ -1,0 +1,72 @@
+"""A program that runs commands one after the other, as a user types them, for tests of what a terminal shows.
+
+It runs in a folder that has our ``examples``, and the ``lift`` of them.  Each command is quick: it decides,
+or compares, only a part.
+"""
+
+import os
+from collections.abc import Iterator
+from itertools import islice
+from pathlib import Path
+from unittest.mock import patch
+
+from checker.cli import run
+from checker.commands import generating, reporting
+from checker.conform.cover.generate import Aim
+from checker.conform.cover.watch import watched
+from checker.conform.cross import check, recorded
+from checker.conform.cross.environment import Environment
+from checker.conform.cross.search import Run
+from properties.catalogue import catalogue
+from tests.conform import cover_toys
+
+ROOT = Path(__file__).parents[2]
+LIFT = "--model lift"
+MARK = "====="
+"""Begins the line before each command, and the one after it with its exit code."""
+
+COMMANDS = (
+    f"check {LIFT} --certify --certificates certificates",
+    f"trace LIFT-3 {LIFT} --witnesses 2",
+    f"requirements {LIFT} --check",
+    f"report {LIFT} -o review.html",
+    f"certify certificates {LIFT}",
+    f"graph lift {LIFT} --project Door -o door.svg",
+    "reports -o reports",
+    "crosscheck --system board2 --impl python:tests.conform.cross_faults:StopsLate --examples 1",
+    "conform examples/logs",
+    "simulate examples/scenarios/link_loss.toml -o motion.csv",
+    "testgen --system toy --ticks 200 --jobs 1 -o tests",
+    f"explore lift {LIFT} --trace LIFT-3 --script {ROOT}/tests/cli/conversation.txt",
+)
+
+
+def _known(env: Environment, folder: Path | None) -> Iterator[Run]:
+    yield from islice(recorded.counterexamples(env.board), 9)
+
+
+def _few() -> dict[str, object]:
+    return {"PB1-11": catalogue()["PB1-11"]}
+
+
+def main() -> None:
+    """Run every command, with one search at a time."""
+    if hasattr(os, "sched_setaffinity"):
+        os.sched_setaffinity(0, {min(os.sched_getaffinity(0))})
+    toy = [Aim(cover_toys.TOY, watched(cover_toys.TOY.system).goals)]
+    with (
+        patch.object(check, "_known", _known),
+        patch.object(reporting, "catalogue", _few),
+        patch.object(reporting, "proofs", lambda: ()),
+        patch.object(reporting, "repair_pages", lambda proved: {}),
+        patch.object(generating, "aims", lambda names, kinds: toy),
+        patch.object(generating, "systems", lambda: {cover_toys.TOY.name: cover_toys.SYSTEM}),
+    ):
+        for command in COMMANDS:
+            print(f"{MARK} {command.split()[0]}", flush=True)
+            code = run(command.split())
+            print(f"{MARK} {int(code)}", flush=True)
+
+
+if __name__ == "__main__":
+    main()
