@@ -1,4 +1,4 @@
-"""What MkDocs does besides: reference pages from docstrings, pictures from charts, files beside ``docs/``.
+"""What MkDocs does besides: the reference of the command line, and files beside ``docs/``.
 
 A page links to its neighbours as they lie in the repository (``../examples/README.md``).  On the site such
 a file is a page or a download below ``project/``, and the links are rewritten.
@@ -12,7 +12,7 @@ from typing import Any
 
 from mkdocs.structure.files import File, Files
 
-from docs.reference import commands, forms, language, pictures
+from docs.reference import commands, pictures
 
 ROOT = Path(__file__).parents[2]
 PROJECT = "project/"
@@ -24,12 +24,7 @@ LINK = re.compile(r"(?<=\]\()(?![a-z]+:|#)([^)#\s]+)(#[^)\s]*)?(?=\))")
 ROW = re.compile(r"(?m)^\|.*$")
 CODE = re.compile(r"`[^`\n]+`")
 GENERATED: dict[str, Callable[[], str]] = {
-    "reference/language.md": language.page,
-    "reference/properties.md": forms.page,
     "reference/commands.md": commands.page,
-    "pictures/relay.svg": lambda: pictures.of_rover("Relay"),
-    "pictures/pump.svg": pictures.of_tutorial,
-    "pictures/pump-repaired.svg": lambda: pictures.of_tutorial(changes=2),
     "pictures/icon.svg": lambda: pictures.ICON,
 }
 

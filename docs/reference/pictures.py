@@ -1,10 +1,9 @@
-"""The pictures of the site, drawn from the charts when it is built."""
+"""The pictures of the documents, drawn from the charts."""
 
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
 from checker.model.load import load
-from checker.model.rover import rover
 from checker.render import statechart_svg
 from docs.reference.listings import applied, listings
 
@@ -12,11 +11,6 @@ TUTORIAL = Path(__file__).parents[1] / "tutorial.md"
 ICON = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 24 24">
 <path d="M4 13l5 5L20 6" fill="none" stroke="#4051b5" stroke-width="4"/></svg>
 """
-
-
-def of_rover(chart: str) -> str:
-    """A chart of the rover as SVG."""
-    return statechart_svg.render(rover().charts[chart])
 
 
 def of_tutorial(changes: int = 0) -> str:

@@ -20,6 +20,7 @@ CROSSCHECKS = Instead(
     "20 s and more for a board; tests/conform runs cross-checks, and tests/cli their command line"
 )
 COVERS = Instead("searches for minutes; tests/cli/test_testgen.py runs the command on small charts")
+MUTATES = Instead("minutes of searches; tests/cli/test_mutate.py runs the command on small models")
 OUTSIDE = Instead("a program that pip does not install; tests/export asks it where there is one")
 PICKS = Instead("the tutorial runs tests of this kind; tests/plugin picks some of them in these ways")
 
@@ -52,6 +53,12 @@ COMMANDS = {
     "rovercheck testgen --kept": Instead("tests/cli/test_testgen.py writes the kept set of a board"),
     "rovercheck testgen --keep FOLDER": COVERS,
     "rovercheck testgen --keep checker/conform/cover/kept": COVERS,
+    "rovercheck mutate --system relay": MUTATES,
+    "rovercheck mutate --system relay --alone": MUTATES,
+    "rovercheck mutate --model heater.py": MUTATES,
+    "rovercheck mutate --sample 50 --seed 1": MUTATES,
+    "rovercheck mutate --system masks --timeout 10": MUTATES,
+    "rovercheck mutate --system masks --json": MUTATES,
     "rovercheck simulate SCENARIO.toml -o run.png": Instead(
         "any scenario; tests/cli/test_simulate.py draws the pictures",
         "rovercheck simulate examples/scenarios/link_loss.toml --log logs -o run.csv",
@@ -142,6 +149,7 @@ SHOWN = {
         "✓ PSY-21a               accepted  proved of counters: 4 obligations by Bitwuzla 0.9.1",
     ): ("tests/cli/test_certify.py has the line"),
     ("docs/testgen.md", "board1"): MADE,
+    ("docs/mutate.md", "Relay/default.1/target"): "tests/cli/test_mutate.py has the survivor",
     ("docs/timers.md", "all 425 valuations of references                                exact"): (
         "three ways to count, of three systems; tests/checker has the texts"
     ),

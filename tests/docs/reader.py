@@ -68,7 +68,9 @@ class Reader:
 
 def _rovercheck(words: Sequence[str], folder: Path) -> tuple[int, str]:
     kept = io.TextIOWrapper(io.BytesIO(), encoding="utf-8", write_through=True)
-    with chdir(folder), patch.dict(os.environ, COLUMNS="80"), redirect_stdout(kept), redirect_stderr(kept):
+    found = f"{Path(sys.executable).parent}{os.pathsep}{os.environ.get('PATH', '')}"  # as after activation
+    known = {"COLUMNS": "80", "PATH": found}
+    with chdir(folder), patch.dict(os.environ, known), redirect_stdout(kept), redirect_stderr(kept):
         code = run([*words])
     kept.seek(0)
     return int(code), kept.read()

@@ -46,5 +46,5 @@ def typed(command: str, wheel: Path, folder: Path) -> str:
 def test_a_model_is_begun_checked_and_reviewed_with_what_is_in_the_wheel(wheel: Path, tmp_path: Path) -> None:
     typed("init heater", wheel, tmp_path)
     said = typed("report --model heater/heater.py -o review.html", wheel, tmp_path)
-    assert "3 properties: 2 proved, 1 violated." in said
+    assert "3 demands: 2 proved, 1 violated." in said
     assert "</html>" in (tmp_path / "review.html").read_text(encoding="utf-8")
