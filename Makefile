@@ -40,6 +40,7 @@ check: $(STAMP)
 	@$(RUN) -m checker check $(ARGS)
 
 docs: $(STAMP)
+	@$(RUN) -m docs.reference
 	@NO_MKDOCS_2_WARNING=1 $(RUN) -m mkdocs build --strict --quiet
 
 check-full: $(STAMP)

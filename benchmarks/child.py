@@ -18,8 +18,8 @@ from time import perf_counter, process_time
 from benchmarks.evidence import evidence
 from benchmarks.measure import Sample
 from benchmarks.roverlite import roverlite
-from checker.engine import Limits, engines
-from checker.portfolio import AUTO, Question, Told, answers
+from checker.engine import AUTO, Limits, engines
+from checker.portfolio import Question, Told, answers
 from checker.verdict import Answer, Open, Reached, Unreachable
 
 SEARCHED = ("P1", "P2", "P3", "P5", "broken")

@@ -23,7 +23,8 @@ from statistics import median
 from time import process_time
 
 from benchmarks.roverlite import roverlite
-from checker.encode.native import NativeSearch, Task, cache, layout
+from checker import cache
+from checker.encode.native import NativeSearch, Task, layout
 from checker.engine import Limits, quiet
 from checker.engines.explicit.levels import Found, Search
 from checker.slice import sliced

@@ -34,8 +34,9 @@ Runs = Mapping[str, Sequence[Sample]]
 
 
 def symbolic() -> list[str]:
-    """The engines that do not store one valuation after the other."""
-    return [name for name in engines() if name != explicit.NAME]
+    """The engines that do not store one valuation after the other, and can prove."""
+    able = {n: engine for n, engine in engines().items() if not getattr(engine, "SAMPLES", False)}
+    return [name for name in able if name != explicit.NAME]
 
 
 def by_scale(goal: str, k: int, limit: float) -> dict[str, Tool]:

@@ -12,7 +12,6 @@ import resource
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.decide import Task, tasks
 from checker.engine import Limits, engines
 from checker.isolate import Send
 from checker.lowered import lowered
@@ -20,6 +19,7 @@ from checker.pool import Granted, Order, Pool
 from checker.portfolio import Question, Told, answers
 from checker.portfolio.question import conclusive
 from checker.portfolio.shape import shape
+from checker.tasks import Task, tasks
 from checker.verdict import Open
 from properties.catalogue import catalogue
 from properties.forms import Property, Unbounded

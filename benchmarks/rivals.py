@@ -97,7 +97,7 @@ def abc_exported(name: str, folder: Path, limit: float) -> Tool | None:
     The bad state of frame n is that of tick n + 1; ``fold`` makes the constraint on inputs part of it.
     """
     system, properties = question(FULL)
-    prop = next(p for p in properties if p.id == name)
+    prop = next(p for p in properties if p.id == f"RL-{name}")
     data = exporters()["aiger"].export(problem(lower(system), prop))
     file = folder / f"{name}.aig"
     file.write_bytes(data if isinstance(data, bytes) else data.encode())

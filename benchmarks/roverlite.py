@@ -229,5 +229,5 @@ def question(comp: int, k: int = 1) -> tuple[System, list[Property]]:
     system = in_order(lowered.name, Block("RoverLite", lowered.step))
     texts = (g for g in goals if g.name != "broken")
     return system, [
-        never(g.name, f"{g.name} is not broken.", that=g, covers=["-"], on=system.name) for g in texts
+        never(f"RL-{g.name}", f"{g.name} is not broken.", that=g, covers=["-"], on=system.name) for g in texts
     ]

@@ -11,7 +11,7 @@ from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from checker.certify.reader import Reader
 from checker.certify.record import rests_on_answers
 from checker.decide import Task, decide
-from checker.engine import Limits, Progress
+from checker.engine import Limits, Progress, Stage
 from checker.result import Result
 from spec_model.lang.system import System, TransitionSystem
 
@@ -54,14 +54,19 @@ class Certifying:
         proved = {r.property.id: r for r in results if rests_on_answers(r.verdict)}
         if not proved or not self.again:
             return {}
-        progress(f"certifying {len(proved)} verdict{'s' * (len(proved) != 1)}")
+        progress(Stage(f"certifying {len(proved)} verdict{'s' * (len(proved) != 1)}"))
         reader = Reader(made, self._checked)
         # All of the task: monitors that properties share are named after the first of them.
-        again = {r.property.id: r for r in decide(task, systems, reader, limits, progress)}
+        again = {r.property.id: r for r in decide(task, systems, reader, limits, _staying(progress))}
         return {id: _outcome(first, again[id], reader) for id, first in proved.items()}
 
     def _checked(self, one: Certificate, system: TransitionSystem) -> Outcome:
         return check(one, system, self.effort)
+
+
+def _staying(progress: Progress) -> Progress:
+    """A progress that stays at certifying, whatever is done for it."""
+    return lambda line: None if isinstance(line, Stage) else progress(line)
 
 
 def _outcome(first: Result, again: Result, reader: Reader) -> Outcome:

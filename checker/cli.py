@@ -4,7 +4,6 @@ import gc
 import importlib
 import os
 import pkgutil
-import signal
 import sys
 from collections.abc import Iterator
 from contextlib import suppress
@@ -15,11 +14,10 @@ import click
 from checker import verbs
 from checker.commands.codes import Exit, UsageError
 from checker.commands.completing import completed
-from checker.commands.failing import no_room, told
+from checker.commands.failing import alarm, no_room, told
 from checker.commands.helping import helped
-from checker.commands.output import err
-from checker.decide import Disagreement
-from checker.isolate import collect_seldom
+from checker.faults import Fault, listening
+from checker.garbage import collect_seldom
 from spec_model.lang.errors import ModelError, did_you_mean
 
 CODES = (
@@ -61,6 +59,7 @@ def _found() -> Iterator[click.Command]:
         yield from (thing for thing in vars(module).values() if isinstance(thing, click.Command))
 
 
+helped(app)
 for verb in _found():
     app.add_command(helped(completed(verb)))
 
@@ -68,22 +67,22 @@ for verb in _found():
 def main() -> None:
     """Run the command line; every error becomes one message and a documented exit code."""
     collect_seldom()
-    _stop_as_on_ctrl_c()
     code = run(sys.argv[1:])
     gc.freeze()  # or Python would look through all formulas once more before it ends
     sys.exit(int(code))
 
 
-def _stop_as_on_ctrl_c() -> None:
-    """When told to end, or left by the terminal, say what was found and leave no search behind."""
-    for name in ("SIGTERM", "SIGHUP"):
-        number = getattr(signal, name, None)
-        if number is not None and signal.getsignal(number) is signal.SIG_DFL:  # not under nohup
-            signal.signal(number, signal.default_int_handler)
-
-
 def run(arguments: list[str]) -> Exit:
     """The exit code of a command line; messages go to standard error."""
+    met: list[Fault] = []
+    with listening(met.append):
+        code = _run(arguments)
+    for text in dict.fromkeys(map(alarm, met)):
+        _say(text, Exit.INTERNAL)
+    return Exit.INTERNAL if met and code is not Exit.INTERRUPTED else code
+
+
+def _run(arguments: list[str]) -> Exit:
     try:
         code: object = app.main(arguments, prog_name="rovercheck", standalone_mode=False)
         if sys.stdout is not None:
@@ -93,8 +92,6 @@ def run(arguments: list[str]) -> Exit:
         return _say(error.format_message(), Exit.USAGE)
     except (UsageError, ModelError) as error:
         return _say(str(error), Exit.INCONCLUSIVE if no_room(error) else Exit.USAGE)
-    except Disagreement as error:
-        return _disagreeing(error, arguments)
     except (KeyboardInterrupt, click.Abort):
         return _say("Interrupted; nothing was written.", Exit.INTERRUPTED)
     except (BrokenPipeError, SystemExit):  # click makes some of the first into the second
@@ -107,21 +104,27 @@ def run(arguments: list[str]) -> Exit:
     except MemoryError as error:
         return _say(told(error), Exit.INCONCLUSIVE)
     except Exception as error:
-        return _say(told(error), Exit.INTERNAL)
+        return _say(_internal(error, arguments), Exit.INTERNAL)
 
 
-def _disagreeing(error: Disagreement, arguments: list[str]) -> Exit:
-    """Keep what shows that an engine is wrong."""
+def _internal(error: Exception, arguments: list[str]) -> str:
+    """What is said of a fault of ours; what shows that an engine is wrong is kept."""
+    from checker.portfolio import Disagreement
+
+    if not isinstance(error, Disagreement):
+        return told(error)
     from checker.commands.disagreeing import again, bundle
 
     try:
         kept = f"All of it is in {bundle(error, again(error, arguments), Path())}; please report it."
     except UsageError as problem:
         kept = str(problem)
-    return _say(f"{told(error)} {kept}", Exit.INTERNAL)
+    return f"{told(error)} {kept}"
 
 
 def _say(message: str, code: Exit) -> Exit:
+    from checker.commands.output import err
+
     with suppress(OSError):  # the code says it too
         err.print(message, markup=False)
     return code

@@ -2,20 +2,27 @@
 
 An engine module has a ``NAME``, a one-line ``SUMMARY`` and a function ``check`` with the signature
 of ``Engine.check``.  It never raises for a hard problem (it answers ``Open`` with the reason) and
-never guesses.
+never guesses.  One that looks at some runs only says so with ``SAMPLES = True``.
 """
 
 import importlib
 import pkgutil
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from time import monotonic
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
-from checker.verdict import Answer
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+if TYPE_CHECKING:  # the command line reads this module for its options
+    from checker.verdict import Answer
+    from spec_model.lang.expr import Var
+    from spec_model.lang.system import TransitionSystem
+
+ALL, AUTO = "all", "auto"
+"""What may be written instead of the name of an engine: every engine, or engines in turn."""
+
+LOADED = ("checker.decide", "checker.engines.explicit.answers")
+"""The modules of nearly every search: a process loads them while the command reads its model."""
 
 
 class Timers(StrEnum):
@@ -47,6 +54,14 @@ class Limits:
         """The moment on ``time.monotonic()`` at which the time is over."""
         return None if self.seconds is None else monotonic() + self.seconds
 
+    def until(self, deadline: float | None) -> "Limits":
+        """These limits with the seconds that are left until a deadline, if there is one."""
+        return self if deadline is None else replace(self, seconds=max(0.0, deadline - monotonic()))
+
+
+class Stage(str):
+    """A line of progress that says what may take long and looks at no clock, as compiling: told at once."""
+
 
 Progress = Callable[[str], None]
 """Called now and then with one line that says what is being done (phase, depth, counts)."""
@@ -63,8 +78,8 @@ class Engine(Protocol):
     SUMMARY: str
 
     def check(
-        self, system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
-    ) -> Mapping[str, Answer]:
+        self, system: "TransitionSystem", goals: Sequence["Var"], limits: Limits, progress: Progress
+    ) -> Mapping[str, "Answer"]:
         """An answer for each goal, by name.  Runs in ``Reached`` start before the first tick."""
         ...
 

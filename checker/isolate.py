@@ -5,7 +5,6 @@ parent one by one.  A child dies when the time is over, when the parent stops li
 too) and when the parent dies.  Its own side is ``checker.isolated``.
 """
 
-import gc
 import os
 import pickle
 import signal
@@ -21,13 +20,16 @@ from queue import Empty, SimpleQueue
 from time import monotonic
 from typing import IO, Any
 
+from checker.faults import Fault, heard, tell
+
 Send = Callable[[object], None]
 DEEP = 100_000
 """Levels of nested calls: Python's own limit allows a pickled formula about 250."""
 LENGTH = struct.Struct("<Q")
 """What precedes each order: its length."""
+_WINDOWS_FAULTS = 0xC0000000
+"""From here on a status says on Windows what POSIX says by a signal."""
 _MAIN = "from rovercheck import claim; claim(); from checker.isolated import child; child()"
-_SELDOM = 200_000
 
 
 class Stopped(Exception):
@@ -36,10 +38,16 @@ class Stopped(Exception):
 
 @dataclass(frozen=True)
 class End:
-    """A child is done with an order: what went wrong, or None.  ``dead``: it takes no further order."""
+    """A child is done with an order: what went wrong, or None.  ``dead``: it takes no further order.
+
+    ``crashed``: a fault of the code that it ran has ended it, and nobody from outside.  ``error``: what was
+    raised, with its place, if that was an error of ours.
+    """
 
     failure: str | None
     dead: bool = False
+    crashed: bool = False
+    error: str = ""
 
 
 class Child:
@@ -97,11 +105,12 @@ class Child:
             while True:
                 self._tell(pickle.load(stdout))
         except (EOFError, OSError, pickle.UnpicklingError):
-            why = self._cause()
+            end = End(self._cause(), dead=True, crashed=_is_fault(self._process.wait()))
         except Exception as error:  # the child itself would go on
             _killed(self._process, self._group)
             why = f"a message of the solver process cannot be read: {type(error).__name__}: {error}"
-        self._tell(End(why, dead=True))
+            end = End(why, dead=True)
+        self._tell(end)
 
     def _cause(self) -> str:
         """Why the process ended without a word."""
@@ -148,6 +157,12 @@ def _signal(number: int) -> str:
     return named.get(number, f"signal {number}")
 
 
+def _is_fault(status: int) -> bool:
+    """Whether a process has ended by its own fault, as an invalid address is one."""
+    names = ("SIGSEGV", "SIGBUS", "SIGILL", "SIGFPE", "SIGABRT", "SIGTRAP", "SIGSYS")
+    return -status in {getattr(signal, name, 0) for name in names} - {0} or status >= _WINDOWS_FAULTS
+
+
 def _killed(process: subprocess.Popen[bytes], group: bool) -> None:
     if group:
         with suppress(ProcessLookupError, PermissionError):
@@ -156,14 +171,14 @@ def _killed(process: subprocess.Popen[bytes], group: bool) -> None:
 
 
 @contextmanager
-def prepared(module: str) -> Iterator[None]:
-    """Start a process for the first child made inside; it imports a module while the parent is busy."""
+def prepared(*modules: str) -> Iterator[None]:
+    """Start a process for the first child made inside; it imports modules while the parent is busy."""
     started = _started()
     _ready.append(started)
     stdin = started.process.stdin
     assert stdin is not None
     with suppress(OSError):  # it is dead, and will say why when it is used
-        stdin.write(_packed(module))
+        stdin.write(b"".join(map(_packed, modules)))
         stdin.flush()
     try:
         yield
@@ -204,13 +219,10 @@ def messages(
             yield message
     finally:
         child.kill()
+    if message.error and heard():
+        tell(Fault("", "", message.error))
     if message.failure is not None:
         raise Stopped(message.failure)
-
-
-def collect_seldom() -> None:
-    """Look for cyclic garbage less often than Python does: formulas are many and have no cycles."""
-    gc.set_threshold(_SELDOM)
 
 
 def _itself(work: Callable[..., None]) -> Callable[..., None]:
@@ -245,4 +257,4 @@ def _is_child() -> bool:
     return sys.orig_argv[-1] == _MAIN
 
 
-__all__ = ["Child", "End", "Send", "Stopped", "collect_seldom", "messages", "prepared"]
+__all__ = ["Child", "End", "Send", "Stopped", "messages", "prepared"]

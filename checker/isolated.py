@@ -15,7 +15,9 @@ from contextlib import suppress
 from importlib import import_module
 from queue import SimpleQueue
 
-from checker.isolate import DEEP, LENGTH, End, Send, collect_seldom, pickled
+from checker.faults import described, is_fault, starved
+from checker.garbage import collect_seldom
+from checker.isolate import DEEP, LENGTH, End, Send, pickled
 
 _PR_SET_PDEATHSIG = 1  # prctl(2)
 
@@ -51,7 +53,7 @@ def _carry_out(orders: SimpleQueue[bytes], send: Send) -> None:
         try:
             do(send, *pickle.loads(orders.get()))
         except (Exception, SystemExit) as error:  # a library that calls exit() does not end a search unheard
-            send(End(_reason(error)))
+            send(End(_reason(error), error=described(error) if is_fault(error) else ""))
         else:
             send(End(None))
 
@@ -66,8 +68,7 @@ def _made(
 
 
 def _reason(error: BaseException) -> str:
-    full = isinstance(error, MemoryError) or "out of memory" in str(error)
-    return "the memory limit is reached" if full else f"{type(error).__name__}: {error}"
+    return "the memory limit is reached" if starved(error) else f"{type(error).__name__}: {error}"
 
 
 def _listen(orders: SimpleQueue[bytes]) -> None:

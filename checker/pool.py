@@ -12,9 +12,14 @@ from checker.isolate import Child, End
 
 @dataclass(frozen=True)
 class Granted:
-    """What a child sends when it begins something that should be over in so many seconds (None: ever)."""
+    """What a child sends when it begins something that should be over in so many seconds (None: ever).
+
+    The first of an order holds for all of it: later ones can shorten it.  A ``firm`` one is for what cannot
+    look at a clock: it is ended at once when the time is over.
+    """
 
     seconds: float | None
+    firm: bool = False
 
 
 @dataclass(frozen=True)
@@ -27,12 +32,17 @@ class Order:
 
 @dataclass(frozen=True)
 class Event:
-    """A message about the order of that number, or (``done``) its end and what went wrong, if anything."""
+    """A message about the order of that number, or (``done``) its end and what went wrong, if anything.
+
+    A failure that is not its end is a crash after which it is carried out once more.  ``late``: its time was
+    over.
+    """
 
     number: int
     message: Any = None
     done: bool = False
     failure: str | None = None
+    late: bool = False
 
 
 @dataclass(frozen=True)
@@ -46,19 +56,27 @@ class Pool:
     make: Callable[..., Callable[..., None]]
     args: tuple[object, ...] = ()
     memory: int | None = None
-    hard: float = 1.25
-    grace: float = 5.0
+    hard: float = 1.1
+    grace: float = 2.0
 
-    def run(self, orders: Sequence[Order]) -> Generator[Event, None, None]:
+    def run(self, orders: Sequence[Order], again: "Again | None" = None) -> Generator[Event, None, None]:
         """Have all orders carried out, the first ones first; yield what is heard of each.
 
+        ``again`` is asked what a new child is to do when one has crashed over an order of that number.
         Closing the generator, or an exception in it, kills the children.
         """
-        at_work = _AtWork(self, dict(enumerate(orders)))
+        at_work = _AtWork(self, dict(enumerate(orders)), again or _never)
         try:
             yield from at_work.events()
         finally:
             at_work.kill()
+
+
+Again = Callable[[int], Order | None]
+
+
+def _never(_: int) -> Order | None:
+    return None
 
 
 @dataclass
@@ -70,14 +88,28 @@ class _Seat:
     kind: Hashable = None
     granted: float = 0.0
     hard: float | None = None
+    whole: float | None = None
+    """When it is killed whatever it is granted."""
+
+    def hold(self, granted: Granted, killed: float | None) -> None:
+        """Note what it is granted, and when it is killed for what takes longer."""
+        if granted.seconds is not None:
+            self.granted = granted.seconds
+        moments = [moment for moment in (killed, self.whole) if moment is not None]
+        self.hard = min(moments, default=None)
+
+
+class Late(End):
+    """A child was killed when its time was over."""
 
 
 class _AtWork:
     """The children of a pool and the orders that are left."""
 
-    def __init__(self, pool: Pool, left: dict[int, Order]) -> None:
+    def __init__(self, pool: Pool, left: dict[int, Order], again: Again) -> None:
         self._pool = pool
         self._left = left
+        self._again = again
         # Not a Queue: Ctrl-C in one of its methods can leave it locked, and its writers waiting for ever.
         self._inbox: SimpleQueue[tuple[int, object]] = SimpleQueue()
         self._seats: dict[int, _Seat] = {}
@@ -114,20 +146,27 @@ class _AtWork:
             now = monotonic()
             for key, seat in list(self._seats.items()):
                 if seat.hard is not None and seat.hard <= now:
-                    yield key, End(f"killed: it did not stop at the time limit of {seat.granted:g} s", True)
+                    yield key, Late(f"killed: it did not stop at the time limit of {seat.granted:g} s", True)
 
     def _event(self, seat: _Seat, message: object) -> Event | None:
         assert seat.number is not None
         if isinstance(message, Granted):
-            seat.granted = message.seconds or 0.0
-            seat.hard = None if message.seconds is None else self._killed_at(message.seconds)
+            if seat.whole is None:
+                seat.whole = self._killed_at(Granted(message.seconds))
+            seat.hold(message, self._killed_at(message))
             return None
         if isinstance(message, End):
-            return Event(seat.number, done=True, failure=message.failure)
+            order = self._again(seat.number) if message.crashed else None
+            if order is not None:
+                self._left = {seat.number: order, **self._left}
+            return Event(seat.number, None, order is None, message.failure, isinstance(message, Late))
         return Event(seat.number, message)
 
-    def _killed_at(self, seconds: float) -> float:
-        return monotonic() + self._pool.hard * seconds + self._pool.grace
+    def _killed_at(self, granted: Granted) -> float | None:
+        if granted.seconds is None:
+            return None
+        more = 0.0 if granted.firm else (self._pool.hard - 1) * granted.seconds + self._pool.grace
+        return monotonic() + granted.seconds + more
 
     def _next(self, key: int, end: End) -> None:
         """The next order for a child that is done, or for its successor if something went wrong."""
@@ -152,7 +191,7 @@ class _AtWork:
 
     def _assign(self, seat: _Seat) -> None:
         same = (n for n, order in self._left.items() if order.kind == seat.kind)
-        seat.number, seat.hard = next(same, next(iter(self._left))), None
+        seat.number, seat.hard, seat.whole = next(same, next(iter(self._left))), None, None
         order = self._left.pop(seat.number)
         seat.kind = order.kind
         seat.child.order(*order.args)

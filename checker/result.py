@@ -6,12 +6,10 @@ from typing import Protocol
 
 from checker.certify.outcome import Outcome
 from checker.portfolio.question import Found, Hint
-from checker.runs.calm import calmed
-from checker.runs.replay import replay
+from checker.runs.domains import leaves, stray
 from checker.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Verdict, Violated
 from properties.forms import Property
 from properties.reduce import Goal
-from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 
@@ -51,6 +49,9 @@ def result(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Res
 def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Verdict:
     match answer:
         case Reached(run, shortest):
+            from checker.runs.calm import calmed
+            from checker.runs.replay import replay
+
             trace = replace(replay(system, goal, calmed(system, goal.var, run)), shortest=shortest)
             return Proved(trace, by) if goal.reach else Violated(trace, by)
         case Unreachable(because):
@@ -60,11 +61,23 @@ def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> V
 
 
 def check_domains(system: TransitionSystem, found: Answers) -> None:
-    """Raises ``ModelError`` if some run is known that takes a variable out of its domain."""
-    for check, text in system.checks:
-        answer, _ = found.get(check.name, (None, ""))
-        if isinstance(answer, Reached):
-            raise ModelError(
-                f"{system.name}: {text}, first in tick {len(answer.run)}. "
-                "Widen the domain or saturate the assignment."
-            )
+    """Raises ``LeavesDomain``, of the shortest run that leaves a domain, if one is known."""
+    checks = {check.name: found[check.name][0] for check, _ in system.checks if check.name in found}
+    runs = [answer for answer in checks.values() if isinstance(answer, Reached)]
+    if runs:
+        shortest = min(runs, key=lambda answer: len(answer.run))
+        at = stray(system, shortest.run)
+        assert at is not None, "a check is raised by a run that leaves no domain"
+        known = len(checks) == len(system.checks) and all(_none_before(a, at.tick) for a in checks.values())
+        raise leaves(system, at, first=known)
+
+
+def _none_before(answer: Answer, tick: int) -> bool:
+    """Whether nothing is reached before a tick."""
+    match answer:
+        case Reached(run, shortest):
+            return shortest and len(run) >= tick
+        case Open(_, depth):
+            return depth >= tick - 1
+        case _:
+            return True

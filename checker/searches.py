@@ -1,28 +1,32 @@
 """Searches in child processes: tasks go out, verdicts come back as they are found."""
 
 import os
-from collections.abc import Generator, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from time import monotonic
+from typing import TYPE_CHECKING
 
-from checker.certify.certificate import Certificate
-from checker.certify.file import Unwritable
+from checker.cache.places import VARIABLE, chosen
+from checker.cache.telling import Refused, Taken, listening
 from checker.certify.outcome import Outcome, Undecided
-from checker.certify.record import Recorder, rests_on_answers
-from checker.certifying import Certifying
-from checker.decide import Disagreement, Task, decide
-from checker.engine import Engine, Limits
+from checker.engine import Engine, Limits, Stage
+from checker.faults import Fault, described, is_fault, tell
+from checker.faults import listening as attending
 from checker.isolate import Send
-from checker.pool import Granted, Order, Pool
-from checker.portfolio import Told
-from checker.portfolio.question import light_evidence
+from checker.lowered import lowered
+from checker.pool import Event, Granted, Order, Pool
 from checker.result import Result
-from checker.runs.replay import ReplayError
+from checker.tasks import Task
 from checker.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
 from properties.forms import Property
 from spec_model.lang.errors import ModelError
 from spec_model.lang.system import System
+
+if TYPE_CHECKING:
+    from checker.certify.certificate import Certificate
+    from checker.certifying import Certifying
+    from checker.portfolio.question import Found, Question
 
 SLACK = 2 << 30
 """Bytes of address space that a child needs besides what an engine may store: code, libraries, formulas."""
@@ -54,6 +58,11 @@ class _Decided:
 
 
 @dataclass(frozen=True)
+class _Stays:
+    """No run of the system of the task leaves a domain."""
+
+
+@dataclass(frozen=True)
 class _Certified:
     """What travels of a certificate: the property by its id, and what came of checking it."""
 
@@ -61,7 +70,14 @@ class _Certified:
     outcome: Outcome
 
 
-Heard = Doing | Over | Result
+@dataclass(frozen=True)
+class Warned:
+    """What the user should know of the machine: no verdict is other for it."""
+
+    text: str
+
+
+Heard = Doing | Over | Warned | Result
 
 
 def cores() -> int:
@@ -75,57 +91,184 @@ def searches(
     engine: str | Engine,
     limits: Limits,
     jobs: int | None = None,
-    certifying: Certifying | None = None,
+    certifying: "Certifying | None" = None,
 ) -> Generator[Heard, None, None]:
     """Search the tasks in order, as many at once as there are ``jobs`` (by default processors).
 
     A child that dies, or that does not stop within a time limit, makes what it had not yet decided
-    unknown, with the reason.  Raises what ``decide`` raises, and ``Unwritable``.  Closing the generator ends
-    all children.
+    unknown, with the reason.  If it crashes after it took compiled code from the cache, all of the task is
+    first searched once more with code compiled anew.  Raises what ``decide`` raises, and ``Unwritable``.
+    Errors of ours in a child are told to who listens (``checker.faults``), or raised where nobody does.
+    Closing the generator ends all children.
+
+    A proof waits until it is known that its system leaves no domain, or not found out by any of its searches:
+    nothing is proved of a system that is then refused.
     """
     needed = _needed(todo, systems)
     pool = Pool(jobs or cores(), _Deciding, (needed, engine, limits, certifying), limits.memory + SLACK)
     orders = [Order((task.system.name, task.properties), task.system.name) for task in todo]
-    returns = [_Returns(task, certifying is not None and certifying.again) for task in todo]
-    with closing(pool.run(orders)) as events:
-        for event in events:
-            back = returns[event.number]
-            yield from back.hear(event.message)
-            if event.done:
-                yield from back.rest(event.failure)
+    waiting = certifying is not None and certifying.again
+    returns = [_Returns(task, waiting, limits.seconds) for task in todo]
+    gates = {name: _Gate(sum(t.system.name == name for t in todo)) for name in needed}
+    warned: set[str] = set()
+    with closing(pool.run(orders, lambda number: returns[number].again())) as events:
+        try:
+            for event in events:
+                back = returns[event.number]
+                for one in _passed(gates, back.task.system.name, back.heard(event)):
+                    if isinstance(one, Warned) and one.text in warned:
+                        continue
+                    if isinstance(one, Warned):
+                        warned.add(one.text)
+                    yield one
+        except BaseException as error:
+            if not isinstance(error, GeneratorExit | ModelError):  # nothing that is said of the model
+                yield from (one for gate in gates.values() for one in gate.held)
+            raise
+
+
+def _passed(gates: Mapping[str, "_Gate"], asked: str, heard: Iterable["Heard | _Stays"]) -> Iterator[Heard]:
+    """What passes the gate of the system that was asked about, and of the one that a verdict is about."""
+    for one in gates[asked].passed(heard):
+        if isinstance(one, Result) and one.system != asked and one.system in gates:
+            yield from gates[one.system].passed([one])
+        else:
+            yield one
+
+
+class _Gate:
+    """Holds back what is proved of a system until no search of it can find that it leaves a domain."""
+
+    def __init__(self, searches: int) -> None:
+        self.held: list[Result] = []
+        self._left = searches
+        self._open = False
+
+    def passed(self, heard: Iterable[Heard | _Stays]) -> Iterator[Heard]:
+        """What may go on of what is heard, and what is no longer held back after it."""
+        for one in heard:
+            match one:
+                case Result(verdict=Proved()) if not self._open:
+                    self.held.append(one)
+                case _Stays():
+                    yield from self._opened()
+                case _:
+                    yield one
+            if isinstance(one, Over):
+                self._left -= 1
+        if not self._left:
+            yield from self._opened()
+
+    def _opened(self) -> Iterator[Result]:
+        self._open, held, self.held = True, self.held, []
+        yield from held
 
 
 class _Returns:
     """What comes back of one task: verdicts wait for their certificates, if these are checked."""
 
-    def __init__(self, task: Task, waiting: bool) -> None:
-        self._task = task
+    def __init__(self, task: Task, waiting: bool, seconds: float | None) -> None:
+        self.task = task
         self._waiting = waiting
+        self._seconds = seconds
+        self._doing = ""
         self._left = {p.id: p for p in task.properties}
         self._held: dict[str, Result] = {}
+        self._told: dict[str, str] = {}
+        self._taken = False
+        self._anew = False
 
-    def hear(self, message: object) -> Iterator[Heard]:
+    def again(self) -> Order | None:
+        """What to do after a crash: search with code compiled anew; None if that was not the cause.
+
+        All of the task, since certificates of what was told went with the child, and since code that crashed
+        may have said what is not so before.
+        """
+        if self._anew or not self._taken:
+            return None
+        self._left = {p.id: p for p in self.task.properties if p.id not in self._told}
+        self._anew, self._held = True, {}
+        return Order((self.task.system.name, self.task.properties, True), self.task.system.name)
+
+    def heard(self, event: Event) -> Iterator[Heard | _Stays]:
+        """What an event brings.  Raises the error that is one."""
+        if event.done:
+            return self.rest(event)
+        if event.failure:
+            return iter([Warned(_crashed(self.task, event.failure))])
+        return self.hear(event.message)
+
+    def hear(self, message: object) -> Iterator[Heard | _Stays]:
         """What a message brings.  Raises the error that is one."""
         match message:
             case Exception() as error:
                 raise error
             case str(line):
-                yield Doing(self._task, line)
-            case _Certified(id, outcome):
-                yield replace(self._held.pop(id), certificate=outcome)
+                self._doing = line
+                yield Doing(self.task, line)
+            case _Stays():
+                yield message
+            case Fault():
+                tell(message)
+            case Taken():
+                self._taken = True
+            case Refused(why):
+                yield Warned(f"Compiled searches are compiled every time: there is no cache. {why}")
+            case _Certified(id, outcome) if id in self._held:
+                yield self._tell(replace(self._held.pop(id), certificate=outcome))
+            case _Decided(id, verdict) if id in self._told:
+                self._same(id, verdict)
             case _Decided(id, verdict, system):
                 result = Result(self._left.pop(id), verdict, system)
-                if self._waiting and rests_on_answers(verdict):
+                if self._waiting and self._certified(verdict):
                     self._held[id] = result
                 else:
-                    yield result
+                    yield self._tell(result)
 
-    def rest(self, failure: str | None) -> Iterator[Heard]:
+    def _tell(self, result: Result) -> Result:
+        self._told[result.property.id] = result.verdict.word
+        return result
+
+    def _same(self, id: str, verdict: Verdict) -> None:
+        """What was told before a crash must be so after it."""
+        if {self._told[id], verdict.word} == {"proved", "violated"}:
+            raise AssertionError(
+                f"{id} was {self._told[id]}, said a search that then crashed over code from the cache "
+                f"{chosen()}; with code compiled anew it is {verdict.word}. Delete the files *.o there."
+            )
+
+    @staticmethod
+    def _certified(verdict: Verdict) -> bool:
+        from checker.certify.record import rests_on_answers
+
+        return rests_on_answers(verdict)
+
+    def rest(self, end: Event) -> Iterator[Heard]:
         """What is left of a search that is over."""
-        reason = failure or "the search ended without a word on it"
+        reason = end.failure or "the search ended without a word on it"
+        if end.late and self._seconds is not None and self._doing:
+            reason = f"time: {self._seconds:g} s ended {_while(self._doing)}"
+        elif end.failure and self._anew:
+            reason = f"{end.failure}, with code compiled anew after a crash with code from the cache"
         yield from (replace(r, certificate=Undecided(reason)) for r in self._held.values())
         yield from (Result(p, Unknown(reason, 0, "none"), p.on) for p in self._left.values())
-        yield Over(self._task)
+        yield Over(self.task)
+
+
+def _crashed(task: Task, failure: str) -> str:
+    return (
+        f"{task.title}: {failure} after it took compiled code from the cache {chosen()}. That code is "
+        "removed, and the search is done once more with code compiled anew. If this happens again, delete "
+        f"the files *.o in that folder, which is always safe; with {VARIABLE}= (empty) there is no cache."
+    )
+
+
+def _while(line: str) -> str:
+    """``while lowering Door``, ``while compiling 9 variables (explicit)``, ``after bdd: depth 3``."""
+    if not isinstance(line, Stage):
+        return f"after {line}"
+    engine, _, rest = line.rpartition(": ")
+    return f"while {rest}" + (f" ({engine})" if engine else "")
 
 
 def _needed(todo: Sequence[Task], systems: Mapping[str, System]) -> dict[str, System]:
@@ -137,6 +280,7 @@ def _needed(todo: Sequence[Task], systems: Mapping[str, System]) -> dict[str, Sy
 
 
 # --- in a child -------------------------------------------------------------------------------------
+# What decides is imported here only: the parent hands out tasks, and is ready at once.
 
 
 class _Deciding:
@@ -147,27 +291,56 @@ class _Deciding:
         systems: Mapping[str, System],
         engine: str | Engine,
         limits: Limits,
-        certifying: Certifying | None,
+        certifying: "Certifying | None",
     ) -> None:
         self._systems = systems
         self._engine = engine
         self._limits = limits
         self._certifying = certifying
 
-    def __call__(self, send: Send, name: str, properties: tuple[Property, ...]) -> None:
+    def __call__(self, send: Send, name: str, properties: tuple[Property, ...], anew: bool = False) -> None:
+        from checker.certify.file import Unwritable
+        from checker.portfolio import Disagreement
+        from checker.runs.replay import ReplayError
+
         try:
-            self._search(send, Task(self._systems[name], properties))
+            with listening(send, anew=anew), attending(send):
+                self._search(send, Task(self._systems[name], properties))
         except (ModelError, ReplayError) as error:
             send(next(kind for kind in (ModelError, ReplayError) if isinstance(error, kind))(str(error)))
         except (Disagreement, Unwritable) as error:
             send(error)
+        except Exception as error:  # what is left of the task stays open
+            if is_fault(error):
+                send(Fault("the search", name, described(error)))
+            raise
 
     def _search(self, send: Send, task: Task) -> None:
-        recorder, results = Recorder(), list[Result]()
-        told = Told(_Calm(send), lambda seconds: send(Granted(seconds)))
-        if self._certifying is not None:
-            told = replace(told, answered=recorder.answered)
-        for one in decide(task, self._systems, self._engine, self._limits, told.progress, told):
+        from checker.certify.record import Recorder
+        from checker.decide import decide
+        from checker.portfolio import Told
+        from checker.portfolio.question import stays
+
+        recorder, results, deadline = Recorder(), list[Result](), self._limits.deadline()
+        send(Granted(self._limits.seconds, firm=True))
+        send(Stage(f"lowering {task.system.name}"))
+        if not any(
+            lowered(self._systems[name]).checks for name in (task.system.name, task.system.concrete) if name
+        ):
+            send(_Stays())
+
+        def answered(question: "Question", found: "Found") -> None:
+            if self._certifying is not None:
+                recorder.answered(question, found)
+            if (
+                task.system.name == question.system.name
+                and not task.system.concrete
+                and stays(question, found)
+            ):
+                send(_Stays())
+
+        told = Told(_Calm(send), lambda seconds: send(Granted(seconds)), answered)
+        for one in decide(task, self._systems, self._engine, self._limits, told.progress, told, deadline):
             results.append(replace(one, verdict=_light(one.verdict)))
             send(_Decided(one.property.id, results[-1].verdict, one.system))
         told.granted(None)
@@ -177,10 +350,10 @@ class _Deciding:
     def _certify(
         self,
         send: Send,
-        certifying: Certifying,
+        certifying: "Certifying",
         task: Task,
         results: Sequence[Result],
-        made: Sequence[Certificate],
+        made: Sequence["Certificate"],
     ) -> None:
         certifying.written(task, self._limits, results, made)
         progress = _Calm(send)
@@ -198,7 +371,7 @@ class _Calm:
         self._last = float("-inf")
 
     def __call__(self, line: str) -> None:
-        if monotonic() - self._last >= _PAUSE:
+        if isinstance(line, Stage) or monotonic() - self._last >= _PAUSE:
             self._last = monotonic()
             self._send(line)
 
@@ -206,5 +379,7 @@ class _Calm:
 def _light(verdict: Verdict) -> Verdict:
     """The verdict without the valuations that an exhausted search kept."""
     if isinstance(verdict, Proved | Violated) and isinstance(verdict.because, Exhausted | Inductive):
+        from checker.portfolio.question import light_evidence
+
         return replace(verdict, because=light_evidence(verdict.because))
     return verdict

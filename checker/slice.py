@@ -9,7 +9,9 @@ from dataclasses import replace
 from itertools import product
 
 from checker.partition import conjuncts, partition
+from properties.forms import Property, Recoverable
 from spec_model.lang.action import Assign, If
+from spec_model.lang.errors import ModelError
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import TRUE, Expr, Var, all_of
 from spec_model.lang.system import Program, Statement, TransitionSystem
@@ -172,6 +174,16 @@ def always_met(system: TransitionSystem, condition: Expr) -> bool:
     demanded = replace(system, assume=all_of(system.assume, condition))
     groups = assumption_groups(demanded)
     return all(_always_met(group, variables(*group), inputs) for group in groups)
+
+
+def check_way_back(prop: Property, system: TransitionSystem) -> None:
+    """Raises ``ModelError`` if inputs are to lead back (``by``) that need not be there."""
+    match prop.form:
+        case Recoverable(by=Expr() as by) if not always_met(system, by):
+            raise ModelError(
+                f"{prop.id}: by = {by} must be a condition on inputs of {system.name} that can be met "
+                "in every tick; leave variables and other inputs out of it."
+            )
 
 
 # --- the result ----------------------------------------------------------------------------------

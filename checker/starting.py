@@ -17,8 +17,10 @@ TRIED = 100_000
 def check_starts(system: TransitionSystem) -> None:
     """Raises ``ModelError`` if no inputs at all are allowed in the first tick."""
     if starts(system) is False:
+        place = system.source.place if system.source is not None else None
+        where = f"{place}: {system.name}" if place else system.name
         raise ModelError(
-            f"{system.name}: its assumption allows no first tick, whatever the inputs, so that anything "
+            f"{where}: its assumption allows no first tick, whatever the inputs, so that anything "
             f"would be true of it: {system.assume}. Drop what contradicts the rest or the start."
         )
 

@@ -2,11 +2,13 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
-from checker.concrete import BoardRun
-from spec_model.lang.chart import Chart, Component
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.place import Place
+if TYPE_CHECKING:
+    from checker.concrete import BoardRun
+    from spec_model.lang.chart import Chart, Component
+    from spec_model.lang.expr import Expr, Var
+    from spec_model.lang.place import Place
 
 
 def counted_ticks(count: int) -> str:
@@ -29,7 +31,7 @@ class Arrow:
     label: str
     order: int
     event: str | None = None
-    place: Place | None = field(default=None, compare=False, repr=False)
+    place: "Place | None" = field(default=None, compare=False, repr=False)
 
     def __str__(self) -> str:
         start = f"{self.source} -> {self.target}" if self.order else f"default -> {self.target}"
@@ -89,26 +91,26 @@ class Trace:
 
     system: str
     tick_ms: int
-    variables: Mapping[str, Var]
+    variables: Mapping[str, "Var"]
     inputs: tuple[str, ...]
     before: Mapping[str, int]
     ticks: tuple[Tick, ...]
-    false_parts: tuple[Expr, ...] = ()
+    false_parts: tuple["Expr", ...] = ()
     relevant: frozenset[str] = frozenset()
     charts: frozenset[str] = frozenset()
     loop: int | None = None
     trapped: int | None = None
     property: str = ""
     text: str = ""
-    statecharts: Mapping[str, Chart] = field(default_factory=dict, compare=False, repr=False)
-    components: tuple[Component, ...] = field(default=(), compare=False, repr=False)
-    parts: tuple[Expr, ...] = ()
+    statecharts: Mapping[str, "Chart"] = field(default_factory=dict, compare=False, repr=False)
+    components: tuple["Component", ...] = field(default=(), compare=False, repr=False)
+    parts: tuple["Expr", ...] = ()
     truths: tuple[tuple[bool, ...], ...] = ()
     needed: tuple[Needed, ...] | None = None
     minimal: bool = False
     smallest: bool = False
-    place: Place | None = field(default=None, compare=False, repr=False)
-    concrete: tuple[BoardRun, ...] = field(default=(), compare=False, repr=False)
+    place: "Place | None" = field(default=None, compare=False, repr=False)
+    concrete: tuple["BoardRun", ...] = field(default=(), compare=False, repr=False)
     violated: bool | None = None
     shortest: bool = False
     again: str = field(default="", compare=False, repr=False)
@@ -123,7 +125,7 @@ class Trace:
             return self.violated
         return bool(self.false_parts) or self.loop is not None or self.trapped is not None
 
-    def since(self, part: Expr) -> int:
+    def since(self, part: "Expr") -> int:
         """The tick since which a conjunct of the property has been as it is after the last one.
 
         Without ``truths``, the last tick.

@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Union
 
 from checker.trace import Trace
-from spec_model.lang.expr import Expr
 
 if TYPE_CHECKING:
     from checker.closed import ClosedSet
     from checker.diagram import Diagram
+    from spec_model.lang.expr import Expr
 
 
 @dataclass(frozen=True)
@@ -67,7 +67,7 @@ class Inductive:
     are taken to be within their domains; that no tick takes one out of them is part of the obligations.
     """
 
-    conjuncts: tuple[Expr, ...]
+    conjuncts: tuple["Expr", ...]
     ticks: int = 1
     simple: bool = False
 

@@ -6,11 +6,18 @@
 
 import os
 import signal
+import sys
+import tempfile
+from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
 
 os.environ["ROVERCHECK_CACHE"] = ""  # what is tested is compiled anew
+_OURS = tempfile.TemporaryDirectory(prefix="rovercheck-tests-")
+os.environ["ROVERCHECK_SECRET"] = str(Path(_OURS.name, "cache-secret"))  # the user's is no business of tests
+# The command is found by its name, as in an environment that is activated: so it is called in what is shown.
+os.environ["PATH"] = os.pathsep.join((str(Path(sys.executable).parent), os.environ.get("PATH", "")))
 
 for name in ("SIGINT", "SIGHUP"):  # a job in the background ignores them, and so would all that it starts
     number = getattr(signal, name, None)

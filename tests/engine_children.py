@@ -1,6 +1,6 @@
 """Engines without child processes: cut off as a test wants it, or at work in the process of the test."""
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from types import ModuleType
 from typing import Any
@@ -9,7 +9,9 @@ import pytest
 
 from checker.certify import solver
 from checker.engine import engines
-from checker.isolate import Stopped
+from checker.engines.localisation import orders
+from checker.engines.simulation import batches
+from checker.isolate import End, Stopped
 from tests.certifying import inline
 
 LIMIT = "the time limit of 2.5 s is reached"
@@ -34,11 +36,27 @@ def here(work: Any, *args: Any, seconds: float | None, memory: int | None) -> It
     return inline(work, *args)
 
 
+class ChildHere:
+    """``checker.isolate.Child`` in this process: orders are carried out when they are given."""
+
+    def __init__(self, tell: Callable[[object], None], make: Any, *args: object, memory: int | None) -> None:
+        self._tell, self._do = tell, make(*args)
+
+    def order(self, *order: object) -> None:
+        self._do(self._tell, *order)
+        self._tell(End(None))
+
+    def kill(self) -> None:
+        """There is nothing to end."""
+
+
 @contextmanager
 def engines_here() -> Iterator[None]:
-    """Every engine, and the certifier's solver, in this process."""
+    """Every engine, and the certifier's solver, in this process; simulations are short."""
     with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(batches, "EFFORT", 10_000)
         patch.setattr(solver, "messages", inline)
+        patch.setattr(orders, "Child", ChildHere)
         for engine in engines().values():
             if isinstance(engine, ModuleType) and hasattr(engine, "messages"):
                 patch.setattr(engine, "messages", here)

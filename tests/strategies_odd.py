@@ -12,7 +12,8 @@ from hypothesis.strategies import DrawFn
 
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import Bool, Num, chosen
-from spec_model.lang.expr import TRUE, Apply, Const, Expr, Op, Var, all_of
+from spec_model.lang.expr import TRUE, Apply, Const, Expr, Var, all_of
+from spec_model.lang.operators import Op
 from spec_model.lang.system import Statement, TransitionSystem
 from tests.strategies_ts import DOMAINS, booleans, fitting, integers, programs
 

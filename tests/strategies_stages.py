@@ -9,7 +9,8 @@ from hypothesis.strategies import DrawFn
 
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import Bool, Num, chosen, integer
-from spec_model.lang.expr import TRUE, Apply, Const, Expr, Op, Var, all_of, any_of, flag
+from spec_model.lang.expr import TRUE, Apply, Const, Expr, Var, all_of, any_of, flag
+from spec_model.lang.operators import Op
 from spec_model.lang.system import Statement, TransitionSystem
 from tests.strategies_ts import MODE
 

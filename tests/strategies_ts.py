@@ -13,7 +13,8 @@ from hypothesis.strategies import DrawFn
 
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import Bool, Domain, Enum, Num, boolean, chosen, enumeration, integer
-from spec_model.lang.expr import COMPARISONS, TRUE, Apply, Const, Expr, Named, Op, Var, flag
+from spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Var, flag
+from spec_model.lang.operators import COMPARISONS, Op
 from spec_model.lang.system import Program, Statement, TransitionSystem
 
 MODE = enumeration("Mode", {"IDLE": 2, "BUSY": 3, "LOST": 7})

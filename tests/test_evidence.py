@@ -1,25 +1,50 @@
-"""The evidence under ``reports/`` is what the charts and properties of today give, verdict by verdict."""
+"""The evidence under ``reports/`` is what the charts and properties of today give, verdict by verdict.
 
+So is what the README shows of ``make check``.
+"""
+
+import re
 from pathlib import Path
 
 import pytest
 
-from checker.commands.check import Compared, line, results
+from checker.commands.check import Compared, line, results, summary
+from checker.commands.findings import Guide, read_on
 from checker.commands.reporting import differences, pages
-from checker.decide import AUTO
-from checker.engine import Limits
+from checker.commands.wrapping import plain
+from checker.engine import AUTO, Limits
+from checker.model.rover import rover
 from properties.catalogue import catalogue, expected
 from spec_model.rover import systems
 
-REPORTS = Path(__file__).parent.parent / "reports"
+ROOT = Path(__file__).parent.parent
+REPORTS = ROOT / "reports"
 
 
 @pytest.mark.long
 @pytest.mark.timeout(1800)
-def test_verdicts_are_as_on_record_and_the_committed_reports_show_them() -> None:
+def test_verdicts_are_as_on_record_and_the_committed_reports_show_them(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
     # One test, so that the properties are decided once however many processes run the suite.
     affordable = [prop for prop in catalogue().values() if not prop.costly]
     verdicts = [Compared(r, expected(r.property.id)) for r in results(affordable, systems(), AUTO, Limits())]
     assert len(verdicts) == len(affordable)
     assert [line(c) for c in verdicts if not c.as_expected] == []
+    guide = Guide(gravest=rover().by_gravity, causes="reports/README.md")
+    summary(verdicts, guide)
+    ending = [*capsys.readouterr().out.splitlines(), *read_on(verdicts, systems(), guide)]
+    shown, end = sample()
+    assert [s for s in shown if s not in {line(c) for c in verdicts}] == []
+    assert end == [re.sub(r": \S*rovercheck ", ": .venv/bin/rovercheck ", plain(text)) for text in ending]
     assert list(differences(REPORTS, pages(verdicts))) == [], "run `make reports` and commit"
+
+
+def sample() -> tuple[list[str], list[str]]:
+    """The lines of verdicts that the README shows of ``make check``, and those at its end, unwrapped."""
+    text = (ROOT / "README.md").read_text(encoding="utf-8").partition("    $ make check\n")[2]
+    block = re.split(r"\n(?=\S)", text)[0].rstrip()
+    whole = re.sub(r"\n {8}(?=\S)", " ", block)  # a line that goes on in the next
+    lines = [piece.removeprefix("    ") for piece in whole.splitlines()]
+    end = lines.index("")
+    return [one for one in lines[:end] if not one.startswith("  ...")], lines[end + 1 :]

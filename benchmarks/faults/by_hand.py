@@ -26,7 +26,8 @@ from spec_model.lang.edit import (
     swap,
     timer,
 )
-from spec_model.lang.expr import Expr, Op, Var
+from spec_model.lang.expr import Expr, Var
+from spec_model.lang.operators import Op
 from spec_model.lang.time import sec
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2_motion as motion

@@ -12,7 +12,8 @@ from checker.encode.intervals import Interval, interval, postorder
 from spec_model.lang.domain import Bool, Domain
 from spec_model.lang.domain import Sort as Kind
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from spec_model.lang.operators import Op
 
 _SPECIAL = re.compile(r"[%|\\@:]|[^ -~]")
 

@@ -19,7 +19,8 @@ from checker.certify.outcome import Accepted, Rejected, TooMuch, told
 from checker.certify.question import Question
 from checker.encode.intervals import intervals, postorder
 from spec_model.lang.domain import Domain
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from spec_model.lang.operators import Op
 from spec_model.lang.walk import variables
 
 MOST = 20_000_000_000

@@ -10,7 +10,8 @@ from dataclasses import dataclass
 from checker.encode.intervals import postorder
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import plain, variables
 

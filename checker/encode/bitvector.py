@@ -11,7 +11,8 @@ import z3
 
 from checker.encode.intervals import Interval, interval, postorder
 from spec_model.lang.domain import Bool, Domain, Sort
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from spec_model.lang.operators import Op
 
 Term = Any
 """A Z3 Boolean or bit-vector (Z3 has no types for the checker to read)."""

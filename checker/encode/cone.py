@@ -11,7 +11,8 @@ from checker.encode.intervals import Interval, postorder
 from checker.encode.symbolic import Transition
 from checker.encode.terms import Terms
 from checker.slice import sliced
-from spec_model.lang.expr import Apply, Const, Expr, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Var
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables
 

@@ -4,7 +4,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from checker.encode.intervals import Interval
-from spec_model.lang.expr import Apply, Const, Expr, Op
+from spec_model.lang.expr import Apply, Const, Expr
+from spec_model.lang.operators import Op
 
 Range = Callable[[Expr], Interval]
 """The interval of a formula."""

@@ -7,7 +7,8 @@ paths, so an interval may be wider than what is reachable, never narrower.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from spec_model.lang.operators import Op
 from spec_model.lang.walk import children
 
 

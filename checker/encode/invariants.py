@@ -17,7 +17,8 @@ from checker.encode.intervals import postorder
 from checker.encode.simulate import Column, Columns, Vectorised, column
 from checker.encode.terms import Terms
 from spec_model.lang.domain import Bool, Enum, Num
-from spec_model.lang.expr import Apply, Const, Expr, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Var
+from spec_model.lang.operators import Op
 from spec_model.lang.walk import variables
 
 _MOST_MEMBERS = 12

@@ -80,6 +80,14 @@ def chooses(program: Iterable[PathStatement]) -> bool:
     )
 
 
+def choices(program: PathProgram) -> int:
+    """How many choices are written in the program."""
+    return sum(
+        choices(s.then) + choices(s.otherwise) if isinstance(s, Branch) else isinstance(s, Choose)
+        for s in program
+    )
+
+
 def weight(program: PathProgram) -> int:
     """Statements on the longest path."""
     return sum(1 + max(weight(s.then), weight(s.otherwise)) if isinstance(s, Branch) else 1 for s in program)
@@ -88,39 +96,71 @@ def weight(program: PathProgram) -> int:
 def saved(program: PathProgram, live_at_end: Names) -> dict[int, tuple[Var, ...]]:
     """For each fork, by number, the variables to restore before the program is run again from there:
     those that what follows may both read and overwrite."""
-    found: dict[int, tuple[Var, ...]] = {}
-    _backward(program, live_at_end, {}, found)
-    return found
+    found = _Backward()
+    found.through(program, found.bits(live_at_end), 0)
+    return found.forks
 
 
-def _backward(
-    program: PathProgram, live: Names, writes: dict[str, Var], found: dict[int, tuple[Var, ...]]
-) -> tuple[Names, dict[str, Var]]:
-    for statement in reversed(program):
-        match statement:
-            case Assign(var, value):
-                live = (live - {var.name}) | names([value])
-                writes = {**writes, var.name: var}
-            case Choose(var, _, span):
-                live = (live - {var.name}) | names(span or ())
-                writes = {**writes, var.name: var}
-            case Require(condition):
-                live |= names([condition])
-            case Complete():
-                pass  # what is stored is live to the end
-            case Fork(number):
-                found[number] = tuple(v for n, v in writes.items() if n in live)
-            case Each(number, var, _, span):
-                live -= {var.name}
-                writes = {**writes, var.name: var}
-                found[number] = tuple(v for n, v in writes.items() if n in live)
-                live |= names(span or ())
-            case Branch(condition, then, otherwise):
-                then_live, then_writes = _backward(then, live, writes, found)
-                else_live, else_writes = _backward(otherwise, live, writes, found)
-                live = then_live | else_live | names([condition])
-                writes = {**then_writes, **else_writes}
-    return live, writes
+class _Backward:
+    """What is live and written later, as a bit for each name: sets of thousands are slow."""
+
+    def __init__(self) -> None:
+        self.forks: dict[int, tuple[Var, ...]] = {}
+        self._bit: dict[str, int] = {}
+        self._vars: dict[int, Var] = {}
+        self._read: dict[int, tuple[Expr, int]] = {}
+
+    def bits(self, some: Iterable[str]) -> int:
+        return sum(self._bit.setdefault(name, 1 << len(self._bit)) for name in some)
+
+    def _written(self, var: Var) -> int:
+        bit = self.bits([var.name])
+        self._vars[bit] = var
+        return bit
+
+    def _names(self, *some: Expr) -> int:
+        """The names in formulas, of which many stand in several places."""
+        found = 0
+        for expr in some:
+            if id(expr) not in self._read:
+                self._read[id(expr)] = expr, self.bits(names([expr]))
+            found |= self._read[id(expr)][1]
+        return found
+
+    def _vars_of(self, bits: int) -> tuple[Var, ...]:
+        found = []
+        while bits:
+            found.append(self._vars[bits & -bits])
+            bits &= bits - 1
+        return tuple(found)
+
+    def through(self, program: PathProgram, live: int, writes: int) -> tuple[int, int]:
+        """What is live before the program, and written in it or later."""
+        for statement in reversed(program):
+            match statement:
+                case Assign(var, value):
+                    bit = self._written(var)
+                    live, writes = (live & ~bit) | self._names(value), writes | bit
+                case Choose(var, _, span):
+                    bit = self._written(var)
+                    live, writes = (live & ~bit) | self._names(*(span or ())), writes | bit
+                case Require(condition):
+                    live |= self._names(condition)
+                case Complete():
+                    pass  # what is stored is live to the end
+                case Fork(number):
+                    self.forks[number] = self._vars_of(writes & live)
+                case Each(number, var, _, span):
+                    bit = self._written(var)
+                    live, writes = live & ~bit, writes | bit
+                    self.forks[number] = self._vars_of(writes & live)
+                    live |= self._names(*(span or ()))
+                case Branch(condition, then, otherwise):
+                    one_live, one_writes = self.through(then, live, writes)
+                    other_live, other_writes = self.through(otherwise, live, writes)
+                    live = one_live | other_live | self._names(condition)
+                    writes = one_writes | other_writes
+        return live, writes
 
 
 def assigned(program: PathProgram) -> dict[str, tuple[Var, int]]:

@@ -33,7 +33,8 @@ from checker.partition import Partition, conjuncts, expressions, partitions
 from checker.slice import names
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.domain import Bool, Domain, Num
-from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Named, Op, Var, flag
+from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Named, Var, flag
+from spec_model.lang.operators import Op
 from spec_model.lang.system import Program, TransitionSystem
 from spec_model.lang.walk import variables
 
@@ -55,6 +56,9 @@ def path_program(system: TransitionSystem, cells: Cells) -> PathProgram:
     program, _ = _Made(cells, seen.always).whole(system)
     return forked(program)
 
+
+_MOST_NESTED = 8
+"""Operands with choices that are nested in each other; more are halved first: branches stay shallow."""
 
 _MOST_COARSE = 16
 """Coarse cells of an input beyond which it is chosen finely at once: finding the fine ones takes too long."""
@@ -246,6 +250,9 @@ class _Made:
         rest = [a for a in args if not self.ready(a, seen)]
         if not rest:
             return (known[0] if len(known) == 1 else Apply(op, tuple(known), Bool())), seen
+        if len(rest) > _MOST_NESTED:
+            half, seen = self.junction(op, [*known, *rest[: len(rest) // 2]], seen, out)
+            return self.junction(op, [half, *rest[len(rest) // 2 :]], seen, out)
         if not known:
             first, seen = self.pure(rest[0], seen, out)
             return self.junction(op, [first, *rest[1:]], seen, out) if len(rest) > 1 else (first, seen)

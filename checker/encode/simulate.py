@@ -1,63 +1,81 @@
 """Random runs of a slice, hundreds at once: what they visit suggests what might always be true.
 
-Formulas are evaluated on arrays, one place per run.  Nothing rests on a simulation but suggestions.
+Formulas are evaluated on arrays, one place per run.  No proof rests on it; a run that is found is replayed.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import reduce
+from itertools import count, islice
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from checker.encode.cone import Slice
-from checker.encode.intervals import postorder
+from checker.encode.intervals import Interval, intervals, postorder
 from checker.verdict import Run
-from spec_model.lang.domain import Bool
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.domain import Bool, Domain
+from spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from spec_model.lang.operators import Op
 from spec_model.lang.walk import variables
 
 Column = NDArray[Any]
-"""A value for each of many valuations: truth values of numpy's bool, numbers of int64."""
+"""A value for each of many valuations: truth values of numpy's bool, numbers of int64, or Python's own
+where 64 bits may not suffice."""
 Columns = Mapping[str, Column]
 
 HOLD = (1, 1, 2, 5, 12, 40, 160, 480)
 """Ticks for which a random input keeps its value: long enough for timers of ten seconds to run out."""
 _FEW = 16
 _SMALL = 1 << 30
+_MACHINE = Interval(-(1 << 63), (1 << 63) - 1)
+_MANY = 1 << 16
 _BLOCK = 32
 _TRIES = 12
 """Attempts to draw inputs that satisfy the assumption; a run that has none waits for a tick."""
 
 
 class Vectorised:
-    """Formulas compiled to a list of array operations; equal nodes are computed once."""
+    """Formulas compiled to a list of array operations; equal nodes are computed once.
+
+    Where a value may leave the 64-bit numbers all are computed with Python's numbers, slowly.
+    """
 
     def __init__(self, exprs: Sequence[Expr]) -> None:
         self._roots = list(exprs)
         self._nodes = list(postorder(*exprs))
+        known = intervals(*exprs)
+        wide = not all(i.within(_MACHINE) for i in known.values())
         places = {id(node): place for place, node in enumerate(self._nodes)}
-        self._steps = [_operation(node, places) for node in self._nodes]
-        self._results = [places[id(e)] for e in exprs]
+        self._steps = [_operation(node, places, wide) for node in self._nodes]
+        self._results = [(places[id(e)], wide and known[id(e)].within(_MACHINE)) for e in exprs]
 
     def __call__(self, at: Columns) -> list[Column]:
         """The values of the formulas; each is an array, or a single value when it is the same everywhere."""
         done: list[Any] = []
         for step in self._steps:
             done.append(step(done, at))
-        return [done[place] for place in self._results]
+        return [_narrow(done[place]) if narrow else done[place] for place, narrow in self._results]
+
+
+def _narrow(values: Any) -> Column:
+    """Numbers of the machine, again."""
+    found = np.asarray(values)
+    return found.astype(np.int64) if found.dtype == object else found
 
 
 _Step = Callable[[list[Any], Columns], Any]
 
 
-def _operation(node: Expr, places: Mapping[int, int]) -> _Step:
+def _operation(node: Expr, places: Mapping[int, int], wide: bool) -> _Step:
     match node:
         case Const(value, sort):
-            constant = np.bool_(value) if isinstance(sort, Bool) else np.int64(value)
+            constant: Column = np.asarray(value, dtype=np.bool_ if isinstance(sort, Bool) else _number(wide))
             return lambda done, at: constant
-        case Var(name):
+        case Var(name, domain):
+            if wide and not isinstance(domain.sort, Bool):
+                return lambda done, at: at[name].astype(object)
             return lambda done, at: at[name]
         case Named(_, body):
             place = places[id(body)]
@@ -94,16 +112,27 @@ OPERATIONS: dict[Op, Callable[..., Any]] = {
 """Every operator on arrays; rounding is that of the reference: down."""
 
 
+def _number(wide: bool) -> type:
+    return object if wide else np.int64
+
+
+def _type(var: Var) -> type:
+    return np.bool_ if isinstance(var.sort, Bool) else _number(not _hull(var.domain).within(_MACHINE))
+
+
+def _hull(domain: Domain) -> Interval:
+    return Interval(domain.low, domain.high)
+
+
 def _storage(var: Var) -> type:
     """The type in which values are kept; differences and sums of two fit in it, too."""
-    if isinstance(var.sort, Bool):
-        return np.bool_
-    return np.int32 if -_SMALL <= var.domain.low and var.domain.high < _SMALL else np.int64
+    small = _hull(var.domain).within(Interval(-_SMALL, _SMALL - 1))
+    return np.int32 if small and not isinstance(var.sort, Bool) else _type(var)
 
 
 def column(var: Var, values: Sequence[int] | Column) -> Column:
     """The raw values of a variable as a column."""
-    return np.asarray(values, dtype=np.bool_ if isinstance(var.sort, Bool) else np.int64)
+    return np.asarray(values, dtype=_type(var))
 
 
 @dataclass
@@ -155,10 +184,20 @@ class Simulator:
     """Runs of a slice with random inputs that are held for random times; reproducible.
 
     ``never`` are conditions on a tick, as are conjuncts of the assumption: a run takes none that meets one.
+    ``hold`` are the ticks for which an input keeps its value, one of them drawn for each value.
     """
 
-    def __init__(self, part: Slice, never: Sequence[Expr] = (), *, lanes: int = 256, seed: int = 0) -> None:
+    def __init__(
+        self,
+        part: Slice,
+        never: Sequence[Expr] = (),
+        *,
+        lanes: int = 256,
+        seed: int = 0,
+        hold: Sequence[int] = HOLD,
+    ) -> None:
         self.part, self.lanes = part, lanes
+        self._hold = np.asarray(hold)
         self._random = np.random.default_rng(seed)
         self._names = [v.name for v in part.variables]
         self._kept = {v.name: _storage(v) for v in (*part.variables, *part.frozen)}
@@ -173,11 +212,13 @@ class Simulator:
     def start(self) -> dict[str, Column]:
         """The initial valuation in every run, with frozen values drawn at random."""
         fixed = {v.name: column(v, [v.init] * self.lanes) for v in self.part.variables}
-        drawn = {
-            v.name: column(v, self._random.choice(np.asarray(v.domain.values), self.lanes))
-            for v in self.part.frozen
-        }
-        return {**fixed, **drawn}
+        return {**fixed, **{v.name: self._anything(v) for v in self.part.frozen}}
+
+    def _anything(self, var: Var) -> Column:
+        """A value of the whole domain for each run."""
+        values = var.domain.values
+        chosen = self._random.integers(0, len(values), self.lanes)
+        return column(var, [values[int(index)] for index in chosen])
 
     def everywhere(self, valuation: Mapping[str, int]) -> dict[str, Column]:
         """One valuation in every run."""
@@ -186,17 +227,37 @@ class Simulator:
 
     def run(self, start: Columns, ticks: int, first: Mapping[str, int] | None = None) -> "Trail":
         """Go on for some ticks in every run.  ``first`` gives inputs of the first tick in half of them."""
-        at, inputs = dict(start), {i.var.name: self._drawn(i, self.lanes) for i in self._inputs}
-        left = {name: self._patience(self.lanes) for name in inputs}
-        trail = Trail([self._stored(at)], [], [])
-        for tick in range(ticks):
-            self._renew(inputs, left, first if tick == 0 else None)
-            possible = self._admissible(at, inputs)
-            at = self._after(at, inputs, possible)
+        trail = Trail([self._stored(start)], [], [])
+        for at, inputs, possible in islice(self.steps(start, first), ticks):
             trail.states.append(self._stored(at))
             trail.inputs.append(dict(inputs))
             trail.moved.append(possible)
         return trail
+
+    def steps(
+        self, start: Columns, first: Mapping[str, int] | None = None, *, resting: bool = False
+    ) -> Iterator[tuple[Columns, Columns, Column]]:
+        """Valuations after each tick, its inputs, and where it took place, for ever.
+
+        ``resting``: half of the runs begin with all inputs but one at their initial values.
+        """
+        at, inputs = dict(start), {i.var.name: self._drawn(i, self.lanes) for i in self._inputs}
+        left = {name: self._patience(self.lanes) for name in inputs}
+        if resting:
+            self._rest(inputs)
+        for tick in count():
+            self._renew(inputs, left, first if tick == 0 else None)
+            possible = self._admissible(at, inputs)
+            at = self._after(at, inputs, possible)
+            yield at, inputs, possible
+
+    def _rest(self, inputs: dict[str, Column]) -> None:
+        """Put the inputs of half of the runs to rest: all of the first run, all but one of the others."""
+        half = self.lanes // 2
+        moving = np.arange(half) % (len(self._inputs) + 1) - 1
+        for number, source in enumerate(self._inputs):
+            if source.var.init in source.values:
+                inputs[source.var.name][:half][moving != number] = source.var.init
 
     def _stored(self, at: Columns) -> dict[str, Column]:
         """A copy that takes half the room where the numbers are small."""
@@ -245,7 +306,7 @@ class Simulator:
         return self._random.choice(source.values, count)
 
     def _patience(self, count: int) -> Column:
-        return self._random.choice(np.asarray(HOLD), count)
+        return self._random.choice(self._hold, count)
 
 
 def _constants(roots: Sequence[Expr]) -> dict[str, set[int]]:
@@ -266,8 +327,8 @@ def _alone(part: Slice, var: Var) -> list[Expr]:
 
 
 def _allowed(var: Var, values: Sequence[int], conditions: Sequence[Expr]) -> Column:
-    """Those of the values, or else of the whole domain, that satisfy the conditions; all if none does."""
-    for tried in (values, var.domain.values):
+    """Those of the values, or else of the domain, that satisfy the conditions; all if none does."""
+    for tried in (values, var.domain.values[:_MANY]):
         drawn = column(var, tried)
         fine = np.ones(len(drawn), dtype=np.bool_)
         for holds in Vectorised(conditions)({var.name: drawn}):

@@ -13,10 +13,26 @@ from checker.encode.intervals import postorder
 from checker.encode.terms import Terms, is_apply
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 
-Store = dict[str, Expr]
+
+class Store(dict[str, Expr]):
+    """The value of each variable; in a branch only what is written there, on top of the store ``below``."""
+
+    def __init__(self, below: "Store | None" = None) -> None:
+        super().__init__()
+        self._below = below
+
+    def find(self, name: str) -> Expr | None:
+        """The value of a variable; None for a temporary without one."""
+        store: Store | None = self
+        while store is not None:
+            if (value := store.get(name)) is not None:
+                return value
+            store = store._below
+        return None
 
 
 @dataclass(frozen=True)
@@ -36,7 +52,8 @@ class Transition:
 def transition(system: TransitionSystem) -> Transition:
     """Execute the step symbolically.  Raises ``ModelError`` on a temporal word."""
     terms = Terms()
-    store: Store = {v.name: terms.var(v) for v in (*system.variables, *system.inputs, *system.frozen)}
+    store = Store()
+    store.update({v.name: terms.var(v) for v in (*system.variables, *system.inputs, *system.frozen)})
     executor, facts = _Executor(terms), Facts(terms.range)
     assume = executor.value(system.assume, store, facts)
     executor.run(system.step, store, facts)
@@ -77,12 +94,14 @@ class _Executor:
         if isinstance(test, Const):
             self.run(statement.then if test.value else statement.otherwise, store, facts)
             return
-        then, other = dict(store), dict(store)
+        then, other = Store(store), Store(store)
         self.run(statement.then, then, facts.assuming(test, True))
         self.run(statement.otherwise, other, facts.assuming(test, False))
         # A temporary written in one branch only is read later under the same condition only.
-        for name, value in {**other, **then}.items():
-            alternative = other.get(name, value)
+        for name in {**other, **then}:
+            one, two = then.find(name), other.find(name)
+            value, alternative = (two if one is None else one), (one if two is None else two)
+            assert value is not None and alternative is not None, "it is written in one of the branches"
             store[name] = value if value is alternative else self._terms.ite(test, value, alternative)
 
     def value(self, expr: Expr, store: Store, facts: Facts) -> Expr:
@@ -94,10 +113,11 @@ class _Executor:
 
     def _node(self, node: Expr, store: Store, done: Mapping[int, Expr]) -> Expr:
         match node:
-            case Const(value, sort):
-                return self._terms.const(value, sort)
+            case Const(raw, sort):
+                return self._terms.const(raw, sort)
             case Var(name):  # a temporary without a value is only read where the result does not matter
-                return store[name] if name in store else self._terms.const(node.init, node.sort)
+                value = store.find(name)
+                return self._terms.const(node.init, node.sort) if value is None else value
             case Named(_, body):
                 return done[id(body)]
             case Apply(op, args, sort):

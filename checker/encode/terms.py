@@ -13,7 +13,8 @@ from checker.encode.facts import Facts
 from checker.encode.intervals import Interval, interval, transfer
 from spec_model.lang.domain import Bool, Sort
 from spec_model.lang.evaluate import operate
-from spec_model.lang.expr import COMPARISONS, Apply, Const, Expr, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Var
+from spec_model.lang.operators import COMPARISONS, Op
 
 _FLAT = 8  # longer conjunctions are not copied into larger ones: chains would grow quadratically
 

@@ -5,8 +5,9 @@ from dataclasses import dataclass
 from random import Random
 
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import TRUE, Apply, Expr, Named, Op, Var
+from spec_model.lang.expr import TRUE, Apply, Expr, Named, Var
 from spec_model.lang.label import text
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables
 

@@ -11,7 +11,8 @@ from checker.export.machine import Machine, machine, meaning
 from checker.export.names import one_line, symbols
 from checker.export.problem import Problem
 from spec_model.lang.domain import Bool, Sort
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from spec_model.lang.operators import Op
 
 NAME = "btor2"
 SUFFIX = "btor2"

@@ -11,7 +11,8 @@ from checker.export.machine import Machine, machine, meaning
 from checker.export.names import identifiers, one_line
 from checker.export.problem import Problem
 from spec_model.lang.domain import Bool
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from spec_model.lang.operators import Op
 from spec_model.lang.walk import children
 
 NAME = "smv"

@@ -7,7 +7,8 @@ from checker.encode.intervals import Interval, postorder
 from checker.export.flow import INT, Flow, Reach
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from spec_model.lang.operators import Op
 
 SIGNS = {
     Op.AND: "&&", Op.OR: "||", Op.EQ: "==", Op.NE: "!=", Op.LT: "<", Op.LE: "<=", Op.GT: ">", Op.GE: ">=",

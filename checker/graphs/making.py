@@ -7,11 +7,12 @@ from functools import cached_property
 from checker.engine import Limits, Progress, quiet
 from checker.graph import StateGraph, Way
 from checker.graphs.projecting import project
-from checker.graphs.search import Exploration, explore
+from checker.graphs.search import Exploration, checks_of, explore
 from checker.graphs.telling import Telling
 from checker.runs.replay import followed
 from checker.slice import sliced
 from checker.trace import Trace
+from spec_model.lang.lower.ranges import checked
 from spec_model.lang.system import TransitionSystem
 
 LIMITS = Limits(seconds=60.0, memory=2 << 30)
@@ -96,11 +97,23 @@ def seen(
         onto,
         _Shown(exploration, onto),
         wanted=wanted,
-        over=(f"{system.name} has more runs than the real system",) if source and source.over else (),
+        over=(
+            *((f"{system.name} has more runs than the real system",) if source and source.over else ()),
+            *_unchecked(exploration),
+        ),
         under=(f"{system.name} has fewer runs than the real system",) if source and source.under else (),
         notes=_notes(system, onto, wanted),
     )
     return Made(exploration, replace(graph, looked_for=looked_for), wanted)
+
+
+def _unchecked(exploration: Exploration) -> tuple[str, ...]:
+    """That runs may end because of what the graph does not depend on."""
+    own = {check.name for check in checks_of(exploration.task.system)}
+    others = [checked(check) for check, _ in exploration.system.checks if check.name not in own]
+    if not others:
+        return ()
+    return (f"whether {', '.join(others)} may leave the domain, where a run ends, was not looked into",)
 
 
 def _notes(system: TransitionSystem, onto: Sequence[str], wanted: Sequence[str]) -> tuple[str, ...]:

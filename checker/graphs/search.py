@@ -27,9 +27,13 @@ from checker.engines.explicit.levels import Found, initial_valuations
 from checker.engines.explicit.runs import Runs
 from checker.graphs.explored import Explored
 from checker.graphs.numbering import Numbers, numbered
+from checker.runs.domains import leaves, stray
 from checker.slice import sliced
 from checker.verdict import Run
+from spec_model.lang.action import Assign, each_action
 from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.lang.expr import Var
+from spec_model.lang.lower.ranges import checked
 from spec_model.lang.system import TransitionSystem
 
 AT_ONCE = 1 << 12
@@ -59,13 +63,17 @@ def explore(
 
 
 def _part(system: TransitionSystem, onto: Sequence[str]) -> TransitionSystem:
-    """What the variables depend on, and they themselves though no tick may read them."""
+    """What the variables depend on, and they themselves though no tick may read them.
+
+    Of what is assigned in it, it is checked that it stays in its domain.
+    """
     known = {v.name: v for v in (*system.variables, *system.frozen)}
     for name in onto:
         if name in {v.name for v in system.inputs}:
             raise ModelError(f"{name} is an input of {system.name}; project on what the system remembers.")
         if name not in known:
             raise ModelError(f"There is no variable {name!r} to project on. {did_you_mean(name, known)}")
+    onto = [*onto, *(check.name for check in checks_of(sliced(system, [known[name] for name in onto])))]
     part = sliced(system, [known[name] for name in onto])
     kept = {v.name for v in (*part.variables, *part.frozen)} | set(onto)
     return replace(
@@ -74,6 +82,12 @@ def _part(system: TransitionSystem, onto: Sequence[str]) -> TransitionSystem:
         frozen=tuple(v for v in system.frozen if v.name in kept),
         temps=tuple(v for v in part.temps if v.name not in kept),
     )
+
+
+def checks_of(part: TransitionSystem) -> tuple[Var, ...]:
+    """The checks of a sliced system that are about what it assigns."""
+    written = {a.var.name for a in each_action(part.step) if isinstance(a, Assign)}
+    return tuple(check for check, _ in part.checks if checked(check) in written)
 
 
 class Exploration:
@@ -108,6 +122,7 @@ class Exploration:
             self._level(np.concatenate(self.found[newest:]), end)
             if len(self.numbers) > end:
                 self.levels.append(end)
+                self._stays(before, end)
             newest = before
 
     def _start(self) -> None:
@@ -154,6 +169,19 @@ class Exploration:
             self.found.append(distinct[new])
             self.parents.append(origins[first][new])
         return numbered_[kind]
+
+    def _stays(self, found: int, first: int) -> None:
+        """Raises ``LeavesDomain`` if a tick to one of the valuations found last leaves a domain."""
+        checks = [f for f in self.fields if f.var.name in {check.name for check, _ in self.system.checks}]
+        rows = np.concatenate(self.found[found:]) if checks else np.zeros((0, 0), dtype=np.uint64)
+        raised = np.zeros(len(rows), dtype=np.bool_)
+        for f in checks:
+            raised |= (rows[:, f.word] >> np.uint64(f.shift)) & np.uint64(f.mask) != 0
+        if raised.any():
+            run = self.runs.to_valuation(first + int(raised.argmax()))
+            at = stray(self.system, run)
+            assert at is not None
+            raise leaves(self.system, at, first=at.tick == len(run))
 
     def _within(self) -> bool:
         """Whether to go on; says so now and then."""

@@ -6,11 +6,12 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from checker.commands.check import Compared, results
+from checker.commands.check import Compared, evidence, recorded, results
 from checker.commands.codes import UsageError
-from checker.commands.failing import told
+from checker.commands.failing import alarm, told
 from checker.commands.select import pick_engine
 from checker.engine import Limits
+from checker.faults import Fault, listening
 
 if TYPE_CHECKING:
     from checker.plugin.item import PropertyItem
@@ -66,12 +67,26 @@ class Decider:
     def _decide(self, items: Sequence["PropertyItem"]) -> None:
         model, left = items[0].model, {item.prop.id: item for item in items}
         properties = [item.prop for item in items]
+        faults: list[Fault] = []
         try:
-            for one in results(properties, model.systems, self.engine, self.limits, self.jobs):
-                item = left.pop(one.property.id)
-                self._found[_key(item)] = Compared(one, model.expected(item.prop.id))
+            with listening(faults.append):
+                found = results(properties, model.systems, self.engine, self.limits, self.jobs, quiet=True)
+                for one in found:  # no progress line: with `pytest -s` the line is one of pytest's
+                    item = left.pop(one.property.id)
+                    self._found[_key(item)] = Compared(one, model.expected(item.prop.id))
         except Exception as error:
             self._found |= {_key(item): Failed(told(error)) for item in left.values()}
+        if faults:
+            self._found |= {_key(item): self._faulty(item, faults) for item in items}
+
+    def _faulty(self, item: "PropertyItem", faults: Sequence[Fault]) -> Failed:
+        """What is said of an item while whose system was decided an engine failed: its verdict, too."""
+        found = self._found[_key(item)]
+        if isinstance(found, Failed):
+            return found
+        verdict = f"{item.prop.id} is {found.word}, on record is {recorded(found.expected)}"
+        verdict += f": {evidence(found.result)}"
+        return Failed("\n".join([verdict, *dict.fromkeys(map(alarm, faults))]))
 
 
 def _key(item: "PropertyItem") -> Key:

@@ -35,7 +35,7 @@ def _with_reasons(compared: Compared, model: Model) -> Compared:
     result = compared.result
     if not isinstance(result.verdict, Violated) or not isinstance(result.verdict.because, Trace):
         return compared
-    trace = Explaining()(result.verdict.because, result.property, model.systems)
+    trace = Explaining(quiet=True)(result.verdict.because, result.property, model.systems)
     return replace(compared, result=replace(result, verdict=replace(result.verdict, because=trace)))
 
 

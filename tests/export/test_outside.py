@@ -13,8 +13,9 @@ from checker.verdict import Reached, Unreachable
 from properties.catalogue import catalogue
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import Domain, Num, boolean, chosen, integer
-from spec_model.lang.expr import Apply, Const, Op, Var, all_of, flag
+from spec_model.lang.expr import Apply, Const, Var, all_of, flag
 from spec_model.lang.lower import lower
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from spec_model.rover import systems
 from tests.export import read_aiger, read_btor2, read_smv

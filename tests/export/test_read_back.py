@@ -13,7 +13,8 @@ from checker.export.problem import LEAVES
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import Bool, Domain, Num, chosen, integer
 from spec_model.lang.evaluate import admissible, evaluate, step
-from spec_model.lang.expr import Apply, Const, Op, Var, flag
+from spec_model.lang.expr import Apply, Const, Var, flag
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from tests.checker.test_bitvector import CASES, sort_of
 from tests.export import read_aiger, read_btor2, read_smv

@@ -4,8 +4,7 @@ import pytest
 
 from checker.commands.check import results
 from checker.commands.variant import Variant
-from checker.decide import AUTO
-from checker.engine import Limits, Timers
+from checker.engine import AUTO, Limits, Timers
 from checker.render.drawing.changes import changes
 from properties.catalogue import baseline, catalogue
 from spec_model.lang.chart import Chart, parts, to

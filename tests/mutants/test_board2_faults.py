@@ -18,7 +18,8 @@ from spec_model.lang.edit import (
     operator,
     timer,
 )
-from spec_model.lang.expr import FALSE, TRUE, Op, member, var
+from spec_model.lang.expr import FALSE, TRUE, member, var
+from spec_model.lang.operators import Op
 from spec_model.lang.time import ms, sec
 from spec_model.lang.words import bit, maximum
 from spec_model.signals import board2 as obstacles
@@ -53,6 +54,11 @@ def _never_silent(chart: Chart) -> Chart:
 CHARTS: dict[str, list[tuple[str, str, ChartEdit]]] = {
     "Monitors_2": [
         ("120 ms become 140 ms for the joystick", "PB2-19b", _never_silent),
+        ("120 ms become 140 ms for the joystick, at once", "PB2-19i", _never_silent),
+        ("120 ms become 100 ms for the joystick", "PB2-19m",
+         lambda c: guard(c, "BLE.OK", 2, constant(120, 100))),
+        ("150 ms become 160 ms for Board 1", "PB2-19h",
+         lambda c: guard(c, "Board1Supervisor.OK", 2, constant(150, 160))),
         ("200 ms become 220 ms for the IMU", "PB2-19c", lambda c: guard(c, "IMU.OK", 2, constant(200, 220))),
         ("> 120 ms becomes >= 120 ms for the reception", "PB2-19e",
          lambda c: guard(c, "Rx.OK", 2, operator(Op.GT, Op.GE))),

@@ -4,7 +4,8 @@ import pytest
 
 from spec_model.composition import counters, fine_systems, motors, receiver
 from spec_model.lang.edit import constant, instead, operator
-from spec_model.lang.expr import FALSE, TRUE, Op, Var, flag, member
+from spec_model.lang.expr import FALSE, TRUE, Var, flag, member
+from spec_model.lang.operators import Op
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2_supervisor as b2
 from tests.mutants.faults import (

@@ -17,20 +17,24 @@ from spec_model.lang.edit import (
     swap,
     timer,
 )
-from spec_model.lang.expr import Apply, Expr, Op
+from spec_model.lang.expr import Apply, Expr
+from spec_model.lang.operators import Op
 from spec_model.lang.time import sec
 from spec_model.rover import charts
+from spec_model.signals import board1 as b1
 from tests.mutants import test_board2_faults, test_composition_faults, test_motion_faults
 from tests.mutants.faults import (
     BlockEdit,
     ChartEdit,
     Fault,
     expressions,
+    goes_to,
     in_blocks,
     in_charts,
     no_during,
     no_entry,
     noticed,
+    value,
     with_fault,
 )
 
@@ -103,6 +107,8 @@ CHARTS: dict[str, list[tuple[str, str, ChartEdit]]] = {
     ],
     "Obstacles": [
         ("70 becomes 71", "PB2-03", lambda c: in_expressions(c, constant(70, 71))),
+        ("above 100 becomes above 70", "PB2-05c", lambda c: in_expressions(c, constant(100, 70))),
+        ("up to 300 becomes below 300", "PB2-05c", lambda c: in_expressions(c, constant(300, 299))),
         ("stop is not recomputed", "PB2-02b", no_during("check_sonars_for_stopping")),
         ("only two sonars count", "PB2-02b", lambda c: in_expressions(c, _forget_sonar)),
         ("no emergency from MoveToS1", "PB2-02b", lambda c: drop(c, "MoveToS1", 1)),
@@ -124,6 +130,14 @@ BLOCKS: dict[str, list[tuple[str, str, BlockEdit]]] = {
         ("unequal instead of equal", "PB1-10a", expressions(operator(Op.EQ, Op.NE))),
         ("bit 6 is set as bit 5", "PB1-10b", expressions(constant(64, 32))),
         ("bit 4 is set as bit 3", "PB1-31a", expressions(constant(16, 8))),
+    ],
+    "Own_causes": [
+        ("the masks exchanged", "PB1-10g", goes_to(b1.b1_critical, for_=b1.b1_degraded)),
+        ("bit 0 is no cause", "PB1-10g", value(b1.b1_critical, constant(0, 1))),
+    ],
+    "Process_B2_masks": [
+        ("bit 1 becomes bit 2", "PB1-16h", value(b1.b2_critical, constant(1, 2))),
+        ("bit 3 is no degraded cause", "PB1-16h", value(b1.b2_degraded, constant(3, 2))),
     ],
 }  # fmt: skip
 

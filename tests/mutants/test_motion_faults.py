@@ -18,7 +18,8 @@ from spec_model.lang.edit import (
     swap,
     timer,
 )
-from spec_model.lang.expr import Apply, Expr, Op, all_of
+from spec_model.lang.expr import Apply, Expr, all_of
+from spec_model.lang.operators import Op
 from spec_model.lang.time import sec
 from tests.mutants.faults import ChartEdit, Fault, in_charts, noticed
 

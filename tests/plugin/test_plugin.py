@@ -2,21 +2,25 @@
 
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import SimpleNamespace
-from typing import NoReturn, cast
+from typing import Any, NoReturn, cast
 from xml.etree import ElementTree
 
 import pytest
 
+from checker.commands import check
 from checker.commands.explaining import Explaining
+from checker.faults import Fault, tell
 from checker.plugin import deciding
 from checker.plugin.deciding import Decider
 from checker.plugin.item import PropertyItem
+from checker.result import Result
 from checker.runs.replay import ReplayError
 from rovercheck import NAMES
 from spec_model.lang.errors import ModelError
+from tests.cli.terminal import Terminal
 from tests.model_files.files import BASELINE, HEATER
 
 pytest_plugins = ["pytester"]
@@ -163,7 +167,7 @@ def test_a_model_without_meaning_is_one_error(project: pytest.Pytester, text: st
 def test_an_error_is_one_message(
     project: pytest.Pytester, monkeypatch: pytest.MonkeyPatch, error: Exception, message: str
 ) -> None:
-    def results(*_: object) -> NoReturn:
+    def results(*_: object, quiet: bool) -> NoReturn:
         raise error
 
     monkeypatch.setattr(deciding, "results", results)
@@ -171,6 +175,23 @@ def test_an_error_is_one_message(
     result.assert_outcomes(failed=2, deselected=2)
     result.stdout.fnmatch_lines(["*HEAT-1 of Heater*", message, "*HEAT-2 of Heater*", message])
     assert "Traceback" not in result.stdout.str() and "raise error" not in result.stdout.str()
+
+
+def test_an_engine_that_fails_is_told_with_the_verdict_of_another(
+    project: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    real = check.results
+
+    def results(*args: Any, **options: Any) -> Iterator[Result]:
+        tell(Fault("pdr", "Heater", "AssertionError: of ours"))
+        yield from real(*args, **options)
+
+    monkeypatch.setattr(deciding, "results", results)
+    result = project.runpytest_inprocess(*PLUGIN, "-k", "HEAT-2")
+    result.assert_outcomes(failed=1, deselected=3)
+    verdict = "HEAT-2 is proved, on record is proved: explicit: all 752 valuations of Heater*"
+    fault = "INTERNAL: pdr failed on Heater with AssertionError: of ours. *please report it *"
+    result.stdout.fnmatch_lines([verdict, fault])
 
 
 def test_a_verdict_is_told_although_its_explanation_fails(
@@ -226,3 +247,12 @@ def test_the_plugin_alone_loads_no_solver() -> None:
     code = f"import sys, rovercheck.pytest_plugin; print(*set('{heavy}'.split()) & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == []
+
+
+def test_a_terminal_shows_the_lines_of_pytest_whole(project: pytest.Pytester) -> None:
+    """With ``-s``, too, where a progress line would be written over the name of the test."""
+    (project.path / "baseline.toml").write_text("")
+    with Terminal([sys.executable, "-m", "pytest", *PLUGIN, "-s", "-v"]) as terminal:
+        assert terminal.ended() == pytest.ExitCode.TESTS_FAILED, terminal.seen
+    assert "searches done" not in terminal.seen and terminal.clean
+    assert {OWN, H1, H2, H3} <= {line.split()[0] for line in terminal.shown() if "::" in line}

@@ -9,7 +9,8 @@ from spec_model.lang.action import Action, Assign, If, assign
 from spec_model.lang.chart import Block, Chart, Component, Enabled
 from spec_model.lang.domain import Domain
 from spec_model.lang.edit import in_expressions
-from spec_model.lang.expr import Apply, Expr, Named, Op, Temporal, Var, all_of, any_of, ite
+from spec_model.lang.expr import Apply, Expr, Named, Temporal, Var, all_of, any_of, ite
+from spec_model.lang.operators import Op
 from spec_model.lang.system import System
 from spec_model.lang.walk import variables
 from spec_model.lang.words import minimum

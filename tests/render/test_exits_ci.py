@@ -191,7 +191,9 @@ class TestJunit(TraceSuite):
         assert next(iter(cases(self.shown("witness")).values())).is_passed
 
     def test_what_xml_cannot_hold_is_replaced(self) -> None:
-        assert "\x1b" not in self.shown("odd") and "\ufffd" in self.shown("odd")
+        assert "\x1b" not in self.shown("odd") and r"\x1b\x00" in self.shown("odd")
+        odd = replace(finding(Level.FAILED, 1, "violated"), evidence="\x1b[2J")
+        assert "\ufffd[2J" in junit(Report((odd,), 1))
 
 
 def test_junit_of_a_check() -> None:

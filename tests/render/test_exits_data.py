@@ -15,7 +15,9 @@ from vcd.reader import TokenKind, tokenize
 
 from checker.render import renderers, trace_csv, trace_gtkw, trace_itf, trace_json, trace_vcd
 from checker.render.waves import waves
-from checker.trace import Trace
+from checker.trace import Tick, Trace
+from spec_model.lang.domain import enumeration, integer
+from spec_model.lang.expr import var
 from tests.render.conformance import Suite
 from tests.render.exits_zoo import TRACES, huge, lasso, needed, odd, witness
 from tests.render.zoo import long_trace
@@ -148,6 +150,28 @@ class TestCsv(TraceSuite):
             "", "100", "-0.5", "true"
         )  # fmt: skip
         assert rows[2]["arrows"] == "Relay: Ours -> Theirs (arrow 1) [level >= 100]"
+
+    def test_nothing_in_it_is_a_formula_of_a_spreadsheet(self) -> None:
+        """A variable called ``=HYPERLINK(...)`` was one; numbers stay numbers, ``-`` stays no state."""
+        mode = var("=HYPERLINK(1)", enumeration("Mode", {"+off": 0, "-": 1}))
+        level, other = var("@level", integer(-5, 5)), var("-x", integer(0, 1))
+        own = {v.name: v for v in (mode, level, other)}
+        trace = Trace(
+            "t", 20, own, (), {mode.name: 0, level.name: -5, other.name: 0},
+            (Tick(1, {}, {mode.name: 1, level.name: 5, other.name: 1}, ()),), (), frozenset(), frozenset(),
+        )  # fmt: skip
+        names, *rows = csv.reader(StringIO(trace_csv.render(trace)))
+        assert names[2:5] == ["'=HYPERLINK(1)", "'@level", "'-x"]
+        assert [row[2:5] for row in rows] == [["'+off", "-5", "0"], ["-", "5", "1"]]
+
+    def test_no_two_columns_have_one_name(self) -> None:
+        own = {n: var(n, integer(0, 1)) for n in ("tick", "tick_", "time_ms", "arrows", "'=1", "=1")}
+        held = dict.fromkeys(own, 0)
+        trace = Trace("t", 20, own, (), held, (Tick(1, {}, held, ()),), (), frozenset(), frozenset())
+        names, *_ = csv.reader(StringIO(trace_csv.render(trace)))
+        assert names == [
+            "tick", "time_ms", "tick__", "tick_", "time_ms_", "arrows_", "''=1", "'=1", "arrows"
+        ]  # fmt: skip
 
 
 class TestItf(TraceSuite):

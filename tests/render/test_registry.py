@@ -6,7 +6,7 @@ from checker.render import KINDS, renderers
 
 
 def test_every_promised_exit_is_there() -> None:
-    assert list(renderers("statechart")) == ["dot", "graphml", "mermaid", "svg"]
+    assert list(renderers("statechart")) == ["dot", "graphml", "html", "mermaid", "svg"]
     assert list(renderers("graph")) == ["dot", "graphml", "html", "json", "mermaid", "svg"]
     assert list(renderers("trace")) == [
         "c", "csv", "github", "gtkw", "html", "itf", "json", "junit", "markdown", "play", "pytest", "sarif",

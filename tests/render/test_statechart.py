@@ -21,6 +21,18 @@ class ChartSuite(Suite):
     KIND = "statechart"
 
 
+class TestHtml(ChartSuite):
+    """``graph CHART --format html`` was offered and refused."""
+
+    NAME = "html"
+    ZOO = CHARTS
+
+    def parse(self, document: str) -> None:
+        assert document.startswith("<!doctype html>") and document.rstrip().endswith("</html>")
+        drawn = document[document.index("<svg") : document.index("</svg>") + len("</svg>")]
+        assert ElementTree.fromstring(drawn).tag == f"{SVG}svg"
+
+
 class TestSvg(ChartSuite):
     NAME = "svg"
     ZOO = CHARTS

@@ -6,7 +6,8 @@ from checker.encode.bits.aig import FALSE, TRUE, Aig, Literal
 from checker.encode.bits.words import Word, Words
 from checker.encode.intervals import Interval, interval, postorder
 from spec_model.lang.domain import Bool, Domain
-from spec_model.lang.expr import Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from spec_model.lang.operators import Op
 
 Value = Word
 """A word; a truth value is a word of one literal."""

@@ -10,7 +10,7 @@ import numpy as np
 from llvmlite import ir
 from numpy.typing import NDArray
 
-from checker.encode.native import cache
+from checker import cache
 from checker.encode.native.expressions import TooWide
 from checker.encode.native.jit import Level, Library, object_code
 from checker.encode.native.layout import Field, Layout, OutsideDomain, layout
@@ -70,13 +70,13 @@ class NativeSearch:
         """
         fast = _kept("search", task, Level.FAST)
         if fast is not None:
-            return NativeSearch(task, Library(fast), Level.FAST)
-        return NativeSearch(task, Library(_code("search", task, Level.QUICK)), Level.QUICK)
+            return NativeSearch(task, fast, Level.FAST)
+        return NativeSearch(task, *_library("search", task, Level.QUICK))
 
     def improve(self) -> None:
         """Compile to code that runs fast, unless that was done."""
         if self.level is not Level.FAST:
-            self.library, self.level = Library(_code("search", self.task, Level.FAST)), Level.FAST
+            self.library, self.level = _library("search", self.task, Level.FAST)
 
     def search(self, *arrays: NDArray[Any]) -> Status:
         """context, words, parents, table, buffer, origins, hits: see ``search.add_search``."""
@@ -116,7 +116,7 @@ class NativeRetrace:
 
     @staticmethod
     def compile(task: Task) -> "NativeRetrace":
-        return NativeRetrace(task, Library(_code("retrace", task, _level(task))))
+        return NativeRetrace(task, _library("retrace", task, _level(task))[0])
 
     def inputs(self, before: Words, target: Words, wanted: int) -> dict[str, int]:
         """The inputs read on a path from ``before`` that fits, by name.  Raises ``LookupError``."""
@@ -140,7 +140,7 @@ class NativeSuccessors:
     @staticmethod
     def compile(task: Task) -> "NativeSuccessors":
         """Compile for a task.  Raises ``TooWide`` where 64 bits do not suffice."""
-        return NativeSuccessors(task, Library(_code("successors", task, _level(task))))
+        return NativeSuccessors(task, _library("successors", task, _level(task))[0])
 
     def __call__(self, words: Words, room: int) -> tuple[Ended, int, Words, NDArray[np.int64]]:
         """Why it ended, how many of the valuations are expanded, where their ticks lead, and from which."""
@@ -157,23 +157,44 @@ class NativeSuccessors:
 # --- compiling, or not again -------------------------------------------------------------------------
 
 Kind = Literal["search", "retrace", "successors"]
+_FUNCTIONS: dict[Kind, tuple[str, ...]] = {
+    "search": ("search", "rehash", "known"),
+    "retrace": ("retrace",),
+    "successors": ("successors",),
+}
+"""The functions that code of each kind has."""
 
 
-def _kept(kind: Kind, task: Task, level: Level) -> bytes | None:
-    """The code from the cache, if it is there."""
+def _kept(kind: Kind, task: Task, level: Level) -> Library | None:
+    """The code from the cache, if it is there and can be loaded."""
+    with suppress(OSError):  # the sources cannot be read: nothing says what code was made by
+        name = f"{task.key}-{kind}-{level}"
+        code = cache.read(name)
+        if code is not None:
+            try:
+                return Library(code, _FUNCTIONS[kind])
+            except (RuntimeError, LookupError):  # LLVM does not take it, or it is code of another kind
+                cache.remove(name)
+    return None
+
+
+LARGE = 1 << 20
+"""Signs of a module from which on it is only compiled in little time: LLVM makes fast code of it in minutes,
+and twice the module takes it far more than twice the time.  The largest of the rover has half as many."""
+
+
+def _library(kind: Kind, task: Task, level: Level) -> tuple[Library, Level]:
+    """The code from the cache, or compiled and kept there; ``FAST`` also where it cannot be made faster."""
+    kept = _kept(kind, task, level)
+    if kept is not None:
+        return kept, level
+    text = assembly(kind, task)
+    large = len(text) > LARGE
+    code = object_code(text, Level.QUICK if large else level)
+    level = Level.FAST if large else level
     with suppress(OSError):
-        return cache.read(f"{task.key}-{kind}-{level}")
-    return None  # the sources cannot be read: nothing says what code was made by
-
-
-def _code(kind: Kind, task: Task, level: Level) -> bytes:
-    """The code from the cache, or compiled and kept there."""
-    code = _kept(kind, task, level)
-    if code is None:
-        code = object_code(assembly(kind, task), level)
-        with suppress(OSError):
-            cache.write(f"{task.key}-{kind}-{level}", code)
-    return code
+        cache.write(f"{task.key}-{kind}-{level}", code)
+    return Library(code), level
 
 
 def assembly(kind: Kind, task: Task) -> str:

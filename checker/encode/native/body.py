@@ -20,6 +20,8 @@ from spec_model.lang.action import Assign
 from spec_model.lang.expr import Var
 
 _NUMBER = ir.IntType(32)
+SHOWN = 100
+"""Signs of the name of a local variable: LLVM cuts longer ones, and two may then be alike."""
 
 
 class Body:
@@ -47,13 +49,14 @@ class Body:
         self.depth, self.next = self.local(_NUMBER, "depth"), self.local(_NUMBER, "next")
         self.position, self.count = (self.local(ir.ArrayType(_NUMBER, most), n) for n in ("at", "of"))
         self.back = finished
+        self.chosen: Any = None
         self.before: dict[str, Slot] = {}
         """What the slots were that have been written since the start of the innermost branch."""
 
     def local(self, type_: Any, name: str) -> Any:
         """A local variable of the function."""
         with self.builder.goto_entry_block():
-            return self.builder.alloca(type_, name=name)
+            return self.builder.alloca(type_, name=name[:SHOWN])
 
     def declare(self, variables: Iterable[Var]) -> None:
         """Give each variable a place."""
@@ -72,6 +75,20 @@ class Body:
         """Give each variable its initial value."""
         for var in variables:
             self.put(var, kind(var)(var.init), Interval(var.init, var.init))
+
+    def share(self) -> None:
+        """Have every choice call one function: where there are thousands, little else is in the module."""
+        build, array = self.builder, self.position.type
+        pointer = _NUMBER.as_pointer()
+        module, type_ = (
+            build.module,
+            ir.FunctionType(_NUMBER, [pointer, pointer, array, array, _NUMBER, _NUMBER]),
+        )
+        self.chosen = ir.Function(module, type_, module.get_unique_name("choose"))
+        self.chosen.linkage = "internal"
+        next_, depth, at, of, first, end = self.chosen.args
+        inside = ir.IRBuilder(self.chosen.append_basic_block())
+        inside.ret(inside.load(_taken(inside, next_, depth, at, of, lambda: (first, end))))
 
     def start(self) -> None:
         """Begin with the first path."""
@@ -156,15 +173,12 @@ class Body:
             self.put(var, kind(var)(values[0]), within)
             return
         build = self.builder
-        index = build.load(self.next)
-        position, following = self._at(self.position, index), build.add(index, _NUMBER(1))
-        with build.if_then(build.icmp_signed(">=", index, build.load(self.depth))):
-            first, end = self._ends(values, span)
-            build.store(first, position)
-            build.store(end, self._at(self.count, index))
-            build.store(following, self.depth)
-        build.store(following, self.next)
-        self.put(var, self._nth(var, values, build.load(position)), within)
+        places = (self.next, self.depth, self.position, self.count)
+        if self.chosen is None:
+            taken = build.load(_taken(build, *places, lambda: self._ends(values, span)))
+        else:
+            taken = build.call(self.chosen, [*places, *self._ends(values, span)])
+        self.put(var, self._nth(var, values, taken), within)
 
     def _ends(self, values: tuple[int, ...], span: Span | None) -> tuple[Any, Any]:
         """Places of the first value to take and behind the last."""
@@ -260,3 +274,16 @@ class Body:
         table.linkage, table.global_constant = "internal", True
         table.initializer = ir.Constant(type_, list(values))
         return table
+
+
+def _taken(build: Any, next_: Any, depth: Any, at: Any, of: Any, ends: Callable[[], tuple[Any, Any]]) -> Any:
+    """Where the place of the value taken lies: a choice not on the stack yet begins with its first."""
+    index = build.load(next_)
+    position, following = build.gep(at, [_NUMBER(0), index]), build.add(index, _NUMBER(1))
+    with build.if_then(build.icmp_signed(">=", index, build.load(depth))):
+        first, end = ends()
+        build.store(first, position)
+        build.store(end, build.gep(of, [_NUMBER(0), index]))
+        build.store(following, depth)
+    build.store(following, next_)
+    return position

@@ -12,7 +12,8 @@ from llvmlite import ir
 
 from checker.encode.intervals import TRUTH, Interval, transfer
 from spec_model.lang.domain import Bool
-from spec_model.lang.expr import COMPARISONS, Apply, Const, Expr, Named, Op, Var
+from spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from spec_model.lang.operators import COMPARISONS, Op
 
 BIT = ir.IntType(1)
 INT = ir.IntType(64)

@@ -26,6 +26,7 @@ _LOADED = time()
 """When this module was loaded, in seconds of the clock that files are dated by."""
 SOURCES = (
     "checker/__init__.py",
+    "checker/cache",
     "checker/encode",
     "checker/partition.py",
     "checker/slice.py",

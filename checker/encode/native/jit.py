@@ -62,9 +62,12 @@ def object_code(text: str, level: Level) -> bytes:
 
 
 class Library:
-    """The functions of compiled code; keep it as long as they are called."""
+    """The functions of compiled code; keep it as long as they are called.
 
-    def __init__(self, code: bytes) -> None:
+    Raises ``LookupError`` where one of the functions that it ``needs`` is missing.
+    """
+
+    def __init__(self, code: bytes, needs: Sequence[str] = ()) -> None:
         machine = _machine(Level.QUICK)
         empty = binding.parse_assembly("")
         empty.triple = machine.triple
@@ -72,6 +75,8 @@ class Library:
         self.engine.add_object_file(binding.ObjectFileRef.from_data(code))
         self.engine.finalize_object()
         self.functions: dict[str, Any] = {}
+        for name in needs:
+            self._address(name)
 
     @staticmethod
     def of(module: ir.Module, level: Level = Level.FAST) -> "Library":
@@ -81,8 +86,11 @@ class Library:
     def function(self, name: str, result: Any, arguments: Sequence[Any]) -> Any:
         """A function as a callable, with ctypes types; calls release the interpreter's lock."""
         if name not in self.functions:
-            address = self.engine.get_function_address(name)
-            if not address:
-                raise LookupError(f"The compiled code holds no function {name}.")
-            self.functions[name] = ctypes.CFUNCTYPE(result, *arguments)(address)
+            self.functions[name] = ctypes.CFUNCTYPE(result, *arguments)(self._address(name))
         return self.functions[name]
+
+    def _address(self, name: str) -> int:
+        address: int = self.engine.get_function_address(name)
+        if not address:
+            raise LookupError(f"The compiled code holds no function {name}.")
+        return address

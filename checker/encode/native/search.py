@@ -13,7 +13,7 @@ from checker.encode.native.fingerprint import fingerprint
 from checker.encode.native.layout import Field, Layout
 from checker.encode.native.quiet import Shift, emit_moved_on
 from checker.encode.native.table import CONTEXT, NUMBER, NUMBERS, WORDS, Table, context, function
-from checker.encode.path_statements import Complete, PathProgram, assigned, saved
+from checker.encode.path_statements import Complete, PathProgram, assigned, choices, saved
 from checker.encode.paths import path_program, staged_program
 from checker.partition import Partition, partitions
 from spec_model.lang.expr import Var
@@ -27,6 +27,9 @@ MOST_SUCCESSORS = 1 << 25
 
 MOST_IDLE = 1 << 16
 """Paths without a successor to keep after which a search looks whether it is to stop; a power of two."""
+
+MANY_CHOICES = 3_000
+"""Choices from which on they share code: such a module is ``LARGE`` in any case, and not optimised."""
 
 
 class Status(IntEnum):
@@ -296,6 +299,8 @@ class _Search:
 
 def begin(body: Body, task: Task, program: PathProgram, words: Sequence[Any]) -> None:
     """Emit the start of a tick: the variables of the valuation unpacked, everything else reset."""
+    if choices(program) >= MANY_CHOICES:
+        body.share()
     build = body.builder
     fields = {f.var.name for f in task.layout.fields}
     others = [v for v in _all_variables(task, program) if v.name not in fields]
