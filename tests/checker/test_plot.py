@@ -12,10 +12,11 @@ from benchmarks.growth import SCALES, SEARCH, pictured, symbolic
 from benchmarks.labels import HEIGHT, SIZE, Box, labels
 from benchmarks.measure import Sample
 from benchmarks.plot import Series, plot
+from checker.engine import engines
 from checker.render.drawing.text import width
 
 SVG = "{http://www.w3.org/2000/svg}"
-TOOLS = ("search", "bdd", "bmc", "explicit", "kinduction", "pdr", "ABC pdr", "ABC bmc3", "Z3", "SPIN")
+TOOLS = (SEARCH, *sorted(engines()), "ABC pdr", "ABC bmc3", "Z3", "SPIN")
 GROUND = Box(0, 0, 500, 300)
 
 Line = Sequence[tuple[float, float]]

@@ -53,6 +53,7 @@ COMMANDS = {
     "rovercheck testgen --kept": Instead("tests/cli/test_testgen.py writes the kept set of a board"),
     "rovercheck testgen --keep FOLDER": COVERS,
     "rovercheck testgen --keep checker/conform/cover/kept": COVERS,
+    "rovercheck mutate": MUTATES,
     "rovercheck mutate --system relay": MUTATES,
     "rovercheck mutate --system relay --alone": MUTATES,
     "rovercheck mutate --model heater.py": MUTATES,

@@ -71,7 +71,7 @@ def test_every_arrow_and_property_of_the_rover_has_a_place() -> None:
             assert chart.place and (ROOT / chart.place.path).is_file()
             assert all(arrow.place for arrow in chart.arrows)
     for prop in as_written().values():
-        assert prop.place and prop.place.path.startswith("properties/areas/")
+        assert prop.place and prop.place.path.startswith(("properties/areas/", "properties/promises/"))
         written = (ROOT / prop.place.path).read_text(encoding="utf-8").splitlines()
         near = "".join(written[prop.place.line - 1 : prop.place.line + 2])
         assert f'"{prop.id}"' in near or "{" in near, "its id, or what its id is made of"

@@ -80,7 +80,7 @@ def _decided(
             return Open("a run of the system with cuts could be neither followed nor excluded", 0)
         asked, kept = True, why.kept
         answer = _asked(with_cuts(system, kept), goal, limits.until(deadline), told, len(kept))
-        if not isinstance(answer, Reached):
+        if not isinstance(answer, Reached) or kept.issuperset(v.name for v in system.variables):
             return answer
         depth = len(answer.run)
 

@@ -45,9 +45,9 @@ class Bounded:
     def __call__(self, send: Send, goal: str, depth: int, kept: frozenset[str]) -> None:
         """Send a ``Hit``, a ``Core`` that adds to what is ``kept``, or a text that says why there is none."""
         if goal not in self._searches:
-            leaving = straying(self._plain, as_written(self._plain.system, [goal]))
-            if leaving:
-                send(f"{', '.join(leaving)} may leave its domain")
+            own = self._plain.system
+            if straying(self._plain, as_written(own, [goal])):  # a cut variable would never leave its domain
+                send(Core(frozenset(v.name for v in own.variables)))
                 return
             self._searches[goal] = _Search(self._whole, self._plain.system, goal, self._switches)
         try:
