@@ -7,7 +7,7 @@ from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from properties.forms import Property, formulas
 from properties.requirements import requirement
@@ -15,6 +15,9 @@ from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.walk import variables
 from spec_model.readings import fixed, readings
 from spec_model.rover import readings_of
+
+if TYPE_CHECKING:
+    from properties.promises.promise import Promise
 
 EXCEPTIONS = ("violated", "unknown")
 FIELDS: dict[str, type] = {"verdict": str, "depth": int, "because": str, "no_repair": str}
@@ -70,6 +73,20 @@ def as_written() -> dict[str, Property]:
                 if isinstance(thing, Property):
                     _add(found, replace(thing, area=entry.name))
     return found
+
+
+@cache
+def promises() -> tuple["Promise", ...]:
+    """What the document promises of the rover, those first that it names first."""
+    import properties.promises
+    from properties.promises.promise import ORDER, Promise
+
+    modules = (
+        importlib.import_module(f"{properties.promises.__name__}.{entry.name}")
+        for entry in pkgutil.iter_modules(properties.promises.__path__)
+    )
+    found = [thing for module in modules for thing in vars(module).values() if isinstance(thing, Promise)]
+    return tuple(sorted(found, key=lambda promise: ORDER.index(promise.id)))
 
 
 def _add(found: dict[str, Property], prop: Property) -> None:

@@ -10,6 +10,7 @@ from checker.commands.check import Compared, evidence, results
 from checker.commands.codes import Exit, UsageError
 from checker.commands.findings import totals
 from checker.commands.output import err, out, write
+from checker.commands.promises import page as promises_page
 from checker.commands.repairing import Proof, proofs, repair_pages, sections
 from checker.commands.requirements import page as matrix_page
 from checker.commands.reviewing_more import with_reasons
@@ -135,6 +136,7 @@ def pages_of_verdicts(found: Sequence[Compared], proved: Sequence[Proof] = ()) -
     ordered = sorted(found, key=lambda c: (c.result.property.area, c.result.property.id))
     made = {
         "README.md": _index(ordered),
+        "promises.md": HEADER + promises_page(ordered),
         "requirements.md": HEADER + matrix_page(ordered),
         "systems.md": _systems(),
     }
@@ -164,7 +166,11 @@ def _page(compared: Compared) -> str:
 
 def _index(found: Sequence[Compared]) -> str:
     lines = ["# Verdicts", "", totals(found), ""]
-    lines += ["- [Charts](charts/README.md)", "- [Requirements](requirements.md)"]
+    lines += [
+        "- [Promises](promises.md)",
+        "- [Charts](charts/README.md)",
+        "- [Requirements](requirements.md)",
+    ]
     lines += [
         "- [Systems](systems.md)",
         "- [Proposed repairs](repairs/README.md)",

@@ -70,6 +70,12 @@ ORDERS: Mapping[str, tuple[Turn, ...]] = MappingProxyType(
             Turn("explicit", share=0.8),
             Turn("bmc"),
         ),
+        "driven": (
+            Turn("explicit", share=0.8),
+            Turn("bmc", depth=32, share=0.3),
+            *_PROOFS,
+            Turn("bmc"),
+        ),
         "wide": (
             Turn("bmc", depth=32, share=0.3),
             Turn("explicit", memory=64 * MB, seconds=60, share=0.3),

@@ -12,10 +12,15 @@ WIDE, VAST = 200, 800
 """Bits of a valuation, of what the goals depend on: up to the first, enumerating valuations is worth much
 effort, up to the second some, above it none (compiling such a step takes longer than deciding it)."""
 
+FEW = 4
+"""Bits that are free in each tick: with so few a valuation has few successors, however wide it is."""
+
 
 @dataclass(frozen=True)
 class Shape:
     """``bits`` of a valuation of what the goals depend on, and what whoever asks knows of the answer.
+
+    ``free`` bits of it are chosen anew in each tick.
 
     ``at_once`` of the bits can differ from their start in one valuation: of the counters of states that are
     never active together all but one are 0.  None: all of them.
@@ -24,11 +29,14 @@ class Shape:
     bits: int
     hint: Hint = Hint.NONE
     at_once: int | None = None
+    free: int | None = None
 
     @property
     def kind(self) -> str:
         """The row of the table of orders that is meant for it."""
         wide = (self.bits if self.at_once is None else self.at_once) > WIDE
+        if wide and self.free is not None and self.free <= FEW and not self.hint.value:
+            return "driven"
         if wide and self.bits > VAST:
             return "vast"
         return self.hint.value or ("wide" if wide else "narrow")
@@ -38,7 +46,8 @@ def shape(question: Question) -> Shape:
     """The shape of a question."""
     part = sliced(question.system, question.goals)
     bits = {v.name: (len(v.domain) - 1).bit_length() for v in part.variables}
-    return Shape(sum(bits.values()), question.hint, _at_once(question.system, bits))
+    free = sum((len(v.domain) - 1).bit_length() for v in part.inputs)
+    return Shape(sum(bits.values()), question.hint, _at_once(question.system, bits), free)
 
 
 def _at_once(system: TransitionSystem, bits: Mapping[str, int]) -> int:

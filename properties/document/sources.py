@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from spec_model.lang.expr import Expr, Var
+from spec_model.lang.expr import Expr, Named, Var
 from spec_model.lang.words import named
 from spec_model.signals import board2_supervisor as b2
 
@@ -42,6 +42,12 @@ RX = Source(
 )  # fmt: skip
 
 
-def silent(source: Source) -> Expr:
+def silent(source: Source) -> Named:
     """The stamp is older than the limit (strict)."""
     return named(f"now_ms - ts > {source.limit} ms", source.age > source.limit)
+
+
+def silent_ms(source: Source) -> Expr:
+    """The same where stamps are set some ms before the step that sees them, always as many."""
+    phase = {s.region: s.phase for s in map(b2.between_steps, b2.STAMPED_BETWEEN)}.get(source.region)
+    return silent(source) if phase is None else named(silent(source).name, source.age + phase > source.limit)

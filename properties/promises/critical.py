@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from properties.areas import battery, temperature
-from properties.document.sources import BLE, IMU, silent
+from properties.document.sources import BLE, IMU, silent_ms
 from properties.forms import Property, costly, holds_after
 from properties.promises.promise import Promise
 from spec_model.lang.expr import Expr, any_of
@@ -25,14 +25,15 @@ def _board_1(id: str, text: str, cause: Expr, covers: Sequence[str]) -> Property
     return costly(holds_after(
         f"P-CRITICAL-{id}", f"{text}, in two successive steps of actuation: zero references in the second.",
         premise=cause & drives_1, for_=1 * tick, then=zero_1,
-        covers=[*covers, "B1-REF-03", "B1-REF-06", "B1-REF-07"], on="board1", from_tick=2, readings=["S55"],
+        covers=[*covers, "B1-REF-03", "B1-REF-06", "B1-REF-07"], on="board1_ms", from_tick=2,
+        readings=["S55"],
     ))  # fmt: skip
 
 
 def _board_2(id: str, text: str, cause: Expr, for_: Span, covers: Sequence[str]) -> Property:
     return costly(holds_after(
         f"P-CRITICAL-{id}", text, premise=cause & drives_2, for_=for_, then=zero_2,
-        covers=[*covers, "B2-REF-01", "B1-REF-06"], on="board2", from_tick=2,
+        covers=[*covers, "B2-REF-01", "B1-REF-06"], on="board2_ms", from_tick=2,
     ))  # fmt: skip
 
 
@@ -70,12 +71,12 @@ TOLD_BY_1 = _board_2(
 JOYSTICK = _board_2(
     "JOYSTICK",
     "Board 2 driving, joystick data older than 120 ms in four successive steps: zero references in the last.",
-    silent(BLE), 3 * ticks, ["B2-FLT-01"],
+    silent_ms(BLE), 3 * ticks, ["B2-FLT-01"],
 )  # fmt: skip
 INERTIAL = _board_2(
     "INERTIAL",
     "Board 2 driving, IMU data older than 200 ms in four successive steps: zero references in the last.",
-    silent(IMU), 3 * ticks, ["B2-FLT-01"],
+    silent_ms(IMU), 3 * ticks, ["B2-FLT-01"],
 )  # fmt: skip
 
 CRITICAL = Promise(
@@ -87,4 +88,11 @@ CRITICAL = Promise(
     "in the next step (20 ms later); for a silent sensor of Board 2 in the fourth step of silence",
     ("PB1-17a", "PB2-17"),
     (HOT, ASSUMED_HOT, FLAT, ASSUMED_FLAT, WHEEL, TOLD_BY_2, TOLD_BY_1, JOYSTICK, INERTIAL),
+    (
+        ("P-SHOWN-SILENT-BLE", "PSY-14a", "P-CRITICAL-TOLD-BY-2"),
+        ("P-SHOWN-SILENT-IMU", "PSY-14a", "P-CRITICAL-TOLD-BY-2"),
+        ("P-SHOWN-TEMPERATURE", "PSY-14b", "P-CRITICAL-TOLD-BY-1"),
+        ("P-SHOWN-BATTERY", "PSY-14b", "P-CRITICAL-TOLD-BY-1"),
+        ("P-SHOWN-WHEELS", "PSY-14b", "P-CRITICAL-TOLD-BY-1"),
+    ),
 )

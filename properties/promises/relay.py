@@ -9,7 +9,8 @@ from spec_model.signals import board1 as b1
 from spec_model.signals import board2_supervisor as b2
 
 unheard = named(
-    "no frame, or no new heartbeat, for more than 120 ms", (b1.rx_age > 120) | (b1.heartbeat_age > 120)
+    "no frame, or no new heartbeat, for more than 120 ms",
+    (b1.rx_age + b1.rx_phase > 120) | (b1.heartbeat_age > 120),
 )
 """[seed Table 2, §2.5]"""
 asked = named("Board 1 asks to switch", bit(b2.crit_mask_b1, 2) | bit(b2.crit_mask_b1, 7))
@@ -19,31 +20,31 @@ OPENS = costly(always(
     "P-RELAY-OPENS",
     "In every step with a last frame or heartbeat of Board 2 over 120 ms old the relay is open.",
     that=implies(unheard, b1.give_b2_actuation),
-    covers=["B1-REL-02", "B1-RX-03", "B1-SUP-03"], on="board1", from_tick=2, readings=["S43", "S37"],
+    covers=["B1-REL-02", "B1-RX-03", "B1-SUP-03"], on="board1_ms", from_tick=2, readings=["S43", "S37"],
 ))  # fmt: skip
 ONLY_THEN = costly(enters_only_if(
     "P-RELAY-ONLY-THEN",
     "The relay opens only in a step with a last frame or heartbeat of Board 2 over 120 ms old.",
     entering=b1.give_b2_actuation, only_if=unheard,
-    covers=["B1-REL-02", "B1-REL-04"], on="board1", from_tick=2, readings=["S43", "S44"],
+    covers=["B1-REL-02", "B1-REL-04"], on="board1_ms", from_tick=2, readings=["S43", "S44"],
 ))  # fmt: skip
 CLOSES = costly(leaves_only_if(
     "P-RELAY-CLOSES",
     "The relay closes only after 3.02 s in which frames and heartbeats came within 120 ms.",
     leaving=b1.give_b2_actuation, only_if=held(~unheard, for_=151 * ticks),
-    covers=["B1-REL-04"], on="board1", from_tick=2, readings=["S44", "S45"],
+    covers=["B1-REL-04"], on="board1_ms", from_tick=2, readings=["S44", "S45"],
 ))  # fmt: skip
 CLOSED_AGAIN = costly(holds_after(
     "P-RELAY-CLOSED-AGAIN",
     "After 3.02 s in which frames and heartbeats came within 120 ms the relay is closed.",
     premise=~unheard, for_=151 * ticks, then=~b1.give_b2_actuation,
-    covers=["B1-REL-04"], on="board1", from_tick=2, readings=["S44", "S45"],
+    covers=["B1-REL-04"], on="board1_ms", from_tick=2, readings=["S44", "S45"],
 ))  # fmt: skip
 ASKED = costly(always(
     "P-RELAY-ASKED",
     "Board 2 is authorised in every step in which the last mask of Board 1 asks to switch.",
     that=implies(asked, b2.autorized_to_send_command),
-    covers=["B2-ACT-01"], on="board2", from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on="board2_ms", from_tick=2, readings=["E22"],
 ))  # fmt: skip
 
 RELAY = Promise(
@@ -57,4 +58,5 @@ RELAY = Promise(
     "in the second step of silence if not (PB2-14d, of a part of Board 2)",
     ("PB1-15", "PB2-14c", "PSY-02a", "PSY-19"),
     (OPENS, ONLY_THEN, CLOSES, CLOSED_AGAIN, ASKED),
+    (("P-SHOWN-LINK", "PSY-03a", "P-RELAY-ASKED"),),
 )

@@ -1,7 +1,7 @@
 """What each board shows the other: from the measured datum to the bit of the mask that is sent."""
 
 from properties.areas import battery, temperature
-from properties.document.sources import BLE, IMU, RX, SUP, Source, silent
+from properties.document.sources import BLE, IMU, RX, SUP, Source, silent_ms
 from properties.forms import Property, always, costly, holds_after
 from properties.promises.promise import Promise
 from spec_model.lang.expr import Expr, all_of, implies
@@ -22,7 +22,7 @@ def _degraded(index: int) -> Expr:
 def _board_1(id: str, text: str, that: Expr, covers: list[str]) -> Property:
     return costly(always(
         f"P-SHOWN-{id}", text, that=that,
-        covers=[*covers, "B1-MASK-01"], on="board1", from_tick=2, readings=["S51"],
+        covers=[*covers, "B1-MASK-01"], on="board1_ms", from_tick=2, readings=["S51"],
     ))  # fmt: skip
 
 
@@ -72,7 +72,7 @@ WHEELS = _board_1(
 LINK = _board_1(
     "LINK",
     "Bit 2 of the critical mask exactly with a last frame, bit 7 with a last heartbeat over 120 ms old.",
-    (_critical(2) == (b1.rx_age > 120)) & (_critical(7) == (b1.heartbeat_age > 120)),
+    (_critical(2) == (b1.rx_age + b1.rx_phase > 120)) & (_critical(7) == (b1.heartbeat_age > 120)),
     ["B1-RX-05", "B1-RX-03", "B1-SUP-03"],
 )
 
@@ -82,8 +82,8 @@ def _silence(id: str, source: Source, index: int, what: str, steps: int) -> Prop
         f"P-SHOWN-{id}",
         f"{what}, silent for over {source.limit} ms in {steps + 1} successive steps, is bit {index} of "
         "Board 2's critical mask in one of the last two.",
-        premise=silent(source), for_=steps * ticks, then=_critical_2(index),
-        covers=["B2-FLT-01", "B2-FLT-02"], on="board2", from_tick=2, readings=["E29", "E24"],
+        premise=silent_ms(source), for_=steps * ticks, then=_critical_2(index),
+        covers=["B2-FLT-01", "B2-FLT-02"], on="board2_ms", from_tick=2, readings=["E29", "E24"],
     ))  # fmt: skip
 
 

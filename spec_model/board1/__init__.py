@@ -4,6 +4,8 @@ Fault detection, masks, classes of Board 2's faults, relay; then, if Board 1 act
 limits and references.  A block sees in the same step what the blocks before it produced.
 """
 
+from collections.abc import Sequence
+
 from spec_model.board1.backward import toggle
 from spec_model.board1.battery import monitor_battery
 from spec_model.board1.classify import process_b2_masks
@@ -18,18 +20,17 @@ from spec_model.board1.temperature import monitor_temperature
 from spec_model.board1.temperature_ranges import count_range_steps
 from spec_model.board1.wheels import monitor_wheels
 from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block, Component, Enabled
+from spec_model.lang.chart import Block, Chart, Component, Enabled
 from spec_model.readings import under
 from spec_model.signals.board1 import give_b2_actuation, omega_ref, v_ref
 
-MONITORS: tuple[Component, ...] = (
-    monitor_temperature,
-    monitor_battery,
-    *monitor_wheels,
-    monitor_heartbeat,
-    monitor_reception,
-)
-"""Fault detection: mutually independent [seed §2.4, Fig 15]."""
+LINKS = (monitor_heartbeat, monitor_reception)
+
+
+def monitors(links: Sequence[Chart] = LINKS) -> tuple[Component, ...]:
+    """Fault detection: mutually independent [seed §2.4, Fig 15]."""
+    return (monitor_temperature, monitor_battery, *monitor_wheels, *links)
+
 
 computed = ~give_b2_actuation | under("S48", "STILL-COMPUTED")
 safety_computed = computed | under("S49", "STOP-AND-GIVE")
@@ -51,14 +52,20 @@ no_references = Block(
     text="References that are not computed are 0.",
 )
 
-SUPERVISOR: tuple[Component, ...] = (
-    count_range_steps,
-    *MONITORS,
-    fault_masks,
-    own_causes,
-    process_b2_masks,
-    relay,
-    no_references,
-    REFERENCES,
-)
-"""The whole supervisor of Board 1."""
+
+def supervisor(links: Sequence[Chart] = LINKS) -> tuple[Component, ...]:
+    """The whole supervisor of Board 1; ``links`` monitor the heartbeat and the reception."""
+    return (
+        count_range_steps,
+        *monitors(links),
+        fault_masks,
+        own_causes,
+        process_b2_masks,
+        relay,
+        no_references,
+        REFERENCES,
+    )
+
+
+SUPERVISOR: tuple[Component, ...] = supervisor()
+"""The whole supervisor of Board 1, as drawn."""

@@ -1,9 +1,16 @@
-"""The link monitors of Board 1 with updates at any ms between two steps."""
+"""Board 1 with updates at any ms between two steps: its link monitors, and the whole with constant phases."""
+
+from dataclasses import replace
 
 from spec_model import environment_fine as env
+from spec_model.board1 import SUPERVISOR, supervisor
 from spec_model.board1.heartbeat import heartbeat_monitor
 from spec_model.board1.reception import reception_monitor
+from spec_model.board1.systems import FEW_VALUES, HEADINGS, board1
+from spec_model.lang.chart import Chart
+from spec_model.lang.expr import Var
 from spec_model.lang.system import System, in_order
+from spec_model.signals import board1 as b1
 from spec_model.signals import board1_fine as fine
 
 STAMPS = (
@@ -17,6 +24,11 @@ ALIKE_INTERVALS = (
 STAMPED_LATE = (
     "The specification stamps a heartbeat with the step that sees it, which here is an arrival at its "
     "instant; earlier stamps are more runs."
+)
+
+CONSTANT_PHASE = (
+    "A frame or datum is stamped 0 to 19 ms before the step that sees it, always as many (no jitter); an "
+    "alive counter with the step that sees it change."
 )
 
 reception = reception_monitor(fine.rx_age_ms)
@@ -62,9 +74,28 @@ heartbeat_ms_exact = in_order(
     notes=[STAMPS, STAMPED_LATE],
 )
 
+
+def links_at(phase: Var) -> tuple[Chart, Chart]:
+    """The monitors of heartbeat and reception, for frames that always come so long before a step."""
+    elapsed = b1.rx_age + phase
+    return heartbeat_monitor(b1.heartbeat_age, elapsed), reception_monitor(elapsed)
+
+
+before = board1.components[: -len(SUPERVISOR)]
+board1_ms = replace(
+    board1,
+    name="board1_ms",
+    components=(*before, *supervisor(links_at(b1.rx_phase))),
+    text="The whole supervisor of Board 1; frames come any ms before a step, always as many.",
+    frozen=(b1.rx_phase,),
+    notes=(CONSTANT_PHASE, FEW_VALUES, HEADINGS),
+    place=None,
+)
+
 SYSTEMS: tuple[System, ...] = (
     reception_ms,
     reception_ms_exact,
     heartbeat_ms,
     heartbeat_ms_exact,
+    board1_ms,
 )

@@ -46,6 +46,7 @@ FREE_ERROR = (
     "degrees; for a chart that meets an arbitrary yaw this adds and loses no run."
 )
 FEW_VALUES = "Measurements take representative values on each side of every limit."
+HEADINGS = "Headings are multiples of 2.5 degrees, arbitrary in every frame."
 
 temperature = in_order(
     "temperature",
@@ -210,7 +211,7 @@ board1 = in_order(
     *SUPERVISOR,
     text="The whole supervisor of Board 1, with exact records of ten intervals.",
     assume=env.heartbeat_travels_in_frames,
-    notes=[GRID, FEW_VALUES, "Headings are multiples of 2.5 degrees, arbitrary in every frame."],
+    notes=[GRID, FEW_VALUES, HEADINGS],
 )
 
 # The board comes before systems with a simpler form of its charts: charts are shown as in the first.

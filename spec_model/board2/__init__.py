@@ -5,6 +5,8 @@ obstacle command and references; at last the coherence of IMU and odometry.  A b
 step what the blocks before it produced, and the decision the authorisation of the step before.
 """
 
+from collections.abc import Sequence
+
 from spec_model.board2.actuation import actuation
 from spec_model.board2.backward import toggle_2
 from spec_model.board2.classify import process_masks
@@ -22,6 +24,8 @@ from spec_model.board2.selection import selection
 from spec_model.board2.slow2 import Record, exact
 from spec_model.lang.chart import Component, Enabled
 from spec_model.signals.board2_supervisor import (
+    SOURCES,
+    Source,
     autorized_to_send_command,
     crit_mask_b1,
     critical_mask,
@@ -54,9 +58,11 @@ DRIVING = Enabled(
 """Actuation decision and motion state, executed only while Board 2 is authorised."""
 
 
-def supervisor(record: Record = exact, heading: Heading = FREE) -> tuple[Component, ...]:
+def supervisor(
+    record: Record = exact, heading: Heading = FREE, sources: Sequence[Source] = SOURCES
+) -> tuple[Component, ...]:
     """The whole supervisor of Board 2, exact or with over-approximated records and heading."""
-    notes, monitor_sources = monitors(record)
+    notes, monitor_sources = monitors(record, sources)
     return (
         check_stop_2,  # read by the motion chart, and by the obstacle chart under E10 LATCH-STANDSTILL
         *obstacle_decision(heading),

@@ -16,6 +16,10 @@ GRID = (
     "Time stamps lie on the 20 ms grid: an update carries the time of the step that sees it. "
     "A stamp between two steps lets an age pass a strict limit one step earlier."
 )
+CONSTANT_PHASE = (
+    "A datum is stamped 0 to 19 ms before the step that sees it, always as many for one source (no jitter); "
+    "an alive counter with the step that sees it change."
+)
 WITH_FRAMES = "A new alive counter of Board 1 comes with an accepted frame only."
 LONG_OR_SHORT = (
     "Of the gaps only a row of long or of short ones is remembered; the mean of both kinds is free at each "

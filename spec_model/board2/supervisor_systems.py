@@ -3,6 +3,7 @@
 The obstacle charts and the motion charts have systems of their own.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from spec_model import environment_board2 as env
@@ -11,7 +12,7 @@ from spec_model.board2.classify import process_masks
 from spec_model.board2.failure_check import check_board1
 from spec_model.board2.heading import measured
 from spec_model.board2.masks import fault_masks_2
-from spec_model.board2.monitor_systems import FORGOTTEN, GRID, WITH_FRAMES, watching
+from spec_model.board2.monitor_systems import CONSTANT_PHASE, FORGOTTEN, GRID, WITH_FRAMES, watching
 from spec_model.board2.monitors import RECORDS, monitor_sources
 from spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
 from spec_model.board2.obstacles import obstacles_n
@@ -28,6 +29,7 @@ from spec_model.lang.system import System, in_order
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
 from spec_model.signals.board2 import SONARS
+from spec_model.signals.board2_supervisor import Source
 from spec_model.signals.rotation import TARGET
 
 FREE_STATUSES = (
@@ -35,6 +37,7 @@ FREE_STATUSES = (
     "is proved here holds for the whole board."
 )
 FEW_VALUES = "Measurements take representative values on each side of every limit."
+HEADING = "The heading is a multiple of 2.5 degrees."
 
 # --- masks, authorisation, safety state, obstacle command ---------------------------------------------
 
@@ -212,13 +215,14 @@ FREE_HEADING = "The 45 degree test of the heading is a free input, false in the 
 
 
 targetAngle = var("B2.targetAngle", TARGET, 0, "heading at which a deviation from an obstacle ends")
-BOARD2: tuple[Component, ...] = (
-    *env.SNAPSHOTS,
-    *env.clocks,
-    env.sonar_clock,
-    *supervisor(heading=measured(motion.yaw, targetAngle)),
-    ACTUATION,
-)
+
+
+def _whole(sources: Sequence[Source]) -> tuple[Component, ...]:
+    charts = supervisor(heading=measured(motion.yaw, targetAngle), sources=sources)
+    return (*env.SNAPSHOTS, *env.clocks, env.sonar_clock, *charts, ACTUATION)
+
+
+BOARD2 = _whole(b2.SOURCES)
 """Both the obstacle chart and the motion chart read the one heading."""
 
 
@@ -302,7 +306,19 @@ board2 = in_order(
     *BOARD2,
     text="The whole supervisor of Board 2 and its motor commands, with exact records of ten gaps.",
     assume=env.heartbeat_travels_in_frames,
-    notes=[GRID, WITH_FRAMES, FEW_VALUES, "The heading is a multiple of 2.5 degrees."],
+    notes=[GRID, WITH_FRAMES, FEW_VALUES, HEADING],
+)
+
+SOURCES_MS = (b2.SUP, *map(b2.between_steps, b2.STAMPED_BETWEEN))
+
+board2_ms = replace(
+    board2,
+    name="board2_ms",
+    components=_whole(SOURCES_MS),
+    text="The whole supervisor of Board 2; data come any ms before a step, those of a source always as many.",
+    frozen=tuple(s.phase for s in SOURCES_MS if s.phase is not None),
+    notes=(CONSTANT_PHASE, WITH_FRAMES, FEW_VALUES, HEADING),
+    place=None,
 )
 
 SYSTEMS: tuple[System, ...] = (
@@ -325,4 +341,5 @@ SYSTEMS: tuple[System, ...] = (
     sonar_without_echo,
     on_its_own,
     board2,
+    board2_ms,
 )

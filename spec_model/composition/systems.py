@@ -1,6 +1,6 @@
 """The whole rover, step by step: both supervisors, both directions of the link, relay, motors, faults."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from spec_model import environment as env1
@@ -97,30 +97,34 @@ A04 = Assumption(
 )
 FRESH = Assumption("FRESH", "Every sensor delivers a valid reading in every step.", all_of(*SENSORS))
 
-PARTS: tuple[Component, ...] = (
-    faults,
-    link12.receive,
-    link21.receive,
-    env1.temperature_readings,
-    env1.battery_readings,
-    env1.reception_clock,
-    env1.heartbeat_clock,
-    arrival_window("rx", b1.rx_update),
-    arrival_window("heartbeat", b1.heartbeat_update, moves=b1.heartbeat_moves),
-    env1.check_stop,
-    Enabled(runs_1, *SUPERVISOR_1, name="Board 1"),
-    env2.joystick,
-    env2.inertial,
-    env2.sonars,
-    *env2.clocks,
-    Enabled(runs_2, *SUPERVISOR_2, ACTUATION, name="Board 2"),
-    relay_and_driver,
-    link12.send,
-    link21.send,
-    start,
-)
-"""In the order of one instant: receive, sensors, supervisors, motor commands, transmit."""
 
+def in_turn(board1: Sequence[Component], board2: Sequence[Component]) -> tuple[Component, ...]:
+    """What happens in one instant, in order: receive, sensors, supervisors, motor commands, transmit."""
+    return (
+        faults,
+        link12.receive,
+        link21.receive,
+        env1.temperature_readings,
+        env1.battery_readings,
+        env1.reception_clock,
+        env1.heartbeat_clock,
+        arrival_window("rx", b1.rx_update),
+        arrival_window("heartbeat", b1.heartbeat_update, moves=b1.heartbeat_moves),
+        env1.check_stop,
+        Enabled(runs_1, *board1, name="Board 1"),
+        env2.joystick,
+        env2.inertial,
+        env2.sonars,
+        *env2.clocks,
+        Enabled(runs_2, *board2, ACTUATION, name="Board 2"),
+        relay_and_driver,
+        link12.send,
+        link21.send,
+        start,
+    )
+
+
+PARTS = in_turn(SUPERVISOR_1, SUPERVISOR_2)
 
 PLAIN: Mapping[Var, bool | int] = {
     **dict.fromkeys(SENSORS, True),

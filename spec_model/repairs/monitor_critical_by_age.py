@@ -4,7 +4,6 @@ from collections.abc import Callable, Sequence
 from functools import partial
 
 from spec_model.board2.monitor_systems import twin
-from spec_model.board2.monitors import silent
 from spec_model.lang.chart import Chart
 from spec_model.lang.edit import guard, swap
 from spec_model.lang.expr import all_of
@@ -28,7 +27,11 @@ def _one_region(chart: Chart, source: Source) -> Chart:
     """The mean of the gaps stays short while no stamp comes, so that CRIT ends in the midst of a silence."""
     for level in ("OK", "DEG"):
         chart = swap(chart, f"{source.region}.{level}", 1, 2)
-    return guard(chart, f"{source.region}.CRIT", 1, partial(all_of, ~silent(source)))
+    silent = next(
+        arrow.guard for arrow in chart.states[source.region, "OK"].transitions if arrow.target == "CRIT"
+    )
+    assert silent is not None
+    return guard(chart, f"{source.region}.CRIT", 1, partial(all_of, ~silent))
 
 
 by_age = Repair(
@@ -37,7 +40,18 @@ by_age = Repair(
         "In a monitor of Board 2, OK and DEG test their arrow to CRIT first, and the arrow that leaves CRIT "
         "asks in addition that the source is not silent."
     ),
-    fixes=("PB2-14c", "PB2-20a", "PB2-20b", "PB2-20c", "PB2-20d", "PSY-07b"),
+    fixes=(
+        "PB2-14c",
+        "PB2-20a",
+        "PB2-20b",
+        "PB2-20c",
+        "PB2-20d",
+        "PSY-07b",
+        "P-WEATHER-LINK12",
+        "P-WEATHER-LINK12-2",
+        "P-WEATHER-JOYSTICK-2",
+        "P-WEATHER-IMU-2",
+    ),
     charts={
         "Monitors_2": looking_at_the_age(SOURCES),
         "Twin_monitors_2": looking_at_the_age([twin(source) for source in SOURCES]),

@@ -10,6 +10,7 @@ from spec_model.signals.common import (
     COMMAND,
     FAULT_MASK,
     LINK_AGE,
+    PHASE,
     RX_STATUS,
     SAFETY_STATUS,
     SUP_STATUS,
@@ -54,6 +55,7 @@ wheel_speed_rpm = {w: var(f"wheel_speed_rpm_{w}", WHEEL_RPM, 0, "measured wheel 
 
 rx_update = flag("rx_update", "a frame of Board 2 was accepted since the last step")
 rx_age = var("rx_age", LINK_AGE, 0, "now_ms - Board2_Data.data_last_valid_ms")
+rx_phase = var("rx_phase", PHASE, doc="how long before a step each valid frame comes")
 rx_slow = flag("rx_slow", "the mean of the last ten reception intervals exceeds 40 ms")
 heartbeat_update = flag("heartbeat_update", "the received heartbeat differs from the remembered one (S40)")
 heartbeat_age = var("heartbeat_age", LINK_AGE, 0, "now_ms - last_valid_b2_ms")

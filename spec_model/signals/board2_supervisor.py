@@ -4,16 +4,17 @@ Both boards run in one composed system, so a name that Board 1 uses too begins w
 Where the document indexes a signal by wheel, the wheel's letters follow the name: FL, FR, RL, RR.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from spec_model.lang.domain import Domain, boolean, chosen, enumeration, fixed, integer
-from spec_model.lang.expr import Var, flag, var
+from spec_model.lang.expr import Expr, Var, flag, var
 from spec_model.signals.board1 import WHEELS
 from spec_model.signals.board2 import decision
 from spec_model.signals.common import (
     B2_FAULT_MASK,
     COMMAND,
     FAULT_MASK,
+    PHASE,
     RX_STATUS,
     SAFETY_STATUS,
     SUP_STATUS,
@@ -31,8 +32,9 @@ class Source:
     """What a region of the monitors reads and writes: a time stamp, and the status that follows.
 
     ``name`` begins the names of the counters that belong to it.  ``update`` says that the stamp was
-    set to ``now_ms`` since the last step, ``age`` is ``now_ms`` minus the stamp.  ``mean`` and
-    ``limit`` are the largest mean gap and the largest age, in ms, without a fault.
+    set since the last step, ``age`` is ``now_ms`` minus the time of the step that saw that.  ``mean`` and
+    ``limit`` are the largest mean gap and the largest age, in ms, without a fault.  ``phase`` is how long
+    before that step the stamp is set, always; without one the stamp is the time of the step.
     """
 
     region: str
@@ -43,6 +45,12 @@ class Source:
     deg: Var
     mean: int
     limit: int
+    phase: Var | None = None
+
+    @property
+    def elapsed(self) -> Expr:
+        """``now_ms`` minus the stamp."""
+        return self.age if self.phase is None else self.age + self.phase
 
     @property
     def levels(self) -> tuple[str, str, str]:
@@ -81,6 +89,16 @@ IMU = source("IMU", "imu", "deg_imu", imu_status, "IMU.data_last_valid_ms", mean
 RX = source("Rx", "B2.rx", "deg_rx", rx_status, "Board1_Data.data_last_valid_ms", mean=40, limit=120)
 SOURCES = (SUP, BLE, IMU, RX)
 """In the order of the regions."""
+
+
+def between_steps(source: Source, phases: Domain = PHASE) -> Source:
+    """The source with stamps that are set some ms before a step, always as many."""
+    doc = f"how long before a step {source.name} is stamped"
+    return replace(source, phase=var(f"{source.name}_phase", phases, doc=doc))
+
+
+STAMPED_BETWEEN = (BLE, IMU, RX)
+"""Sources with phases; an alive counter is stamped with the step that sees it change."""
 
 sup_update, ble_update, imu_update, rx_update = (source.update for source in SOURCES)
 sup_age, ble_age, imu_age, rx_age = (source.age for source in SOURCES)

@@ -38,6 +38,13 @@ USER_X = chosen([-1, 0, 1])
 USER_Y = chosen([-1, "-0.5", "-0.4", 0, "0.4", 1])
 """The user's speed command; -0.5 is the limit of the 180° rotation, 0.4 a part of full speed."""
 
+PHASE = integer(0, 19, "ms")
+"""From the time of a stamp to the step that sees it, where that is always the same."""
+
+PHASE_CLASS = chosen([0, 10], "ms")
+"""One phase for each set that no limit divides: limits are multiples of 20 ms, so all phases but 0
+pass them in one step."""
+
 WHEEL_RPM = chosen([0, "2.4", "2.5", 60], "rpm")
 """A wheel speed: at rest means below 2.5 rpm."""
 

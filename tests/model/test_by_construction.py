@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import pytest
 
 from checker.slice import sliced
-from spec_model.board1 import MONITORS, REFERENCES, SUPERVISOR
+from spec_model.board1 import REFERENCES, SUPERVISOR, monitors
 from spec_model.board1.masks import COMPONENTS
 from spec_model.board2.acquisition import axis_x, axis_y, ble_task, button1, button2
 from spec_model.board2.obstacles import WINDOWS
@@ -51,7 +51,7 @@ def test_B1_GEN_01_only_the_last_block_writes_the_references() -> None:
 def test_B1_GEN_02_there_is_a_monitor_for_each_source_of_anomalies() -> None:
     wheels = [f"Monitor_wheel_{w}" for w in ("FL", "FR", "RL", "RR")]
     others = ["Monitor_temperature", "Monitor_battery", "Monitor_heartbeat", "Monitor_reception"]
-    assert sorted(p.name for p in parts(MONITORS)) == sorted(wheels + others)
+    assert sorted(p.name for p in parts(monitors())) == sorted(wheels + others)
 
 
 def test_B1_GEN_03_one_block_makes_both_masks_from_the_statuses() -> None:
@@ -66,11 +66,9 @@ def test_B1_GEN_04_the_relay_alone_decides_from_two_statuses() -> None:
 
 def test_B1_GEN_06_fault_detection_has_five_kinds_of_outputs() -> None:
     kinds = [b1.temp_status, b1.batt_status, b1.b2_sup_status, b1.rx_status, *b1.wheel_status.values()]
-    monitors = {p.name for p in parts(MONITORS)}
-    detected = {n for name in monitors for n in BOARD1[name].written}
-    assert {n for name in BOARD1.keys() - monitors for n in read_by(name) & detected} == {
-        k.name for k in kinds
-    }
+    found = {p.name for p in parts(monitors())}
+    detected = {n for name in found for n in BOARD1[name].written}
+    assert {n for name in BOARD1.keys() - found for n in read_by(name) & detected} == {k.name for k in kinds}
 
 
 @pytest.mark.parametrize("arrives", [False, True])

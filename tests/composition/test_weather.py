@@ -1,0 +1,50 @@
+"""The rover under weather: what its scenes leave out is without effect, and nothing else is left out."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from spec_model.board2.supervisor_systems import coherence_exact
+from spec_model.composition.weather import FAULTS, SECOND, SYSTEMS
+from spec_model.lang.domain import Domain
+from spec_model.lang.interpret import Interpreter
+from spec_model.lang.system import System
+from spec_model.rover import systems
+from spec_model.signals import board1 as b1
+from spec_model.signals import board2_supervisor as b2
+from spec_model.signals.common import PHASE, PHASE_CLASS
+
+ALONE = [systems()[s.name] for s in SYSTEMS if "other" not in {v.name for v in s.frozen}]
+
+
+@pytest.mark.parametrize(
+    ("ages", "limit"), [(b1.rx_age.domain, 120), *((s.age.domain, s.limit) for s in b2.STAMPED_BETWEEN)]
+)
+def test_all_phases_of_a_class_pass_the_limit_in_one_step(ages: Domain, limit: int) -> None:
+    start, between = (int(PHASE_CLASS.show(raw).split()[0]) for raw in PHASE_CLASS.values)
+    assert start == 0
+    for age in (20 * raw for raw in ages.values):
+        passed = {phase: age + phase > limit for phase in PHASE.values}
+        assert {passed[phase] for phase in PHASE.values if phase > 0} == {passed[between]}
+
+
+@given(st.lists(st.tuples(st.booleans(), st.booleans()), max_size=200))
+def test_a_rover_that_does_not_turn_is_coherent_in_every_step(stamps: list[tuple[bool, bool]]) -> None:
+    rover = Interpreter(coherence_exact)
+    still = dict.fromkeys((b2.gz_dps.name, *(v.name for v in b2.wheel_speed_rpm.values())), 0)
+    for imu, supervisor in stamps:
+        rover.step({b2.imu_update.name: int(imu), b2.sup_update.name: int(supervisor), **still})
+        assert rover.data[b2.is_motion_consistent.name]
+
+
+@pytest.mark.parametrize("system", ALONE, ids=lambda s: s.name)
+def test_the_rover_drives_at_full_speed_until_something_fails(system: System) -> None:
+    rover = Interpreter(system)
+    for tick in range(1, 40):
+        rover.step(dict.fromkeys(system.inputs, 0))
+        assert tick == 1 or (rover.data["v_ref"], rover.data["motors.zero"]) == (b1.v_ref.domain.raw(1), 0)
+
+
+def test_every_fault_is_there_alone_and_most_as_a_second_one() -> None:
+    assert [s.name for s in ALONE] == [f"weather_{f.name}" for f in FAULTS]
+    assert {f.name for f in FAULTS} - {f.name for f in SECOND} == {"sonars", "temperature", "battery"}
