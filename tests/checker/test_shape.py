@@ -3,12 +3,15 @@
 import pytest
 
 from checker.portfolio import Question
-from checker.portfolio.shape import VAST, WIDE, Shape, shape
+from checker.portfolio.order import ORDERS
+from checker.portfolio.shape import FEW, VAST, WIDE, Shape, shape
+from spec_model.composition.motors import motors_zero
 from spec_model.lang.chart import Chart, State, to
 from spec_model.lang.lower import lower
 from spec_model.lang.system import in_order
 from spec_model.lang.time import ticks
 from spec_model.lang.words import after
+from spec_model.rover import systems
 
 REGION = 100
 PAIR = {"One": 0, "Two": REGION}
@@ -38,3 +41,16 @@ def test_counters_of_states_that_are_never_active_together_do_not_make_a_questio
 ])  # fmt: skip
 def test_the_kind_follows_from_what_is_there_at_once(bits: int, at_once: int | None, kind: str) -> None:
     assert Shape(bits, at_once=at_once).kind == kind
+
+
+@pytest.mark.parametrize(("bits", "free", "kind"), [
+    (WIDE, FEW, "narrow"), (VAST, FEW, "driven"), (VAST + 1, FEW, "driven"), (VAST, FEW + 1, "wide"),
+])  # fmt: skip
+def test_a_wide_valuation_with_few_free_bits_is_enumerated_first(bits: int, free: int, kind: str) -> None:
+    assert Shape(bits, free=free).kind == kind
+    if kind == "driven":
+        assert ORDERS[kind][0].engine == "explicit"
+
+
+def test_free_bits_are_those_of_inputs_that_the_goals_depend_on() -> None:
+    assert shape(Question(lower(systems()["weather_joystick"]), (motors_zero,))).free == 2
