@@ -31,7 +31,8 @@ class Result:
 
     ``in_part``: the verdict rests on having searched a system that has only some of the runs of the
     rover, so it is none about the rover.  ``certificate``: what came of checking the proof again, where
-    that was asked for and the verdict rests on a proof.
+    that was asked for and the verdict rests on a proof.  ``limited_to``: what a proof is limited to, in a
+    few words.
     """
 
     property: Property
@@ -39,6 +40,7 @@ class Result:
     system: str
     in_part: bool = False
     certificate: Outcome | None = None
+    limited_to: str = ""
 
 
 def result(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Result:

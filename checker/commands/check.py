@@ -108,15 +108,21 @@ def results(
                 case Warned(text):
                     err.print(text, markup=False)
                 case Result():
-                    yield replace(
-                        one, in_part=_in_part(one, systems.get(one.system, systems[one.property.on]))
-                    )
+                    system = systems.get(one.system, systems[one.property.on])
+                    yield replace(one, in_part=_in_part(one, system), limited_to=_limited_to(one, system))
 
 
 def _in_part(result: Result, system: System) -> bool:
     """Whether a search of too few runs was exhausted; a run found in it is a run of the rover."""
     verdict = result.verdict
     return system.under and not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace)
+
+
+def _limited_to(result: Result, system: System) -> str:
+    """What is said of the system beside a proof; a run is one of the rover whatever was left out."""
+    verdict = result.verdict
+    rests_on_all = not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace)
+    return system.limited_to if rests_on_all else ""
 
 
 class Deliver(Protocol):
@@ -238,14 +244,18 @@ def in_short(result: Result) -> str:
         case Unknown(reason, depth):
             return f"after {counted_ticks(depth)} of {system}: {reason}"
         case Proved((Exhausted() | Inductive()) as evidence_, _, claim):
-            return f"{evidence_.how} of {system}" + (f", {claim}" if claim else "")
+            return _joined(f"{evidence_.how} of {system}", claim, result.limited_to)
         case Violated((Exhausted() | Inductive()) as evidence_):
-            return f"never: {evidence_.how} of {system}"
+            return _joined(f"never: {evidence_.how} of {system}", result.limited_to)
         case Proved(Trace() as trace):
             return f"reached in {ticks(trace)} of {system}"
         case Violated(Trace() as trace):
             return f"{ticks(trace)} of {system}"
     raise AssertionError(verdict)
+
+
+def _joined(*said: str) -> str:
+    return ", ".join(filter(None, said))
 
 
 def recorded(entry: Expected) -> str:
@@ -263,9 +273,9 @@ def evidence(result: Result) -> str:
         case Proved((Exhausted() | Inductive()) as shown, engine, claim):
             whole = f"{engine}: {shown.how} of {result.system}"
             whole += f", depth {shown.depth}" if isinstance(shown, Exhausted) else ""
-            return f"{whole}, {claim}" if claim else whole
+            return _joined(whole, claim, result.limited_to)
         case Violated((Exhausted() | Inductive()) as shown, engine):
-            return f"{engine}: in none of {shown.how} of {result.system}"
+            return _joined(f"{engine}: in none of {shown.how} of {result.system}", result.limited_to)
         case Proved(Trace() as trace, engine):
             return f"{engine}: witness of {ticks(trace)} on {result.system}"
         case Violated(Trace() as trace, engine):

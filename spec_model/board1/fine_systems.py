@@ -9,7 +9,7 @@ from spec_model.board1.reception import reception_monitor
 from spec_model.board1.systems import FEW_VALUES, HEADINGS, board1
 from spec_model.lang.chart import Chart
 from spec_model.lang.expr import Var
-from spec_model.lang.system import System, in_order
+from spec_model.lang.system import Note, System, in_order
 from spec_model.signals import board1 as b1
 from spec_model.signals import board1_fine as fine
 
@@ -26,9 +26,10 @@ STAMPED_LATE = (
     "instant; earlier stamps are more runs."
 )
 
-CONSTANT_PHASE = (
+CONSTANT_PHASE = Note(
     "A frame or datum is stamped 0 to 19 ms before the step that sees it, always as many (no jitter); an "
-    "alive counter with the step that sees it change."
+    "alive counter with the step that sees it change.",
+    brief="constant phases",
 )
 
 reception = reception_monitor(fine.rx_age_ms)

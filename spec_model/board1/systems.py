@@ -20,13 +20,14 @@ from spec_model.board1.temperature import monitor_temperature
 from spec_model.board1.temperature_ranges import count_range_steps
 from spec_model.board1.wheels import monitor_wheels
 from spec_model.lang.chart import Enabled
-from spec_model.lang.system import System, in_order
+from spec_model.lang.system import Note, System, in_order
 from spec_model.records import arrival_window, slow_record
 from spec_model.signals import board1 as b1
 
-GRID = (
+GRID = Note(
     "Time stamps lie on the 20 ms grid, the first step at 20 ms: an update carries the time of the step "
-    "that sees it. A stamp between two steps lets an age pass a strict limit one step earlier."
+    "that sees it. A stamp between two steps lets an age pass a strict limit one step earlier.",
+    brief="stamps on the steps",
 )
 ANY_INTERVALS = (
     "The ten intervals are forgotten: from the eleventh update on, whether their mean exceeds 40 ms is "

@@ -9,16 +9,18 @@ from spec_model.board2.slow2 import Record, exact, forgotten, mean_slow, runs
 from spec_model.environment import clock
 from spec_model.lang.chart import Component
 from spec_model.lang.expr import Var, all_of
-from spec_model.lang.system import System, in_order
+from spec_model.lang.system import Note, System, in_order
 from spec_model.signals.board2_supervisor import SOURCES, Source
 
-GRID = (
+GRID = Note(
     "Time stamps lie on the 20 ms grid: an update carries the time of the step that sees it. "
-    "A stamp between two steps lets an age pass a strict limit one step earlier."
+    "A stamp between two steps lets an age pass a strict limit one step earlier.",
+    brief="stamps on the steps",
 )
-CONSTANT_PHASE = (
+CONSTANT_PHASE = Note(
     "A datum is stamped 0 to 19 ms before the step that sees it, always as many for one source (no jitter); "
-    "an alive counter with the step that sees it change."
+    "an alive counter with the step that sees it change.",
+    brief="constant phases",
 )
 WITH_FRAMES = "A new alive counter of Board 1 comes with an accepted frame only."
 LONG_OR_SHORT = (

@@ -26,7 +26,7 @@ from spec_model.composition.motors import (
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block, Component, Enabled
 from spec_model.lang.expr import Var, all_of, any_of, implies, ite
-from spec_model.lang.system import Assumption, System, in_order
+from spec_model.lang.system import Assumption, Note, System, in_order
 from spec_model.readings import under
 from spec_model.records import arrival_window
 from spec_model.signals import board1 as b1
@@ -34,9 +34,10 @@ from spec_model.signals import board2 as obstacles
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
 
-SYNCHRONOUS = (
+SYNCHRONOUS = Note(
     "Both supervisors execute once per tick of 20 ms; what one writes is seen by the other one or two ticks "
-    "later, chosen for each frame, in order (phases and latencies of the tasks in between)."
+    "later, chosen for each frame, in order (phases and latencies of the tasks in between).",
+    brief="both boards in step",
 )
 ENVIRONMENT = (
     "Sonars, joystick, IMU, temperature, battery, wheels and encoder flags are arbitrary, on both sides of "

@@ -28,6 +28,24 @@ Program = tuple[Statement, ...]
 TICK_MS = 20
 
 
+class Note(str):
+    """A note on a system of which ``brief`` is said beside every proof about it.
+
+    >>> Note("An update carries the time of the step that sees it.", brief="stamps on the steps").brief
+    'stamps on the steps'
+    """
+
+    brief: str
+
+    def __new__(cls, text: str, brief: str) -> "Note":
+        note = super().__new__(cls, text)
+        note.brief = brief
+        return note
+
+    def __reduce__(self) -> tuple[type["Note"], tuple[str, str]]:
+        return Note, (str(self), self.brief)
+
+
 @dataclass(frozen=True)
 class Assumption:
     """What a system takes for granted of its environment: an id, in words, and as a formula.
@@ -72,6 +90,11 @@ class System:
             object.__setattr__(self, "place", here())
         if not self.step_ms:
             object.__setattr__(self, "step_ms", self.tick_ms)
+
+    @property
+    def limited_to(self) -> str:
+        """What is to be said beside every proof about the system, in a few words; often nothing."""
+        return ", ".join(note.brief for note in self.notes if isinstance(note, Note))
 
     @property
     def assumed(self) -> Expr:
