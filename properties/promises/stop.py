@@ -2,6 +2,7 @@
 
 from properties.document.distances import within
 from properties.forms import costly, holds_after
+from properties.promises import weather
 from properties.promises.critical import drives_1, drives_2, zero_1
 from properties.promises.promise import Promise
 from spec_model.lang.time import tick, ticks
@@ -46,8 +47,9 @@ STOP = Promise(
     "With an obstacle at 70 cm or less, degraded at 300 cm or less, the rover must stop immediately.",
     "§3.4, §3.4.1, §3.4.2",
     "at once",
-    "commanded in the second step; obeyed by Board 1 one step after it has the command, stick forward",
+    "commanded in the second step; obeyed by Board 1 one step after it has the command, stick forward; "
+    "in the scene of P-WEATHER-NEAR the motors stand 80 ms after the step that sees the obstacle",
     ("PB2-01", "PB2-12", "PB2-13a-0", "PSY-10a", "PSY-11"),
-    (NEAR, DEGRADED, WHILE_2_DRIVES, OBEYED),
+    (NEAR, DEGRADED, WHILE_2_DRIVES, OBEYED, weather.NEAR),
     (("P-STOP-NEAR", "PSY-10e", "P-STOP-OBEYED"),),
 )

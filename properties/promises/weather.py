@@ -57,6 +57,7 @@ POWER = _with("power", "a Board 1 without power", 500 * ms, slow, ["B1-REL-05", 
 WHEEL = _with("wheel", "a wheel without feedback", 500 * ms, slow, ["B1-WHL-01", "B1-REF-05"])
 HOT = _with("hot", "64 °C", 4500 * ms, at_rest, ["B1-TEMP-03", "B1-REF-06"])
 FLAT = _with("flat", "a battery at 10 %", 5500 * ms, at_rest, ["B1-BATT-03", "B1-REF-06"])
+NEAR = _with("near", "an obstacle at 70 cm", 80 * ms, at_rest, ["B2-OBS-01", "B1-EST-01"])
 TEMPERATURE = _with("temperature", "no temperature", 1 * sec, slow, ["B1-TEMP-04", "B1-REF-05"])
 BATTERY = _with("battery", "no battery level", 1 * sec, slow, ["B1-BATT-04", "B1-REF-05"])
 

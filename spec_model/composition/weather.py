@@ -29,7 +29,7 @@ from spec_model.lang.system import System, in_order
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board2 import SONARS
+from spec_model.signals.board2 import d1, d2, d3
 from spec_model.signals.common import PHASE_CLASS
 
 RX_1 = "reception of Board 1"
@@ -65,6 +65,7 @@ FAULTS = (
     Fault("wheel", "the front left wheel gives no feedback"),
     Fault("hot", "64 °C are measured"),
     Fault("flat", "a battery level of 10 % is measured"),
+    Fault("near", "the middle sonar measures 70 cm"),
 )
 BY_NAME: Mapping[str, Fault] = {fault.name: fault for fault in FAULTS}
 
@@ -95,8 +96,9 @@ def _world(there: Callable[[str], Expr]) -> list[Action]:
         in_time = ite(late, member(ARRIVAL, "older"), member(ARRIVAL, "newest"))
         return ite(there(fault), member(ARRIVAL, "nothing"), in_time)
 
+    middle = env2.arriving(d2)
     constant: dict[Var, int | float] = {
-        **dict.fromkeys(map(env2.arriving, SONARS), 301),
+        **dict.fromkeys(map(env2.arriving, (d1, d3)), 301),
         **dict.fromkeys(map(env2.arriving, (motion.yaw, b2.gz_dps, motion.bx_norm)), 0),
         env2.arriving(motion.ay_norm): 1,
     }
@@ -104,6 +106,7 @@ def _world(there: Callable[[str], Expr]) -> list[Action]:
         assign(b2.BLE.update, ~there("joystick")),
         assign(b2.IMU.update, ~there("imu")),
         assign(b2.sonar_update, ~there("sonars")),
+        assign(middle, ite(there("near"), _value(middle, 70), _value(middle, 301))),
         assign(b1.temp_update, ~there("temperature")),
         assign(b1.batt_update, ~there("battery")),
         assign(b1.temp_reading, ite(there("hot"), _value(b1.temp_reading, 64), _value(b1.temp_reading, 25))),
@@ -133,8 +136,8 @@ def _value(of: Var, number: int | float) -> Const:
 
 # --- one fault, or two -----------------------------------------------------------------------------------
 
-SECOND = [fault for fault in FAULTS if fault.name not in ("sonars", "temperature", "battery")]
-"""Scans do not age (PB2-22a), and a temperature or a battery level only after half a minute."""
+SECOND = [f for f in FAULTS if f.name not in ("sonars", "temperature", "battery", "near")]
+"""Scans do not age (PB2-22a), temperature and battery only after half a minute; an obstacle is no fault."""
 
 other = var("other", enumeration("Fault", [fault.name for fault in SECOND]), doc="which fault is the second")
 

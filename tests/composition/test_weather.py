@@ -47,4 +47,4 @@ def test_the_rover_drives_at_full_speed_until_something_fails(system: System) ->
 
 def test_every_fault_is_there_alone_and_most_as_a_second_one() -> None:
     assert [s.name for s in ALONE] == [f"weather_{f.name}" for f in FAULTS]
-    assert {f.name for f in FAULTS} - {f.name for f in SECOND} == {"sonars", "temperature", "battery"}
+    assert {f.name for f in FAULTS} - {f.name for f in SECOND} == {"sonars", "temperature", "battery", "near"}
