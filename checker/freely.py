@@ -4,6 +4,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import replace
 
 from checker.lowered import lowered
+from checker.portfolio import Question
+from checker.portfolio.shape import shape
 from checker.result import Answers, Result, result
 from checker.runs.reproduce import moved
 from checker.verdict import Reached, Unreachable
@@ -26,8 +28,10 @@ def freely(system: System, properties: Sequence[Property], ask: Ask) -> tuple[li
     loose = free_timers(system)
     if loose is system:
         return [], list(properties)
-    there = reduce(lowered(loose), [replace(p, on=loose.name) for p in properties])
     here = reduce(lowered(system), properties)
+    if shape(Question(here.system, [g.var for g in here.goals])).kind == "driven":
+        return [], list(properties)  # free timers would be most of what is free
+    there = reduce(lowered(loose), [replace(p, on=loose.name) for p in properties])
     found = ask(there.system, [g.var for g in there.goals])
     if not all(isinstance(found[check.name][0], Unreachable) for check, _ in there.system.checks):
         return [], list(properties)  # a value may leave its domain only because a timer ends early

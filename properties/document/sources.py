@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from spec_model.lang.expr import Expr, Named, Var
+from spec_model.lang.expr import Expr, Var
 from spec_model.lang.words import named
 from spec_model.signals import board2_supervisor as b2
 
@@ -12,6 +12,7 @@ class Source:
     """A source, by the name of its region: levels OK, degraded and critical of its status.
 
     ``mean`` is the largest mean gap of its stamps and ``limit`` the largest age, in ms, without a fault.
+    ``phase`` is how long before a step it is stamped, where that is not the time of the step.
     """
 
     region: str
@@ -22,6 +23,7 @@ class Source:
     levels: tuple[str, str, str]
     mean: int
     limit: int
+    phase: Var | None = None
 
 
 SUP = Source(
@@ -30,24 +32,25 @@ SUP = Source(
 )  # fmt: skip
 BLE = Source(
     "BLE", b2.ble_update, b2.ble_age, b2.deg_ble,
-    b2.esp_status, ("OK", "DEGRADED", "CRITICAL"), mean=40, limit=120,
+    b2.esp_status, ("OK", "DEGRADED", "CRITICAL"), mean=40, limit=120, phase=b2.ble_phase,
 )  # fmt: skip
 IMU = Source(
     "IMU", b2.imu_update, b2.imu_age, b2.deg_imu,
-    b2.imu_status, ("OK", "DEGRADED", "CRITICAL"), mean=100, limit=200,
+    b2.imu_status, ("OK", "DEGRADED", "CRITICAL"), mean=100, limit=200, phase=b2.imu_phase,
 )  # fmt: skip
 RX = Source(
     "Rx", b2.rx_update, b2.rx_age, b2.deg_rx,
-    b2.rx_status, ("RX_OK", "RX_DEGRADED", "RX_CRITICAL"), mean=40, limit=120,
+    b2.rx_status, ("RX_OK", "RX_DEGRADED", "RX_CRITICAL"), mean=40, limit=120, phase=b2.rx_phase,
 )  # fmt: skip
 
 
-def silent(source: Source) -> Named:
+def silent(source: Source) -> Expr:
     """The stamp is older than the limit (strict)."""
     return named(f"now_ms - ts > {source.limit} ms", source.age > source.limit)
 
 
 def silent_ms(source: Source) -> Expr:
     """The same where stamps are set some ms before the step that sees them, always as many."""
-    phase = {s.region: s.phase for s in map(b2.between_steps, b2.STAMPED_BETWEEN)}.get(source.region)
-    return silent(source) if phase is None else named(silent(source).name, source.age + phase > source.limit)
+    if source.phase is None:
+        return silent(source)
+    return named(f"now_ms - ts > {source.limit} ms", source.age + source.phase > source.limit)

@@ -7,7 +7,7 @@ from properties.forms import HoldsAfter, Property, costly, holds_after, reachabl
 from properties.promises.limits import half_1
 from properties.promises.promise import Promise
 from spec_model.composition.motors import connected, motors_zero
-from spec_model.composition.weather import BY_NAME, other, present
+from spec_model.composition.weather import SPELLS, other
 from spec_model.lang.expr import Expr
 from spec_model.lang.time import Span, ms, sec
 from spec_model.lang.words import named
@@ -24,16 +24,15 @@ def _with(fault: str, what: str, after: Span, then: Expr, covers: Sequence[str])
     wanted = "the motors stand" if then is at_rest else "the motors stand, or turn at half speed at most"
     return holds_after(
         f"P-WEATHER-{fault.upper()}", f"With {what} for {after}, {wanted}.",
-        premise=present(BY_NAME[fault]), for_=after, then=then,
+        premise=SPELLS[fault] == "present", for_=after, then=then,
         covers=covers, on=f"weather_{fault}", from_tick=2,
     )  # fmt: skip
 
 
 def _and_another(alone: Property) -> Property:
     """The same, whatever else fails, but the supervisor of Board 1 (PSY-08)."""
-    fault = BY_NAME[alone.on.removeprefix("weather_")]
     assert isinstance(alone.form, HoldsAfter)
-    premise = present(fault) & (other != "supervisor1")
+    premise = alone.form.premise & (other != "supervisor1")
     return costly(replace(
         alone,
         id=f"{alone.id}-2",

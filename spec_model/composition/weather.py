@@ -73,13 +73,12 @@ late12 = flag("B1-B2.late", "every frame is seen two steps after it was sent, no
 late21 = flag("B2-B1.late", "every frame is seen two steps after it was sent, not one")
 
 
-def present(fault: Fault) -> Expr:
-    """The fault is there in this step, after it has begun or ended."""
-    return _spell(fault.name) == "present"
-
-
 def _spell(name: str) -> Var:
     return var(f"{name}.spell", SPELL, doc=f"whether the fault of {name} has begun, and ended")
+
+
+SPELLS: Mapping[str, Var] = {fault.name: _spell(fault.name) for fault in FAULTS}
+"""By the name of the fault; ``present`` in every step in which it is there."""
 
 
 def _turn(name: str, ends: Expr) -> Action:
@@ -186,7 +185,7 @@ def alone(fault: Fault) -> System:
     ends = flag(f"{fault.name}.ends", f"{fault.name} works again from this step on")
 
     def there(name: str) -> Expr:
-        return present(fault) if name == fault.name else FALSE
+        return SPELLS[fault.name] == "present" if name == fault.name else FALSE
 
     return _weather(
         f"weather_{fault.name}",
@@ -204,7 +203,7 @@ def with_another(fault: Fault) -> System:
 
     def there(name: str) -> Expr:
         if name == fault.name:
-            return present(fault)
+            return SPELLS[fault.name] == "present"
         return (other == name) & second if BY_NAME[name] in SECOND else FALSE
 
     def old(ages: str) -> Expr:

@@ -5,6 +5,6 @@ from spec_model.repairs import Repair
 absent_degrades = Repair(
     name="battery-absent-degrades",
     text="Half a second without a reading makes the battery at least degraded (S26).",
-    fixes=("PB1-33g", "P-WEATHER-BATTERY"),
+    fixes=("PB1-33g",),
     readings={"S26": "TABLE1"},
 )

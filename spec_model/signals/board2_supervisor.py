@@ -91,14 +91,20 @@ SOURCES = (SUP, BLE, IMU, RX)
 """In the order of the regions."""
 
 
-def between_steps(source: Source, phases: Domain = PHASE) -> Source:
-    """The source with stamps that are set some ms before a step, always as many."""
-    doc = f"how long before a step {source.name} is stamped"
-    return replace(source, phase=var(f"{source.name}_phase", phases, doc=doc))
-
-
 STAMPED_BETWEEN = (BLE, IMU, RX)
 """Sources with phases; an alive counter is stamped with the step that sees it change."""
+
+
+def _phase(source: Source, phases: Domain = PHASE) -> Var:
+    return var(f"{source.name}_phase", phases, doc=f"how long before a step {source.name} is stamped")
+
+
+def between_steps(source: Source, phases: Domain = PHASE) -> Source:
+    """The source with stamps that are set some ms before a step, always as many."""
+    return replace(source, phase=_phase(source, phases))
+
+
+ble_phase, imu_phase, rx_phase = map(_phase, STAMPED_BETWEEN)
 
 sup_update, ble_update, imu_update, rx_update = (source.update for source in SOURCES)
 sup_age, ble_age, imu_age, rx_age = (source.age for source in SOURCES)

@@ -83,7 +83,10 @@ def _refused(module: str, name: str, thing: object) -> Iterator[str]:
 def _is_family(thing: object) -> bool:
     """Variables that tell by their own names which is which, so that no order of theirs is believed."""
     if isinstance(thing, dict):
-        return all(isinstance(v, Var) and v.name.endswith(f"_{key}") for key, v in thing.items())
+        return all(
+            isinstance(v, Var) and (v.name.endswith(f"_{key}") or v.name.startswith(f"{key}."))
+            for key, v in thing.items()
+        )
     if isinstance(thing, tuple) and thing and all(isinstance(v, Var) for v in thing):
         one = thing[0].name
         numbered = [re.sub("1", str(i), one) for i in range(1, len(thing) + 1)]
