@@ -29,7 +29,7 @@ def freely(system: System, properties: Sequence[Property], ask: Ask) -> tuple[li
     if loose is system:
         return [], list(properties)
     here = reduce(lowered(system), properties)
-    if shape(Question(here.system, [g.var for g in here.goals])).kind == "driven":
+    if shape(Question(here.system, tuple(g.var for g in here.goals))).kind == "driven":
         return [], list(properties)  # free timers would be most of what is free
     there = reduce(lowered(loose), [replace(p, on=loose.name) for p in properties])
     found = ask(there.system, [g.var for g in there.goals])
