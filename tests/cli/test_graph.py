@@ -142,7 +142,7 @@ def test_mistakes_say_what_to_write(capsys: Capture, name: str) -> None:
 INSTEAD = {
     "B1_actuating": "'B1_actuating' is a state of the charts Relay, Check_Board1; rovercheck graph Relay",
     "Relay.B2_actuating": "is a state of the chart Relay; rovercheck graph Relay draws it.",
-    "targetAngle180": "is data of board1, board1_plain, board1_buttons, rover and others: "
+    "targetAngle180": "is data of board1, board1_ms, board1_plain, board1_buttons and others: "
     "rovercheck graph board1 --project targetAngle180",
     "rx_status": "is data of reception,",
     "Rely": "There is no chart or system 'Rely'. Did you mean 'Relay'?",
