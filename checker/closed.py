@@ -17,6 +17,7 @@ class Place:
     shift: int
     bits: int
     stride: int
+    low: int
 
 
 @dataclass(frozen=True, eq=False)

@@ -39,7 +39,7 @@ def closed_set(variables: Sequence[Var], rows: Rows) -> ClosedSet:
     values = [[at[v.name] - v.domain.low for v in variables] for at in rows]
     words = np.array(values, dtype=np.uint64).reshape(len(values), len(variables))
     bits = [(v.domain.high - v.domain.low).bit_length() for v in variables]
-    return ClosedSet(tuple(Place(v, i, 0, bits[i], 1) for i, v in enumerate(variables)), words)
+    return ClosedSet(tuple(Place(v, i, 0, bits[i], 1, v.domain.low) for i, v in enumerate(variables)), words)
 
 
 def part_of(system: TransitionSystem, goals: Sequence[Var]) -> tuple[TransitionSystem, tuple[Var, ...]]:

@@ -91,7 +91,7 @@ def _level(place: Place, level: int, values: Codes, child: Codes, starts: Codes,
 def _node(place: Place, level: int, values: Codes, child: Codes, nodes: list[Node]) -> int:
     """The number of the node with these edges; none is needed where every value leads to the same one."""
     domain = place.var.domain
-    low = values.astype(np.int64) * place.stride + domain.low
+    low = values.astype(np.int64) * place.stride + place.low
     ends = np.flatnonzero((np.diff(low) != 1) | (np.diff(child) != 0))
     first, last = np.r_[0, ends + 1], np.r_[ends, len(low) - 1]
     if len(low) == len(domain) and (child == child[0]).all():

@@ -5,6 +5,7 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from random import Random
 
+from checker.commands.check import results
 from checker.commands.codes import Exit, UsageError
 from checker.commands.mutating_found import Found
 from checker.commands.mutating_json import document
@@ -21,9 +22,6 @@ from checker.mutate.planning import Plan, Planned, homes
 from checker.mutate.running import Doing, Told, fates
 from checker.printable import json_text
 from checker.result import Result
-from checker.searches import Doing as Searching
-from checker.searches import Over, Warned, searches
-from checker.tasks import tasks
 from checker.verdict import Proved, Unknown
 from properties.forms import Property
 from spec_model.lang.system import System
@@ -146,19 +144,7 @@ def _originals(
 ) -> Generator[Result, None, None]:
     """The verdicts on the originals, in which every run counts."""
     own = {name: as_it_is(systems[name]) for name in {p.on for p in properties}}
-    todo = sorted(tasks(properties, own), key=lambda t: (-t.size, t.system.name, t.title))
-    heard = searches(todo, own, AUTO, limits, jobs)
-    with Watch(err, len(todo)) as watch, closing(heard):
-        for one in heard:
-            match one:
-                case Searching(task, line):
-                    watch.say(task.title, line)
-                case Over(task):
-                    watch.finished(task.title)
-                case Warned(text):
-                    err.print(text, markup=False)
-                case Result():
-                    yield one
+    return results(properties, own, AUTO, limits, jobs)
 
 
 def _told(

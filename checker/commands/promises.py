@@ -2,10 +2,14 @@
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 
+from checker.commands.chains import check
 from checker.commands.check import Compared
 from properties.catalogue import catalogue, expected, promises
 from properties.forms import Property
-from properties.promises.promise import Promise
+from properties.promises.promise import Chain, Promise
+from spec_model.composition.fine_systems import CONTRACTS, NO_LOSS, WIRES
+from spec_model.lang.expr import TRUE
+from spec_model.lang.label import text
 from spec_model.repairs import repairs
 from spec_model.rover import systems
 
@@ -14,6 +18,11 @@ INTRODUCTION = (
     "whole board, of both boards with the link, or of a chain: properties of which each begins where the one "
     "before ends. Stamps and phases are in milliseconds. Those marked * belong to the full profile "
     "(`make check-full`); their verdict is the one on record."
+)
+
+ACROSS = (
+    "Across the link, in milliseconds, at all phases. Below each statement stands what it rests on; that "
+    "these say what it takes for granted, and that the frame carries it, is checked formula by formula."
 )
 
 Words = Mapping[str, str]
@@ -54,9 +63,32 @@ def _promise(promise: Promise, words: Words, pages: Collection[str]) -> Iterator
     for prop in promise.holds:
         yield f"| {' | '.join(map(_cell, (prop.id, _word(prop, words), _about(prop), prop.text)))} |"
     if promise.chains:
-        yield from ("", "Across the link:", "")
+        check(promise)
+        yield from ("", ACROSS, "")
         for chain in promise.chains:
-            yield "- " + " → ".join(f"{id} ({_word(catalogue()[id], words)})" for id in chain)
+            yield from _chain(chain, words)
+
+
+def _chain(chain: Chain, words: Words) -> Iterator[str]:
+    """What is proved of the tasks between the boards, and below it what proves its contracts."""
+    across = catalogue()[chain.across]
+    system = systems()[across.on]
+
+    def said(id: str) -> str:
+        prop = catalogue()[id]
+        return f"{id} ({_word(prop, words)}, {_about(prop)}): {prop.text}"
+
+    yield f"- {said(across.id)}"
+    if chain.first:
+        yield f"  - its premise from {said(chain.first)}"
+    for contract in CONTRACTS.get(system.name, ()):
+        yield f"  - {contract.name} from {said(chain.by[contract.name])}"
+    sent, received = (text(chain.stands[wire.name]) for wire in WIRES[system.name])
+    yield f"  - the frame carries `{sent}`, which arrives as `{received}`"
+    if chain.last:
+        yield f"  - its conclusion from {said(chain.last)}"
+    granted = [NO_LOSS, *([] if chain.assuming is TRUE else [f"{text(chain.assuming)}."])]
+    yield f"  - taken for granted: {' '.join(granted)}"
 
 
 def _word(prop: Property, words: Words) -> str:

@@ -116,7 +116,7 @@ def _verdicts(proof: Proof) -> list[str]:
     lines = [f"With {name}:", ""]
     lines += [f"- {r.property.id}: {Compared(r, Expected()).word}, {evidence(r)}" for r in proof.results]
     lines += [
-        f"- {id}: takes long, `rovercheck check --repair {name} {id}` proves it"
+        f"- {id}: only in the full profile; `rovercheck check --repair {name} {id}` decides it"
         for id in _costly(proof.repair)
     ]
     others = f"`{_recheck(name)}` decides these and {count} other properties that it concerns."

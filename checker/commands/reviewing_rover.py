@@ -52,11 +52,7 @@ def remedies(found: Sequence[Compared]) -> Iterator[Remedy]:
 
 def _decided(repair: Repair, violated: set[str]) -> Iterator[Result]:
     variant = Variant(repair.readings, repair)
-    wanted = [
-        variant.properties()[id]
-        for id in repair.fixes
-        if id in violated and not variant.properties()[id].costly
-    ]
+    wanted = [variant.properties()[id] for id in repair.fixes if id in violated]
     by_id = {r.property.id: r for r in results(wanted, variant.systems(), AUTO, LIMITS)}
     yield from (by_id[prop.id] for prop in wanted)
 

@@ -76,7 +76,7 @@ def _closed(because: Exhausted) -> set[naive.State]:
     found = set()
     for row in because.closed.words.tolist():
         raw = {
-            p.var.name: (row[p.word] >> p.shift & (1 << p.bits) - 1) * p.stride + p.var.domain.low
+            p.var.name: (row[p.word] >> p.shift & (1 << p.bits) - 1) * p.stride + p.low
             for p in because.closed.places
         }
         found.add(tuple((n, raw[n]) for n in because.variables))

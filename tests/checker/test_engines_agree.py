@@ -34,7 +34,7 @@ def test_every_engine_is_compared() -> None:
 
 
 @pytest.mark.long
-@examples(450)
+@examples(260)
 @given(transition_systems())
 def test_no_two_engines_disagree(system: TransitionSystem) -> None:
     agree(system)
@@ -48,7 +48,7 @@ def test_nor_on_larger_systems(system: TransitionSystem) -> None:
 
 
 @pytest.mark.long
-@examples(160)
+@examples(110)
 @given(timed_systems())
 def test_nor_on_charts_with_timers(system: TransitionSystem) -> None:
     agree(system)

@@ -41,10 +41,7 @@ def unpacked(closed: ClosedSet) -> set[State]:
     rows = [tuple(map(int, row)) for row in closed.words]
     places = closed.places
     return {
-        tuple(
-            (p.var.name, (row[p.word] >> p.shift & (1 << p.bits) - 1) * p.stride + p.var.domain.low)
-            for p in places
-        )
+        tuple((p.var.name, (row[p.word] >> p.shift & (1 << p.bits) - 1) * p.stride + p.low) for p in places)
         for row in rows
     }
 

@@ -50,7 +50,7 @@ def fingerprint(
     text.program(system.step)
     text.add("layout", layout.words)
     for f in layout.fields:
-        text.add(text.expr(f.var), f.word, f.shift, f.bits, f.stride)
+        text.add(text.expr(f.var), f.word, f.shift, f.bits, f.stride, f.low, f.top)
     for s in shifts:
         text.add("shift", s.word, s.shift, s.mask, s.by, s.top)
     return sha256("\n".join(text.lines).encode()).hexdigest()

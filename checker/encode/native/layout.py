@@ -1,11 +1,14 @@
 """Packing: the valuation of a sliced system in as few 64-bit words as its domains need."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import gcd
 
+from checker.encode.intervals import Interval
+from checker.encode.values import Values, ends, whole
 from spec_model.lang.expr import Var
 
+NOTHING: Mapping[str, Values] = {}
 WORD_BITS = 63
 """Bits used of a word: the table marks an empty place with a word that no valuation packs to."""
 
@@ -20,17 +23,23 @@ class OutsideDomain(Exception):
 
 @dataclass(frozen=True)
 class Field:
-    """Where a variable lies: (raw - low) / stride in ``bits`` bits of a word, from ``shift`` up."""
+    """Where a variable lies: (raw - low) / stride in ``bits`` bits of a word, from ``shift`` up.
+
+    It is never worth more than ``top``, nor less than ``low``; where these are one, no bits are needed.
+    """
 
     var: Var
     word: int
     shift: int
     bits: int
     stride: int
+    low: int
+    top: int
 
     @property
-    def low(self) -> int:
-        return self.var.domain.low
+    def most(self) -> int:
+        """The code of ``top``."""
+        return (self.top - self.low) // self.stride
 
     @property
     def mask(self) -> int:
@@ -38,7 +47,7 @@ class Field:
 
     def code(self, raw: int) -> int:
         """The bits for a raw value.  Raises ``OutsideDomain``."""
-        if raw not in self.var.domain:
+        if raw not in self.var.domain or not self.low <= raw <= self.top:
             raise OutsideDomain(self.var, raw)
         return (raw - self.low) // self.stride
 
@@ -70,28 +79,33 @@ class Layout:
         return {f.var.name: f.raw(int(words[f.word])) for f in self.fields}
 
 
-def layout(variables: Sequence[Var]) -> Layout:
-    """Fields for the variables, wide ones first, none across a word boundary."""
+def layout(variables: Sequence[Var], known: Mapping[str, Values] = NOTHING) -> Layout:
+    """Fields for the variables, wide ones first, none across a word boundary.
+
+    ``known`` has the values that some of them can take, where these are fewer than the domain has.
+    """
     used = [0]
     placed: dict[str, Field] = {}
-    for var in sorted(variables, key=lambda v: -_bits(v)):
-        bits = _bits(var)
+    free = [_field(var, known.get(var.name, whole(var.domain))) for var in variables]
+    for field in sorted(free, key=lambda f: -f.bits):
+        var, bits = field.var, field.bits
         if bits > WORD_BITS:
             raise ValueError(f"{var.name} needs {bits} bits; at most {WORD_BITS} are supported.")
         word = next((w for w, n in enumerate(used) if n + bits <= WORD_BITS), len(used))
         if word == len(used):
             used.append(0)
-        placed[var.name] = Field(var, word, used[word], bits, _stride(var))
+        placed[var.name] = replace(field, word=word, shift=used[word])
         used[word] += bits
     return Layout(tuple(placed[v.name] for v in variables), len(used))
 
 
-def _stride(var: Var) -> int:
-    values = var.domain.values
-    if isinstance(values, range):
-        return abs(values.step)
-    return gcd(*(v - values[0] for v in values)) or 1
-
-
-def _bits(var: Var) -> int:
-    return ((var.domain.high - var.domain.low) // _stride(var)).bit_length()
+def _field(var: Var, values: Values) -> Field:
+    """Without its place in a word."""
+    low, top = ends(values)
+    if var.domain.dense and isinstance(values, Interval):
+        stride = 1
+    else:
+        within = [v for v in var.domain.values if low <= v <= top and (v in values)]
+        low, top = min(within), max(within)
+        stride = gcd(*(v - low for v in within)) or 1
+    return Field(var, 0, 0, ((top - low) // stride).bit_length(), stride, low, top)

@@ -34,7 +34,7 @@ def shifts(layout: Layout, counters: Iterable[Counter]) -> tuple[Shift, ...]:
     for f in layout.fields:
         by, rest = divmod(moved.get(f.var.name, 0), f.stride)
         if by and not rest:
-            found.append(Shift(f.word, f.shift, f.mask, by, (f.var.domain.high - f.low) // f.stride))
+            found.append(Shift(f.word, f.shift, f.mask, by, f.most))
     return tuple(found)
 
 

@@ -308,7 +308,7 @@ def begin(body: Body, task: Task, program: PathProgram, words: Sequence[Any]) ->
     body.declare(others)
     for f in task.layout.fields:
         bits = build.and_(build.lshr(words[f.word], INT(f.shift)), INT(f.mask))
-        body.slots[f.var.name] = Slot(body.slots[f.var.name].place, Interval(f.low, f.var.domain.high))
+        body.slots[f.var.name] = Slot(body.slots[f.var.name].place, Interval(f.low, f.top))
         place = body.slots[f.var.name].place
         if place.type.pointee == BIT:
             build.store(build.trunc(build.add(bits, INT(f.low)), BIT), place)
@@ -353,11 +353,12 @@ def _code(body: Body, f: Field) -> Any:
 
 
 def outside(body: Body, layout: Layout) -> Any:
-    """Whether some variable has left its domain; what intervals show to be inside is not tested."""
+    """Whether some variable has left its domain, or the values known of it; what intervals show to be
+    inside is not tested."""
     build, result = body.builder, BIT(0)
     for f in layout.fields:
-        slot, domain = body.slots[f.var.name], f.var.domain
-        if domain.dense and slot.within.within(Interval(domain.low, domain.high)):
+        slot, dense = body.slots[f.var.name], f.stride == 1 and f.var.domain.dense
+        if dense and slot.within.within(Interval(f.low, f.top)):
             continue
         code = build.load(slot.place)
         code = build.zext(code, INT) if code.type == BIT else code
@@ -366,12 +367,14 @@ def outside(body: Body, layout: Layout) -> Any:
 
 
 def _inside(build: Any, f: Field, code: Any) -> Any:
-    offset, high = build.sub(code, INT(f.low)), f.var.domain.high - f.low
-    if high // f.stride + 1 == len(f.var.domain):
-        inside = build.icmp_unsigned("<=", offset, INT(high))
+    domain = f.var.domain
+    own = () if domain.dense else [v for v in domain.values if f.low <= v <= f.top]
+    if domain.dense or len(own) == f.most + 1:
+        offset = build.sub(code, INT(f.low))
+        inside = build.icmp_unsigned("<=", offset, INT(f.top - f.low))
         even = build.icmp_unsigned("==", build.urem(offset, INT(f.stride)), INT(0))
         return inside if f.stride == 1 else build.and_(inside, even)
     result = BIT(0)
-    for value in f.var.domain.values:
+    for value in own:
         result = build.or_(result, build.icmp_signed("==", code, INT(value)))
     return result

@@ -143,7 +143,7 @@ def _sizes(system: System) -> dict[str, int]:
 
 def _values(field: Field) -> int:
     """How many codes a field may hold."""
-    return (field.var.domain.high - field.low) // field.stride + 1
+    return field.most + 1
 
 
 def _spread(size: int, most: int) -> Words:

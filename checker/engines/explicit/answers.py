@@ -1,13 +1,18 @@
 """The answers of the explicit search: goals that depend on nearly the same variables are decided together."""
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
 from time import monotonic
 
 from checker.closed import ClosedSet, Place
 from checker.encode.counting import counters
 from checker.encode.gather import bits, gathered
-from checker.encode.native import Field, NativeSearch, Task, TooWide, layout, shifts
+from checker.encode.native import Field, Layout, NativeSearch, Task, TooWide, layout, shifts
+from checker.encode.native.layout import WORD_BITS
+from checker.encode.values import values
 from checker.engine import Limits, Progress, Stage, Timers
+from checker.engines.explicit.cases import about, cases, joined
 from checker.engines.explicit.levels import Found, Search, Spent
 from checker.engines.explicit.lines import LineSearch
 from checker.engines.explicit.runs import Runs
@@ -17,6 +22,8 @@ from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 
+NARROW = 3 * WORD_BITS
+"""Bits of a valuation up to which memory is not what ends searches."""
 EXTRA, APART = 10, 128
 """Bits that a goal may add to those of others and still be searched with them, and bits of all goals from
 which on they are anyhow: compiling so wide a step takes longer than most searches."""
@@ -34,7 +41,7 @@ def answers(
             late = Open(f"the time limit of {limits.seconds:g} s is reached before it is searched for", 0)
             answered |= {g.name: late for g in wanted}
         else:
-            found, spent = _searched(system, wanted, limits, deadline, spent, progress)
+            found, spent = _by_cases(system, wanted, _Within(limits, deadline, progress), spent)
             answered |= found
     return answered
 
@@ -63,25 +70,67 @@ def _part(system: TransitionSystem, goals: Sequence[Var]) -> dict[str, Var]:
     return {v.name: v for v in (*part.frozen, *part.variables)}
 
 
-def _searched(
-    system: TransitionSystem,
-    goals: Sequence[Var],
-    limits: Limits,
-    deadline: float | None,
-    spent: Spent,
-    progress: Progress,
+@dataclass(frozen=True)
+class _Within:
+    """What bounds a search, and who hears of it."""
+
+    limits: Limits
+    deadline: float | None
+    progress: Progress
+
+    def over(self, spent: Spent) -> str:
+        """Which limit leaves nothing for another search; empty if none does."""
+        limits = self.limits
+        if self.deadline is not None and monotonic() > self.deadline:
+            return f"the time limit of {limits.seconds:g} s"
+        if limits.transitions is not None and spent.transitions >= limits.transitions:
+            return f"the limit of {limits.transitions:,} transitions"
+        return ""
+
+
+def _by_cases(
+    system: TransitionSystem, goals: Sequence[Var], within: _Within, spent: Spent
 ) -> tuple[Mapping[str, Answer], Spent]:
-    """One search: an answer for each goal, and what is spent after it."""
+    """An answer for each goal, and what is spent after it; a wide system is searched case by case."""
     part = sliced(system, goals)
+    several = list(cases(system, part)) if _wide(part) else []
+    if len(several) < 2:
+        return _searched(system, part, goals, within, spent)
+    found: list[Mapping[str, Answer]] = []
+    for case, one in several:
+        if reached := within.over(spent):
+            found.append({g.name: Open(f"{reached} is reached before {case}", 0) for g in goals})
+            continue
+        told = replace(within, progress=partial(_said, within.progress, case))
+        answers, after = _searched(one(system), one(part), goals, told, spent)
+        found.append({name: about(case, answer) for name, answer in answers.items()})
+        spent = Spent(after.transitions, spent.bytes)
+    return joined(found), spent
+
+
+def _wide(part: TransitionSystem) -> bool:
+    return bits({v.name: v for v in (*part.frozen, *part.variables)}) > NARROW
+
+
+def _said(progress: Progress, case: str, line: str) -> None:
+    whole = line.replace("explicit: ", f"explicit: {case}, ", 1)
+    progress(Stage(whole) if isinstance(line, Stage) else whole)
+
+
+def _searched(
+    system: TransitionSystem, part: TransitionSystem, goals: Sequence[Var], within: _Within, spent: Spent
+) -> tuple[Mapping[str, Answer], Spent]:
+    """One search of a slice: an answer for each goal, and what is spent after it."""
+    limits = within.limits
     try:
-        packing = layout((*part.frozen, *part.variables))
+        packing = _layout(part, limits)
         moved = shifts(packing, counters(part)) if limits.timers is Timers.SKIP else ()
         task = Task(part, packing, tuple(goals), moved)
-        progress(Stage(f"explicit: compiling {len(packing.fields)} variables in {packing.bits} bits"))
+        within.progress(Stage(f"explicit: compiling {len(packing.fields)} variables in {packing.bits} bits"))
         native = NativeSearch.compile(task)
     except (TooWide, ValueError) as problem:
         return {g.name: Open(str(problem), 0) for g in goals}, spent
-    search = (LineSearch if task.shifts else Search)(native, limits, deadline, progress, spent)
+    search = (LineSearch if task.shifts else Search)(native, limits, within.deadline, within.progress, spent)
     found = search.run()
     runs = Runs(system, task, found)
     if found.outside is not None:
@@ -89,6 +138,14 @@ def _searched(
     answers = {g.name: _answer(found, runs, number, g) for number, g in enumerate(goals)}
     kept = search.store.words.nbytes if any(isinstance(a, Unreachable) for a in answers.values()) else 0
     return answers, Spent(spent.transitions + found.transitions, spent.bytes + kept)
+
+
+def _layout(part: TransitionSystem, limits: Limits) -> Layout:
+    """As few words as it takes; what values there are is looked at where there are many."""
+    stored = (*part.frozen, *part.variables)
+    if not _wide(part) or limits.timers is Timers.SKIP:  # quiet ticks move counters as far as they go
+        return layout(stored)
+    return layout(stored, values(part))
 
 
 def _answer(found: Found, runs: Runs, number: int, goal: Var) -> Answer:
@@ -104,4 +161,4 @@ def _answer(found: Found, runs: Runs, number: int, goal: Var) -> Answer:
 
 
 def _place(field: Field) -> Place:
-    return Place(field.var, field.word, field.shift, field.bits, field.stride)
+    return Place(field.var, field.word, field.shift, field.bits, field.stride, field.low)

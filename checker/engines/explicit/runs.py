@@ -86,7 +86,9 @@ class Runs:
         default = {v.name: v.domain.low for v in self.task.system.inputs}
         inputs = default | self.native.inputs(words, words, LEAVE_DOMAIN)
         after = step(self.task.system, before, inputs)
-        broken = next(v for v in self.task.system.variables if after[v.name] not in v.domain)
+        broken = next((v for v in self.task.system.variables if after[v.name] not in v.domain), None)
+        if broken is None:
+            raise AssertionError(f"a tick from {before} leads to values that none was known to take")
         return OutsideDomain(broken, after[broken.name])
 
     def line(self, last: int, level: int) -> list[Packed]:

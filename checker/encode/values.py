@@ -1,0 +1,312 @@
+"""The values that each variable can take, or more: abstract interpretation of the step of a system.
+
+A variable is known by a few values or by the interval between two.  Conditions are looked at where they say
+which branch is taken, and what a compared variable is worth in it; otherwise variables are unrelated.
+"""
+
+from collections.abc import Iterable, Mapping, MutableMapping, Sequence
+from itertools import count, product
+from math import prod
+
+from checker.encode.intervals import Interval, postorder, transfer
+from spec_model.lang.action import Action, Assign, If
+from spec_model.lang.domain import Domain
+from spec_model.lang.evaluate import operate
+from spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from spec_model.lang.operators import Op
+from spec_model.lang.system import TransitionSystem
+
+Values = frozenset[int] | Interval
+"""Every value there is, or two between which all are."""
+
+FEW = 16
+"""Values that are told one by one."""
+_MOST_TRIED = 256
+_PATIENCE = 12
+"""Rounds in which a variable may gain values before it is taken to have all of its domain."""
+_DEEP = 12
+"""Choices within one another up to which it is looked at what their conditions say."""
+_EFFORT, _NODE = 200_000_000, 100
+"""Variables that are copied, and for how many of them a formula counts: some seconds.  After half of them the
+conditions of choices are taken to say nothing, after all nothing is known: that costs memory only."""
+
+TRUE, FALSE, EITHER = frozenset({1}), frozenset({0}), frozenset({0, 1})
+
+
+class NoValue(Exception):
+    """Nothing can be so."""
+
+
+class _TooMuch(Exception):
+    """The effort is spent."""
+
+
+def values(system: TransitionSystem) -> dict[str, Values]:
+    """For each frozen variable and variable what it is worth at the end of any tick, or before the first.
+
+    Sound as long as no tick leaves a domain.  Of a step that takes too long to look at nothing is said.
+    """
+    try:
+        return _settled(system, _Effort())
+    except _TooMuch:
+        return {}
+
+
+def _settled(system: TransitionSystem, effort: "_Effort") -> dict[str, Values]:
+    """The least values that a tick does not add to, each variable growing for some rounds only."""
+    before: dict[str, Values] = {v.name: frozenset({system.init[v.name]}) for v in system.variables}
+    before |= {v.name: whole(v.domain) for v in system.frozen}
+    free = {v.name: whole(v.domain) for v in (*system.inputs, *system.temps)}
+    domains = {v.name: _hull(whole(v.domain)) for v in (*system.variables, *system.temps)}
+    for tick in count():
+        try:
+            after = _Step(domains, effort).run(
+                system.step, assumed(system.assume, True, {**before, **free}, effort)
+            )
+        except NoValue:  # the assumption can never be met
+            return before
+        joined = {name: _join(values, after[name]) for name, values in before.items()}
+        if joined == before:
+            return before
+        if tick >= _PATIENCE:
+            grown = (v for v in system.variables if joined[v.name] != before[v.name])
+            joined |= {v.name: whole(v.domain) for v in grown}
+        before = joined
+    raise AssertionError("a finite domain grows for ever")
+
+
+class _Effort:
+    """Counts what is looked at."""
+
+    def __init__(self) -> None:
+        self._left = _EFFORT
+
+    @property
+    def half(self) -> bool:
+        """Whether half of it is spent."""
+        return 2 * self._left < _EFFORT
+
+    def spend(self, amount: int) -> None:
+        """Raises ``_TooMuch`` when nothing is left."""
+        self._left -= amount
+        if self._left < 0:
+            raise _TooMuch
+
+
+def possible(system: TransitionSystem) -> bool:
+    """False where no inputs and frozen values ever meet the assumption."""
+    everything = (*system.variables, *system.frozen, *system.inputs)
+    try:
+        assumed(system.assume, True, {v.name: whole(v.domain) for v in everything}, _Effort())
+    except NoValue:
+        return False
+    except _TooMuch:
+        return True
+    return True
+
+
+def whole(domain: Domain) -> Values:
+    """All that a domain has, or more."""
+    found = domain.values
+    return frozenset(found) if len(found) <= FEW else Interval(domain.low, domain.high)
+
+
+def ends(values: Values) -> tuple[int, int]:
+    """The least and the greatest value."""
+    return (values.low, values.high) if isinstance(values, Interval) else (min(values), max(values))
+
+
+def _hull(values: Values) -> Interval:
+    return Interval(*ends(values))
+
+
+def _few(found: Iterable[int]) -> Values:
+    kept = frozenset(found)
+    return kept if len(kept) <= FEW else Interval(min(kept), max(kept))
+
+
+def _join(a: Values, b: Values) -> Values:
+    if a == b:
+        return a
+    if isinstance(a, frozenset) and isinstance(b, frozenset):
+        return _few(a | b)
+    return _hull(a) | _hull(b)
+
+
+def _meet(a: Values, low: int, high: int) -> Values:
+    """Those from low to high.  Raises ``NoValue`` if there are none."""
+    if isinstance(a, frozenset):
+        a = frozenset(v for v in a if low <= v <= high)
+        if not a:
+            raise NoValue
+        return a
+    low, high = max(low, a.low), min(high, a.high)
+    if low > high:
+        raise NoValue
+    return Interval(low, high) if high - low >= FEW else frozenset(range(low, high + 1))
+
+
+class _Step:
+    """Runs a program on all values at once."""
+
+    def __init__(self, domains: Mapping[str, Interval], effort: _Effort) -> None:
+        self._domains, self._effort = domains, effort
+
+    def run(self, program: Sequence[Action], at: dict[str, Values]) -> dict[str, Values]:
+        for statement in program:
+            if isinstance(statement, Assign):
+                found = _Eval(at, self._effort)(statement.value)
+                hull = self._domains[statement.var.name]
+                try:
+                    at[statement.var.name] = _meet(found, hull.low, hull.high)
+                except NoValue:  # it leaves its domain whatever happens: the search tells so
+                    at[statement.var.name] = hull
+            elif isinstance(statement, If):
+                at = self._branch(statement, at)
+        return at
+
+    def _branch(self, statement: If, at: dict[str, Values]) -> dict[str, Values]:
+        after: list[dict[str, Values]] = []
+        for truth, actions in ((True, statement.then), (False, statement.otherwise)):
+            try:
+                after.append(self.run(actions, assumed(statement.condition, truth, at, self._effort)))
+            except NoValue:
+                continue
+        if not after:
+            raise NoValue
+        a, b = after[0], after[-1]
+        return {name: _join(a[name], b[name]) for name in a}
+
+
+def assumed(
+    condition: Expr, truth: bool, at: Mapping[str, Values], effort: _Effort, depth: int = 0
+) -> dict[str, Values]:
+    """What is known where a condition is true, or false.  Raises ``NoValue`` where it cannot be."""
+    found = _Eval(at, effort, depth)(condition)
+    if found == (FALSE if truth else TRUE):
+        raise NoValue
+    effort.spend(len(at))
+    known = dict(at)
+    if found != (TRUE if truth else FALSE):
+        _learn(condition, truth, known)
+    return known
+
+
+def _learn(condition: Expr, truth: bool, known: MutableMapping[str, Values]) -> None:
+    todo = [(condition, truth)]
+    while todo:
+        condition, truth = todo.pop()
+        match condition:
+            case Named(_, body):
+                todo.append((body, truth))
+            case Var(name):
+                known[name] = TRUE if truth else FALSE
+            case Apply(Op.NOT, (inner,), _):
+                todo.append((inner, not truth))
+            case Apply(Op.AND | Op.OR as op, parts, _) if (op is Op.AND) is truth:
+                todo += ((part, truth) for part in parts)
+            case Apply(op, (Var(name), Const(value)), _):
+                known[name] = _compared(known[name], op if truth else _CONTRARY.get(op, op), value)
+            case Apply(op, (Const(value), Var(name)), _):
+                op = _TURNED.get(op, op)
+                known[name] = _compared(known[name], op if truth else _CONTRARY.get(op, op), value)
+
+
+def _compared(values: Values, op: Op, value: int) -> Values:
+    hull = _hull(values)
+    match op:
+        case Op.EQ:
+            return _meet(values, value, value)
+        case Op.LT:
+            return _meet(values, hull.low, value - 1)
+        case Op.LE:
+            return _meet(values, hull.low, value)
+        case Op.GT:
+            return _meet(values, value + 1, hull.high)
+        case Op.GE:
+            return _meet(values, value, hull.high)
+        case Op.NE if isinstance(values, frozenset):
+            if not values - {value}:
+                raise NoValue
+            return values - {value}
+        case Op.NE if value == hull.low:
+            return _meet(values, value + 1, hull.high)
+        case Op.NE if value == hull.high:
+            return _meet(values, hull.low, value - 1)
+    return values
+
+
+_CONTRARY = {Op.EQ: Op.NE, Op.NE: Op.EQ, Op.LT: Op.GE, Op.GE: Op.LT, Op.GT: Op.LE, Op.LE: Op.GT}
+_TURNED = {Op.LT: Op.GT, Op.GT: Op.LT, Op.LE: Op.GE, Op.GE: Op.LE}
+
+
+class _Eval:
+    """The values of formulas where variables have some; ``depth`` counts the choices around them."""
+
+    def __init__(self, at: Mapping[str, Values], effort: _Effort, depth: int = 0) -> None:
+        self._at, self._effort, self._depth = at, effort, depth
+        self._done: dict[int, Values] = {}
+
+    def __call__(self, expr: Expr) -> Values:
+        for node in postorder(expr):
+            if id(node) not in self._done:
+                self._effort.spend(_NODE)
+                self._done[id(node)] = self._of(node)
+        return self._done[id(expr)]
+
+    def _of(self, expr: Expr) -> Values:
+        match expr:
+            case Const(value, _):
+                return frozenset({value})
+            case Var(name):
+                return self._at[name]
+            case Named(_, body):
+                return self._done[id(body)]
+            case Apply(Op.ITE, (test, then, other), _):
+                return self._chosen(test, then, other)
+            case Apply(Op.AND | Op.OR as op, parts, _):
+                return self._junction(parts, 0 if op is Op.AND else 1)
+            case Apply(op, args, _):
+                return _applied(op, [self._done[id(a)] for a in args])
+        raise AssertionError(f"{expr} speaks of the past")
+
+    def _chosen(self, test: Expr, then: Expr, other: Expr) -> Values:
+        known = self._done[id(test)]
+        if known != EITHER:
+            return self._done[id(then if known == TRUE else other)]
+        if self._depth >= _DEEP or self._effort.half:
+            return _join(self._done[id(then)], self._done[id(other)])
+        found: Values | None = None
+        for truth, value in ((True, then), (False, other)):
+            try:
+                inside = assumed(test, truth, self._at, self._effort, self._depth + 1)
+            except NoValue:
+                continue
+            here = _Eval(inside, self._effort, self._depth + 1)(value)
+            found = here if found is None else _join(found, here)
+        if found is None:
+            raise NoValue
+        return found
+
+    def _junction(self, parts: Sequence[Expr], ends: int) -> Values:
+        """False for `and`, true for `or` ends it."""
+        found = [self._done[id(part)] for part in parts]
+        if frozenset({ends}) in found:
+            return frozenset({ends})
+        return EITHER if EITHER in found else frozenset({1 - ends})
+
+
+def _applied(op: Op, args: Sequence[Values]) -> Values:
+    few = [arg for arg in args if isinstance(arg, frozenset)]
+    if len(few) == len(args) and prod(map(len, few)) <= _MOST_TRIED:
+        return _few(operate(op, *vector) for vector in product(*few))
+    hulls = [_hull(a) for a in args]
+    match op:
+        case Op.EQ if hulls[0].high < hulls[1].low or hulls[1].high < hulls[0].low:
+            return FALSE
+        case Op.NE if hulls[0].high < hulls[1].low or hulls[1].high < hulls[0].low:
+            return TRUE
+        case Op.LT | Op.LE | Op.GT | Op.GE:
+            return frozenset(operate(op, x, y) for x, y in product(*map(ends, hulls)))
+    found = transfer(op, hulls)
+    return frozenset(range(found.low, found.high + 1)) if found.high - found.low < FEW else found

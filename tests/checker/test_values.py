@@ -1,0 +1,231 @@
+"""The values known of variables: never fewer than there are, and searches that store no more than these."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from time import process_time
+
+import pytest
+from hypothesis import given
+
+from checker.encode import values as known_values
+from checker.encode.native import OutsideDomain, layout
+from checker.encode.values import Values, ends, possible, values
+from checker.engine import Limits, quiet
+from checker.engines import explicit
+from checker.engines.explicit import answers as explicit_answers
+from checker.engines.explicit.cases import cases, joined
+from checker.slice import sliced
+from checker.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
+from spec_model.lang.action import Assign, If, assign
+from spec_model.lang.domain import chosen, enumeration, integer
+from spec_model.lang.expr import TRUE, Expr, Var, flag, ite, var
+from spec_model.lang.system import TransitionSystem
+from tests import naive
+from tests.profiles import examples
+from tests.strategies_timed import timed_systems
+from tests.strategies_ts import goals, transition_systems
+
+WHICH = enumeration("Which", ["LEFT", "RIGHT", "BOTH"])
+
+
+@pytest.fixture(autouse=True, scope="module")
+def however_narrow() -> Iterator[None]:
+    """Searches look at values, and go case by case, in systems of any size."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(explicit_answers, "NARROW", -1)
+        yield
+
+
+def holds_all(system: TransitionSystem, known: dict[str, Values]) -> None:
+    """What a naive search reaches is within the values known."""
+    for state in naive.search(system, ()).states:
+        for name, raw in state:
+            low, top = ends(known[name])
+            assert raw in known[name] and low <= raw <= top, (name, raw, known[name])
+
+
+@given(transition_systems())
+def test_all_reachable_values_are_known(system: TransitionSystem) -> None:
+    holds_all(system, values(system))
+    part = sliced(system, goals(system))
+    holds_all(part, values(part))
+
+
+@examples(40)
+@given(timed_systems())
+def test_also_of_charts_with_timers(system: TransitionSystem) -> None:
+    holds_all(system, values(system))
+
+
+@given(transition_systems())
+def test_searches_that_store_what_can_be_find_the_same(system: TransitionSystem) -> None:
+    asked = goals(system)
+    judge = naive.search(system, asked)
+    agrees(system, asked, judge)
+
+
+@given(transition_systems())
+def test_and_so_they_do_case_by_case(system: TransitionSystem) -> None:
+    which = var("which", WHICH)
+    body = If(which == "LEFT", system.step[: len(system.step) // 2], system.step)
+    several = replace(system, frozen=(*system.frozen, which), step=(body,))
+    asked = goals(system)
+    agrees(several, asked, naive.search(several, asked))
+
+
+def agrees(system: TransitionSystem, asked: tuple[Var, ...], judge: naive.Searched) -> None:
+    for name, answer in explicit.check(system, asked, Limits(), quiet).items():
+        match answer:
+            case Reached(run, True):
+                assert naive.replay(system, run)[-1][name] == 1
+                assert len(run) == judge.reached[name]
+            case Unreachable(Exhausted() as because):
+                assert name not in judge.reached
+                assert because.states == len(naive.projected(judge.states, because.variables))
+            case _:
+                raise AssertionError(answer)
+
+
+# --- what is seen ----------------------------------------------------------------------------------------
+
+level = var("level", integer(0, 600))
+spare = var("spare", integer(0, 1000))
+on = flag("on")
+
+
+def system(*step: Assign | If, frozen: tuple[Var, ...] = (), assume: Expr = TRUE) -> TransitionSystem:
+    return TransitionSystem("toy", (on,), frozen, (level, spare), (), step, assume)
+
+
+def test_what_never_changes_takes_no_bits_and_two_values_take_one() -> None:
+    toy = system(assign(level, ite(on, 600, 0)))
+    known = values(toy)
+    assert known == {"level": frozenset({0, 600}), "spare": frozenset({0})}
+    packing = layout(toy.variables, known)
+    assert [(f.bits, f.stride, f.top) for f in packing.fields] == [(1, 600, 600), (0, 1, 0)]
+    assert packing.unpack(packing.pack({"level": 600, "spare": 0})) == {"level": 600, "spare": 0}
+    with pytest.raises(OutsideDomain):
+        packing.pack({"level": 600, "spare": 7})
+
+
+def test_a_counter_that_conditions_end_goes_no_further() -> None:
+    assert values(system(If(level < 5, (assign(level, level + 1),), ())))["level"] == frozenset(range(6))
+    assert values(system(assign(level, ite(level >= 5, 5, level + 1))))["level"] == frozenset(range(6))
+
+
+def test_the_assumption_says_what_inputs_are() -> None:
+    assert values(system(assign(level, ite(on, 600, 0)), assume=~on))["level"] == frozenset({0})
+
+
+def test_nothing_happens_where_the_assumption_is_never_met() -> None:
+    assert values(system(assign(level, 3), assume=level > 7))["level"] == frozenset({0})
+
+
+def test_values_that_a_domain_lacks_are_left_out() -> None:
+    odd = var("odd", chosen([0, 3, 9, 21]))
+    toy = TransitionSystem("toy", (on,), (), (odd,), (), (assign(odd, ite(on, 9, 3)),), TRUE)
+    [field] = layout(toy.variables, values(toy)).fields
+    assert (field.low, field.top, field.stride, field.bits) == (0, 9, 3, 2)
+
+
+def test_a_value_that_none_was_known_to_take_is_an_error_of_ours(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(explicit_answers, "values", lambda _: {"level": frozenset({0, 1})})
+    done = flag("done")
+    toy = replace(system(assign(done, level == 8), assign(level, 7)), variables=(level, spare, done))
+    with pytest.raises(AssertionError, match="none was known to take"):
+        explicit.check(toy, [done], Limits(), quiet)
+
+
+# --- cases -----------------------------------------------------------------------------------------------
+
+which, pair = var("which", WHICH), var("pair", enumeration("Pair", ["ONE", "OTHER"]))
+
+
+def texts(one: TransitionSystem) -> list[str]:
+    return [text for text, _ in cases(one, one)]
+
+
+def test_the_enumeration_with_the_most_values_is_told_apart() -> None:
+    both = system(frozen=(pair, which))
+    assert texts(both) == ["which = LEFT", "which = RIGHT", "which = BOTH"]
+    only = dict(cases(both, both))["which = RIGHT"]
+    assert [v.domain.values for v in only(both).frozen] == [range(2), (1,)]
+    assert texts(system(frozen=(pair,))) == []
+
+
+def test_a_value_that_the_assumption_excludes_is_no_case() -> None:
+    not_right = system(frozen=(which,), assume=which != "RIGHT")
+    assert texts(not_right) == ["which = LEFT", "which = BOTH"]
+    assert texts(system(frozen=(which,), assume=(which == "LEFT") & (which == "RIGHT"))) == []
+
+
+STEPS = 5000
+counting = replace(
+    system(
+        If(which == "LEFT", (assign(level, ite(level == 600, 600, level + 1)),), (assign(spare, 7),)),
+        assign(over := flag("over"), (level == 600) & (spare == 8)),
+    ),
+    frozen=(which,),
+    variables=(level, spare, over),
+)
+"""Never over; only one case has more than a few valuations."""
+
+
+def test_a_case_says_which_limit_it_met_and_gives_its_memory_back() -> None:
+    [answer] = explicit.check(counting, [over], Limits(), quiet).values()
+    assert isinstance(answer, Unreachable) and isinstance(answer.because, Exhausted)
+    assert answer.because.closed is None and answer.because.states > 600
+    [few] = explicit.check(counting, [over], Limits(transitions=100), quiet).values()
+    assert isinstance(few, Open) and "which = " in few.reason and "the limit of 100 transitions" in few.reason
+
+
+def test_when_time_is_over_no_other_case_is_begun() -> None:
+    [late] = explicit.check(counting, [over], Limits(seconds=0), quiet).values()
+    assert isinstance(late, Open) and "the time limit of 0 s is reached before which = LEFT" in late.reason
+
+
+# --- what takes too long --------------------------------------------------------------------------------
+
+
+def test_choices_that_share_what_they_choose_from_are_looked_at_once() -> None:
+    """Each formula is used twice in the next: followed one by one these are 2 to the 200."""
+    value: Expr = level
+    for _ in range(200):
+        value = ite(on, value, ite(spare == 3, value, 7))
+    started = process_time()
+    assert values(system(assign(level, value)))["level"] == frozenset({0, 7})
+    assert process_time() - started < 60
+
+
+def test_deep_formulas_need_no_deep_stack() -> None:
+    value: Expr = level
+    met: Expr = on
+    for n in range(STEPS):
+        value, met = ite(on, value, n % 5), met & (spare == 0) if n % 2 else ~met
+    assert values(system(assign(level, value)))["level"] == frozenset(range(5))
+    assert values(system(If(met, (assign(level, 5),), ())))["level"] == frozenset({0, 5})
+
+
+def test_of_a_step_that_takes_too_long_nothing_is_known(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(known_values, "_EFFORT", 3)
+    toy = system(assign(level, ite(on, 600, 0)), assume=on)
+    assert values(toy) == {} and possible(toy)
+    assert [f.bits for f in layout(toy.variables, values(toy)).fields] == [10, 10]
+
+
+LONG, SHORT = (Run({}, ({},) * n) for n in (7, 4))
+NONE = Unreachable(Exhausted(10, 20, 5, ("level",)))
+
+
+@pytest.mark.parametrize(
+    ("answers", "expected"),
+    [
+        ((Reached(LONG), NONE, Reached(SHORT)), Reached(SHORT)),
+        ((Open("memory", 9), Reached(SHORT)), Reached(SHORT)),
+        ((Open("memory", 2), Reached(SHORT)), Reached(SHORT, shortest=False)),
+        ((NONE, Open("memory", 9), Open("time", 2)), Open("time", 2)),
+        ((NONE, NONE), Unreachable(Exhausted(20, 40, 5, ("level",)))),
+    ],
+)
+def test_what_cases_say_together(answers: tuple[Answer, ...], expected: Answer) -> None:
+    assert joined([{"goal": answer} for answer in answers]) == {"goal": expected}
