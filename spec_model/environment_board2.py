@@ -6,6 +6,7 @@ power-up with all stamps 0, and the first step is at 20 ms.  A datum changes onl
 
 from collections.abc import Sequence
 
+from spec_model import environment_fine
 from spec_model.environment import clock
 from spec_model.lang.action import Action, assign, when
 from spec_model.lang.chart import Block
@@ -15,8 +16,19 @@ from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
 from spec_model.signals.board2 import SONARS
 
-clocks = tuple(clock(f"{s.region}.age", s.update, s.age) for s in b2.SOURCES)
-"""The ages of the four monitored stamps."""
+
+def clocks_of(sources: Sequence[b2.Source]) -> tuple[Block, ...]:
+    """The ages of monitored stamps."""
+    return tuple(
+        clock(f"{s.region}.age", s.update, s.age)
+        if s.phase is None
+        else environment_fine.clock(f"{s.region}.age", s.update, s.phase, s.age)
+        for s in sources
+    )
+
+
+clocks = clocks_of(b2.SOURCES)
+"""The ages of the four monitored stamps, on the grid."""
 
 heartbeat_travels_in_frames = implies(b2.SUP.update, b2.RX.update)
 """A new alive counter of Board 1 can only come with an accepted frame, which carries it."""

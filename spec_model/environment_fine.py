@@ -11,11 +11,18 @@ from spec_model.intervals import Arrivals, any_mean
 from spec_model.lang.action import Action, assign, when
 from spec_model.lang.chart import Block
 from spec_model.lang.expr import Var, const
+from spec_model.lang.system import Note
 from spec_model.lang.words import minimum
 from spec_model.readings import under
 from spec_model.records import window_of
 from spec_model.signals import board1 as b1
 from spec_model.signals import board1_fine as fine
+
+CONSTANT_PHASE = Note(
+    "A frame or datum is stamped 0 to 19 ms before the step that sees it, always as many for one source (no "
+    "jitter); an alive counter with the step that sees it change.",
+    brief="constant phases",
+)
 
 rx = Arrivals("rx", b1.rx_update, fine.rx_lag, fine.rx_first_lag)
 heartbeat = Arrivals("heartbeat", b1.heartbeat_update, fine.heartbeat_lag, fine.heartbeat_first_lag)
@@ -28,6 +35,11 @@ def clock(name: str, update: Var, lag: Var, age: Var) -> Block:
     return Block(
         name, [when(update, [assign(age, lag)], [assign(age, older)])], text=f"Time since {update.name}."
     )
+
+
+def reception_at(phase: Var) -> Block:
+    """The age of the last frame where each comes so long before a step."""
+    return clock("Board2_Data.age", b1.rx_update, phase, fine.rx_age_ms)
 
 
 reception_clock = clock("Board2_Data.age", b1.rx_update, fine.rx_lag, fine.rx_age_ms)

@@ -24,12 +24,13 @@ from spec_model.lang.chart import Block, Chart, Component, Enabled
 from spec_model.readings import under
 from spec_model.signals.board1 import give_b2_actuation, omega_ref, v_ref
 
-LINKS = (monitor_heartbeat, monitor_reception)
+LINKS = (*monitor_wheels, monitor_heartbeat, monitor_reception)
+"""The monitors that read how old the last frame is; those of the wheels with S31=IGNORE."""
 
 
 def monitors(links: Sequence[Chart] = LINKS) -> tuple[Component, ...]:
     """Fault detection: mutually independent [seed §2.4, Fig 15]."""
-    return (monitor_temperature, monitor_battery, *monitor_wheels, *links)
+    return (monitor_temperature, monitor_battery, *links)
 
 
 computed = ~give_b2_actuation | under("S48", "STILL-COMPUTED")
@@ -54,7 +55,7 @@ no_references = Block(
 
 
 def supervisor(links: Sequence[Chart] = LINKS) -> tuple[Component, ...]:
-    """The whole supervisor of Board 1; ``links`` monitor the heartbeat and the reception."""
+    """The whole supervisor of Board 1; ``links`` read how old the last frame is."""
     return (
         count_range_steps,
         *monitors(links),

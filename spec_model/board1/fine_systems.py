@@ -7,9 +7,9 @@ from spec_model.board1 import SUPERVISOR, supervisor
 from spec_model.board1.heartbeat import heartbeat_monitor
 from spec_model.board1.reception import reception_monitor
 from spec_model.board1.systems import FEW_VALUES, HEADINGS, board1
-from spec_model.lang.chart import Chart
-from spec_model.lang.expr import Var
-from spec_model.lang.system import Note, System, in_order
+from spec_model.board1.wheels import monitor_of_wheel
+from spec_model.environment import reception_clock
+from spec_model.lang.system import System, in_order
 from spec_model.signals import board1 as b1
 from spec_model.signals import board1_fine as fine
 
@@ -24,12 +24,6 @@ ALIKE_INTERVALS = (
 STAMPED_LATE = (
     "The specification stamps a heartbeat with the step that sees it, which here is an arrival at its "
     "instant; earlier stamps are more runs."
-)
-
-CONSTANT_PHASE = Note(
-    "A frame or datum is stamped 0 to 19 ms before the step that sees it, always as many (no jitter); an "
-    "alive counter with the step that sees it change.",
-    brief="constant phases",
 )
 
 reception = reception_monitor(fine.rx_age_ms)
@@ -75,21 +69,24 @@ heartbeat_ms_exact = in_order(
     notes=[STAMPS, STAMPED_LATE],
 )
 
+LINKS_MS = (
+    *(monitor_of_wheel(wheel, fine.rx_age_ms) for wheel in b1.WHEELS),
+    heartbeat_monitor(b1.heartbeat_age, fine.rx_age_ms),
+    reception,
+)
+"""The monitors that read the age of the last frame, which may come between the steps; heartbeats on them."""
 
-def links_at(phase: Var) -> tuple[Chart, Chart]:
-    """The monitors of heartbeat and reception, for frames that always come so long before a step."""
-    elapsed = b1.rx_age + phase
-    return heartbeat_monitor(b1.heartbeat_age, elapsed), reception_monitor(elapsed)
-
-
-before = board1.components[: -len(SUPERVISOR)]
+environment = [
+    env.reception_at(b1.rx_phase) if part is reception_clock else part
+    for part in board1.components[: -len(SUPERVISOR)]
+]
 board1_ms = replace(
     board1,
     name="board1_ms",
-    components=(*before, *supervisor(links_at(b1.rx_phase))),
+    components=(*environment, *supervisor(LINKS_MS)),
     text="The whole supervisor of Board 1; frames come any ms before a step, always as many.",
     frozen=(b1.rx_phase,),
-    notes=(CONSTANT_PHASE, FEW_VALUES, HEADINGS),
+    notes=(env.CONSTANT_PHASE, FEW_VALUES, HEADINGS),
     place=None,
 )
 

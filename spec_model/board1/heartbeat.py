@@ -5,14 +5,14 @@ The heartbeat travels in the frames, so a dead link also stops it; each row is r
 
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import Expr
+from spec_model.lang.expr import Var
 from spec_model.lang.time import sec
 from spec_model.lang.words import duration, named
 from spec_model.readings import choose, under
 from spec_model.signals.board1 import b2_sup_status, heartbeat_age, heartbeat_slow, rx_age
 
 
-def heartbeat_monitor(age: Expr, frame_age: Expr) -> Chart:
+def heartbeat_monitor(age: Var, frame_age: Var) -> Chart:
     """The monitor for ages in ms of the last new heartbeat and of the last valid frame."""
     silent = choose(
         "S37", {"GT": named("age_S > 120 ms", age > 120), "GE": named("age_S >= 120 ms", age >= 120)}

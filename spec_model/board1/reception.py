@@ -2,14 +2,14 @@
 
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import Expr
+from spec_model.lang.expr import Var
 from spec_model.lang.time import sec
 from spec_model.lang.words import duration, named
 from spec_model.readings import choose, under
 from spec_model.signals.board1 import rx_age, rx_slow, rx_status
 
 
-def reception_monitor(age: Expr) -> Chart:
+def reception_monitor(age: Var) -> Chart:
     """The monitor for an age of the last valid frame in ms, however fine its steps."""
     silent = choose(
         "S37", {"GT": named("age_R > 120 ms", age > 120), "GE": named("age_R >= 120 ms", age >= 120)}

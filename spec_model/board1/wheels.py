@@ -5,20 +5,17 @@
 
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, Junction, State, to
+from spec_model.lang.expr import Var
 from spec_model.readings import choose, under
 from spec_model.signals.board1 import WHEELS, has_no_feedback, is_motion_consistent, rx_age, wheel_status
 
-consistent = choose(
-    "S31",
-    {
-        "LAST-VALUE": is_motion_consistent,
-        "IGNORE": is_motion_consistent | (rx_age > 120),  # on a dead link nothing speaks against it
-    },
-)
 
-
-def monitor_of_wheel(wheel: str) -> Chart:
-    """The monitor of one wheel: FL, FR, RL or RR (S33)."""
+def monitor_of_wheel(wheel: str, age: Var = rx_age) -> Chart:
+    """The monitor of one wheel: FL, FR, RL or RR (S33); ``age`` is that of the last frame."""
+    on_a_dead_link = age > 120  # nothing speaks against it
+    consistent = choose(
+        "S31", {"LAST-VALUE": is_motion_consistent, "IGNORE": is_motion_consistent | on_a_dead_link}
+    )
     flag, status = has_no_feedback[wheel], wheel_status[wheel]
     lost = choose("S32", {"TRUE=NO-FEEDBACK": flag, "TRUE=CORRESPONDENCE": ~flag})
     ok = choose("S27", {"HOLD": ~lost & consistent, "OK": ~lost, "DEG": ~lost & consistent})

@@ -17,11 +17,6 @@ GRID = Note(
     "A stamp between two steps lets an age pass a strict limit one step earlier.",
     brief="stamps on the steps",
 )
-CONSTANT_PHASE = Note(
-    "A datum is stamped 0 to 19 ms before the step that sees it, always as many for one source (no jitter); "
-    "an alive counter with the step that sees it change.",
-    brief="constant phases",
-)
 WITH_FRAMES = "A new alive counter of Board 1 comes with an accepted frame only."
 LONG_OR_SHORT = (
     "Of the gaps only a row of long or of short ones is remembered; the mean of both kinds is free at each "

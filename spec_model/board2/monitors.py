@@ -18,7 +18,7 @@ from spec_model.signals.board2_supervisor import SOURCES, SUP, Source
 
 def silent(source: Source) -> Expr:
     """The stamp is older than the limit (strict)."""
-    return named(f"now_ms - ts > {source.limit} ms", source.elapsed > source.limit)
+    return named(f"now_ms - ts > {source.limit} ms", source.age > source.limit)
 
 
 def recovered(source: Source, rest: Span, at_once: Expr) -> Expr:

@@ -12,7 +12,7 @@ from spec_model.board2.classify import process_masks
 from spec_model.board2.failure_check import check_board1
 from spec_model.board2.heading import measured
 from spec_model.board2.masks import fault_masks_2
-from spec_model.board2.monitor_systems import CONSTANT_PHASE, FORGOTTEN, GRID, WITH_FRAMES, watching
+from spec_model.board2.monitor_systems import FORGOTTEN, GRID, WITH_FRAMES, watching
 from spec_model.board2.monitors import RECORDS, monitor_sources
 from spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
 from spec_model.board2.obstacles import obstacles_n
@@ -21,6 +21,7 @@ from spec_model.board2.safety import safety_state_2
 from spec_model.board2.selection import selection
 from spec_model.board2.slow2 import exact, forgotten, gaps_of
 from spec_model.environment2 import scanned
+from spec_model.environment_fine import CONSTANT_PHASE
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block, Component, Enabled
 from spec_model.lang.expiry import free_timers
@@ -219,7 +220,7 @@ targetAngle = var("B2.targetAngle", TARGET, 0, "heading at which a deviation fro
 
 def _whole(sources: Sequence[Source]) -> tuple[Component, ...]:
     charts = supervisor(heading=measured(motion.yaw, targetAngle), sources=sources)
-    return (*env.SNAPSHOTS, *env.clocks, env.sonar_clock, *charts, ACTUATION)
+    return (*env.SNAPSHOTS, *env.clocks_of(sources), env.sonar_clock, *charts, ACTUATION)
 
 
 BOARD2 = _whole(b2.SOURCES)
@@ -309,14 +310,12 @@ board2 = in_order(
     notes=[GRID, WITH_FRAMES, FEW_VALUES, HEADING],
 )
 
-SOURCES_MS = (b2.SUP, *map(b2.between_steps, b2.STAMPED_BETWEEN))
-
 board2_ms = replace(
     board2,
     name="board2_ms",
-    components=_whole(SOURCES_MS),
+    components=_whole(b2.SOURCES_MS),
     text="The whole supervisor of Board 2; data come any ms before a step, those of a source always as many.",
-    frozen=tuple(s.phase for s in SOURCES_MS if s.phase is not None),
+    frozen=tuple(s.phase for s in b2.SOURCES_MS if s.phase is not None),
     notes=(CONSTANT_PHASE, WITH_FRAMES, FEW_VALUES, HEADING),
     place=None,
 )

@@ -6,18 +6,19 @@ holds of the rover.  Where a whole board stands between two hops, a *contract* t
 that may do anything that the properties named in its text, proved of the board, allow.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from spec_model.board1.relay import relay
 from spec_model.board2.actuation import actuation
 from spec_model.board2.failure_check import check_board1
+from spec_model.composition.contracts import Contract
 from spec_model.composition.tasks import MILLISECOND, Task, clock, control_task, line, phases, task
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block, Component, Enabled
 from spec_model.lang.domain import fixed
 from spec_model.lang.expiry import free_timers
-from spec_model.lang.expr import TRUE, Expr, const, flag, implies, ite, member, var
+from spec_model.lang.expr import TRUE, Expr, Var, const, flag, implies, ite, member, var
 from spec_model.lang.system import TICK_MS, System, in_order
 from spec_model.lang.words import minimum
 from spec_model.signals import board1 as b1
@@ -195,43 +196,35 @@ heartbeat_fine = _chain(
 # --- an obstacle stops Board 1 --------------------------------------------------------------------
 
 near = flag("near", "the snapshot holds a distance of at most 70 cm")
-was_near = flag("was_near", "the snapshot held one in the step of SUP2 before")
 stop_decided = flag("estop_decided", "the command in the snapshot of Board 2 is CMD_ESTOP")
 stop_received = flag("estop_received", "the received command is CMD_ESTOP")
 other_stop = flag("other_stop", "free: whether Board 2 commands CMD_ESTOP otherwise")
 forward = flag(
     "forward", "Board 1 actuates, the received y_norm is positive and no 180 degree rotation is active"
 )
-was_forward = flag("was_forward", "the same in the step of SUP1 before")
 v_positive = flag("v_positive", "v_ref of Board 1 is positive")
 any_reference = flag("any_reference", "free: whether v_ref is positive otherwise")
 line_cmd = line(
     "B2-B1.command", [(stop_decided, stop_received)], tx2.due, flag("B1.command_frame", "a frame came")
 )
 
-obstacle_contract = Block(
+obstacle_contract = Contract(
     "SUP2.contract",
-    [
-        assign(stop_decided, (near & was_near) | other_stop),
-        assign(was_near, near),
-    ],
-    text="Contract: at most 70 cm in two successive steps give CMD_ESTOP in the second (PB2-02b, E04).",
-)
-motion_contract = Block(
+    "Contract: at most 70 cm in two successive steps give CMD_ESTOP in the second.",
+    near, stop_decided, other_stop, before=near,
+)  # fmt: skip
+motion_contract = Contract(
     "SUP1.contract",
-    [
-        assign(v_positive, ~(stop_received & forward & was_forward) & any_reference),
-        assign(was_forward, forward),
-    ],
-    text="Contract: CMD_ESTOP with the user forward in two successive steps gives v_ref <= 0 (PSY-10m).",
-)
+    "Contract: CMD_ESTOP received, the user forward in two successive steps, gives v_ref <= 0 in the second.",
+    stop_received & forward, ~v_positive, any_reference, before=forward,
+)  # fmt: skip
 
 stop_fine = _chain(
     "stop_fine",
     "From a sonar snapshot over Board 2, the link and Board 1 to the linear reference.",
     line_cmd.receive,
-    Enabled(sup1.due, motion_contract, name="Board 1"),
-    Enabled(sup2.due, obstacle_contract, name="Board 2"),
+    Enabled(sup1.due, motion_contract.block, name="Board 1"),
+    Enabled(sup2.due, obstacle_contract.block, name="Board 2"),
     line_cmd.send,
     tasks=(sup2, tx2),
     assume=implies(line_cmd.busy, line_cmd.intact),
@@ -246,28 +239,15 @@ def _board(supervisor: Task) -> str:
     return "Board 1" if supervisor is sup1 else "Board 2"
 
 
-def _critical(name: str, text: str, sender: Task, transmit: Task, receiver: Task, proved: str) -> System:
+def _critical(name: str, text: str, sender: Task, transmit: Task, receiver: Task) -> System:
     """From a critical cause in a step of the sender to the references of the receiver."""
     link = line(f"{name}.line", [(critical_sent, critical_received)], transmit.due, critical_frame)
-    say = Block(
-        "Sender.contract",
-        [assign(critical_sent, critical)],
-        text="The bits of a critical component are set in the step in which it is critical (PB1-10).",
-    )
-    obey = Block(
-        "Receiver.contract",
-        [
-            assign(nonzero, ~(critical_received & was_critical) & any_nonzero),
-            assign(was_critical, critical_received),
-        ],
-        text=f"Contract: a critical cause in two successive steps gives zero references ({proved}).",
-    )
     return _chain(
         name,
         text,
         link.receive,
-        Enabled(receiver.due, obey, name=_board(receiver)),
-        Enabled(sender.due, say, name=_board(sender)),
+        Enabled(receiver.due, obey.block, name=_board(receiver)),
+        Enabled(sender.due, say.block, name=_board(sender)),
         link.send,
         tasks=(sender, transmit, receiver),
         assume=implies(link.busy, link.intact),
@@ -279,9 +259,20 @@ critical = flag("critical", "a component of the sending board that stops the rov
 critical_sent = flag("critical_sent", "so says the mask in the snapshot of the sender")
 critical_received = flag("critical_received", "so says the mask last received")
 critical_frame = flag("critical_frame", "a frame came")
-was_critical = flag("was_critical", "so it said in the step before")
+other_critical = flag("other_critical", "free: whether the mask says so otherwise")
 any_nonzero = flag("any_nonzero", "free: whether the references are not zero otherwise")
 nonzero = flag("references_nonzero", "a reference of the receiving board is not zero")
+
+say = Contract(
+    "Sender.contract",
+    "Contract: the bit of a critical component is set in the step in which it is critical.",
+    critical, critical_sent, other_critical,
+)  # fmt: skip
+obey = Contract(
+    "Receiver.contract",
+    "Contract: a critical cause received in two successive steps gives zero references in the second.",
+    critical_received, ~nonzero, any_nonzero, before=critical_received,
+)  # fmt: skip
 
 critical_2_to_1 = _critical(
     "critical_2_to_1",
@@ -289,7 +280,6 @@ critical_2_to_1 = _critical(
     sup2,
     tx2,
     sup1,
-    "PB1-18a",
 )
 critical_1_to_2 = _critical(
     "critical_1_to_2",
@@ -297,7 +287,6 @@ critical_1_to_2 = _critical(
     sup1,
     tx1,
     sup2,
-    "PB2-18",
 )
 
 SYSTEMS: tuple[System, ...] = (
@@ -308,3 +297,18 @@ SYSTEMS: tuple[System, ...] = (
     critical_2_to_1,
     critical_1_to_2,
 )
+
+CONTRACTS: Mapping[str, tuple[Contract, ...]] = {
+    stop_fine.name: (obstacle_contract, motion_contract),
+    critical_2_to_1.name: (say, obey),
+    critical_1_to_2.name: (say, obey),
+}
+"""By the chain's name, what it takes for granted of the two boards; a promise names who proves it."""
+
+WIRES: Mapping[str, tuple[Var, Var]] = {
+    handover_fine.name: (asks_switch, b2.b1_requests_switch),
+    stop_fine.name: (stop_decided, stop_received),
+    critical_2_to_1.name: (critical_sent, critical_received),
+    critical_1_to_2.name: (critical_sent, critical_received),
+}
+"""By the chain's name, what its frame carries to what."""

@@ -31,7 +31,8 @@ MANY = 8
 class Link:
     """``receive`` runs before the supervisors of a tick, ``send`` after them.
 
-    ``without_loss`` and ``lost_at_most(n)`` are assumptions about the inputs of a tick.
+    ``without_loss`` and ``lost_at_most(n)`` are assumptions about the inputs of a tick; ``payload`` pairs
+    what is sent with the variable that receives it.
     """
 
     receive: Block
@@ -40,6 +41,7 @@ class Link:
     waiting: Expr
     comes: Expr
     lost_in_a_row: Var
+    payload: tuple[tuple[Expr, Var], ...]
 
     @property
     def without_loss(self) -> Expr:
@@ -117,7 +119,7 @@ def link(
         ],
         text="The transmit task builds a frame from the snapshots of this step.",
     )
-    return Link(receive, send, arrives, waiting, comes, lost)
+    return Link(receive, send, arrives, waiting, comes, lost, tuple(payload))
 
 
 @dataclass(frozen=True)

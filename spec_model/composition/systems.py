@@ -99,15 +99,21 @@ A04 = Assumption(
 FRESH = Assumption("FRESH", "Every sensor delivers a valid reading in every step.", all_of(*SENSORS))
 
 
-def in_turn(board1: Sequence[Component], board2: Sequence[Component]) -> tuple[Component, ...]:
-    """What happens in one instant, in order: receive, sensors, supervisors, motor commands, transmit."""
+def in_turn(
+    board1: Sequence[Component], board2: Sequence[Component],
+    reception: Block = env1.reception_clock, clocks: Sequence[Block] = env2.clocks,
+) -> tuple[Component, ...]:  # fmt: skip
+    """What happens in one instant, in order: receive, sensors, supervisors, motor commands, transmit.
+
+    ``reception`` and ``clocks`` are what tells Board 1 and Board 2 how old their data are.
+    """
     return (
         faults,
         link12.receive,
         link21.receive,
         env1.temperature_readings,
         env1.battery_readings,
-        env1.reception_clock,
+        reception,
         env1.heartbeat_clock,
         arrival_window("rx", b1.rx_update),
         arrival_window("heartbeat", b1.heartbeat_update, moves=b1.heartbeat_moves),
@@ -116,7 +122,7 @@ def in_turn(board1: Sequence[Component], board2: Sequence[Component]) -> tuple[C
         env2.joystick,
         env2.inertial,
         env2.sonars,
-        *env2.clocks,
+        *clocks,
         Enabled(runs_2, *board2, ACTUATION, name="Board 2"),
         relay_and_driver,
         link12.send,
@@ -175,6 +181,18 @@ references_commanded = in_order(
     concrete="rover",
 )
 
+arrives12, arrives21 = link12.arrives, link21.arrives
+
+links = in_order(
+    "links",
+    link12.receive,
+    link21.receive,
+    link12.send,
+    link21.send,
+    text="The frames of both directions; what the boards put into them is free.",
+    notes=[SYNCHRONOUS],
+)
+
 SYSTEMS: tuple[System, ...] = (
     _rover("rover", "Both boards with the link, whose frames may be lost, corrupted or late.", A04),
     _rover("rover_no_loss", "Both boards with a link that loses nothing.", A02, A04),
@@ -184,6 +202,7 @@ SYSTEMS: tuple[System, ...] = (
     _plain("rover_plain", "The rover in a plain scene; frames may be lost, corrupted or late.", A04),
     _plain("rover_plain_no_loss", "The rover in a plain scene with a link that loses nothing.", A02, A04),
     _plain("rover_plain_failing", "The rover in a plain scene; boards and link may fail."),
+    links,
     motors,
     references_commanded,
 )

@@ -9,14 +9,15 @@ sensor, come at a phase to the steps that nobody knows.
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+from spec_model import environment as env1
 from spec_model import environment_board2 as env2
+from spec_model import environment_fine as fine
 from spec_model.board1 import LINKS
 from spec_model.board1 import supervisor as supervisor_1
-from spec_model.board1.fine_systems import links_at
+from spec_model.board1.fine_systems import LINKS_MS
 from spec_model.board2 import supervisor as supervisor_2
 from spec_model.board2.coherence import COHERENCE
 from spec_model.board2.heading import measured
-from spec_model.board2.monitor_systems import CONSTANT_PHASE
 from spec_model.board2.supervisor_systems import targetAngle
 from spec_model.composition.link import ARRIVAL
 from spec_model.composition.motors import motors_zero, power_lost, stop_1, stop_2
@@ -147,7 +148,7 @@ SCENE = (
     "with feedback, constant heading, no buttons; all works in every step but for what is said to fail."
 )
 FRAMES = "All frames of a link are seen one step after they were sent, or all two steps."
-NOTES = (SYNCHRONOUS, CONSTANT_PHASE, SCENE, FRAMES)
+NOTES = (SYNCHRONOUS, fine.CONSTANT_PHASE, SCENE, FRAMES)
 
 
 COHERENT = Block(
@@ -158,23 +159,32 @@ COHERENT = Block(
 
 
 def _weather(
-    name: str, text: str, ages: Mapping[str, Expr], frozen: Sequence[Var], actions: Sequence[Action]
+    name: str,
+    text: str,
+    ages: Mapping[str, Expr],
+    frozen: Sequence[Var],
+    actions: Sequence[Action],
+    assume: Expr = TRUE,
 ) -> System:
     """``ages``: whose data may grow old, and in which case; their phase is free then, else without effect."""
     sources = [b2.between_steps(s, PHASE_CLASS) if s.region in ages else s for s in b2.SOURCES]
     rx_phase = replace(b1.rx_phase, domain=PHASE_CLASS)
     phases = {s.region: s.phase for s in sources if s.phase is not None}
     phases |= {RX_1: rx_phase} if RX_1 in ages else {}
-    links = links_at(rx_phase) if RX_1 in ages else LINKS
+    links, reception = LINKS, env1.reception_clock
+    if RX_1 in ages:
+        links, reception = LINKS_MS, fine.reception_at(rx_phase)
     board2 = supervisor_2(heading=measured(motion.yaw, targetAngle), sources=sources)
     assert board2[-len(COHERENCE) :] == COHERENCE
     return in_order(
         name,
         Block("Weather", actions, text="Which fault is there, and what reaches the boards."),
-        *in_turn(supervisor_1(links), (*board2[: -len(COHERENCE)], COHERENT)),
+        *in_turn(
+            supervisor_1(links), (*board2[: -len(COHERENCE)], COHERENT), reception, env2.clocks_of(sources)
+        ),
         text=text,
         frozen=(*frozen, late12, late21, *phases.values()),
-        assume=all_of(*(case | (phases[old] == 0) for old, case in ages.items())),
+        assume=all_of(assume, *(case | (phases[old] == 0) for old, case in ages.items())),
         notes=NOTES,
         under=True,
     )
@@ -196,8 +206,9 @@ def alone(fault: Fault) -> System:
     )
 
 
-def with_another(fault: Fault) -> System:
-    """The rover with this fault, for good, and any second one, for good or for one step."""
+def with_another(fault: Fault, only: str = "") -> System:
+    """The rover with this fault, for good, and any second one, or only that, for good or for one step."""
+    which = BY_NAME[only].text if only else "something else fails"
     ends = for_a_step & any_of(*(other == f.name for f in SECOND if f.ends))
     second = _spell("other") == "present"
 
@@ -210,15 +221,23 @@ def with_another(fault: Fault) -> System:
         return TRUE if ages == fault.ages else any_of(*(other == f.name for f in SECOND if f.ages == ages))
 
     return _weather(
-        f"weather_{fault.name}_2",
-        f"The rover in a scene in which from some step on {fault.text}, and something else fails.",
+        f"weather_{fault.name}_{only or 2}",
+        f"The rover in a scene in which from some step on {fault.text}, and {which}.",
         {f.ages: old(f.ages) for f in FAULTS if f.ages},
         (other, for_a_step),
         [_turn(fault.name, FALSE), _turn("other", ends), *_world(there)],
+        other == only if only else TRUE,
     )
 
 
 FIRST = [BY_NAME[name] for name in ("joystick", "imu", "link12", "supervisor2", "wheel")]
 """Of two faults the one for good; the others last too long, or leave too much open, to be enumerated."""
 
-SYSTEMS: tuple[System, ...] = (*map(alone, FAULTS), *map(with_another, FIRST))
+PAIRS = [(BY_NAME[first], "link21") for first in ("joystick", "imu")]
+"""A source that is dead, and one frame of Board 2 that is lost, or all from then on."""
+
+SYSTEMS: tuple[System, ...] = (
+    *map(alone, FAULTS),
+    *(with_another(first, second) for first, second in PAIRS),
+    *map(with_another, FIRST),
+)

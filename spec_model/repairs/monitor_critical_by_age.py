@@ -49,6 +49,8 @@ by_age = Repair(
         "PSY-07b",
         "P-WEATHER-LINK12",
         "P-WEATHER-LINK12-2",
+        "P-WEATHER-JOYSTICK-LINK21",
+        "P-WEATHER-IMU-LINK21",
         "P-WEATHER-JOYSTICK-2",
         "P-WEATHER-IMU-2",
     ),

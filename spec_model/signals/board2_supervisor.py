@@ -7,7 +7,7 @@ Where the document indexes a signal by wheel, the wheel's letters follow the nam
 from dataclasses import dataclass, replace
 
 from spec_model.lang.domain import Domain, boolean, chosen, enumeration, fixed, integer
-from spec_model.lang.expr import Expr, Var, flag, var
+from spec_model.lang.expr import Var, flag, var
 from spec_model.signals.board1 import WHEELS
 from spec_model.signals.board2 import decision
 from spec_model.signals.common import (
@@ -32,9 +32,9 @@ class Source:
     """What a region of the monitors reads and writes: a time stamp, and the status that follows.
 
     ``name`` begins the names of the counters that belong to it.  ``update`` says that the stamp was
-    set since the last step, ``age`` is ``now_ms`` minus the time of the step that saw that.  ``mean`` and
-    ``limit`` are the largest mean gap and the largest age, in ms, without a fault.  ``phase`` is how long
-    before that step the stamp is set, always; without one the stamp is the time of the step.
+    set since the last step, ``age`` is ``now_ms`` minus the stamp.  ``mean`` and ``limit`` are the largest
+    mean gap and the largest age, in ms, without a fault.  ``phase`` is how long before the step that sees it
+    a stamp is set, always; without one it is set to the time of the step.
     """
 
     region: str
@@ -46,11 +46,6 @@ class Source:
     mean: int
     limit: int
     phase: Var | None = None
-
-    @property
-    def elapsed(self) -> Expr:
-        """``now_ms`` minus the stamp."""
-        return self.age if self.phase is None else self.age + self.phase
 
     @property
     def levels(self) -> tuple[str, str, str]:
@@ -91,23 +86,21 @@ SOURCES = (SUP, BLE, IMU, RX)
 """In the order of the regions."""
 
 
-STAMPED_BETWEEN = (BLE, IMU, RX)
-"""Sources with phases; an alive counter is stamped with the step that sees it change."""
-
-
-def _phase(source: Source, phases: Domain = PHASE) -> Var:
-    return var(f"{source.name}_phase", phases, doc=f"how long before a step {source.name} is stamped")
-
-
 def between_steps(source: Source, phases: Domain = PHASE) -> Source:
-    """The source with stamps that are set some ms before a step, always as many."""
-    return replace(source, phase=_phase(source, phases))
+    """The source with stamps that are set some ms before a step, always as many, and its age to the ms."""
+    name, limit = source.name, source.limit
+    age = var(f"{name}_age_ms", integer(0, limit + 1, "ms"), doc=f"{source.age.doc}; {limit + 1} ms: or more")
+    return replace(
+        source, age=age, phase=var(f"{name}_phase", phases, doc=f"how long before a step {name} is stamped")
+    )
 
 
-ble_phase, imu_phase, rx_phase = map(_phase, STAMPED_BETWEEN)
+SOURCES_MS = (SUP, *map(between_steps, (BLE, IMU, RX)))
+"""The same to the ms; an alive counter is stamped with the step that sees it change."""
 
 sup_update, ble_update, imu_update, rx_update = (source.update for source in SOURCES)
 sup_age, ble_age, imu_age, rx_age = (source.age for source in SOURCES)
+_, ble_age_ms, imu_age_ms, rx_age_ms = (source.age for source in SOURCES_MS)
 deg_sup, deg_ble, deg_imu, deg_rx = (source.deg for source in SOURCES)
 
 # --- Board1_Data: the last accepted payload [seed Fig 4] -------------------------------------------

@@ -6,8 +6,8 @@ from hypothesis import strategies as st
 
 from spec_model.board2.supervisor_systems import coherence_exact
 from spec_model.composition.weather import FAULTS, SECOND, SYSTEMS
-from spec_model.lang.domain import Domain
 from spec_model.lang.interpret import Interpreter
+from spec_model.lang.lower import lower
 from spec_model.lang.system import System
 from spec_model.rover import systems
 from spec_model.signals import board1 as b1
@@ -17,13 +17,11 @@ from spec_model.signals.common import PHASE, PHASE_CLASS
 ALONE = [systems()[s.name] for s in SYSTEMS if "other" not in {v.name for v in s.frozen}]
 
 
-@pytest.mark.parametrize(
-    ("ages", "limit"), [(b1.rx_age.domain, 120), *((s.age.domain, s.limit) for s in b2.STAMPED_BETWEEN)]
-)
-def test_all_phases_of_a_class_pass_the_limit_in_one_step(ages: Domain, limit: int) -> None:
+@pytest.mark.parametrize("limit", [120, *(s.limit for s in b2.SOURCES_MS if s.phase is not None)])
+def test_all_phases_of_a_class_pass_the_limit_in_one_step(limit: int) -> None:
     start, between = (int(PHASE_CLASS.show(raw).split()[0]) for raw in PHASE_CLASS.values)
     assert start == 0
-    for age in (20 * raw for raw in ages.values):
+    for age in range(0, limit + 40, 20):
         passed = {phase: age + phase > limit for phase in PHASE.values}
         assert {passed[phase] for phase in PHASE.values if phase > 0} == {passed[between]}
 
@@ -48,3 +46,10 @@ def test_the_rover_drives_at_full_speed_until_something_fails(system: System) ->
 def test_every_fault_is_there_alone_and_most_as_a_second_one() -> None:
     assert [s.name for s in ALONE] == [f"weather_{f.name}" for f in FAULTS]
     assert {f.name for f in FAULTS} - {f.name for f in SECOND} == {"sonars", "temperature", "battery", "near"}
+
+
+@pytest.mark.parametrize("name", ["board1_ms", "weather_link21"])
+def test_no_monitor_reads_an_age_that_nothing_writes_there_under_any_reading(name: str) -> None:
+    """With S31=IGNORE the wheels did: the age on the grid was an input."""
+    inputs = {v.name for v in lower(systems({"S31": "IGNORE"})[name]).inputs}
+    assert not {"rx_age", "rx_age_ms", "heartbeat_age"} & inputs

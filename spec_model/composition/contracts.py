@@ -1,0 +1,38 @@
+"""Contracts: what a property proved of a board says, in the place of the board."""
+
+from dataclasses import dataclass
+
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Block
+from spec_model.lang.expr import TRUE, Apply, Expr, Var, flag
+from spec_model.lang.operators import Op
+
+
+@dataclass(frozen=True, eq=False)
+class Contract:
+    """If ``premise`` is true in an execution, and ``before`` in the one before, ``then`` is true after it.
+
+    ``then`` is a flag of the contract's own, or its negation; where the premise says nothing, ``free``, an
+    input, says what it is.  So the block does all that the sentence allows, and nothing else.
+    """
+
+    name: str
+    text: str
+    premise: Expr
+    then: Expr
+    free: Var
+    before: Expr = TRUE
+
+    @property
+    def block(self) -> Block:
+        remembered = flag(f"{self.name}.before", f"{self.before}, in the step before")
+        note = [] if self.before is TRUE else [assign(remembered, self.before)]
+        given = self.premise & remembered if note else self.premise
+        match self.then:
+            case Var() as own:
+                actions = [assign(own, given | self.free)]
+            case Apply(Op.NOT, (Var() as own,), _):
+                actions = [assign(own, ~given & self.free)]
+            case _:
+                raise AssertionError(f"{self.name}: {self.then} is no flag")
+        return Block(self.name, [*actions, *note], text=self.text)
