@@ -62,31 +62,29 @@ def read_by(prop: Property) -> set[str]:
 @cache
 def as_written() -> dict[str, Property]:
     """Every property by id, with its readings open.  Raises ``ModelError`` for an id used twice."""
-    import properties.areas
-    import properties.promises
-
     found: dict[str, Property] = {}
-    for folder in (properties.areas, properties.promises):
-        for entry in sorted(pkgutil.iter_modules(folder.__path__), key=lambda e: e.name):
-            module = importlib.import_module(f"{folder.__name__}.{entry.name}")
-            for thing in vars(module).values():
-                if isinstance(thing, Property):
-                    _add(found, replace(thing, area=entry.name))
+    for folder in ("areas", "promises"):
+        for area, thing in _stated_in(folder):
+            if isinstance(thing, Property):
+                _add(found, replace(thing, area=area))
     return found
 
 
 @cache
 def promises() -> tuple["Promise", ...]:
     """What the document promises of the rover, those first that it names first."""
-    import properties.promises
     from properties.promises.promise import ORDER, Promise
 
-    modules = (
-        importlib.import_module(f"{properties.promises.__name__}.{entry.name}")
-        for entry in pkgutil.iter_modules(properties.promises.__path__)
-    )
-    found = [thing for module in modules for thing in vars(module).values() if isinstance(thing, Promise)]
+    found = [thing for _, thing in _stated_in("promises") if isinstance(thing, Promise)]
     return tuple(sorted(found, key=lambda promise: ORDER.index(promise.id)))
+
+
+def _stated_in(folder: str) -> Iterator[tuple[str, object]]:
+    """Everything that a module of the folder names, with the module's name, in its order."""
+    package = importlib.import_module(f"{__package__}.{folder}")
+    for entry in sorted(pkgutil.iter_modules(package.__path__), key=lambda e: e.name):
+        module = importlib.import_module(f"{package.__name__}.{entry.name}")
+        yield from ((entry.name, thing) for thing in vars(module).values())
 
 
 def _add(found: dict[str, Property], prop: Property) -> None:

@@ -83,8 +83,9 @@ def signature(name: str, word: Any) -> str:
     """How a word is called, with the types as they are written in the source."""
     tree = ast.parse(textwrap.dedent(inspect.getsource(word))).body[0]
     if isinstance(tree, ast.ClassDef):
-        made = [part for part in tree.body if isinstance(part, ast.FunctionDef) and part.name == "__init__"]
-        arguments = ast.unparse(made[0].args).removeprefix("self, ") if made else _fields(tree)
+        made = {part.name: part for part in tree.body if isinstance(part, ast.FunctionDef)}
+        maker = made.get("__init__") or made.get("__new__")
+        arguments = ast.unparse(maker.args).split(", ", 1)[1] if maker else _fields(tree)
     else:
         assert isinstance(tree, ast.FunctionDef)
         arguments = ast.unparse(tree.args)

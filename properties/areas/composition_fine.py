@@ -3,6 +3,7 @@
 from properties.document.distances import within
 from properties.forms import always, holds_after, responds, until
 from spec_model.composition.fine_systems import (
+    asks_switch,
     critical_sent,
     forward,
     frame_accepted,
@@ -44,6 +45,12 @@ PSY_03b = responds(
 PSY_03c = responds(
     "PSY-03c", "Within 41 ms of the step in which Board 1 opens the relay, Board 2 is authorised.",
     trigger=opens, response=autorized_to_send_command, within=41 * ms,
+    covers=["B1-REL-02", "B2-ACT-01"], on="handover_fine", readings=["S45", "E22"],
+)  # fmt: skip
+PSY_03d = holds_after(
+    "PSY-03d",
+    "Within 61 ms of the step in which Board 1 asks to switch, as long as it does, Board 2 is authorised.",
+    premise=asks_switch, for_=61 * ms, then=autorized_to_send_command,
     covers=["B1-REL-02", "B2-ACT-01"], on="handover_fine", readings=["S45", "E22"],
 )  # fmt: skip
 PSY_04a = holds_after(

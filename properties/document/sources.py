@@ -12,7 +12,7 @@ class Source:
     """A source, by the name of its region: levels OK, degraded and critical of its status.
 
     ``mean`` is the largest mean gap of its stamps and ``limit`` the largest age, in ms, without a fault.
-    ``phase`` is how long before a step it is stamped, where that is not the time of the step.
+    ``age_ms`` is the age where a stamp is set some ms before the step that sees it.
     """
 
     region: str
@@ -23,7 +23,7 @@ class Source:
     levels: tuple[str, str, str]
     mean: int
     limit: int
-    phase: Var | None = None
+    age_ms: Var | None = None
 
 
 SUP = Source(
@@ -32,15 +32,15 @@ SUP = Source(
 )  # fmt: skip
 BLE = Source(
     "BLE", b2.ble_update, b2.ble_age, b2.deg_ble,
-    b2.esp_status, ("OK", "DEGRADED", "CRITICAL"), mean=40, limit=120, phase=b2.ble_phase,
+    b2.esp_status, ("OK", "DEGRADED", "CRITICAL"), mean=40, limit=120, age_ms=b2.ble_age_ms,
 )  # fmt: skip
 IMU = Source(
     "IMU", b2.imu_update, b2.imu_age, b2.deg_imu,
-    b2.imu_status, ("OK", "DEGRADED", "CRITICAL"), mean=100, limit=200, phase=b2.imu_phase,
+    b2.imu_status, ("OK", "DEGRADED", "CRITICAL"), mean=100, limit=200, age_ms=b2.imu_age_ms,
 )  # fmt: skip
 RX = Source(
     "Rx", b2.rx_update, b2.rx_age, b2.deg_rx,
-    b2.rx_status, ("RX_OK", "RX_DEGRADED", "RX_CRITICAL"), mean=40, limit=120, phase=b2.rx_phase,
+    b2.rx_status, ("RX_OK", "RX_DEGRADED", "RX_CRITICAL"), mean=40, limit=120, age_ms=b2.rx_age_ms,
 )  # fmt: skip
 
 
@@ -51,6 +51,5 @@ def silent(source: Source) -> Expr:
 
 def silent_ms(source: Source) -> Expr:
     """The same where stamps are set some ms before the step that sees them, always as many."""
-    if source.phase is None:
-        return silent(source)
-    return named(f"now_ms - ts > {source.limit} ms", source.age + source.phase > source.limit)
+    age = source.age if source.age_ms is None else source.age_ms
+    return named(f"now_ms - ts > {source.limit} ms", age > source.limit)

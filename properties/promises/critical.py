@@ -5,13 +5,17 @@ from collections.abc import Sequence
 from properties.areas import battery, temperature
 from properties.document.sources import BLE, IMU, silent_ms
 from properties.forms import Property, costly, holds_after
-from properties.promises.promise import Promise
+from properties.promises import shown
+from properties.promises.promise import Chain, Promise
 from spec_model.lang.expr import Expr, any_of
 from spec_model.lang.time import Span, sec, tick, ticks
 from spec_model.lang.words import bit, held, named
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
+
+BEYOND_THE_LINK = (0, 1, 3, 4, 5, 6)
+"""Bits of Board 1's critical mask that a loss of the link does not set [seed Table 1]."""
 
 drives_1 = named("Board 1 actuates", ~b1.give_b2_actuation)
 drives_2 = named("Board 2 drives", b2.autorized_to_send_command)
@@ -66,7 +70,7 @@ TOLD_BY_1 = _board_2(
     "TOLD-BY-1",
     "Board 2 driving, a critical fault of Board 1 beyond the link, received in two successive steps: zero "
     "references in the second.",
-    any_of(*(bit(b2.crit_mask_b1, i) for i in (0, 1, 3, 4, 5, 6))), 1 * tick, ["B1-REF-07"],
+    any_of(*(bit(b2.crit_mask_b1, i) for i in BEYOND_THE_LINK)), 1 * tick, ["B1-REF-07"],
 )  # fmt: skip
 JOYSTICK = _board_2(
     "JOYSTICK",
@@ -79,6 +83,32 @@ INERTIAL = _board_2(
     silent_ms(IMU), 3 * ticks, ["B2-FLT-01"],
 )  # fmt: skip
 
+BEYOND = (
+    (shown.TEMPERATURE, held(temperature.critical_range, for_=4 * sec) | temperature.stale_above_65),
+    (shown.BATTERY, held(battery.critical_range, for_=5 * sec) | battery.stale_below_15),
+    (shown.WHEELS, any_of(*b1.has_no_feedback.values()) & ~b1.is_motion_consistent),
+)
+"""Faults of Board 1 beyond the link, and what shows them to Board 2."""
+
+
+def _chain(first: Property, cause: Expr) -> Chain:
+    """From a fault of Board 1 to the references of Board 2, which drives."""
+    sent, received = (
+        any_of(*(bit(mask, i) for i in BEYOND_THE_LINK)) for mask in (b1.critical_mask, b2.crit_mask_b1)
+    )
+    return Chain(
+        "PSY-14b",
+        stands={
+            "critical": cause,
+            "critical_sent": sent,
+            "critical_received": received & drives_2,
+            "references_nonzero": ~zero_2,
+        },
+        by={"Sender.contract": first.id, "Receiver.contract": TOLD_BY_1.id},
+        assuming=drives_2,
+    )
+
+
 CRITICAL = Promise(
     "CRITICAL",
     "Critical: zero references",
@@ -88,11 +118,5 @@ CRITICAL = Promise(
     "in the next step (20 ms later); for a silent sensor of Board 2 in the fourth step of silence",
     ("PB1-17a", "PB2-17"),
     (HOT, ASSUMED_HOT, FLAT, ASSUMED_FLAT, WHEEL, TOLD_BY_2, TOLD_BY_1, JOYSTICK, INERTIAL),
-    (
-        ("P-SHOWN-SILENT-BLE", "PSY-14a", "P-CRITICAL-TOLD-BY-2"),
-        ("P-SHOWN-SILENT-IMU", "PSY-14a", "P-CRITICAL-TOLD-BY-2"),
-        ("P-SHOWN-TEMPERATURE", "PSY-14b", "P-CRITICAL-TOLD-BY-1"),
-        ("P-SHOWN-BATTERY", "PSY-14b", "P-CRITICAL-TOLD-BY-1"),
-        ("P-SHOWN-WHEELS", "PSY-14b", "P-CRITICAL-TOLD-BY-1"),
-    ),
+    tuple(_chain(first, cause) for first, cause in BEYOND),
 )

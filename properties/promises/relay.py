@@ -1,16 +1,18 @@
 """The relay and the authorisation: from the age of frames and heartbeats to who may move the rover."""
 
 from properties.forms import always, costly, enters_only_if, holds_after, leaves_only_if
-from properties.promises.promise import Promise
+from properties.promises import shown
+from properties.promises.promise import Chain, Promise
 from spec_model.lang.expr import implies
 from spec_model.lang.time import ticks
 from spec_model.lang.words import bit, held, named
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2_supervisor as b2
+from spec_model.signals.board1_fine import rx_age_ms
 
 unheard = named(
     "no frame, or no new heartbeat, for more than 120 ms",
-    (b1.rx_age + b1.rx_phase > 120) | (b1.heartbeat_age > 120),
+    (rx_age_ms > 120) | (b1.heartbeat_age > 120),
 )
 """[seed Table 2, §2.5]"""
 asked = named("Board 1 asks to switch", bit(b2.crit_mask_b1, 2) | bit(b2.crit_mask_b1, 7))
@@ -58,5 +60,17 @@ RELAY = Promise(
     "in the second step of silence if not (PB2-14d, of a part of Board 2)",
     ("PB1-15", "PB2-14c", "PSY-02a", "PSY-19"),
     (OPENS, ONLY_THEN, CLOSES, CLOSED_AGAIN, ASKED),
-    (("P-SHOWN-LINK", "PSY-03a", "P-RELAY-ASKED"),),
+    (
+        Chain(
+            "PSY-03d",
+            stands={
+                "asks_switch": bit(b1.critical_mask, 2) | bit(b1.critical_mask, 7),
+                "b1_requests_switch": asked,
+            },
+            by={},
+            first=shown.LINK.id,
+            cause=unheard,
+            last=ASKED.id,
+        ),
+    ),
 )

@@ -9,6 +9,7 @@ from spec_model.lang.time import sec, ticks
 from spec_model.lang.words import bit, held, previous
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2_supervisor as b2
+from spec_model.signals.board1_fine import rx_age_ms
 
 
 def _critical(index: int) -> Expr:
@@ -72,7 +73,7 @@ WHEELS = _board_1(
 LINK = _board_1(
     "LINK",
     "Bit 2 of the critical mask exactly with a last frame, bit 7 with a last heartbeat over 120 ms old.",
-    (_critical(2) == (b1.rx_age + b1.rx_phase > 120)) & (_critical(7) == (b1.heartbeat_age > 120)),
+    (_critical(2) == (rx_age_ms > 120)) & (_critical(7) == (b1.heartbeat_age > 120)),
     ["B1-RX-05", "B1-RX-03", "B1-SUP-03"],
 )
 

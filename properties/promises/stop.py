@@ -1,10 +1,11 @@
 """Obstacle => stop: from the sonars to the command for Board 1, and to the references of who drives."""
 
+from properties.areas.composition_fine import driven_forward
 from properties.document.distances import within
 from properties.forms import costly, holds_after
 from properties.promises import weather
 from properties.promises.critical import drives_1, drives_2, zero_1
-from properties.promises.promise import Promise
+from properties.promises.promise import Chain, Promise
 from spec_model.lang.time import tick, ticks
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2 as sonar
@@ -51,5 +52,17 @@ STOP = Promise(
     "in the scene of P-WEATHER-NEAR the motors stand 80 ms after the step that sees the obstacle",
     ("PB2-01", "PB2-12", "PB2-13a-0", "PSY-10a", "PSY-11"),
     (NEAR, DEGRADED, WHILE_2_DRIVES, OBEYED, weather.NEAR),
-    (("P-STOP-NEAR", "PSY-10e", "P-STOP-OBEYED"),),
+    (
+        Chain(
+            "PSY-10e",
+            stands={
+                "near": within(70),
+                "estop_decided": COMMANDED,
+                "estop_received": b1.cmd == "CMD_ESTOP",
+                "forward": driven_forward,
+                "v_positive": b1.v_ref > 0,
+            },
+            by={"SUP2.contract": "P-STOP-NEAR", "SUP1.contract": "PSY-10m"},
+        ),
+    ),
 )

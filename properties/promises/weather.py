@@ -7,7 +7,7 @@ from properties.forms import HoldsAfter, Property, costly, holds_after, reachabl
 from properties.promises.limits import half_1
 from properties.promises.promise import Promise
 from spec_model.composition.motors import connected, motors_zero
-from spec_model.composition.weather import SPELLS, other
+from spec_model.composition.weather import SPELLS, for_a_step, other
 from spec_model.lang.expr import Expr
 from spec_model.lang.time import Span, ms, sec
 from spec_model.lang.words import named
@@ -70,7 +70,19 @@ NO_BATTERY = replace(
 )
 FULL_SPEED = reachable(
     "REACH-WEATHER-FULL-SPEED", "Before anything fails the rover drives at full speed.",
-    that=~motors_zero & (v_ref == 1), covers=["B1-REF-04"], on="weather_joystick",
+    that=(SPELLS["joystick"] == "ahead") & ~motors_zero & (v_ref == 1),
+    covers=["B1-REF-04"], on="weather_joystick",
+)  # fmt: skip
+
+JOYSTICK_LINK21, IMU_LINK21 = (
+    holds_after(
+        f"P-WEATHER-{source}-LINK21",
+        f"With no {what} datum for {500 * ms}, the motors stand, or turn at half speed at most, also when a "
+        "frame for Board 1 is lost.",
+        premise=(SPELLS[source.lower()] == "present") & for_a_step, for_=500 * ms, then=slow,
+        covers=["B2-FLT-01", "B1-REF-06"], on=f"weather_{source.lower()}_link21", from_tick=2,
+    )
+    for source, what in (("JOYSTICK", "joystick"), ("IMU", "IMU"))
 )  # fmt: skip
 
 JOYSTICK_2, IMU_2, LINK12_2 = map(_and_another, (JOYSTICK, IMU, LINK12))
@@ -89,7 +101,10 @@ LOSS = Promise(
     "of a dead joystick or IMU",
     tuple(
         prop.id
-        for prop in (LINK12, SUPERVISOR1, TEMPERATURE, BATTERY, JOYSTICK_2, IMU_2, LINK12_2)
+        for prop in (
+            LINK12, JOYSTICK_LINK21, IMU_LINK21,
+            SUPERVISOR1, TEMPERATURE, BATTERY, JOYSTICK_2, IMU_2, LINK12_2,
+        )
     ),
     (
         JOYSTICK, IMU, LINK21, SUPERVISOR2, POWER, WHEEL, HOT, FLAT,

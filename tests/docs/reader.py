@@ -22,6 +22,9 @@ ANYWHERE = re.compile(r"(?:check|trace)(?: P[A-Z0-9]+-[0-9a-z]+)+")
 PROMPT = re.compile(r"^tick \d+, [\d.]+ m?s> (.+)$")
 
 
+PROGRESS = re.compile(r"(?m)^\d+/\d+ searches done\b.*\n")
+
+
 @dataclass
 class Reader:
     """Somebody in a folder, who does as a page says."""
@@ -98,9 +101,9 @@ def differs(shown: str, printed: str) -> str:
     """What a page shows and what is printed, where they differ; empty if they agree.
 
     ``...`` stands for anything within a line, or, alone in a line, for any lines.  Lines of verdicts may
-    come in another order, since searches end in any.
+    come in another order, since searches end in any, and progress of a slow machine is no output.
     """
-    ours, theirs = _ordered(shown), _ordered(printed)
+    ours, theirs = _ordered(shown), _ordered(PROGRESS.sub("", printed))
     if re.fullmatch("".join(map(_pattern, ours)), "".join(f"{line}\n" for line in theirs)):
         return ""
     return "the page shows\n{}\n\nprinted is\n{}".format("\n".join(ours), "\n".join(theirs))

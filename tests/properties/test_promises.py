@@ -1,30 +1,33 @@
 """Promises speak of whole boards, and begin at what is measured, received or decided by who drives."""
 
-import importlib
-import pkgutil
 import re
+from dataclasses import replace
+from itertools import chain as joined
+from itertools import product
 
 import pytest
 
-import properties.promises as folder
-from properties.catalogue import as_written, catalogue, expected
+from checker.commands.chains import check, holes
+from properties.catalogue import as_written, catalogue, expected, promises
 from properties.forms import Always, EntersOnlyIf, HoldsAfter, LeavesOnlyIf, Property, formulas
-from properties.promises.promise import Promise
-from spec_model.lang.chart import parts
-from spec_model.lang.expr import Apply, Expr, Named
+from properties.promises.promise import Chain, Promise
+from spec_model.composition.contracts import Contract
+from spec_model.composition.fine_systems import CONTRACTS
+from spec_model.lang.errors import ModelError
+from spec_model.lang.evaluate import evaluate
+from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named
+from spec_model.lang.interpret import Interpreter
 from spec_model.lang.operators import Op
+from spec_model.lang.system import in_order
 from spec_model.lang.walk import variables
 from spec_model.rover import systems
 from spec_model.signals.common import PHASE
 
-MODULES = [
-    importlib.import_module(f"{folder.__name__}.{entry.name}")
-    for entry in pkgutil.iter_modules(folder.__path__)
-]
-PROMISES = [thing for module in MODULES for thing in vars(module).values() if isinstance(thing, Promise)]
+PROMISES = promises()
 OWN = {p.id: p for p in as_written().values() if p.id.startswith("P-")}
 
 MEASURED = {
+    "rx_age_ms", "esp_age_ms", "imu_age_ms", "B2.rx_age_ms",
     "temp_age", "temperature_degC", "batt_age", "battery_pct", "isMotionConsistent", "rx_age",
     "heartbeat_age", "cmd", "y_norm", "crit_mask_b2", "degr_mask_b2",
     "d1", "d2", "d3", "esp_age", "imu_age", "b1_sup_age", "B2.rx_age", "B2.crit_mask_b1", "B2.degr_mask_b1",
@@ -76,25 +79,99 @@ def test_it_begins_at_nothing_that_a_board_computes_but_what_is_covered(prop: Pr
             assert name in variables(*formulas(catalogue()[id].form))
 
 
-CONTRACT = re.compile(r"\b(?:PB\d|PSY)-\w+(?:-\w+)*")
+CHAINS = [chain for promise in PROMISES for chain in promise.chains]
 
 
-@pytest.mark.parametrize("promise", PROMISES, ids=lambda p: p.id)
-def test_a_chain_leads_from_one_board_to_the_other_and_rests_on_nothing_that_is_not_proved(
-    promise: Promise,
-) -> None:
-    for chain in promise.chains:
-        first, *between, last = (catalogue()[id] for id in chain)
-        assert {first.on, last.on} == {"board1_ms", "board2_ms"}
-        assert {expected(id).verdict for id in chain} == {"proved"}
-        for link in between:
-            system = systems()[link.on]
-            assert system.over and system.tick_ms == 1
-            named = {id for part in parts(system.components) for id in CONTRACT.findall(part.text)}
-            assert named or link.on == "handover_fine"
-            for id in named:
-                [*stated] = [p for p in catalogue() if p == id or p.removesuffix("a") == id]
-                assert stated and {expected(p).verdict for p in stated} == {"proved"}, id
+@pytest.mark.parametrize("chain", CHAINS, ids=lambda c: "-".join(c.properties))
+def test_a_chain_has_no_hole_and_rests_on_what_is_proved(chain: Chain) -> None:
+    assert not list(holes(chain))
+    assert {expected(id).verdict for id in chain.properties} == {"proved"}
+    system = systems()[catalogue()[chain.across].on]
+    assert system.over and system.tick_ms == 1
+
+
+def test_the_users_three_promises_have_a_chain_across_the_link() -> None:
+    assert {p.id for p in PROMISES if p.chains} == {"STOP", "CRITICAL", "RELAY"}
+
+
+STOP, CRITICAL, RELAY = (next(p for p in PROMISES if p.id == id) for id in ("STOP", "CRITICAL", "RELAY"))
+
+
+@pytest.mark.parametrize(
+    ("chain", "hole"),
+    [
+        (replace(STOP.chains[0], by={"SUP2.contract": "P-STOP-NEAR"}), "no property proves SUP1.contract"),
+        (
+            replace(STOP.chains[0], by={**STOP.chains[0].by, "SUP2.contract": "P-STOP-WHILE-2-DRIVES"}),
+            "P-STOP-WHILE-2-DRIVES needs 2 ticks",
+        ),
+        (
+            replace(STOP.chains[0], by={**STOP.chains[0].by, "SUP2.contract": "P-STOP-DEGRADED"}),
+            "P-STOP-DEGRADED demands nothing where",
+        ),
+        (
+            replace(STOP.chains[0], by={**STOP.chains[0].by, "SUP2.contract": "PSY-14a"}),
+            "PSY-14a, which is to prove SUP2.contract, rests on contracts itself",
+        ),
+        (replace(STOP.chains[0], by={**STOP.chains[0].by, "SUP9": "PSY-10m"}), "has no contract 'SUP9'"),
+        (replace(STOP.chains[0], by={**STOP.chains[0].by, "SUP1.contract": "P-1"}), "P-1 is no property"),
+        (replace(CRITICAL.chains[0], assuming=TRUE), "critical_received, .* is not what the frame carries"),
+        (
+            replace(CRITICAL.chains[0], by={**CRITICAL.chains[0].by, "Sender.contract": "P-SHOWN-BATTERY"}),
+            "P-SHOWN-BATTERY does not say that",
+        ),
+        (replace(RELAY.chains[0], cause=TRUE), r"P-SHOWN-LINK does not say that bit\(critical_mask, 2\)"),
+        (replace(RELAY.chains[0], last=""), "handover_fine has no contracts; write first= and last="),
+        (replace(RELAY.chains[0], last="P-RELAY-CLOSES"), "P-RELAY-CLOSES says nothing of the same step"),
+        (replace(RELAY.chains[0], last="P-SHOWN-LINK"), "P-SHOWN-LINK does not say that autorized"),
+        (replace(RELAY.chains[0], cause=FALSE), "nothing is asked of P-SHOWN-LINK: false is never so"),
+        (
+            replace(STOP.chains[0], stands={**STOP.chains[0].stands, "near": FALSE}),
+            "nothing is asked of P-STOP-NEAR: .* is never so",
+        ),
+        (
+            replace(STOP.chains[0], stands={**STOP.chains[0].stands, "v_positive": FALSE}),
+            "nothing is asked of PSY-10m: .* is always so",
+        ),
+        (replace(RELAY.chains[0], across="P-RELAY-OPENS"), "P-RELAY-OPENS says nothing of what lasts"),
+    ],
+)
+def test_holes_are_told(chain: Chain, hole: str) -> None:
+    assert re.search(hole, "\n".join(holes(chain)))
+
+
+def test_a_hole_ends_the_page_with_the_place_of_the_statement() -> None:
+    broken = replace(RELAY, chains=(replace(RELAY.chains[0], cause=TRUE),))
+    with pytest.raises(ModelError, match=r"composition_fine\.py:\d+: .* over PSY-03d has a hole"):
+        check(broken)
+
+
+def test_a_chain_that_does_not_say_what_a_variable_stands_for_is_refused() -> None:
+    with pytest.raises(ModelError, match="does not say what near stands for"):
+        list(holes(replace(STOP.chains[0], stands={})))
+
+
+@pytest.mark.parametrize(
+    "contract", dict.fromkeys(joined.from_iterable(CONTRACTS.values())), ids=lambda c: c.name
+)
+def test_a_contract_does_all_that_it_allows_and_nothing_else(contract: Contract) -> None:
+    own = next(iter(variables(contract.then).values()))
+    inputs = list(variables(contract.premise, contract.before).values())
+    met = False
+    for values in product((0, 1), repeat=2 * len(inputs) + 1):
+        seen = set()
+        for free in (0, 1):
+            block = Interpreter(in_order("alone", contract.block))
+            first = dict(zip((v.name for v in inputs), values, strict=False))
+            second = dict(zip((v.name for v in inputs), values[len(inputs) :], strict=False))
+            block.step({**first, contract.free.name: values[-1]})
+            block.step({**second, contract.free.name: free})
+            demanded = evaluate(contract.premise, second) and evaluate(contract.before, first)
+            assert not demanded or evaluate(contract.then, {own.name: block.data[own.name]})
+            seen.add(int(block.data[own.name]))
+        assert len(seen) == (1 if demanded else 2)
+        met = met or bool(demanded)
+    assert met
 
 
 def of_weather(name: str) -> bool:
