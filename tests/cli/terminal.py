@@ -1,5 +1,6 @@
 """A program at a terminal of its own, for tests of what people see there."""
 
+import codecs
 import fcntl
 import os
 import pty
@@ -56,6 +57,7 @@ class Terminal:
         )
         os.close(theirs)
         self.seen = ""
+        self._decoder = codecs.getincrementaldecoder("utf-8")(errors="replace")
         self._read = 0
         self._screen = pyte.HistoryScreen(columns, lines, history=100_000, ratio=1)
         self._stream = pyte.ByteStream(self._screen)
@@ -140,6 +142,6 @@ class Terminal:
             data = os.read(self._ours, 65536) if ready else b""
         except OSError:  # the other end is closed
             return False
-        self.seen += data.decode(errors="replace")
+        self.seen += self._decoder.decode(data)  # a letter may come in two pieces
         self._stream.feed(data)
         return bool(data)

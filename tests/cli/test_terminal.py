@@ -264,3 +264,10 @@ def test_what_was_decided_is_a_document_in_its_file_when_a_result_is_interrupted
         file.seek(0)
         assert file.read().startswith("{")
     assert "{" not in terminal.seen
+
+
+def test_a_letter_that_comes_in_two_pieces_is_seen_whole() -> None:
+    pieces = "import os, time; os.write(1, b'100\\xe2'); time.sleep(0.1); os.write(1, b'\\x80\\x93300')"
+    with Terminal([sys.executable, "-c", pieces]) as terminal:
+        terminal.ended()
+    assert "100–300" in terminal.seen
