@@ -1,6 +1,6 @@
 """``rovercheck mutate``: faults put into a model, and what notices them."""
 
-from collections.abc import Generator, Mapping, Sequence
+from collections.abc import Collection, Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from random import Random
@@ -21,17 +21,23 @@ from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.planning import Plan, Planned, homes
 from checker.mutate.running import Doing, Told, fates
 from checker.printable import json_text
-from checker.result import Result
-from checker.verdict import Proved, Unknown
-from properties.forms import Property
+from properties.forms import Property, Reachable, Unbounded
+from spec_model.lang.chart import parts
 from spec_model.lang.system import System
+
+WORTH_RUNS = 4
+"""Survivors from which on the runs of other systems are searched once, to be tried on each of them."""
 
 
 @dataclass(frozen=True)
 class Wanted:
-    """What the command line asks for; ``alone``: only properties about the named systems count."""
+    """What the command line asks for; ``alone``: only properties about the named systems count.
+
+    ``named`` are systems, ``parts`` charts and blocks; without any, all are meant.
+    """
 
     named: tuple[str, ...]
+    parts: tuple[str, ...] = ()
     sample: int | None = None
     seed: int = 0
     alone: bool = False
@@ -44,11 +50,12 @@ def mutate(model: Model, wanted: Wanted, limits: Limits, as_json: bool) -> Exit:
     Raises ``UsageError`` for an unknown system, ``ModelError`` where the model has no meaning.
     """
     properties = [p for p in model.stated().values() if not p.costly]
-    named = _named(model, wanted, properties)
-    if not any(p.on in named for p in properties):
+    at_home = _homes(model, wanted, {p.on for p in properties})
+    if not any(p.on in at_home for p in properties):
         err.print("Nothing to check: no property is about what was selected.")
         return Exit.NOTHING
-    todo = _chosen(model.systems, named, wanted)
+    todo = _chosen(model.systems, at_home, wanted)
+    named = wanted.named if wanted.named and not wanted.parts else tuple(at_home)
     found = Found(named, len(todo), seed=None if wanted.sample is None else wanted.seed)
     if wanted.sample is not None and wanted.sample < len(todo):
         kept = sorted(Random(wanted.seed).sample(range(len(todo)), wanted.sample))
@@ -68,21 +75,31 @@ def mutate(model: Model, wanted: Wanted, limits: Limits, as_json: bool) -> Exit:
     return code
 
 
-def _named(model: Model, wanted: Wanted, properties: Sequence[Property]) -> tuple[str, ...]:
-    """The systems to make faulty: those named, else all that some property is about."""
-    for name in wanted.named:
-        pick("system", name, model.systems)
-    stated = {p.on for p in properties}
-    return tuple(dict.fromkeys(wanted.named or [name for name in model.systems if name in stated]))
+def _homes(model: Model, wanted: Wanted, stated: Collection[str]) -> dict[str, list[str]]:
+    """The parts to make faulty by the system in which each is judged first: the smallest with properties.
+
+    That is one of the systems named, if properties of no other count.
+    """
+    systems = {name: pick("system", name, model.systems) for name in wanted.named}
+    known = {p.name: p for system in model.systems.values() for p in parts(system.components)}
+    chosen = {pick("chart or block", name, known).name for name in wanted.parts} or known.keys()
+    if systems:
+        chosen = chosen & {p.name for system in systems.values() for p in parts(system.components)}
+    among = [name for name in model.systems if name in stated]
+    if wanted.alone and systems:
+        among = list(systems)
+    inside = homes(model.systems, dict.fromkeys([*among, *systems]), chosen)
+    return {name: names for name, names in inside.items() if names}
 
 
-def _chosen(systems: Mapping[str, System], named: Sequence[str], wanted: Wanted) -> list[tuple[str, Mutant]]:
+def _chosen(
+    systems: Mapping[str, System], at_home: Mapping[str, Sequence[str]], wanted: Wanted
+) -> list[tuple[str, Mutant]]:
     if wanted.sample is not None and wanted.sample < 1:
         raise UsageError("--sample takes a number of mutants, at least 1.")
     return [
         (name, mutant)
-        for name, inside in homes(systems, named).items()
-        if inside
+        for name, inside in at_home.items()
         for mutant in mutants(as_it_is(systems[name]), inside)
     ]
 
@@ -98,14 +115,9 @@ def _judged(
     """Judge the mutants, each first in its own system; what is found goes to ``found`` at once."""
     at = {mutant.id: name for name, mutant in todo}
     own = [p for p in properties if p.on in set(at.values())]
-    proved: dict[str, bool] = {}
-    for result in _originals(model.systems, own, limits, wanted.jobs):
-        if isinstance(result.verdict, Unknown):
-            found.undecided.append(result.property.id)
-        else:
-            proved[result.property.id] = isinstance(result.verdict, Proved)
-    recorded = {p.id: _recorded(model, p.id) for p in properties}
-    plan = Plan(model.systems, properties, proved, recorded)
+    plan = Plan(model.systems, properties, {p.id: _recorded(model, p.id) for p in properties})
+    _decide(plan, own, limits, wanted.jobs)
+    found.undecided += [p.id for p in own if p.id not in plan.proved]
     first = [plan.own(mutant, name) for name, mutant in todo]
     survived: dict[str, Judged] = {}
     try:
@@ -120,6 +132,11 @@ def _judged(
                 judged = survived.pop(one.mutant.id)
                 found.told.append((at[one.mutant.id], one.mutant, judged))
         again = [one for one in again if one.cases]
+        if len(again) >= WORTH_RUNS:
+            asked = {p.id: p for one in again for case in one.cases for p in case.properties}
+            with_runs = [p for p in asked.values() if p.id not in plan.proved and _has_run(plan, p)]
+            _decide(plan, with_runs, limits, wanted.jobs)
+            again = [plan.with_runs(one) for one in again]
         for told in _told(again, limits, wanted.jobs, survived):
             survived.pop(told.mutant.id)
             found.told.append((at[told.mutant.id], told.mutant, told.judged))
@@ -134,17 +151,23 @@ def _judged(
         found.told.sort(key=lambda one: order[one[1].id])
 
 
+def _has_run(plan: Plan, prop: Property) -> bool:
+    """Whether the verdict on record rests on a finite run."""
+    if isinstance(prop.form, Unbounded):
+        return False
+    return plan.recorded[prop.id] is isinstance(prop.form, Reachable)
+
+
 def _recorded(model: Model, id: str) -> bool | None:
     verdict = model.expected(id).verdict
     return None if verdict == "unknown" else verdict == "proved"
 
 
-def _originals(
-    systems: Mapping[str, System], properties: Sequence[Property], limits: Limits, jobs: int | None
-) -> Generator[Result, None, None]:
-    """The verdicts on the originals, in which every run counts."""
-    own = {name: as_it_is(systems[name]) for name in {p.on for p in properties}}
-    return results(properties, own, AUTO, limits, jobs)
+def _decide(plan: Plan, asked: Sequence[Property], limits: Limits, jobs: int | None) -> None:
+    """Let the plan know the verdicts on the originals, in which every run counts."""
+    own = {name: as_it_is(plan.systems[name]) for name in {p.on for p in asked}}
+    for result in results(asked, own, AUTO, limits, jobs):
+        plan.learn(result)
 
 
 def _told(

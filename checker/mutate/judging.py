@@ -1,13 +1,14 @@
 """What becomes of one mutant: who notices it, or that nobody can, or a run that nobody forbids."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from time import monotonic
 
 from checker.decide import decide
 from checker.engine import AUTO, Limits, Progress
 from checker.lowered import lowered
+from checker.mutate.known_runs import still_reached
 from checker.mutate.observing import Difference, difference, observable
 from checker.mutate.product import product, same
 from checker.portfolio import Question, Told, answers
@@ -15,7 +16,7 @@ from checker.result import Result, check_domains
 from checker.runs.domains import LeavesDomain
 from checker.tasks import Task, tasks
 from checker.trace import Trace
-from checker.verdict import Open, Proved, Reached, Unknown, Unreachable, Violated
+from checker.verdict import Open, Proved, Reached, Run, Unknown, Unreachable, Violated
 from properties.forms import Property
 from spec_model.lang.errors import ModelError
 from spec_model.lang.lower import lower
@@ -64,7 +65,7 @@ class Case:
     """A mutant in one system, with the properties to ask and whether each is proved of the original.
 
     ``sure``: that was found out, and not only read from a record.  ``named`` are the variables that
-    properties of the system speak of.
+    properties of the system speak of, ``runs`` what is known to reach the goals of some in the original.
     """
 
     original: System
@@ -74,6 +75,7 @@ class Case:
     proved: Mapping[str, bool]
     sure: bool = True
     named: frozenset[str] = frozenset()
+    runs: Mapping[str, Run] = field(default_factory=dict)
 
 
 def judged(cases: Sequence[Case], limits: Limits, progress: Progress, before: Judged | None = None) -> Judged:
@@ -137,8 +139,12 @@ class _Hunt:
 
     def _tasks(self) -> Iterator[tuple[Case, Task]]:
         for case in self._cases:
-            place = {p.id: number for number, p in enumerate(case.properties)}
-            found = tasks(case.properties, {case.mutant.name: case.mutant})
+            self.on = case.mutant.name
+            still = still_reached(case.mutant, case.properties, case.runs)
+            self.asked += len(still)
+            place = {p.id: number for number, p in enumerate(case.properties) if p.id not in still}
+            left = [p for p in case.properties if p.id in place]
+            found = tasks(left, {case.mutant.name: case.mutant})
             for task in sorted(found, key=lambda t: min(place[p.id] for p in t.properties)):
                 yield case, task
 

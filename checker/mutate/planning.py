@@ -1,11 +1,14 @@
 """Which mutants are made, and which properties are asked about each, in which systems."""
 
 from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from checker.mutate.asked import Cone, as_it_is, concerned, cones
 from checker.mutate.judging import Case
+from checker.mutate.known_runs import run_of
 from checker.mutate.mutants import Mutant, mutants
+from checker.result import Result
+from checker.verdict import Proved, Run, Unknown
 from properties.forms import Property, formulas
 from spec_model.lang.chart import parts
 from spec_model.lang.system import System
@@ -22,18 +25,26 @@ class Planned:
 
 @dataclass
 class Plan:
-    """What is known of systems and properties; ``proved`` holds what was found out of the originals.
+    """What is known of systems and properties.
 
     ``recorded`` tells of a property whether it is proved, as far as that is on record, None if it is neither
-    proved nor violated.
+    proved nor violated; ``proved`` and ``runs`` hold what was found out of the originals.
     """
 
     systems: Mapping[str, System]
     properties: Sequence[Property]
-    proved: Mapping[str, bool]
     recorded: Mapping[str, bool | None]
+    proved: dict[str, bool] = field(default_factory=dict)
+    runs: dict[str, Run] = field(default_factory=dict)
     _cones: dict[str, list[Cone]] = field(default_factory=dict)
     _mutants: dict[tuple[str, str], dict[str, Mutant]] = field(default_factory=dict)
+
+    def learn(self, result: Result) -> None:
+        """Keep a verdict on an original, and the run that it rests on."""
+        if not isinstance(result.verdict, Unknown):
+            self.proved[result.property.id] = isinstance(result.verdict, Proved)
+        if (run := run_of(result.verdict)) is not None:
+            self.runs[result.property.id] = run
 
     def own(self, mutant: Mutant, name: str) -> Planned:
         """The mutant of the system of that name, in this system."""
@@ -53,6 +64,13 @@ class Plan:
                     found.append((first, case))
         return Planned(mutant, tuple(case for _, case in sorted(found, key=lambda pair: pair[0])))
 
+    def with_runs(self, planned: Planned) -> Planned:
+        """The same with the runs that are known by now."""
+        return replace(planned, cases=tuple(replace(c, runs=self._runs(c.properties)) for c in planned.cases))
+
+    def _runs(self, properties: Sequence[Property]) -> dict[str, Run]:
+        return {p.id: self.runs[p.id] for p in properties if p.id in self.runs}
+
     def _case(self, mutant: Mutant, name: str, sure: bool) -> Case:
         original = as_it_is(self.systems[name])
         proved = {p.id: self.proved.get(p.id, self.recorded[p.id]) for p in self._stated(name)}
@@ -62,7 +80,9 @@ class Plan:
         asked = concerned({name: self._known(name)}, original, mutant.system, mutant.parts)
         properties = tuple(c.property for c in asked if c.property.id in known)
         named = frozenset(n for p in self._stated(name) for n in variables(*formulas(p.form)))
-        return Case(original, mutant.system, mutant.parts, properties, known, sure, named)
+        return Case(
+            original, mutant.system, mutant.parts, properties, known, sure, named, self._runs(properties)
+        )
 
     def _stated(self, name: str) -> list[Property]:
         return [p for p in self.properties if p.on == name]
@@ -81,14 +101,20 @@ class Plan:
         return self._mutants[name, part]
 
 
-def homes(systems: Mapping[str, System], named: Collection[str]) -> dict[str, list[str]]:
-    """For each system the parts that are made faulty in it: each in the smallest named system that has it."""
-    sizes = {name: len(list(parts(systems[name].components))) for name in named}
+def homes(
+    systems: Mapping[str, System], among: Collection[str], wanted: Collection[str] | None = None
+) -> dict[str, list[str]]:
+    """For each system the parts that are made faulty in it: each in the smallest of ``among`` that has it.
+
+    Only the ``wanted`` parts, if these are named.
+    """
+    sizes = {name: len(list(parts(systems[name].components))) for name in among}
     home: dict[str, str] = {}
     for name in sorted(sizes, key=lambda n: sizes[n]):
         for part in parts(systems[name].components):
-            home.setdefault(part.name, name)
-    return {name: [part for part, at in home.items() if at == name] for name in named}
+            if wanted is None or part.name in wanted:
+                home.setdefault(part.name, name)
+    return {name: [part for part, at in home.items() if at == name] for name in among}
 
 
 __all__ = ["Plan", "Planned", "homes"]

@@ -17,6 +17,7 @@ from checker.engine import LOADED, Limits
     metavar="NAME",
     help="Only charts and blocks of this system, or these.",
 )
+@click.option("--part", "part", multiple=True, metavar="NAME", help="Only this chart or block, or these.")
 @click.option("--alone", is_flag=True, help="Ask only properties about the system that a fault is put into.")
 @click.option(
     "--timeout", type=SECONDS, default=60.0, show_default=True, metavar="SEC", help="Seconds per mutant."
@@ -34,6 +35,7 @@ from checker.engine import LOADED, Limits
 @quietly
 def mutate(
     about: tuple[str, ...],
+    part: tuple[str, ...],
     alone: bool,
     timeout: float,
     memory: float,
@@ -54,6 +56,6 @@ def mutate(
         from checker.commands.mutating import mutate as run
         from checker.commands.variant import pick_variant
 
-        wanted = Wanted(about, sample, seed, alone, jobs)
+        wanted = Wanted(about, part, sample, seed, alone, jobs)
         limits = Limits(None, timeout, int(memory * 2**30))
         return run(pick_variant((), None, (), model).model, wanted, limits, as_json)

@@ -1,14 +1,10 @@
 """What must be true of both boards together, step by step: relay, authorisation, stops across the link."""
 
-from collections.abc import Iterable
-from dataclasses import replace
-
 from properties.document.distances import within
 from properties.forms import always, costly, holds_after, leaves_only_if, never, responds, settles, until
 from spec_model.board1.motion import motion_supervision
 from spec_model.composition.motors import board1_powered, connected, followed, motors_zero, runs_1
-from spec_model.composition.systems import arrives12, arrives21
-from spec_model.lang.expr import Expr, Var, all_of, any_of, implies, ite
+from spec_model.lang.expr import any_of, implies
 from spec_model.lang.time import ms, tick, ticks
 from spec_model.lang.words import absolute, held, named, once, previous
 from spec_model.signals import board1 as b1
@@ -22,65 +18,6 @@ near_70, near_300 = within(70), within(300)
 zero_1 = named("zero references of Board 1", (b1.v_ref == 0) & (b1.omega_ref == 0))
 COMMANDS = ("CMD_NORMAL", "CMD_GO_LEFT", "CMD_GO_RIGHT", "CMD_ESTOP")
 stop_commanded = b1.cmd == "CMD_ESTOP"
-
-# --- what a frame carries ------------------------------------------------------------------------
-
-FROM_2 = {
-    "command": (b1.cmd, obstacles.command),
-    "yaw": (b1.current_yaw, motion.yaw),
-    "x_norm": (b1.x_norm, motion.bx_norm),
-    "y_norm": (b1.y_norm, motion.ay_norm),
-    "isMotionConsistent": (b1.is_motion_consistent, b2.is_motion_consistent),
-    "critical mask": (b1.crit_mask_b2, b2.critical_mask),
-    "degraded mask": (b1.degr_mask_b2, b2.degraded_mask),
-    "btn1": (b1.btn1, motion.btn1),
-    "btn2": (b1.btn2, motion.btn2),
-}
-"""What Board 1 receives, and what it is on Board 2 [seed §2.2]; x_norm as the joystick says it."""
-FROM_1 = {
-    "critical mask": (b2.crit_mask_b1, b1.critical_mask),
-    "degraded mask": (b2.degr_mask_b1, b1.degraded_mask),
-    **{
-        f"speed {wheel}": (b2.wheel_speed_rpm[wheel], b1.wheel_speed_rpm[wheel])
-        for wheel in ("FL", "FR", "RL", "RR")
-    },
-}
-
-
-def _carried(pairs: Iterable[tuple[Var, Var]], accepted: Var, arrives: Var) -> Expr:
-    """Each field is as it was a step ago, or two; without a frame it stays."""
-    return all_of(*(
-        received == ite(
-            accepted,
-            ite(arrives == "newest", previous(sent), previous(previous(sent))),
-            previous(received),
-        )
-        for received, sent in pairs
-    ))  # fmt: skip
-
-
-PSY_23a = always(
-    "PSY-23a",
-    "A frame of Board 2 brings command, yaw, x_norm, y_norm, isMotionConsistent, both masks and both buttons "
-    "as they were when it was sent, and nothing else changes what Board 1 has of them.",
-    that=_carried(FROM_2.values(), b1.rx_update, arrives21),
-    covers=["B2-COM-04", "B2-FLT-02"], on="links", from_tick=3, readings=["E31"],
-)  # fmt: skip
-PSY_23b = always(
-    "PSY-23b",
-    "A frame of Board 1 brings both masks and the four speeds as they were when it was sent, and nothing "
-    "else changes what Board 2 has of them.",
-    that=_carried(FROM_1.values(), b2.rx_update, arrives12),
-    covers=["B1-MASK-01"], on="links", from_tick=3,
-)  # fmt: skip
-PSY_23c = always(
-    "PSY-23c", "An accepted frame replaces everything that Board 1 has of Board 2, and nothing else does.",
-    that=all_of(*(
-        received == ite(b1.rx_update, replace(received, name=f"frame_{received.name}"), previous(received))
-        for received, _ in FROM_2.values()
-    )),
-    covers=["B2-COM-04"], on="board1", from_tick=2, readings=["S31"],
-)  # fmt: skip
 
 # --- relay and actuation -------------------------------------------------------------------------
 

@@ -25,7 +25,7 @@ from tests.naive import search, vectors
 
 PROPERTIES = (LIT, QUIET, NIGHT, NEVER)
 PROVED = {"LIT": True, "QUIET": True, "NIGHT": True, "NEVER": False}
-PLAN = Plan({"lamps": lamps}, PROPERTIES, PROVED, dict[str, bool | None](PROVED))
+PLAN = Plan({"lamps": lamps}, PROPERTIES, dict[str, bool | None](PROVED), dict(PROVED))
 MUTANTS = mutants(lamps)
 
 
