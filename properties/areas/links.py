@@ -3,12 +3,14 @@
 Bits 2 and 7 of the masks follow the two statuses by PB1-10.
 """
 
-from properties.forms import always, holds_after, reachable
+from collections.abc import Iterator
+
+from properties.forms import Property, always, holds_after, reachable
 from spec_model.board1.heartbeat import monitor_heartbeat
 from spec_model.board1.reception import monitor_reception
-from spec_model.lang.expr import Expr, all_of, implies
+from spec_model.lang.expr import Expr, all_of, const, implies, ite
 from spec_model.lang.time import ms, ticks
-from spec_model.lang.words import previous
+from spec_model.lang.words import once, previous
 from spec_model.signals.board1 import (
     b2_sup_status,
     heartbeat_age,
@@ -88,6 +90,36 @@ PB1_32b = always(
     ),
     covers=["B1-RX-05"], on="heartbeat", from_tick=2, readings=["S34", "S37", "S38", "S39", "S41"],
 )  # fmt: skip
+
+
+def _ago(condition: Expr, steps: int) -> Expr:
+    return condition if steps == 0 else previous(_ago(condition, steps - 1))
+
+
+def _mean(id: str, what: str, update: Expr, slow: Expr, covers: str, on: str) -> Iterator[Property]:
+    """The mean of ten intervals is not above 40 ms iff ten updates lie in the 400 ms before the one now."""
+    ten_before = sum((ite(_ago(update, n), const(1), const(0)) for n in range(1, 21)), start=const(0)) >= 10
+    readings = ["S35", "S36", "S37", "S40"]
+    yield always(
+        f"{id}a", f"Ten {what} in the 400 ms before one leave the mean of their intervals at 40 ms at most.",
+        that=implies(update & ten_before, ~slow), covers=[covers], on=on, from_tick=2, readings=readings,
+    )  # fmt: skip
+    yield always(
+        f"{id}b",
+        f"Once ten {what} lay within 400 ms, the mean exceeds 40 ms at any one that has fewer before it.",
+        that=implies(update & ~ten_before & once(ten_before), slow),
+        covers=[covers], on=on, from_tick=2, readings=readings,
+    )  # fmt: skip
+    yield always(
+        f"{id}c", f"Between {what} the mean of their intervals stays as it is.",
+        that=implies(~update, slow == previous(slow)), covers=[covers], on=on, from_tick=2, readings=readings,
+    )  # fmt: skip
+
+
+PB1_35a, PB1_35b, PB1_35c = _mean("PB1-35", "frames", rx_update, rx_slow, "B1-RX-02", "reception_exact")
+PB1_36a, PB1_36b, PB1_36c = _mean(
+    "PB1-36", "heartbeats", heartbeat_update, heartbeat_slow, "B1-SUP-02", "heartbeat_exact"
+)
 
 REACH_RX_DEG = reachable(
     "REACH-RX-DEG", "The reception can be degraded.",

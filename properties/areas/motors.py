@@ -1,12 +1,12 @@
 """What must be true of the motor driver behind the relay: when the motors move, and when they stop."""
 
 from properties.forms import always, holds_after
-from spec_model.composition.motors import connected, followed, motors_zero
+from spec_model.composition.motors import board1_powered, connected, followed, motors_zero, runs_2
 from spec_model.lang.expr import any_of, implies
 from spec_model.lang.time import ticks
-from spec_model.lang.words import named
-from spec_model.signals.board1 import actuate_emergency_stop, omega_ref, v_ref
-from spec_model.signals.board2_supervisor import left_rpm, right_rpm, stop_pin
+from spec_model.lang.words import held, named, previous
+from spec_model.signals.board1 import actuate_emergency_stop, give_b2_actuation, omega_ref, v_ref
+from spec_model.signals.board2_supervisor import left_rpm, right_rpm, sends_speeds, stop_pin
 
 ON = "motors"
 zero_1 = (v_ref == 0) & (omega_ref == 0)
@@ -15,6 +15,7 @@ stopped = named(
     "the stop pin of the connected board stops",
     ((connected == "Board1") & actuate_emergency_stop) | ((connected == "Board2") & stop_pin),
 )
+drives_1 = board1_powered & ~give_b2_actuation
 
 PSY_22a = holds_after(
     "PSY-22a", "Without a motor command for 300 ms the motors are at rest.",
@@ -34,4 +35,23 @@ PSY_22c = always(
         (followed == "Board2") & (motors_zero == zero_2),
     ),
     covers=["B1-REL-01", "B2-ACT-01"], on=ON, readings=["E22"],
+)  # fmt: skip
+PSY_22d = always(
+    "PSY-22d", "Board 1 is followed exactly while it has power and keeps the relay closed.",
+    that=(followed == "Board1") == drives_1,
+    covers=["B1-REL-01", "B1-REL-03"], on=ON, readings=["E22", "S47"],
+)  # fmt: skip
+PSY_22e = always(
+    "PSY-22e",
+    "Board 2 is followed exactly while Board 1 does not drive, its supervisor executes and it sends speeds.",
+    that=(followed == "Board2") == (~drives_1 & runs_2 & sends_speeds),
+    covers=["B1-REL-01", "B2-ACT-01"], on=ON, readings=["E22", "S47"],
+)  # fmt: skip
+PSY_22f = always(
+    "PSY-22f", "Motors that turn go on for less than 300 ms without a command while no stop pin stops them.",
+    that=implies(
+        previous(~motors_zero) & (followed == "nobody") & ~held(followed == "nobody", 14 * ticks) & ~stopped,
+        ~motors_zero,
+    ),
+    covers=["B1-REL-05", "B2-ACT-01"], on=ON, from_tick=2, readings=["E22"],
 )  # fmt: skip

@@ -4,7 +4,7 @@ from properties.document.causes import critical, degraded
 from properties.forms import always, holds_after, reachable, responds
 from spec_model.board1.safety import safety_state
 from spec_model.lang.expr import all_of, implies
-from spec_model.lang.time import tick
+from spec_model.lang.time import tick, ticks
 from spec_model.lang.words import bit, named
 from spec_model.readings import choose
 from spec_model.signals.board1 import (
@@ -60,6 +60,12 @@ PB1_16g = always(
     "PB1-16g", "While Board 1 actuates, without any cause the safety state is OK in the same step.",
     that=implies(drives & ~critical & ~degraded, ~NOT_OK),
     covers=["B1-REF-07"], on=ON, from_tick=2, readings=["S55", "S56"],
+)  # fmt: skip
+PB1_16i = holds_after(
+    "PB1-16i",
+    "With a degraded cause of Board 2 in three successive steps of actuation the safety state is not OK.",
+    premise=named("degraded cause of Board 2 while Board 1 actuates", drives & b2_degraded), for_=2 * ticks,
+    then=NOT_OK, covers=["B1-REF-03", "B1-REF-07"], on=ON, from_tick=2, readings=["S55", "S56"],
 )  # fmt: skip
 
 bit_0, bit_1, bit_2, bit_3 = (bit(crit_mask_b2, i) for i in range(4))

@@ -1,0 +1,102 @@
+"""What must be true of running, rotation and stop of Board 2, state by state [seed §3.4.2, Fig 20]."""
+
+from properties.areas.board2_motion import at_rest, braking, drives, normal, rotating
+from properties.forms import always, enters_only_if, leaves_only_if
+from spec_model.lang.expr import all_of, implies, ite
+from spec_model.lang.words import absolute, previous
+from spec_model.signals.board2_motion import (
+    actuate_emergency_stop,
+    angle_err,
+    ay_norm,
+    backward_enabled,
+    bx_norm,
+    current_action,
+    invert_y,
+    is_rotating180,
+    omega_ref_actuation,
+    v_ref_actuation,
+)
+from spec_model.signals.board2_supervisor import rover_safety_state
+
+ON = "references_2"
+critical = rover_safety_state == "SAFETY_CRITICAL"
+as_pulled = ~invert_y & ~previous(invert_y)
+in_normal = drives & normal & previous(normal)
+back = (ay_norm < -0.5) & ~backward_enabled
+
+PB2_30a = always(
+    "PB2-30a", "The flag of the rotation is set in the rotation and nowhere else.",
+    that=is_rotating180 == rotating, covers=["B2-REF-01"], on=ON, readings=["S60"],
+)  # fmt: skip
+PB2_30b = enters_only_if(
+    "PB2-30b", "A rotation begins only for a stick pulled back beyond half, outside backward mode.",
+    entering=rotating, only_if=back & drives,
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59", "S60"],
+)  # fmt: skip
+PB2_30c = always(
+    "PB2-30c", "Normal running does not go on with a stick pulled back beyond half, outside backward mode.",
+    that=~(in_normal & back), covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59", "S60"],
+)  # fmt: skip
+PB2_30d = leaves_only_if(
+    "PB2-30d", "The rotation ends less than 7.5° from its target, or by a critical safety state.",
+    leaving=rotating, only_if=(absolute(previous(angle_err)) < 7.5) | critical,
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S60", "S61"],
+)  # fmt: skip
+PB2_30e = always(
+    "PB2-30e", "A rotation that was executed less than 7.5° from its target is over after the next step.",
+    that=implies(
+        drives & previous(drives & rotating & previous(rotating)) & (absolute(previous(angle_err)) < 7.5),
+        ~rotating,
+    ),
+    covers=["B2-REF-01"], on=ON, from_tick=3, readings=["S60"],
+)  # fmt: skip
+PB2_30f = enters_only_if(
+    "PB2-30f", "The stick changes its meaning only where a rotation ends with the stick pulled back.",
+    entering=invert_y, only_if=previous(rotating) & normal & (ay_norm < 0),
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+)  # fmt: skip
+PB2_30g = leaves_only_if(
+    "PB2-30g", "It keeps that meaning until the stick is no longer pulled back or the rover must stop.",
+    leaving=invert_y, only_if=(ay_norm >= 0) | braking | critical,
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+)  # fmt: skip
+PB2_30h = always(
+    "PB2-30h", "Where a rotation ends in normal running with the stick pulled back, its meaning changes.",
+    that=implies(drives & previous(rotating) & normal, invert_y == (ay_norm < 0)),
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+)  # fmt: skip
+PB2_31a = always(
+    "PB2-31a", "In normal running Board 2 moves at half of what the stick says, back only in backward mode.",
+    that=implies(
+        in_normal & as_pulled, v_ref_actuation == ite(backward_enabled | (ay_norm > 0), ay_norm * 0.5, 0)
+    ),
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+)  # fmt: skip
+PB2_31b = always(
+    "PB2-31b", "In normal running Board 2 turns at half of what the stick says.",
+    that=implies(in_normal, omega_ref_actuation == bx_norm * 0.5),
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+)  # fmt: skip
+PB2_31c = always(
+    "PB2-31c", "Outside backward mode normal running never moves the rover with the stick pulled back.",
+    that=implies(in_normal & (ay_norm < 0) & ~backward_enabled, v_ref_actuation == 0),
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+)  # fmt: skip
+PB2_32a = always(
+    "PB2-32a", "The current action of Board 2 is that of the state that is active.",
+    that=implies(
+        drives & previous(drives),
+        all_of(
+            implies(normal, current_action == "CMD_NORMAL"),
+            implies(rotating, current_action == "CMD_ROTATE_180"),
+            implies(braking, current_action == "CMD_ESTOP"),
+            implies(at_rest, current_action == "CMD_STOP"),
+        ),
+    ),
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S60"],
+)  # fmt: skip
+PB2_32b = always(
+    "PB2-32b", "Board 2 actuates the emergency stop in the stop procedure and nowhere else.",
+    that=implies(drives, actuate_emergency_stop == (braking | at_rest)),
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S62"],
+)  # fmt: skip
