@@ -1,9 +1,10 @@
 """What must be true of running, rotation and stop of Board 2, state by state [seed §3.4.2, Fig 20]."""
 
-from properties.areas.board2_motion import at_rest, braking, drives, normal, rotating
-from properties.forms import always, enters_only_if, leaves_only_if
+from properties.areas.board2_motion import EXECUTED, at_rest, braking, drives, normal, rotating
+from properties.forms import Property, always, enters_only_if, holds_after, leaves_only_if
 from spec_model.lang.expr import all_of, implies, ite
-from spec_model.lang.words import absolute, previous
+from spec_model.lang.time import ticks
+from spec_model.lang.words import absolute, held, once, previous
 from spec_model.signals.board2_motion import (
     actuate_emergency_stop,
     angle_err,
@@ -15,8 +16,9 @@ from spec_model.signals.board2_motion import (
     is_rotating180,
     omega_ref_actuation,
     v_ref_actuation,
+    wheels_below_2_5,
 )
-from spec_model.signals.board2_supervisor import rover_safety_state
+from spec_model.signals.board2_supervisor import rover_safety_state, rx_status
 
 ON = "references_2"
 critical = rover_safety_state == "SAFETY_CRITICAL"
@@ -99,4 +101,60 @@ PB2_32b = always(
     "PB2-32b", "Board 2 actuates the emergency stop in the stop procedure and nowhere else.",
     that=implies(drives, actuate_emergency_stop == (braking | at_rest)),
     covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S62"],
+)  # fmt: skip
+PB2_32c = always(
+    "PB2-32c", "Before Board 2 drives for the first time it stands, without stop, rotation or changed stick.",
+    that=implies(
+        ~once(drives),
+        all_of(
+            (v_ref_actuation == 0) & (omega_ref_actuation == 0), current_action == "CMD_NORMAL",
+            ~actuate_emergency_stop, ~is_rotating180, ~invert_y,
+        ),
+    ),
+    covers=["B2-REF-01"], on=ON,
+)  # fmt: skip
+PB2_32d = always(
+    "PB2-32d", "The stop procedure takes back what a pulled stick means.",
+    that=implies(drives & (braking | at_rest), ~invert_y),
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+)  # fmt: skip
+PB2_32e = always(
+    "PB2-32e", "A rover at rest runs again in the next step in which Board 2 drives and nothing is critical.",
+    that=implies(previous(at_rest) & drives & ~critical, ~at_rest),
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S62"],
+)  # fmt: skip
+
+
+def _rests(id: str, steps: int) -> Property:
+    stood = previous(held(braking & wheels_below_2_5, for_=(steps - 1) * ticks))
+    unheard = (rx_status == "RX_CRITICAL") & held(previous(braking), for_=99 * ticks)
+    return enters_only_if(
+        id,
+        f"Board 2 counts a stop as done only after {steps} successive executed steps of it with all wheels "
+        f"below 2.5 rpm, or after 2 s of it without reception.",
+        entering=at_rest, only_if=stood | unheard,
+        covers=["B2-REF-01"], on=EXECUTED, from_tick=2, readings=["S62"],
+    )  # fmt: skip
+
+
+PB2_32f, PB2_32h = _rests("PB2-32f", 51), _rests("PB2-32h", 50)
+PB2_32g = holds_after(
+    "PB2-32g", "Braking ends when the rover has stood for more than 1 s.",
+    premise=previous(braking) & previous(wheels_below_2_5), for_=53 * ticks, then=~braking,
+    covers=["B2-REF-01"], on=EXECUTED, from_tick=2, readings=["S62"],
+)  # fmt: skip
+PB2_31d = always(
+    "PB2-31d", "At 45° and less from its target the turning reference stays as it is.",
+    that=implies(
+        drives & rotating & previous(rotating) & (absolute(angle_err) <= 45),
+        omega_ref_actuation == previous(omega_ref_actuation),
+    ),
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S60", "S64"],
+)  # fmt: skip
+PB2_31e = always(
+    "PB2-31e", "In backward mode a stick that has changed its meaning and is pulled back moves forward.",
+    that=implies(
+        in_normal & invert_y & previous(invert_y) & backward_enabled, v_ref_actuation == ay_norm * -0.5
+    ),
+    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
 )  # fmt: skip

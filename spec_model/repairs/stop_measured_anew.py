@@ -1,19 +1,27 @@
-"""Motion: an emergency stop measures from its first step whether the wheels are at rest."""
+"""Motion of both boards: an emergency stop measures from its first step whether the wheels are at rest."""
+
+from collections.abc import Callable
 
 from spec_model.lang.action import assign
+from spec_model.lang.chart import Chart
 from spec_model.lang.edit import entry
+from spec_model.lang.expr import Var
 from spec_model.repairs import Repair
-from spec_model.signals.board1 import rover_is_stopped, wheels_below_2_5
+from spec_model.signals import board1, board2_motion
+
+
+def _measured(stopped: Var, below: Var) -> Callable[[Chart], Chart]:
+    return lambda chart: entry(
+        chart, "In_frenata_di_emergenza", lambda drawn: (*drawn, assign(stopped, below))
+    )
+
 
 measured_anew = Repair(
     name="stop-measured-anew",
     text="In_frenata_di_emergenza writes roverIsStopped on entry too, where an earlier stop left its own.",
-    fixes=("PB1-24b",),
+    fixes=("PB1-24b", "PB2-32f"),
     charts={
-        "Motion_Supervision": lambda chart: entry(
-            chart,
-            "In_frenata_di_emergenza",
-            lambda drawn: (*drawn, assign(rover_is_stopped, wheels_below_2_5)),
-        )
+        "Motion_Supervision": _measured(board1.rover_is_stopped, board1.wheels_below_2_5),
+        "Motion_Supervision_2": _measured(board2_motion.rover_is_stopped, board2_motion.wheels_below_2_5),
     },
 )
