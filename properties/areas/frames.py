@@ -11,7 +11,7 @@ from properties.forms import Property, always, reachable
 from spec_model.composition.motors import board1_powered, runs_1, runs_2
 from spec_model.composition.systems import arrives12, arrives21
 from spec_model.lang.expr import TRUE, Expr, Var, implies, ite
-from spec_model.lang.words import previous
+from spec_model.lang.words import once, previous
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2 as obstacles
 from spec_model.signals import board2_motion as motion
@@ -98,6 +98,35 @@ def _replaced() -> Iterator[Property]:
     PSY_23c_command, PSY_23c_yaw, PSY_23c_x, PSY_23c_y, PSY_23c_consistent,
     PSY_23c_critical, PSY_23c_degraded, PSY_23c_btn1, PSY_23c_btn2,
 ) = _replaced()  # fmt: skip
+
+# --- before the first frame ------------------------------------------------------------------------
+
+
+def _unheard(id: str, fields: Fields, accepted: Var, otherwise: Mapping[str, Expr]) -> Iterator[Property]:
+    """What a board takes for true of one that it has not heard yet: 0 where nothing else is said."""
+    for field, (received, _) in fields.items():
+        begins = otherwise[field] if field in otherwise else received == 0
+        yield always(
+            f"{id}-{_suffix(field)}", f"Until the first frame is accepted, {field} is as on power-up.",
+            that=implies(~once(accepted), begins), covers=["B2-COM-04"], on="links",
+        )  # fmt: skip
+
+
+(
+    PSY_26_B1_command, PSY_26_B1_yaw, PSY_26_B1_x, PSY_26_B1_y, PSY_26_B1_consistent,
+    PSY_26_B1_critical, PSY_26_B1_degraded, PSY_26_B1_btn1, PSY_26_B1_btn2,
+) = _unheard(
+    "PSY-26-B1", FROM_2, b1.rx_update,
+    {
+        "command": b1.cmd == "CMD_NORMAL",
+        "isMotionConsistent": b1.is_motion_consistent,
+        "btn1": ~b1.btn1,
+        "btn2": ~b1.btn2,
+    },
+)  # fmt: skip
+(
+    PSY_26_B2_critical, PSY_26_B2_degraded, PSY_26_B2_FL, PSY_26_B2_FR, PSY_26_B2_RL, PSY_26_B2_RR,
+) = _unheard("PSY-26-B2", FROM_1, b2.rx_update, {})  # fmt: skip
 
 # --- arrival and the alive counter ----------------------------------------------------------------
 

@@ -63,8 +63,8 @@ PB1_16g = always(
 )  # fmt: skip
 PB1_16i = holds_after(
     "PB1-16i",
-    "With a degraded cause of Board 2 in three successive steps of actuation the safety state is not OK.",
-    premise=named("degraded cause of Board 2 while Board 1 actuates", drives & b2_degraded), for_=2 * ticks,
+    "With a degraded cause in three successive steps of actuation the safety state is not OK in the third.",
+    premise=named("degraded cause while Board 1 actuates", drives & degraded), for_=2 * ticks,
     then=NOT_OK, covers=["B1-REF-03", "B1-REF-07"], on=ON, from_tick=2, readings=["S55", "S56"],
 )  # fmt: skip
 
