@@ -122,3 +122,14 @@ def test_survivors_are_readable_at_any_width(columns: int, tmp_path: Path) -> No
     seen = at_terminal(columns, *model(tmp_path, "~out | go")).seen
     assert too_long(seen, columns) == []
     assert "Nothing demands" in seen
+
+
+def test_one_part_alone_is_made_faulty(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([*LAMP, "--part", "Alarm", "--json"]) in (Exit.CHANGED, Exit.AS_EXPECTED, Exit.INCONCLUSIVE)
+    ids = [one["id"] for one in json.loads(capsys.readouterr().out)["mutants"]]
+    assert ids and all(id.startswith("Alarm/") for id in ids)
+
+
+def test_a_part_that_is_not_there_is_told_with_its_neighbours(capsys: pytest.CaptureFixture[str]) -> None:
+    assert run([*LAMP, "--part", "Alrm"]) is Exit.USAGE
+    assert "There is no chart or block 'Alrm'. Did you mean Alarm" in capsys.readouterr().err

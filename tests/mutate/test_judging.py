@@ -4,12 +4,15 @@ from functools import cache
 
 import pytest
 
+from checker.decide import decide
 from checker.engine import Limits, quiet
-from checker.mutate.asked import cones
+from checker.mutate.asked import as_it_is, cones
 from checker.mutate.judging import DOMAINS, Case, Fate, Judged, judged
+from checker.mutate.known_runs import run_of, still_reached
 from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.observing import observable
 from checker.mutate.planning import Plan, homes
+from checker.tasks import Task
 from properties.reduce import reduce
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block
@@ -156,4 +159,23 @@ def test_a_part_is_made_faulty_in_its_smallest_system() -> None:
         "lamps": ["Alarm"],
         "small": ["Lamp"],
     }
+    assert homes({"lamps": lamps, "small": small}, ["lamps", "small"], ["Alarm"])["small"] == []
     assert homes({"lamps": lamps, "small": small}, ["lamps"]) == {"lamps": ["Lamp", "Alarm"]}
+
+
+def test_runs_of_the_original_settle_only_what_a_search_finds_too() -> None:
+    """What a known run still reaches has the verdict of the original."""
+    results = decide(Task(as_it_is(lamps), PROPERTIES), {"lamps": lamps}, "auto", Limits(), quiet)
+    runs = {r.property.id: run for r in results if (run := run_of(r.verdict)) is not None}
+    assert runs and still_reached(lamps, PROPERTIES, runs) == runs.keys()
+    settled = 0
+    for mutant in MUTANTS:
+        try:
+            lower(mutant.system)
+        except ModelError:
+            continue
+        verdicts = proved(mutant.system)
+        for id in still_reached(mutant.system, PROPERTIES, runs):
+            settled += 1
+            assert verdicts[id] == PROVED[id], (mutant.id, id)
+    assert settled
