@@ -191,7 +191,7 @@ def _counter(
 PSY_24_B1 = _arrival("PSY-24-B1", "Board 1", b2.rx_update, arrives12, board1_powered, ["B2-COM-05"])
 PSY_24_B2 = _arrival("PSY-24-B2", "Board 2", b1.rx_update, arrives21, TRUE, ["B2-COM-05", "B1-RX-01"])
 PSY_25_B1a, PSY_25_B1b, PSY_25_B1c, PSY_25_B1d, PSY_25_B1e, REACH_SAME_COUNT_B1 = _counter(
-    "B1", "Board 1", b2.rx_update, arrives12, runs_1, b2.sup_update, ["B2-SUP-01"]
+    "B1", "Board 1", b2.rx_update, arrives12, runs_1, b2.sup_update, ["B2-FLT-01"]
 )
 PSY_25_B2a, PSY_25_B2b, PSY_25_B2c, PSY_25_B2d, PSY_25_B2e, REACH_SAME_COUNT_B2 = _counter(
     "B2", "Board 2", b1.rx_update, arrives21, runs_2, b1.heartbeat_update, ["B2-COM-06", "B1-SUP-01"]
