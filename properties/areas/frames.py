@@ -105,10 +105,10 @@ def _replaced() -> Iterator[Property]:
 def _unheard(id: str, fields: Fields, accepted: Var, otherwise: Mapping[str, Expr]) -> Iterator[Property]:
     """What a board takes for true of one that it has not heard yet: 0 where nothing else is said."""
     for field, (received, _) in fields.items():
-        begins = otherwise[field] if field in otherwise else received == 0
+        begins = otherwise.get(field)
         yield always(
             f"{id}-{_suffix(field)}", f"Until the first frame is accepted, {field} is as on power-up.",
-            that=implies(~once(accepted), begins), covers=["B2-COM-04"], on="links",
+            that=implies(~once(accepted), received == 0 if begins is None else begins), covers=["B2-COM-04"], on="links",
         )  # fmt: skip
 
 
