@@ -108,7 +108,8 @@ def _unheard(id: str, fields: Fields, accepted: Var, otherwise: Mapping[str, Exp
         begins = otherwise.get(field)
         yield always(
             f"{id}-{_suffix(field)}", f"Until the first frame is accepted, {field} is as on power-up.",
-            that=implies(~once(accepted), received == 0 if begins is None else begins), covers=["B2-COM-04"], on="links",
+            that=implies(~once(accepted), received == 0 if begins is None else begins),
+            covers=["B2-COM-04"], on="links",
         )  # fmt: skip
 
 
