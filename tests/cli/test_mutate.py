@@ -132,4 +132,4 @@ def test_one_part_alone_is_made_faulty(capsys: pytest.CaptureFixture[str]) -> No
 
 def test_a_part_that_is_not_there_is_told_with_its_neighbours(capsys: pytest.CaptureFixture[str]) -> None:
     assert run([*LAMP, "--part", "Alrm"]) is Exit.USAGE
-    assert "There is no chart or block 'Alrm'. Did you mean Alarm" in capsys.readouterr().err
+    assert "There is no chart or block 'Alrm'. Did you mean 'Alarm'?" in capsys.readouterr().err
