@@ -48,7 +48,7 @@ def _forward(state: str) -> Expr:
 def _moves(id: str, text: str, state: str, v: Expr, omega: Expr) -> Property:
     """The references of a healthy rover while a state is executed with the stick forward."""
     return always(
-        id, text, that=implies(_forward(state) & OK, (v_ref == v) & (omega_ref == omega)),
+        f"PB1-39{id}", text, that=implies(_forward(state) & OK, (v_ref == v) & (omega_ref == omega)),
         covers=["B1-ACT-01", "B1-REF-04"], on=ON, from_tick=2, readings=["S57", "S59", "S60"],
     )  # fmt: skip
 
@@ -67,15 +67,15 @@ PB1_38b = always(
     covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S62"],
 )  # fmt: skip
 PB1_39a = _moves(
-    "PB1-39a", "In normal running with the stick forward the healthy rover moves as the stick says.",
+    "a", "In normal running with the stick forward the healthy rover moves as the stick says.",
     "Normale_marcia", v=y_norm, omega=x_norm,
 )  # fmt: skip
 PB1_39b = _moves(
-    "PB1-39b", "Avoiding the left, the rover moves as the stick says, but does not turn to the left.",
+    "b", "Avoiding the left, the rover moves as the stick says, but does not turn to the left.",
     "Evita_sinistra", v=y_norm, omega=minimum(x_norm, 0),
 )  # fmt: skip
 PB1_39c = _moves(
-    "PB1-39c", "Avoiding the right, the rover moves as the stick says, but does not turn to the right.",
+    "c", "Avoiding the right, the rover moves as the stick says, but does not turn to the right.",
     "Evita_destra", v=y_norm, omega=maximum(x_norm, 0),
 )  # fmt: skip
 PB1_39d = always(
