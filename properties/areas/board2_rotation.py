@@ -85,7 +85,7 @@ PB2_31c = always(
     covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
 )  # fmt: skip
 PB2_32a = always(
-    "PB2-32a", "The current action of Board 2 is that of the state that is active.",
+    "PB2-32a", "From the second step in which Board 2 drives, its current action is that of its state.",
     that=implies(
         drives & previous(drives),
         all_of(

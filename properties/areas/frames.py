@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
 from properties.forms import Property, always, reachable
+from properties.past import ago
 from spec_model.composition.motors import board1_powered, runs_1, runs_2
 from spec_model.composition.systems import arrives12, arrives21
 from spec_model.lang.expr import TRUE, Expr, Var, implies, ite
@@ -17,6 +18,7 @@ from spec_model.signals import board2 as obstacles
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
 
+ON = "links"
 Fields = Mapping[str, tuple[Var, Var]]
 
 FROM_2: Fields = {
@@ -41,12 +43,6 @@ FROM_1: Fields = {
 }
 
 
-def _ago(value: Expr, steps: int) -> Expr:
-    for _ in range(steps):
-        value = previous(value)
-    return value
-
-
 def _suffix(field: str) -> str:
     return field.replace(" ", "-")
 
@@ -64,9 +60,9 @@ def _carried(
             f"A frame of {sender} brings {field} as it was when the frame was sent, and nothing else changes "
             f"what the other board has of it.",
             that=received == ite(
-                accepted, ite(arrives == "newest", _ago(sent, 1), _ago(sent, 2)), previous(received)
+                accepted, ite(arrives == "newest", ago(sent, 1), ago(sent, 2)), previous(received)
             ),
-            covers=covers.get(field, covers[""]), on="links", from_tick=3,
+            covers=covers.get(field, covers[""]), on=ON, from_tick=3,
             readings=["E31"] if field == "x_norm" else [],
         )  # fmt: skip
 
@@ -109,7 +105,7 @@ def _unheard(id: str, fields: Fields, accepted: Var, otherwise: Mapping[str, Exp
         yield always(
             f"{id}-{_suffix(field)}", f"Until the first frame is accepted, {field} is as on power-up.",
             that=implies(~once(accepted), received == 0 if begins is None else begins),
-            covers=["B2-COM-04"], on="links",
+            covers=["B2-COM-04"], on=ON,
         )  # fmt: skip
 
 
@@ -133,13 +129,13 @@ def _unheard(id: str, fields: Fields, accepted: Var, otherwise: Mapping[str, Exp
 
 
 def _arrival(id: str, sender: str, accepted: Var, arrives: Var, sends: Expr, covers: list[str]) -> Property:
-    older_is_new = _ago(sends, 2) & ~previous(accepted & (arrives == "newest"))
+    older_is_new = ago(sends, 2) & ~previous(accepted & (arrives == "newest"))
     return always(
         id,
         f"A frame of {sender} is accepted if and only if one arrives that was sent in the step before, or in "
         f"the step before that and was not seen since.",
         that=accepted == ((arrives == "newest") & previous(sends) | (arrives == "older") & older_is_new),
-        covers=covers, on="links", from_tick=3,
+        covers=covers, on=ON, from_tick=3,
     )  # fmt: skip
 
 
@@ -148,44 +144,44 @@ def _counter(
 ) -> Iterator[Property]:
     """What a changed alive counter means; the frame that was built last holds all executions before it."""
     newest, older = accepted & (arrives == "newest"), accepted & (arrives == "older")
-    on = "links"
     yield always(
         f"PSY-25-{id}a", f"Without an accepted frame of {sender} its alive counter does not change.",
-        that=implies(changed, accepted), covers=covers, on=on,
+        that=implies(changed, accepted), covers=covers, on=ON,
     )  # fmt: skip
     yield always(
         f"PSY-25-{id}b",
         f"An accepted frame that was built just after the supervisor of {sender} executed has another count.",
-        that=implies(newest & _ago(executed, 1) | older & _ago(executed, 2), changed),
-        covers=covers, on=on, from_tick=3,
+        that=implies(newest & ago(executed, 1) | older & ago(executed, 2), changed),
+        covers=covers, on=ON, from_tick=3,
     )  # fmt: skip
     yield always(
         f"PSY-25-{id}c",
         f"Of two frames of {sender} accepted in a row the second has the same count if the supervisor did "
         f"not execute in the two steps before.",
-        that=implies(accepted & previous(accepted) & ~_ago(executed, 1) & ~_ago(executed, 2), ~changed),
-        covers=covers, on=on, from_tick=3,
+        that=implies(accepted & previous(accepted) & ~ago(executed, 1) & ~ago(executed, 2), ~changed),
+        covers=covers, on=ON, from_tick=3,
     )  # fmt: skip
-    lost = ~_ago(accepted, 1) & ~_ago(accepted, 2) & ~_ago(accepted, 3)
+    lost = ~ago(accepted, 1) & ~ago(accepted, 2) & ~ago(accepted, 3)
     yield always(
         f"PSY-25-{id}d",
         f"After three steps without a frame of {sender} an accepted one has another count if the supervisor "
         f"executed before them.",
-        that=implies(accepted & lost & _ago(executed, 4), changed), covers=covers, on=on, from_tick=5,
+        that=implies(accepted & lost & ago(executed, 4), changed), covers=covers, on=ON, from_tick=5,
     )  # fmt: skip
     yield always(
         f"PSY-25-{id}e",
-        f"Once a frame of {sender} was accepted, the count stays as long as the supervisor does not execute.",
+        f"A frame of {sender} that comes three steps after another, without an execution of the supervisor "
+        f"in those steps, has the same count.",
         that=implies(
-            accepted & _ago(newest, 3)
-            & ~_ago(executed, 1) & ~_ago(executed, 2) & ~_ago(executed, 3),
+            accepted & ago(newest, 3)
+            & ~ago(executed, 1) & ~ago(executed, 2) & ~ago(executed, 3),
             ~changed,
         ),
-        covers=covers, on=on, from_tick=4,
+        covers=covers, on=ON, from_tick=4,
     )  # fmt: skip
     yield reachable(
         f"REACH-SAME-COUNT-{id}", f"A frame of {sender} is accepted whose count has not changed.",
-        that=accepted & ~changed, covers=covers, on=on,
+        that=accepted & ~changed, covers=covers, on=ON,
     )  # fmt: skip
 
 

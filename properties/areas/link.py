@@ -1,17 +1,13 @@
 """What must be true of the link: which frames are accepted, and what the alive counter tells."""
 
 from properties.forms import always, reachable
+from properties.past import ago
 from spec_model.composition import counters, receiver
-from spec_model.lang.expr import Expr, implies, ite
+from spec_model.lang.expr import implies, ite
 from spec_model.lang.words import modulo, previous
 
 FRAME, MODULUS = 6, 16
 """Bytes of a frame and range of the alive counter, both as small as the model of the link has them."""
-
-
-def _ago(condition: Expr, count: int) -> Expr:
-    """The condition ``count`` ticks ago."""
-    return condition if count == 0 else previous(_ago(condition, count - 1))
 
 
 PSY_16a = always(
@@ -33,7 +29,7 @@ PSY_16c = always(
 )  # fmt: skip
 REACH_RECEIVER_ACCEPTS = reachable(
     "REACH-RECEIVER-ACCEPTS", "Two frames can be accepted one directly after the other.",
-    that=receiver.accepted & _ago(receiver.accepted, FRAME),
+    that=receiver.accepted & ago(receiver.accepted, FRAME),
     covers=["B2-COM-03"], on="receiver",
 )  # fmt: skip
 PSY_21a = always(

@@ -6,11 +6,12 @@ Bits 2 and 7 of the masks follow the two statuses by PB1-10.
 from collections.abc import Iterator
 
 from properties.forms import Property, always, holds_after, reachable
+from properties.past import ago, at_least
 from spec_model.board1.heartbeat import monitor_heartbeat
 from spec_model.board1.reception import monitor_reception
 from spec_model.lang.expr import Expr, all_of, const, implies, ite
 from spec_model.lang.time import ms, ticks
-from spec_model.lang.words import once, previous
+from spec_model.lang.words import previous
 from spec_model.signals.board1 import (
     b2_sup_status,
     heartbeat_age,
@@ -92,25 +93,15 @@ PB1_32b = always(
 )  # fmt: skip
 
 
-def _ago(condition: Expr, steps: int) -> Expr:
-    return condition if steps == 0 else previous(_ago(condition, steps - 1))
-
-
-def _at_least(count: int, condition: Expr) -> Expr:
-    """The condition was true in at least so many steps, this one included."""
-    again = condition if count == 1 else condition & previous(_at_least(count - 1, condition))
-    return once(again)
-
-
 def _mean(id: str, what: str, update: Expr, slow: Expr, covers: str, on: str) -> Iterator[Property]:
     """The mean of ten intervals is not above 40 ms iff ten updates lie in the 400 ms before the one now."""
-    ten_before = sum((ite(_ago(update, n), const(1), const(0)) for n in range(1, 21)), start=const(0)) >= 10
+    ten_before = sum((ite(ago(update, n), const(1), const(0)) for n in range(1, 21)), start=const(0)) >= 10
     readings = ["S35", "S36", "S37", "S40"]
     yield always(
         f"{id}a", f"Ten {what} in the 400 ms before one leave the mean of their intervals at 40 ms at most.",
         that=implies(update & ten_before, ~slow), covers=[covers], on=on, from_tick=2, readings=readings,
     )  # fmt: skip
-    eleven = _at_least(11, update)
+    eleven = at_least(11, update)
     yield always(
         f"{id}b",
         f"From the eleventh on, the mean exceeds 40 ms at any of the {what} that has fewer before it.",
@@ -118,19 +109,19 @@ def _mean(id: str, what: str, update: Expr, slow: Expr, covers: str, on: str) ->
         covers=[covers], on=on, from_tick=2, readings=readings,
     )  # fmt: skip
     yield always(
-        f"{id}d", f"Before the eleventh of the {what} there is no mean of ten intervals to be too long.",
+        f"{id}c", f"Before the eleventh of the {what} there is no mean of ten intervals to be too long.",
         that=implies(slow, eleven), covers=[covers], on=on, readings=readings,
     )  # fmt: skip
     yield always(
-        f"{id}c", f"Between {what} the mean of their intervals stays as it is.",
+        f"{id}d", f"Between {what} the mean of their intervals stays as it is.",
         that=implies(~update, slow == previous(slow)), covers=[covers], on=on, from_tick=2, readings=readings,
     )  # fmt: skip
 
 
-PB1_35a, PB1_35b, PB1_35d, PB1_35c = _mean(
+PB1_35a, PB1_35b, PB1_35c, PB1_35d = _mean(
     "PB1-35", "frames", rx_update, rx_slow, "B1-RX-02", "reception_exact"
 )
-PB1_36a, PB1_36b, PB1_36d, PB1_36c = _mean(
+PB1_36a, PB1_36b, PB1_36c, PB1_36d = _mean(
     "PB1-36", "heartbeats", heartbeat_update, heartbeat_slow, "B1-SUP-02", "heartbeat_exact"
 )
 

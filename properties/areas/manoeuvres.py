@@ -54,7 +54,7 @@ def _moves(id: str, text: str, state: str, v: Expr, omega: Expr) -> Property:
 
 
 PB1_38 = always(
-    "PB1-38", "The current action is that of the state that is active.",
+    "PB1-38", "From the second step in which Board 1 drives, its current action is that of its state.",
     that=implies(
         drives & previous(drives),
         all_of(*(implies(motion_supervision.active(s), current_action == a) for s, a in ACTIONS.items())),
@@ -86,7 +86,7 @@ PB1_39d = always(
     covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
 )  # fmt: skip
 PB1_39e = always(
-    "PB1-39e", "A manoeuvre begins only from normal running, by its command, with the stick forward.",
+    "PB1-39e", "A manoeuvre begins only from normal running, by its command.",
     that=all_of(*(
         implies(
             motion_supervision.active(state) & ~previous(motion_supervision.active(state)),
@@ -108,22 +108,14 @@ PB1_39f = always(
     covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
 )  # fmt: skip
 PB1_39g = always(
-    "PB1-39g", "In normal running with the stick back outside backward mode the rover does not move.",
-    that=implies(
-        _during("Normale_marcia") & ~backward_enabled & ~invert_y & ~previous(invert_y) & (y_norm <= 0),
-        v_ref == 0,
-    ),
-    covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
-)  # fmt: skip
-PB1_39h = always(
-    "PB1-39h", "In backward mode the healthy rover follows the stick forward and back.",
+    "PB1-39g", "In backward mode the healthy rover follows the stick forward and back.",
     that=implies(
         _during("Normale_marcia") & backward_enabled & ~invert_y & ~previous(invert_y) & OK, v_ref == y_norm
     ),
     covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
 )  # fmt: skip
-PB1_39i = always(
-    "PB1-39i", "A rover that is degraded for a second step runs at half of what the stick says.",
+PB1_39h = always(
+    "PB1-39h", "A rover that is degraded for a second step runs at half of what the stick says.",
     that=implies(
         _forward("Normale_marcia") & DEGRADED & previous(DEGRADED),
         v_ref == choose("S57", {"SCALE": y_norm * 0.5, "CLIP": minimum(y_norm, 0.5)}),
