@@ -19,7 +19,11 @@ from checker.cache.telling import Refused, Taken, anew, heard, tell
 ENDING = ".o"
 MOST_BYTES = 256 << 20
 """Bytes of all entries together; beyond that the longest unused are removed, down to three quarters."""
+SELDOM = 128
+"""A process looks through the folder again when it has written the 128th part of that: there may be many."""
 
+_unseen: list[int] = []
+"""The sizes of what this process has written since it looked; nothing before it has."""
 _SEAL = 32
 _LABEL = b"rovercheck cache 2\0"
 """What the secret is used for: nothing else that is sealed with it can pass for an entry."""
@@ -71,7 +75,7 @@ def write(name: str, contents: bytes) -> None:
         except OSError:
             os.unlink(part)
             raise
-        _shrink(folder)
+        _written(folder, len(whole))
     except Unsafe as unsafe:
         tell(Refused(str(unsafe)))
     except OSError:
@@ -101,6 +105,15 @@ def _seal(name: str, contents: bytes | memoryview, key: bytes) -> bytes:
     seal = hmac.new(key, b"%b%d\0%b" % (_LABEL, len(written), written), "sha256")
     seal.update(contents)
     return seal.digest()
+
+
+def _written(folder: Path, size: int) -> None:
+    """Look for too much at the first entry that this process writes, and whenever some more is written."""
+    first = not _unseen
+    _unseen.append(size)
+    if first or sum(_unseen) > MOST_BYTES // SELDOM:
+        _unseen[:] = [0]
+        _shrink(folder)
 
 
 def _shrink(folder: Path) -> None:

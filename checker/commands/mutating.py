@@ -18,7 +18,7 @@ from checker.model import Model
 from checker.mutate.asked import as_it_is
 from checker.mutate.judging import Fate, Judged
 from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.planning import Plan, Planned, homes
+from checker.mutate.planning import Plan, Planned, homes, rounds
 from checker.mutate.running import Doing, Told, fates
 from checker.printable import json_text
 from properties.forms import Property, Reachable, Unbounded
@@ -121,7 +121,7 @@ def _judged(
     first = [plan.own(mutant, name) for name, mutant in todo]
     survived: dict[str, Judged] = {}
     try:
-        for told in _told(first, limits, wanted.jobs, {}):
+        for told in _told(plan, first, limits, wanted.jobs, {}):
             if told.judged.fate is Fate.SURVIVOR and not wanted.alone:
                 survived[told.mutant.id] = told.judged
             else:
@@ -136,8 +136,7 @@ def _judged(
             asked = {p.id: p for one in again for case in one.cases for p in case.properties}
             with_runs = [p for p in asked.values() if p.id not in plan.proved and _has_run(plan, p)]
             _decide(plan, with_runs, limits, wanted.jobs)
-            again = [plan.with_runs(one) for one in again]
-        for told in _told(again, limits, wanted.jobs, survived):
+        for told in _told(plan, again, limits, wanted.jobs, survived):
             survived.pop(told.mutant.id)
             found.told.append((at[told.mutant.id], told.mutant, told.judged))
     except KeyboardInterrupt:
@@ -171,21 +170,25 @@ def _decide(plan: Plan, asked: Sequence[Property], limits: Limits, jobs: int | N
 
 
 def _told(
+    plan: Plan,
     planned: Sequence[Planned],
     limits: Limits,
     jobs: int | None,
     before: Mapping[str, Judged],
 ) -> Generator[Told, None, None]:
-    """The fates of mutants, while it is said what is being done."""
-    heard = fates(planned, limits, jobs, before)
-    with Watch(err, len(planned)) as watch, closing(heard):
-        for one in heard:
-            match one:
-                case Doing(mutant, line):
-                    watch.say(mutant.id, line)
-                case Told():
-                    watch.finished(one.mutant.id)
-                    yield one
+    """The fates of mutants, round by round, while it is said what is being done."""
+    with Watch(err, len(planned)) as watch:
+        for some in rounds(planned):
+            heard = fates([plan.with_runs(one) for one in some], limits, jobs, before)
+            with closing(heard):
+                for one in heard:
+                    match one:
+                        case Doing(mutant, line):
+                            watch.say(mutant.id, line)
+                        case Told():
+                            watch.finished(one.mutant.id)
+                            plan.kills(one.judged)
+                            yield one
 
 
 __all__ = ["Found", "Wanted", "mutate"]

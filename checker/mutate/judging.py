@@ -8,7 +8,7 @@ from time import monotonic
 from checker.decide import decide
 from checker.engine import AUTO, Limits, Progress
 from checker.lowered import lowered
-from checker.mutate.known_runs import still_reached
+from checker.mutate.known_runs import reached, run_of
 from checker.mutate.observing import Difference, difference, observable
 from checker.mutate.product import product, same
 from checker.portfolio import Question, Told, answers
@@ -17,7 +17,7 @@ from checker.runs.domains import LeavesDomain
 from checker.tasks import Task, tasks
 from checker.trace import Trace
 from checker.verdict import Open, Proved, Reached, Run, Unknown, Unreachable, Violated
-from properties.forms import Property
+from properties.forms import Property, Reachable
 from spec_model.lang.errors import ModelError
 from spec_model.lang.lower import lower
 from spec_model.lang.system import System
@@ -58,6 +58,8 @@ class Judged:
     asked: int = 0
     open: int = 0
     difference: Difference | None = None
+    run: Run | None = None
+    """The run that violates ``killer``, to be tried on other mutants."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +67,8 @@ class Case:
     """A mutant in one system, with the properties to ask and whether each is proved of the original.
 
     ``sure``: that was found out, and not only read from a record.  ``named`` are the variables that
-    properties of the system speak of, ``runs`` what is known to reach the goals of some in the original.
+    properties of the system speak of, ``runs`` what is known to reach the goals of some in the original,
+    ``killers`` what kills other mutants.
     """
 
     original: System
@@ -76,6 +79,11 @@ class Case:
     sure: bool = True
     named: frozenset[str] = frozenset()
     runs: Mapping[str, Run] = field(default_factory=dict)
+    killers: Sequence[Run] = ()
+
+    def settled(self, prop: Property) -> bool:
+        """Whether the verdict on the original rests on a run to the goal, as it then does on the mutant."""
+        return self.proved[prop.id] is isinstance(prop.form, Reachable)
 
 
 def judged(cases: Sequence[Case], limits: Limits, progress: Progress, before: Judged | None = None) -> Judged:
@@ -124,9 +132,15 @@ class _Hunt:
         self.on = cases[0].mutant.name
         self.gone: Judged | None = None
         self.open: list[str] = []
+        self._still: dict[str, set[str]] = {}
 
     def killed(self) -> Judged | None:
-        """The mutant killed by the first property that notices it, if one does."""
+        """The mutant killed by the first property that notices it, if one does; known runs come first."""
+        for case in self._cases:
+            self.on = case.mutant.name
+            judged = self._tried(case)
+            if judged is not None:
+                return judged
         for case, task in self._tasks():
             self.on = task.system.name
             for result in self._decided(task):
@@ -137,11 +151,24 @@ class _Hunt:
                 self.gone = self.gone or judged
         return None
 
+    def _tried(self, case: Case) -> Judged | None:
+        """The mutant killed by a run that is known, if one does; what runs settle otherwise is kept."""
+        ran = reached(case.mutant, case.properties, (*case.killers, *case.runs.values()))
+        still = self._still.setdefault(case.mutant.name, set())
+        for prop in [p for p in case.properties if p.id in ran]:
+            if case.settled(prop):
+                still.add(prop.id)
+            elif not isinstance(prop.form, Reachable) and self._confirmed(case, prop):
+                run, asked = ran[prop.id], self.asked + len(still) + 1
+                ticks = len(run.inputs)
+                return Judged(Fate.KILLED, prop.id, case.mutant.name, ticks, asked=asked, run=run)
+        self.asked += len(still)
+        return None
+
     def _tasks(self) -> Iterator[tuple[Case, Task]]:
         for case in self._cases:
             self.on = case.mutant.name
-            still = still_reached(case.mutant, case.properties, case.runs)
-            self.asked += len(still)
+            still = self._still[case.mutant.name]
             place = {p.id: number for number, p in enumerate(case.properties) if p.id not in still}
             left = [p for p in case.properties if p.id in place]
             found = tasks(left, {case.mutant.name: case.mutant})
@@ -166,7 +193,8 @@ class _Hunt:
         fate = Fate.KILLED if isinstance(verdict, Violated) else Fate.NOTICED
         run = verdict.because if isinstance(verdict.because, Trace) else None
         ticks, shortest = (None, False) if run is None else (len(run), run.shortest)
-        return Judged(fate, prop.id, case.mutant.name, ticks, shortest, asked=self.asked)
+        asked, known = self.asked, run_of(verdict)
+        return Judged(fate, prop.id, case.mutant.name, ticks, shortest, asked=asked, run=known)
 
     def _confirmed(self, case: Case, prop: Property) -> bool:
         """Whether the verdict on the original is as it is on record."""

@@ -1,4 +1,4 @@
-"""Runs of the original, tried on a mutant: what they still reach needs no search."""
+"""Runs that are known, tried on a mutant: what they reach needs no search."""
 
 from collections.abc import Mapping, Sequence
 
@@ -20,35 +20,38 @@ def run_of(verdict: Verdict) -> Run | None:
     return None
 
 
-def still_reached(mutant: System, properties: Sequence[Property], runs: Mapping[str, Run]) -> frozenset[str]:
-    """The ids of the properties whose verdict a run of the original settles for the mutant, too.
+def reached(mutant: System, properties: Sequence[Property], runs: Sequence[Run]) -> dict[str, Run]:
+    """Of the properties that some of the runs violate, or reach, on the mutant: the run up to there, by id.
 
-    Each is violated, or reached, by the same inputs.  Nothing is said of the others.
+    A run is tried only while there is something left to be found.  Nothing is said of the other properties.
     """
-    asked = [p for p in properties if p.id in runs and not isinstance(p.form, Unbounded)]
-    question = reduce(lowered(mutant), asked) if asked else None
-    found: set[str] = set()
-    for prop in asked:
-        if prop.id not in found and question is not None:
-            found |= _reached(question, runs[prop.id])
-    return frozenset(found)
+    asked = [p for p in properties if not isinstance(p.form, Unbounded)]
+    question = reduce(lowered(mutant), asked) if asked and runs else None
+    found: dict[str, Run] = {}
+    for run in runs:
+        if question is not None and len(found) < len(asked):
+            for id, ticks in _reached(question, run).items():
+                found.setdefault(id, Run(run.frozen, run.inputs[:ticks]))
+    return found
 
 
-def _reached(question: Question, run: Run) -> set[str]:
-    """The properties whose goals a run reaches; none after a tick that the mutant does not have."""
-    system, found = question.system, set[str]()
+def _reached(question: Question, run: Run) -> dict[str, int]:
+    """The properties whose goals a run reaches, after how many ticks; none after one that is impossible."""
+    system, found = question.system, dict[str, int]()
     begins = {v.name: v.init for v in (*system.inputs, *system.frozen)}
     at: Mapping[str, int] = {**begins, **system.init, **run.frozen}
-    for tick in run.inputs:
+    for number, tick in enumerate(run.inputs, start=1):
         inputs = {v.name: tick.get(v.name, v.init) for v in system.inputs}
         if not admissible(system, at, inputs):
             break
         after = step(system, at, inputs)
         if not stayed(system, after):
             break
-        found |= {goal.property.id for goal in question.goals if after[goal.var.name]}
+        for goal in question.goals:
+            if after[goal.var.name]:
+                found.setdefault(goal.property.id, number)
         at = {n: v for n, v in after.items() if n not in inputs}
     return found
 
 
-__all__ = ["run_of", "still_reached"]
+__all__ = ["reached", "run_of"]

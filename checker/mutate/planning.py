@@ -1,10 +1,10 @@
 """Which mutants are made, and which properties are asked about each, in which systems."""
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from checker.mutate.asked import Cone, as_it_is, concerned, cones
-from checker.mutate.judging import Case
+from checker.mutate.judging import Case, Fate, Judged
 from checker.mutate.known_runs import run_of
 from checker.mutate.mutants import Mutant, mutants
 from checker.result import Result
@@ -13,6 +13,12 @@ from properties.forms import Property, formulas
 from spec_model.lang.chart import parts
 from spec_model.lang.system import System
 from spec_model.lang.walk import variables
+
+KILLERS = 3
+"""Runs kept of each property that kills mutants of a system."""
+
+ROUNDS = (16, 4, 1)
+"""Every 16th mutant is judged first, then every 4th of the others, then what is left."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +34,8 @@ class Plan:
     """What is known of systems and properties.
 
     ``recorded`` tells of a property whether it is proved, as far as that is on record, None if it is neither
-    proved nor violated; ``proved`` and ``runs`` hold what was found out of the originals.
+    proved nor violated; ``proved`` and ``runs`` hold what was found out of the originals, ``killers`` the
+    runs that kill mutants of a system, by property.
     """
 
     systems: Mapping[str, System]
@@ -36,6 +43,7 @@ class Plan:
     recorded: Mapping[str, bool | None]
     proved: dict[str, bool] = field(default_factory=dict)
     runs: dict[str, Run] = field(default_factory=dict)
+    killers: dict[str, dict[str, list[Run]]] = field(default_factory=dict)
     _cones: dict[str, list[Cone]] = field(default_factory=dict)
     _mutants: dict[tuple[str, str], dict[str, Mutant]] = field(default_factory=dict)
 
@@ -45,6 +53,13 @@ class Plan:
             self.proved[result.property.id] = isinstance(result.verdict, Proved)
         if (run := run_of(result.verdict)) is not None:
             self.runs[result.property.id] = run
+
+    def kills(self, judged: Judged) -> None:
+        """Keep the run that kills a mutant, unless enough are known that violate the same."""
+        if judged.fate is Fate.KILLED and judged.run is not None:
+            known = self.killers.setdefault(judged.on, {}).setdefault(judged.killer, [])
+            if len(known) < KILLERS and judged.run not in known:
+                known.append(judged.run)
 
     def own(self, mutant: Mutant, name: str) -> Planned:
         """The mutant of the system of that name, in this system."""
@@ -66,10 +81,17 @@ class Plan:
 
     def with_runs(self, planned: Planned) -> Planned:
         """The same with the runs that are known by now."""
-        return replace(planned, cases=tuple(replace(c, runs=self._runs(c.properties)) for c in planned.cases))
+        cases = (
+            replace(c, runs=self._runs(c.properties), killers=self._killers(c.original.name))
+            for c in planned.cases
+        )
+        return replace(planned, cases=tuple(cases))
 
     def _runs(self, properties: Sequence[Property]) -> dict[str, Run]:
         return {p.id: self.runs[p.id] for p in properties if p.id in self.runs}
+
+    def _killers(self, name: str) -> tuple[Run, ...]:
+        return tuple(run for runs in self.killers.get(name, {}).values() for run in runs)
 
     def _case(self, mutant: Mutant, name: str, sure: bool) -> Case:
         original = as_it_is(self.systems[name])
@@ -101,6 +123,15 @@ class Plan:
         return self._mutants[name, part]
 
 
+def rounds(planned: Sequence[Planned]) -> Iterator[Sequence[Planned]]:
+    """A few from everywhere first: what kills them is tried on the next ones before anything is searched."""
+    left = list(planned)
+    for every in ROUNDS:
+        if left:
+            yield left[::every]
+            left = [one for number, one in enumerate(left) if number % every]
+
+
 def homes(
     systems: Mapping[str, System], among: Collection[str], wanted: Collection[str] | None = None
 ) -> dict[str, list[str]]:
@@ -117,4 +148,4 @@ def homes(
     return {name: [part for part, at in home.items() if at == name] for name in among}
 
 
-__all__ = ["Plan", "Planned", "homes"]
+__all__ = ["Plan", "Planned", "homes", "rounds"]
