@@ -68,7 +68,7 @@ class Case:
 
     ``sure``: that was found out, and not only read from a record.  ``named`` are the variables that
     properties of the system speak of, ``runs`` what is known to reach the goals of some in the original,
-    ``killers`` what kills other mutants.
+    ``killers`` what kills other mutants, ``engines`` what proved a property of the original.
     """
 
     original: System
@@ -80,6 +80,7 @@ class Case:
     named: frozenset[str] = frozenset()
     runs: Mapping[str, Run] = field(default_factory=dict)
     killers: Sequence[Run] = ()
+    engines: Mapping[str, str] = field(default_factory=dict)
 
     def settled(self, prop: Property) -> bool:
         """Whether the verdict on the original rests on a run to the goal, as it then does on the mutant."""
@@ -143,7 +144,7 @@ class _Hunt:
                 return judged
         for case, task in self._tasks():
             self.on = task.system.name
-            for result in self._decided(task):
+            for result in self._found(case, task):
                 self.asked += not isinstance(result.verdict, Unknown)
                 judged = self._judged(case, result)
                 if judged is not None and judged.fate is Fate.KILLED:
@@ -175,12 +176,29 @@ class _Hunt:
             for task in sorted(found, key=lambda t: min(place[p.id] for p in t.properties)):
                 yield case, task
 
-    def _decided(self, task: Task) -> Iterator[Result]:
+    def _found(self, case: Case, task: Task) -> Iterator[Result]:
+        """Each verdict, by the engine that proved it of the original if it decides the mutant, too."""
+        by: dict[str, list[Property]] = {}
+        for prop in task.properties:
+            by.setdefault(case.engines.get(prop.id, AUTO), []).append(prop)
+        for engine, properties in by.items():
+            left = []
+            for result in self._decided(Task(task.system, tuple(properties)), engine):
+                if engine != AUTO and isinstance(result.verdict, Unknown):
+                    left.append(result.property)
+                else:
+                    yield result
+            if left:
+                yield from self._decided(Task(task.system, tuple(left)))
+
+    def _decided(self, task: Task, engine: str = AUTO) -> Iterator[Result]:
         deadline = self._deadline
         if deadline is not None:
             deadline = monotonic() + SHARE * max(0.0, deadline - monotonic())
         limits = self._limits.until(deadline)
-        yield from decide(task, {task.system.name: task.system}, AUTO, limits, self._progress, None, deadline)
+        yield from decide(
+            task, {task.system.name: task.system}, engine, limits, self._progress, None, deadline
+        )
 
     def _judged(self, case: Case, result: Result) -> Judged | None:
         """What one verdict means: a kill, a finding that is gone, or nothing."""

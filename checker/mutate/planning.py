@@ -14,6 +14,9 @@ from spec_model.lang.chart import parts
 from spec_model.lang.system import System
 from spec_model.lang.walk import variables
 
+PROVERS = ("kinduction", "pdr")
+"""Engines that also look for short runs as they look for a proof: what they proved of the original, they are
+asked about a mutant at once."""
 KILLERS = 3
 """Runs kept of each property that kills mutants of a system."""
 
@@ -35,7 +38,7 @@ class Plan:
 
     ``recorded`` tells of a property whether it is proved, as far as that is on record, None if it is neither
     proved nor violated; ``proved`` and ``runs`` hold what was found out of the originals, ``killers`` the
-    runs that kill mutants of a system, by property.
+    runs that kill mutants of a system, by property, and ``engines`` what proved a property of the original.
     """
 
     systems: Mapping[str, System]
@@ -44,6 +47,7 @@ class Plan:
     proved: dict[str, bool] = field(default_factory=dict)
     runs: dict[str, Run] = field(default_factory=dict)
     killers: dict[str, dict[str, list[Run]]] = field(default_factory=dict)
+    engines: dict[str, str] = field(default_factory=dict)
     _cones: dict[str, list[Cone]] = field(default_factory=dict)
     _mutants: dict[tuple[str, str], dict[str, Mutant]] = field(default_factory=dict)
 
@@ -51,6 +55,8 @@ class Plan:
         """Keep a verdict on an original, and the run that it rests on."""
         if not isinstance(result.verdict, Unknown):
             self.proved[result.property.id] = isinstance(result.verdict, Proved)
+        if isinstance(result.verdict, Proved) and result.verdict.engine in PROVERS:
+            self.engines[result.property.id] = result.verdict.engine
         if (run := run_of(result.verdict)) is not None:
             self.runs[result.property.id] = run
 
@@ -82,13 +88,21 @@ class Plan:
     def with_runs(self, planned: Planned) -> Planned:
         """The same with the runs that are known by now."""
         cases = (
-            replace(c, runs=self._runs(c.properties), killers=self._killers(c.original.name))
+            replace(
+                c,
+                runs=self._runs(c.properties),
+                killers=self._killers(c.original.name),
+                engines=self._engines(c.properties),
+            )
             for c in planned.cases
         )
         return replace(planned, cases=tuple(cases))
 
     def _runs(self, properties: Sequence[Property]) -> dict[str, Run]:
         return {p.id: self.runs[p.id] for p in properties if p.id in self.runs}
+
+    def _engines(self, properties: Sequence[Property]) -> dict[str, str]:
+        return {p.id: self.engines[p.id] for p in properties if p.id in self.engines}
 
     def _killers(self, name: str) -> tuple[Run, ...]:
         return tuple(run for runs in self.killers.get(name, {}).values() for run in runs)
