@@ -2,9 +2,11 @@
 
 from properties.document.distances import within
 from properties.forms import always, holds_after
-from spec_model.lang.expr import any_of, implies
+from spec_model.board2.systems import autorized_prev, crit_mask_b1, deg_mask_b1
+from spec_model.lang.expr import any_of, implies, ite
 from spec_model.lang.time import tick
-from spec_model.signals.board2 import DEG_B1, B2Dec, B2DecDegraded, command
+from spec_model.lang.words import named, previous
+from spec_model.signals.board2 import DEG_B1, B2Dec, B2DecDegraded, B2Decision, command, prevDEG_B1
 
 inside_3m = within(300)
 
@@ -59,4 +61,35 @@ PB2_12_next = holds_after(
     "PB2-12-next", "An obstacle at 300 cm or less in two steps running stops the degraded chart.",
     premise=inside_3m, for_=1 * tick, then=B2DecDegraded == 6,
     covers=("B2-OBS-04", "B2-OBS-22"), on="obstacles_d",
+)  # fmt: skip
+
+# --- the choice between the two charts -------------------------------------------------------------
+
+a_cause = named("a fault on Board 1, or Board 2 drove", deg_mask_b1 | crit_mask_b1 | autorized_prev)
+
+PB2_51 = always(
+    "PB2-51", "The state is degraded exactly if a fault mask last received from Board 1 is not zero, or if "
+              "Board 2 was authorised in the step before.",
+    that=DEG_B1 == a_cause,
+    covers=("B2-OBS-01", "B2-OBS-04"), on="obstacles", readings=["E09"],
+)  # fmt: skip
+
+PB2_51_previous = always(
+    "PB2-51-previous", "prevDEG_B1 is true exactly if one step ago there was such a cause for the degraded "
+                       "state.",
+    that=prevDEG_B1 == previous(a_cause),
+    covers=["B2-OBS-04"], on="obstacles", readings=["E09"],
+)  # fmt: skip
+
+PB2_52 = always(
+    "PB2-52", "One step after the degraded state the non-degraded chart does not deviate.",
+    that=implies(previous(DEG_B1), ~any_of(*(B2Decision == n for n in (2, 3, 4)))),
+    covers=["B2-OBS-09"], on="obstacles_free", from_tick=2, readings=("E09", "E32"),
+)  # fmt: skip
+
+PB2_53 = always(
+    "PB2-53", "The decision of Board 2 is that of the degraded chart in the degraded state, else that of the "
+              "non-degraded one.",
+    that=B2Dec == ite(DEG_B1, B2DecDegraded, B2Decision),
+    covers=("B2-OBS-07", "B2-OBS-22"), on="obstacles", readings=("E09", "E32"),
 )  # fmt: skip
