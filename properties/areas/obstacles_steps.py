@@ -6,6 +6,7 @@ windows the decision [seed §3.4.1, Figs 25-27].
 
 from properties.areas.obstacles_pairs import (
     DETECTED,
+    PAIR_12,
     PAIR_21,
     PAIR_23,
     PAIR_32,
@@ -18,7 +19,7 @@ from properties.document.distances import in_range, within
 from properties.forms import Property, always, leaves_only_if, never, precedes
 from spec_model.board2.heading import turned_45
 from spec_model.board2.obstacles import drawn_n as chart
-from spec_model.lang.expr import Expr, implies, ite
+from spec_model.lang.expr import Expr, all_of, implies, ite
 from spec_model.lang.time import ticks
 from spec_model.lang.words import held, previous
 from spec_model.signals.board2 import B2Decision, prevDEG_B1, stop
@@ -105,7 +106,7 @@ PB2_54_12, PB2_54_21, PB2_54_23, PB2_54_32 = (_expires(f"PB2-54-{p.name}", p) fo
 
 FREE = "obstacles_n_free"
 waiting, in_emergency = chart.active("B2Decisions.Waiting"), chart.active("InEmergency")
-to_S1, to_S3 = chart.active("MoveToS1"), chart.active("MoveToS3")
+to_S1, to_S2, to_S3 = (chart.active(f"MoveToS{i}") for i in (1, 2, 3))
 
 PB2_46 = always(
     "PB2-46", "The chart is in InEmergency exactly if an obstacle was at 70 cm or less one step ago.",
@@ -145,6 +146,26 @@ PB2_49_S3 = always(
     that=implies(previous(to_S3) & turned_45 & ~PAIR_32.sends, ~to_S3),
     covers=["B2-OBS-09"], on=FREE, from_tick=2, readings=("E06", "E08"),
 )  # fmt: skip
+
+
+def _at_once(id: str, pair: Pair, moving: Expr) -> Property:
+    """As PB2-06, for an object that leaves one sonar in the very step in which the other detects it."""
+    earlier = PAIRS[: PAIRS.index(pair)]
+    ready = previous(waiting) & ~near & ~previous(near) & ~prevDEG_B1
+    premise = all_of(ready, pair.opens, pair.confirming, *(~p.sends for p in earlier))
+    return always(
+        id, f"In Waiting, an object that S{pair.first} loses while S{pair.name[1]} holds a detection and the "
+            f"window of pair {pair.name} is closed leads to decision {pair.decision} in the same step, if no "
+            "obstacle is or was at 70 cm or less, prevDEG_B1 is false and no earlier pair sends its signal.",
+        that=implies(premise, moving & (B2Decision == pair.decision)),
+        covers=("B2-OBS-03", "B2-OBS-19", "B2-OBS-21"), on=FREE, from_tick=2, readings=("E05", "E15", "E20"),
+    )  # fmt: skip
+
+
+PB2_55_12 = _at_once("PB2-55-12", PAIR_12, to_S1)
+PB2_55_21 = _at_once("PB2-55-21", PAIR_21, to_S2)
+PB2_55_23 = _at_once("PB2-55-23", PAIR_23, to_S2)
+PB2_55_32 = _at_once("PB2-55-32", PAIR_32, to_S3)
 
 # That it lasts at most 25 steps, PB2-10-most, is violated: two signals in its last step begin it again.
 PB2_50 = never(
