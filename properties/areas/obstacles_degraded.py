@@ -104,7 +104,7 @@ PB2_56 = always(
     "PB2-56", "While Board 2 drives, but for the first such step, its obstacle decision is to stop exactly "
               "if an obstacle is at 300 cm or less.",
     that=implies(drives & drove_before, (B2DecDriving == 6) == inside_3m),
-    covers=("B2-OBS-04", "B2-OBS-22"), on="references_2", readings=("E22",),
+    covers=("B2-OBS-04", "B2-OBS-22"), on="references_2", readings=["E22"],
 )  # fmt: skip
 
 PB2_56_command = always(
