@@ -2,9 +2,12 @@
 
 from properties.document.distances import within
 from properties.forms import always, holds_after
-from spec_model.lang.expr import any_of, implies
+from spec_model.board2.systems import autorized_prev, crit_mask_b1, deg_mask_b1
+from spec_model.lang.expr import any_of, implies, ite
 from spec_model.lang.time import tick
-from spec_model.signals.board2 import DEG_B1, B2Dec, B2DecDegraded, command
+from spec_model.lang.words import named, once, previous
+from spec_model.signals.board2 import DEG_B1, B2Dec, B2DecDegraded, B2Decision, command, prevDEG_B1
+from spec_model.signals.board2_supervisor import B2DecDriving, autorized_to_send_command, cmd
 
 inside_3m = within(300)
 
@@ -59,4 +62,61 @@ PB2_12_next = holds_after(
     "PB2-12-next", "An obstacle at 300 cm or less in two steps running stops the degraded chart.",
     premise=inside_3m, for_=1 * tick, then=B2DecDegraded == 6,
     covers=("B2-OBS-04", "B2-OBS-22"), on="obstacles_d",
+)  # fmt: skip
+
+# --- the choice between the two charts -------------------------------------------------------------
+
+a_cause = named("a fault on Board 1, or Board 2 drove", deg_mask_b1 | crit_mask_b1 | autorized_prev)
+
+PB2_51 = always(
+    "PB2-51", "The state is degraded exactly if a fault mask last received from Board 1 is not zero, or if "
+              "Board 2 was authorised in the step before.",
+    that=DEG_B1 == a_cause,
+    covers=("B2-OBS-01", "B2-OBS-04"), on="obstacles", readings=["E09"],
+)  # fmt: skip
+
+PB2_51_previous = always(
+    "PB2-51-previous", "prevDEG_B1 is true exactly if one step ago there was such a cause for the degraded "
+                       "state.",
+    that=prevDEG_B1 == previous(a_cause),
+    covers=["B2-OBS-04"], on="obstacles", readings=["E09"],
+)  # fmt: skip
+
+PB2_52 = always(
+    "PB2-52", "One step after the degraded state the non-degraded chart does not deviate.",
+    that=implies(previous(DEG_B1), ~any_of(*(B2Decision == n for n in (2, 3, 4)))),
+    covers=["B2-OBS-09"], on="obstacles_free", from_tick=2, readings=("E09", "E32"),
+)  # fmt: skip
+
+PB2_53 = always(
+    "PB2-53", "The decision of Board 2 is that of the degraded chart in the degraded state, else that of the "
+              "non-degraded one.",
+    that=B2Dec == ite(DEG_B1, B2DecDegraded, B2Decision),
+    covers=("B2-OBS-07", "B2-OBS-22"), on="obstacles", readings=("E09", "E32"),
+)  # fmt: skip
+
+# --- the degraded chart while Board 2 drives -------------------------------------------------------
+
+drove_before = named("Board 2 was authorised before", once(previous(autorized_to_send_command)))
+drives = named("Board 2 drives", autorized_to_send_command)
+
+PB2_56 = always(
+    "PB2-56", "While Board 2 drives, but for the first such step, its obstacle decision is to stop exactly "
+              "if an obstacle is at 300 cm or less.",
+    that=implies(drives & drove_before, (B2DecDriving == 6) == inside_3m),
+    covers=("B2-OBS-04", "B2-OBS-22"), on="references_2", readings=["E22"],
+)  # fmt: skip
+
+PB2_56_command = always(
+    "PB2-56-command", "While Board 2 drives, the command is CMD_ESTOP at decision 6 and CMD_NORMAL at 5, and "
+                      "the decision is one of the two.",
+    that=implies(drives, ite(B2DecDriving == 6, cmd == "CMD_ESTOP",
+                             (B2DecDriving == 5) & (cmd == "CMD_NORMAL"))),
+    covers=("B2-OBS-04", "B2-OBS-22"), on="references_2", readings=("E04", "E22"),
+)  # fmt: skip
+
+PB2_56_first = always(
+    "PB2-56-first", "In the first step in which Board 2 drives it goes on, whatever the distances.",
+    that=implies(drives & ~drove_before, B2DecDriving == 5),
+    covers=["B2-OBS-22"], on="references_2", readings=["E22"],
 )  # fmt: skip

@@ -80,7 +80,7 @@ def recently(event: Expr) -> Expr:
 PB2_05c = always(
     "PB2-05c", "A sonar is said to be close at the end of a step if it measures more than 100, up to 300 cm.",
     that=all_of(*(said == in_range(d) for said, d in zip(isClose, SONARS, strict=True))),
-    covers=["B2-OBS-16"], on="obstacles_n_free", readings=("E01", "E03"),
+    covers=["B2-OBS-16"], on="obstacles_n", readings=("E01", "E03"),
 )  # fmt: skip
 
 # --- no signal without its cause -------------------------------------------------------------------
