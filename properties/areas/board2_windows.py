@@ -8,6 +8,7 @@ only takes them down, and begins both windows.
 
 from fractions import Fraction
 
+from properties.document.sources import IMU, SUP
 from properties.forms import Property, always, holds_after, holds_for
 from properties.past import ago
 from spec_model.board2.coherence import (
@@ -27,7 +28,7 @@ from spec_model.board2.coherence import (
 from spec_model.lang.expr import Expr, Var, all_of, const, implies, ite
 from spec_model.lang.time import ticks
 from spec_model.lang.words import absolute, bit, minimum, once, previous
-from spec_model.signals.board2_supervisor import IMU, SUP, gz_dps, is_motion_consistent, wheel_speed_rpm
+from spec_model.signals.board2_supervisor import gz_dps, is_motion_consistent, wheel_speed_rpm
 
 EXACT, LONG, SHORT = "coherence", "coherence_long", "coherence_short"
 STEPPED = once(const(True))
