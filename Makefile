@@ -37,14 +37,14 @@ help:
 	@echo "make clean          remove the environment and every cache"
 
 check: $(STAMP)
-	@$(RUN) -m checker check $(ARGS)
+	@$(RUN) -m checker check --strict $(ARGS)
 
 docs: $(STAMP)
 	@$(RUN) -m docs.reference
 	@NO_MKDOCS_2_WARNING=1 $(RUN) -m mkdocs build --strict --quiet
 
 check-full: $(STAMP)
-	@$(RUN) -m checker check --full --certify --memory 3 $(ARGS)
+	@$(RUN) -m checker check --strict --full --certify --memory 3 $(ARGS)
 
 check-repairs: $(STAMP)
 	@worst=0; for repair in $$($(RUN) -c 'from spec_model.repairs import proposals; print(*proposals())'); do \

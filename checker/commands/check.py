@@ -9,7 +9,7 @@ from checker.certify.outcome import Rejected
 from checker.commands.certificates import certificates, certified, outcome
 from checker.commands.codes import Exit, UsageError
 from checker.commands.failing import alarm, code_of, told
-from checker.commands.findings import ALONE, Guide, read_on, totals
+from checker.commands.findings import ALONE, Guide, about_cases, read_on, totals
 from checker.commands.output import err, out, wrapped
 from checker.commands.progress import Watch
 from checker.commands.wrapping import plain
@@ -28,20 +28,29 @@ from spec_model.lang.system import System
 
 if TYPE_CHECKING:
     from checker.certifying import Certifying
+    from checker.commands.premises import Case
 
 SCHEMA = 1
 EVIDENCE = 33
 """The column in which the evidence of a verdict begins."""
+CASE = {True: "occurs", False: "never", None: "unknown"}
+"""Whether the case occurs that a proof speaks of."""
 SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
 
 
 @dataclass(frozen=True)
 class Compared:
-    """A result beside the verdict on record; ``variant`` says how the charts differ from those specified."""
+    """A result beside the verdict on record; ``variant`` says how the charts differ from those specified.
+
+    ``case``: whether the case occurs that a proof speaks of, if that was asked.  With ``strict``, a proof is
+    not enough if it does not.
+    """
 
     result: Result
     expected: Expected
     variant: str = ""
+    case: "Case | None" = None
+    strict: bool = False
 
     @property
     def verdict(self) -> Verdict:
@@ -50,7 +59,13 @@ class Compared:
     @property
     def word(self) -> str:
         """The verdict for people; ``proved in part`` where only some of the runs were searched."""
-        return f"{self.verdict.word} in part" if self.result.in_part else self.verdict.word
+        said = f"{self.verdict.word} in part" if self.result.in_part else self.verdict.word
+        return f"{said}, of nothing" if self.empty else said
+
+    @property
+    def empty(self) -> bool:
+        """Whether it is a proof of a case that never occurs."""
+        return self.case is not None and self.case.occurs is False
 
     @property
     def as_expected(self) -> bool:
@@ -69,6 +84,8 @@ class Compared:
     def code(self) -> Exit:
         if isinstance(self.result.certificate, Rejected):
             return Exit.INTERNAL
+        if self.strict and self.case is not None and not self.case.occurs:
+            return Exit.CHANGED if self.empty else Exit.INCONCLUSIVE
         if self.as_expected or (self.variant and isinstance(self.verdict, Proved)):
             return Exit.AS_EXPECTED
         return Exit.INCONCLUSIVE if isinstance(self.verdict, Unknown) else Exit.CHANGED
@@ -131,6 +148,15 @@ class Deliver(Protocol):
     def __call__(self, found: Sequence[Compared], wanted: int, ended: str = "") -> None: ...
 
 
+Premises = Callable[[Sequence[Compared]], Mapping[str, "Case"]]
+"""Says of each proof that speaks of a case, by id, whether the case occurs."""
+
+
+def unasked(_: Sequence[Compared]) -> Mapping[str, "Case"]:
+    """Nothing is asked about cases."""
+    return {}
+
+
 def undelivered(found: Sequence[Compared], wanted: int, ended: str = "") -> None:
     """No report beside what is printed."""
 
@@ -148,11 +174,14 @@ def check(
     guide: Guide = ALONE,
     deliver: Deliver = undelivered,
     quiet: bool = False,
+    premises: Premises = unasked,
+    strict: bool = False,
 ) -> Exit:
     """Print every verdict with its evidence and what the baseline says of it.
 
     ``guide`` is what helps to read on.  ``deliver`` is called once at the end, however that comes.  With
-    ``quiet``, only what is not as expected is printed.
+    ``quiet``, only what is not as expected is printed.  ``premises`` are asked of what was found; ``strict``
+    makes a proof of a case that never occurs an error.
     """
     if not properties:
         err.print("Nothing to check: the selection holds no property.")
@@ -169,6 +198,8 @@ def check(
                 found.append(Compared(result, expect(result.property.id), variant))
                 if not as_json and not (quiet and found[-1].code is Exit.AS_EXPECTED):
                     out.print(wrapped(line(found[-1]), EVIDENCE), markup=False)
+        cases = premises(found)
+        found = [replace(c, case=cases.get(c.result.property.id), strict=strict) for c in found]
     except BaseException as error:
         if as_json:
             gravest = bool(faults) and not isinstance(error, KeyboardInterrupt)
@@ -188,7 +219,10 @@ def check(
     elif not quiet:
         out.print()
         summary(found, guide)
-        for text in read_on(found, systems, guide):
+        for text in (*about_cases(found), *read_on(found, systems, guide)):
+            out.print(wrapped(text, 4), markup=False)
+    elif strict:
+        for text in about_cases([c for c in found if c.code is not Exit.AS_EXPECTED]):
             out.print(wrapped(text, 4), markup=False)
     deliver(found, len(properties), _alarmed(faults))
     return Exit.INTERNAL if faults else worst(found)
@@ -348,6 +382,7 @@ def _row(compared: Compared) -> dict[str, object]:
         "expected": compared.expected.verdict,
         "as_expected": compared.as_expected,
         "certificate": outcome(compared.result.certificate),
+        "case": None if compared.case is None else CASE[compared.case.occurs],
         "because": compared.expected.because,
     }
 

@@ -93,6 +93,21 @@ def _shares(words: Sequence[str], called: Mapping[str, str]) -> str:
     return ", ".join(f"{counts[word]} {said}" for word, said in called.items() if word in counts)
 
 
+def about_cases(found: Sequence["Compared"]) -> Iterator[str]:
+    """Which proofs speak of a case that never occurs, or of which it is not known; or that there is none where that counts."""
+    told = [(one.result.property, one.case.occurs) for one in found if one.case is not None]
+    empty = [prop for prop, occurs in told if occurs is False]
+    unknown = [prop.id for prop, occurs in told if occurs is None]
+    if told and not empty and not unknown and found[0].strict:
+        speak = counted(len(told), "proof speaks", "proofs speak")
+        yield f"{speak} of a case (whenever ..., then ...): it occurs."
+    if empty:
+        yield "Proved of nothing, as the case never occurs that is spoken of:"
+        yield from (f"  {prop.id}, {prop.on}: {prop.text}" for prop in empty)
+    if unknown:
+        yield f"Proved, not known whether the case occurs that is spoken of: {', '.join(unknown)}."
+
+
 def read_on(found: Sequence["Compared"], systems: Mapping[str, System], guide: Guide) -> Iterator[str]:
     """The gravest findings that are not explained already, and where all are; nothing if there is none."""
     known = gravest([one for one in found if one.as_expected or one.variant], systems, guide.gravest)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, fields
 
 from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from checker.commands.check import Compared, evidence, recorded
+from checker.commands.premises import Case
 from checker.model import Model
 from checker.render.review.model import (
     About,
@@ -19,7 +20,6 @@ from checker.render.review.model import (
     Review,
     Seen,
 )
-from checker.result import Result
 from checker.trace import Trace
 from checker.verdict import Exhausted, Unknown
 from properties.coverage import Coverage, matrix
@@ -36,10 +36,6 @@ SAME_CAUSE = re.compile(r"As ([\w-]*\d[\w-]*)\b")
 """How a reason on record begins that is the reason of another finding."""
 
 
-UNDECIDED = re.compile(r"(not reproduced on [\w.]+): .*", re.DOTALL)
-"""What each engine has to say of a run that none reproduces."""
-
-
 @dataclass(frozen=True)
 class Extras:
     """What a model may have besides properties and systems.
@@ -54,7 +50,7 @@ class Extras:
     repairs: tuple[Remedy, ...] = ()
     coverage: tuple[Covered, ...] = ()
     reasons: Mapping[str, str] = field(default_factory=dict)
-    premises: Mapping[str, Result] = field(default_factory=dict)
+    premises: Mapping[str, Case] = field(default_factory=dict)
     graphs: tuple[Seen, ...] = ()
     undrawn: tuple[tuple[str, str], ...] = ()
 
@@ -115,8 +111,8 @@ def checked(compared: Compared, model: Model, extras: Extras) -> Checked:
         compared.as_expected,
         proved_again(proof),
         None if proof is None else isinstance(proof, Accepted),
-        premise="" if case is None else occurs(case),
-        vacuous=case is not None and case.verdict.word == "violated",
+        premise="" if case is None else case.said,
+        vacuous=case is not None and case.occurs is False,
         because=entry.because if on_record else "",
         no_repair=entry.no_repair if on_record else "",
         cause=cause(prop.id, extras.reasons),
@@ -127,15 +123,6 @@ def checked(compared: Compared, model: Model, extras: Extras) -> Checked:
         again=again(prop.id, model.options),
         trace=because if isinstance(because, Trace) else None,
     )
-
-
-def occurs(case: Result) -> str:
-    """Whether the case occurs that a property speaks of, and what shows it."""
-    if isinstance(case.verdict, Unknown):
-        return "not known: " + UNDECIDED.sub(r"\1 within the limits", case.verdict.reason)
-    said = "it occurs" if case.verdict.word == "proved" else "it NEVER occurs, so nothing is said"
-    part = ", as far as was searched" if case.in_part else ""
-    return f"{said}{part}: {evidence(case)}"
 
 
 def again(id: str, options: str) -> str:

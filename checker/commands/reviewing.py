@@ -14,17 +14,18 @@ from checker.commands.check import Compared, results, summary, worst
 from checker.commands.codes import Exit, UsageError
 from checker.commands.findings import Guide
 from checker.commands.output import counted, err, out, write
+from checker.commands.premises import LONG, Case, cases
 from checker.commands.reviewed import Extras, concerned, reviewed
 from checker.commands.reviewing_graphs import state_graphs
-from checker.commands.reviewing_more import premises, with_reasons
+from checker.commands.reviewing_more import with_reasons
 from checker.commands.reviewing_rover import extras
 from checker.commands.variant import Variant
 from checker.commands.wrapping import whole
 from checker.engine import AUTO, Limits
 from checker.model import Model
+from checker.model.premise_runs import file_of, read
 from checker.render.review import render
 from checker.render.review.model import Origin
-from checker.result import Result
 from properties.forms import Property
 
 PACKAGES = ("rovercheck", "z3-solver", "bitwuzla", "llvmlite", "python-sat", "oxidd", "numpy", "networkx")
@@ -76,14 +77,17 @@ def report(
             f"Cannot write {whole(output)}: it is no file in a folder that exists. Choose another --output."
         )
     model = replace(variant.model, systems=variant.systems())
+    known = read(file_of(variant.model)) if asked.premises else {}
     found: list[Compared] = []
     try:
         for result in results(properties, model.systems, engine, limits, jobs, certifying):
             found.append(Compared(result, variant.expected(result.property.id), variant.name))
         if asked.explain:
             found = with_reasons(found, model.systems)
-        cases = premises(found, model.systems, engine, limits, jobs) if asked.premises else {}
-        write(page(model, variant, found, asked, cases), output)
+        told = (
+            cases(found, model.systems, known, engine, limits, jobs, patience=LONG) if asked.premises else {}
+        )
+        write(page(model, variant, found, asked, told), output)
     except Unwritable as error:
         raise UsageError(str(error)) from error
     except KeyboardInterrupt:
@@ -99,12 +103,12 @@ def page(
     variant: Variant,
     found: Sequence[Compared],
     asked: Asked,
-    cases: Mapping[str, Result] | None = None,
+    told: Mapping[str, Case] | None = None,
 ) -> str:
-    """The page on verdicts that were found; ``cases`` are the premises that were decided, by id."""
+    """The page on verdicts that were found; ``told`` says of cases of proofs whether they occur, by id."""
     own = extras(variant, found, asked.repairs) if model.path is None else Extras()
     graphs, undrawn = state_graphs(found, concerned(found, model), model.options)
-    own = replace(own, premises=cases or {}, graphs=graphs, undrawn=undrawn)
+    own = replace(own, premises=told or {}, graphs=graphs, undrawn=undrawn)
     return render(reviewed(model, found, origin(model, variant, worst(found), asked), own, asked.whole))
 
 

@@ -1,21 +1,15 @@
-"""What a reviewer may want on top of verdicts: what forces a counterexample, whether proofs say anything."""
+"""What a reviewer may want on top of verdicts: what forces a counterexample."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from checker.commands.check import Compared, results
+from checker.commands.check import Compared
 from checker.commands.output import err
 from checker.commands.progress import Watch
-from checker.engine import Limits
 from checker.explain.explained import explained
-from checker.result import Result
 from checker.trace import Trace
-from checker.verdict import Proved, Violated
-from properties.premise import premise
+from checker.verdict import Violated
 from spec_model.lang.system import System
-
-PATIENCE = 60.0
-"""Seconds for each search for a case, unless the user sets a limit: a witness may be hard to find."""
 
 
 def with_reasons(found: Sequence[Compared], systems: Mapping[str, System]) -> list[Compared]:
@@ -43,13 +37,3 @@ def _with_reason(compared: Compared, systems: Mapping[str, System], watch: Watch
     watch.finished(task)
     verdict = Violated(forced, compared.verdict.engine)
     return replace(compared, result=replace(compared.result, verdict=verdict))
-
-
-def premises(
-    found: Sequence[Compared], systems: Mapping[str, System], engine: str, limits: Limits, jobs: int | None
-) -> dict[str, Result]:
-    """Of each property that is proved, by id, whether the case occurs of which it speaks."""
-    proved = (c.result.property for c in found if isinstance(c.verdict, Proved))
-    cases = [case for case in map(premise, proved) if case is not None]
-    patient = replace(limits, seconds=limits.seconds or PATIENCE)
-    return {r.property.id: r for r in results(cases, systems, engine, patient, jobs)} if cases else {}

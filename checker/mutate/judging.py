@@ -8,12 +8,12 @@ from time import monotonic
 from checker.decide import decide
 from checker.engine import AUTO, Limits, Progress
 from checker.lowered import lowered
-from checker.mutate.known_runs import reached, run_of
 from checker.mutate.observing import Difference, difference, observable
 from checker.mutate.product import product, same
 from checker.portfolio import Question, Told, answers
 from checker.result import Result, check_domains
 from checker.runs.domains import LeavesDomain
+from checker.runs.known import reached, run_of
 from checker.tasks import Task, tasks
 from checker.trace import Trace
 from checker.verdict import Open, Proved, Reached, Run, Unknown, Unreachable, Violated

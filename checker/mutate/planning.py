@@ -5,9 +5,9 @@ from dataclasses import dataclass, field, replace
 
 from checker.mutate.asked import Cone, as_it_is, concerned, cones
 from checker.mutate.judging import Case, Fate, Judged
-from checker.mutate.known_runs import run_of
 from checker.mutate.mutants import Mutant, mutants
 from checker.result import Result
+from checker.runs.known import run_of
 from checker.verdict import Proved, Run, Unknown
 from properties.forms import Property, formulas
 from spec_model.lang.chart import parts

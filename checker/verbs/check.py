@@ -1,13 +1,20 @@
 """The verb ``check``: properties against the verdicts on record."""
 
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from shlex import join
+from typing import TYPE_CHECKING
 
 import click
 
 from checker.commands.codes import Exit, UsageError
 from checker.commands.options import GIB, modelling, searching, varying
 from checker.engine import ALL, AUTO, LOADED, Limits, Timers
+
+if TYPE_CHECKING:
+    from checker.commands.check import Compared, Premises
+    from checker.commands.premises import Case
+    from checker.commands.variant import Variant
 
 
 @click.command(short_help="Check properties, and compare with the verdicts on record.")
@@ -16,6 +23,13 @@ from checker.engine import ALL, AUTO, LOADED, Limits, Timers
     "--system", "about", multiple=True, metavar="NAME", help="Only properties about this system, or these."
 )
 @click.option("--full", is_flag=True, help="Also the properties that take long.")
+@click.option(
+    "--strict", is_flag=True, help="A proof of a case that never occurs, or may never, is an error."
+)
+@click.option("--no-premises", is_flag=True, help="Do not ask whether the cases occur that proofs speak of.")
+@click.option(
+    "--record-premises", is_flag=True, help="Search longer for these cases, and keep runs that show them."
+)
 @click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
 @click.option("--quiet", "-q", is_flag=True, help="Only what is not as expected, and no progress.")
 @click.option(
@@ -64,6 +78,9 @@ def check(
     ids: tuple[str, ...],
     about: tuple[str, ...],
     full: bool,
+    strict: bool,
+    no_premises: bool,
+    record_premises: bool,
     as_json: bool,
     quiet: bool,
     jobs: int | None,
@@ -89,7 +106,7 @@ def check(
     with prepared(*LOADED):
         from checker.commands.certificates import writable
         from checker.commands.check import check as run
-        from checker.commands.check import undelivered
+        from checker.commands.check import unasked, undelivered
         from checker.commands.findings import Guide, causes
         from checker.commands.select import pick_engine, pick_properties
         from checker.commands.variant import pick_variant
@@ -100,6 +117,9 @@ def check(
             properties = list(filter(variant.concerns(), properties))
         if variant.name:
             properties = variant.askable(properties)
+        if no_premises and (strict or record_premises):
+            other = "--strict" if strict else "--record-premises"
+            raise UsageError(f"--no-premises leaves out what {other} asks for; write one of them.")
         limits = Limits(depth, timeout, int(memory * 2**30), timers=Timers(timers))
         asked = _asked(pick_engine(engine), all_engines)
         if certificates:
@@ -127,7 +147,31 @@ def check(
             Guide(variant.options, _selection(ids, about, full), variant.model.by_gravity, causes(variant)),
             deliver,
             quiet,
+            unasked if no_premises else _premises(variant, asked, limits, jobs, quiet, record_premises),
+            strict,
         )
+
+
+def _premises(
+    variant: "Variant", engine: str, limits: Limits, jobs: int | None, quiet: bool, keep: bool
+) -> "Premises":
+    """Asks whether the cases occur that proofs speak of, and keeps the runs if wanted."""
+    from checker.commands.premises import LONG, PATIENCE, cases, record, recordable
+    from checker.model.premise_runs import file_of, read
+
+    model, systems = variant.model, variant.systems()
+    if keep:
+        recordable(model, variant.name)
+
+    known = read(file_of(model))
+
+    def asked(found: "Sequence[Compared]") -> "Mapping[str, Case]":
+        told = cases(found, systems, known, engine, limits, jobs, quiet, LONG if keep else PATIENCE)
+        if keep:
+            record(told, model)
+        return told
+
+    return asked
 
 
 def _selection(ids: tuple[str, ...], about: tuple[str, ...], full: bool) -> str:

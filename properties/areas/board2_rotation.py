@@ -1,7 +1,7 @@
 """What must be true of running, rotation and stop of Board 2, state by state [seed §3.4.2, Fig 20]."""
 
 from properties.areas.board2_motion import EXECUTED, at_rest, braking, drives, normal, rotating
-from properties.forms import Property, always, enters_only_if, holds_after, leaves_only_if
+from properties.forms import Property, always, enters_only_if, leaves_only_if, never
 from spec_model.lang.expr import all_of, implies, ite
 from spec_model.lang.time import ticks
 from spec_model.lang.words import absolute, held, once, previous
@@ -138,9 +138,9 @@ def _rests(id: str, steps: int) -> Property:
 
 
 PB2_32f, PB2_32h = _rests("PB2-32f", 51), _rests("PB2-32h", 50)
-PB2_32g = holds_after(
+PB2_32g = never(
     "PB2-32g", "Braking ends when the rover has stood for more than 1 s.",
-    premise=previous(braking) & previous(wheels_below_2_5), for_=53 * ticks, then=~braking,
+    that=braking & held(previous(braking) & previous(wheels_below_2_5), for_=53 * ticks),
     covers=["B2-REF-01"], on=EXECUTED, from_tick=2, readings=["S62"],
 )  # fmt: skip
 PB2_31d = always(

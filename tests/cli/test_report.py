@@ -9,7 +9,8 @@ from checker.cli import run
 from checker.commands import reviewing, reviewing_graphs
 from checker.commands.check import Compared
 from checker.commands.codes import Exit
-from checker.commands.reviewed import by_number, cause, drawn, named, occurs, written
+from checker.commands.premises import told
+from checker.commands.reviewed import by_number, cause, drawn, named, written
 from checker.commands.reviewing_graphs import state_graphs
 from checker.commands.reviewing_rover import coverage
 from checker.engine import Limits
@@ -141,8 +142,12 @@ def test_an_unfinished_search_is_a_finding_and_no_pass(tmp_path: Path) -> None:
 def test_of_a_case_that_nobody_reproduced_the_limits_are_not_listed() -> None:
     reason = "reached after 2 ticks on x_free; not reproduced on x: bmc: the time limit of 11.9 s is reached"
     case = Result(catalogue()["PB1-11"], Unknown(reason, 3, "bmc"), "x")
-    assert occurs(case) == "not known: reached after 2 ticks on x_free; not reproduced on x within the limits"
-    assert occurs(replace(case, verdict=Unknown("gave up", 3, "bmc"))) == "not known: gave up"
+    assert (
+        told(case, {}).said
+        == "not known: reached after 2 ticks on x_free; not reproduced on x within the limits"
+    )
+    gave_up = replace(case, verdict=Unknown("gave up", 3, "bmc"))
+    assert told(gave_up, {}).said == "not known: gave up"
 
 
 def test_the_reason_of_another_finding_is_followed_to_the_first() -> None:

@@ -40,9 +40,12 @@ def _reached(question: Question, run: Run) -> dict[str, int]:
     system, found = question.system, dict[str, int]()
     begins = {v.name: v.init for v in (*system.inputs, *system.frozen)}
     at: Mapping[str, int] = {**begins, **system.init, **run.frozen}
+    if any(at[v.name] not in v.domain for v in system.frozen):
+        return found
     for number, tick in enumerate(run.inputs, start=1):
         inputs = {v.name: tick.get(v.name, v.init) for v in system.inputs}
-        if not admissible(system, at, inputs):
+        within = all(inputs[v.name] in v.domain for v in system.inputs)
+        if not within or not admissible(system, at, inputs):
             break
         after = step(system, at, inputs)
         if not stayed(system, after):

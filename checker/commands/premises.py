@@ -1,0 +1,137 @@
+"""Whether the cases occur that proofs speak of: runs on record first, then a search."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+from checker.commands.check import Compared, evidence, results
+from checker.commands.codes import UsageError
+from checker.commands.output import write
+from checker.commands.wrapping import whole
+from checker.engine import Limits
+from checker.model import Model
+from checker.model.premise_runs import Kept, file_of, read, text
+from checker.result import Result
+from checker.runs.known import reached, run_of
+from checker.trace import counted_ticks
+from checker.verdict import Proved, Unknown
+from properties.forms import Property
+from properties.premise import premise
+from spec_model.lang.system import System
+
+PATIENCE = 5.0
+"""Seconds for each search for a case where verdicts are what is asked for."""
+LONG = 60.0
+"""Seconds for each where the cases are: a witness may be hard to find."""
+UNDECIDED = re.compile(r"(not reproduced on [\w.]+): .*", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Case:
+    """Whether the case occurs of which a proof speaks (None: not known), and what shows it, in words."""
+
+    occurs: bool | None
+    said: str
+    kept: Kept | None = None
+
+
+def cases(
+    found: Sequence[Compared],
+    systems: Mapping[str, System],
+    known: Mapping[str, Kept],
+    engine: str,
+    limits: Limits,
+    jobs: int | None = None,
+    quiet: bool = False,
+    patience: float = PATIENCE,
+) -> dict[str, Case]:
+    """For each proof that speaks of a case, by id, whether it occurs on its system.
+
+    A ``known`` run is gone through again on the charts as they are now; only where it does not show the case
+    any more a run is searched for, ``patience`` seconds long at most.
+    """
+    asked = {c.result.property.id: c.result.property for c in found if isinstance(c.verdict, Proved)}
+    wanted = {id: case for id, prop in asked.items() if (case := premise(prop)) is not None}
+    found_out = dict(_again(wanted, known, systems))
+    left = [case for id, case in wanted.items() if id not in found_out]
+    brief = replace(limits, seconds=min(patience, limits.seconds or patience))
+    for one in _searched(left, systems, engine, brief, jobs, quiet):
+        found_out[one.property.id] = told(one, systems)
+    return found_out
+
+
+def record(known: Mapping[str, Case], model: Model) -> None:
+    """Keep the runs that show the cases; those of properties that were not asked for stay as they are.
+
+    Raises ``UsageError`` where the file cannot be written.
+    """
+    file = file_of(model)
+    others = {id: kept for id, kept in read(file).items() if id in model.properties and id not in known}
+    new = {id: case.kept for id, case in known.items() if case.kept is not None}
+    write(text({**others, **new}), file)
+
+
+def recordable(model: Model, variant: str) -> None:
+    """Raises ``UsageError`` where no runs can be kept, before anything is searched."""
+    if variant:
+        raise UsageError(
+            f"--record-premises keeps runs of the charts as they are, not {variant}. Leave one of them out."
+        )
+    file = file_of(model)
+    if not file.parent.is_dir() or file.is_dir():
+        raise UsageError(f"Cannot write {whole(file)}: it is no file in a folder that exists.")
+
+
+def _again(
+    wanted: Mapping[str, Property], known: Mapping[str, Kept], systems: Mapping[str, System]
+) -> Iterator[tuple[str, Case]]:
+    """The cases that runs on record still show."""
+    for id, case in wanted.items():
+        kept = known.get(id)
+        if kept is not None and kept.system in systems:
+            system = systems[kept.system]
+            shown = reached(system, [replace(case, on=system.name)], [kept.run])
+            if id in shown:
+                yield id, Case(True, _occurs(len(shown[id]), system), replace(kept, run=shown[id]))
+
+
+def _searched(
+    asked: Sequence[Property],
+    systems: Mapping[str, System],
+    engine: str,
+    limits: Limits,
+    jobs: int | None,
+    quiet: bool,
+) -> Iterator[Result]:
+    """What came of searching for cases; where none is found on the rover, with more runs."""
+    free = {name: replace(system, over=False, concrete="") for name, system in systems.items()}
+    first = {name: system if system.concrete else free[name] for name, system in systems.items()}
+    again = list[Property]()
+    for one in results(asked, first, engine, limits, jobs, quiet=quiet) if asked else ():
+        if isinstance(one.verdict, Unknown) and first[one.property.on].over:
+            again.append(one.property)
+        else:
+            yield one
+    if again:
+        yield from results(again, free, engine, limits, jobs, quiet=quiet)
+
+
+def told(one: Result, systems: Mapping[str, System]) -> Case:
+    """What came of the search for a case."""
+    match one.verdict:
+        case Unknown(reason):
+            return Case(None, "not known: " + UNDECIDED.sub(r"\1 within the limits", reason))
+        case Proved() as verdict:
+            run = run_of(verdict)
+            assert run is not None, "what is reached is reached by a run"
+            return Case(True, _occurs(len(run), systems[one.system]), Kept(one.system, run))
+    part = ", as far as was searched" if one.in_part else ""
+    return Case(False, f"it NEVER occurs, so nothing is said{part}: {evidence(one)}")
+
+
+def _occurs(ticks: int, system: System) -> str:
+    more = ", which has more runs than it should" if system.over else ""
+    return f"it occurs: after {counted_ticks(ticks)} of {system.name}{more}"
+
+
+__all__ = ["LONG", "PATIENCE", "Case", "cases", "record", "recordable", "told"]

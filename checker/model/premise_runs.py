@@ -1,0 +1,97 @@
+"""Runs kept beside the verdicts on record: each shows a case of which a property speaks."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from checker.model import Model, shown
+from checker.model.records import baseline_of
+from checker.verdict import Run
+from spec_model.lang.errors import ModelError
+
+SCHEMA = "rovercheck/premises/1"
+ROVER = Path(__file__).parents[2] / "properties" / "premises.json"
+MOST_TICKS = 1_000_000
+"""Ticks that a file may hold, all runs together: more would be no use and might not fit in memory."""
+
+
+@dataclass(frozen=True)
+class Kept:
+    """A run of the system of that name."""
+
+    system: str
+    run: Run
+
+
+def file_of(model: Model) -> Path:
+    """Where the runs are: ``premises.json`` beside the baseline, or ``NAME.premises.json``."""
+    if model.path is None:
+        return ROVER
+    table = baseline_of(model.path)
+    return table.with_name(f"{table.name.removesuffix('baseline.toml')}premises.json")
+
+
+def read(file: Path) -> dict[str, Kept]:
+    """The runs in a file by the id of their property, none if there is no file.
+
+    Raises ``ModelError`` for a file that holds something else.
+    """
+    if not file.exists():
+        return {}
+    try:
+        whole = json.loads(file.read_text(encoding="utf-8"))
+        if whole["schema"] != SCHEMA:
+            raise ValueError(f"its schema is {whole['schema']!r}, not {SCHEMA!r}")
+        left, found = MOST_TICKS, dict[str, Kept]()
+        for id, row in whole["runs"].items():
+            found[id] = _kept(row, left)
+            left -= len(found[id].run)
+    except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
+        why = f"{type(error).__name__}: {error}" if isinstance(error, KeyError) else str(error)
+        again = "Remove it, and `rovercheck check --record-premises` writes it anew."
+        raise ModelError(f"{shown(file)} holds no runs: {why}. {again}") from error
+    return found
+
+
+def text(runs: Mapping[str, Kept]) -> str:
+    """The runs as JSON, one a line; of a tick the inputs that differ from the one before."""
+    lines = (
+        f"  {json.dumps(id)}: {json.dumps(_row(runs[id]), separators=(',', ':'))}" for id in sorted(runs)
+    )
+    return f'{{"schema": {json.dumps(SCHEMA)}, "runs": {{\n' + ",\n".join(lines) + "\n}}\n"
+
+
+def _row(kept: Kept) -> dict[str, object]:
+    blocks: list[tuple[int, dict[str, int]]] = []
+    before: Mapping[str, int] = {}
+    for inputs in kept.run.inputs:
+        changed = {name: value for name, value in inputs.items() if before.get(name) != value}
+        if changed or not blocks:
+            blocks.append((1, changed))
+        else:
+            blocks[-1] = (blocks[-1][0] + 1, blocks[-1][1])
+        before = inputs
+    return {"system": kept.system, "frozen": dict(kept.run.frozen), "blocks": blocks}
+
+
+def _kept(row: Mapping[str, Any], most: int) -> Kept:
+    inputs: list[dict[str, int]] = []
+    at: dict[str, int] = {}
+    for ticks, changed in row["blocks"]:
+        if not isinstance(ticks, int) or not 1 <= ticks <= most - len(inputs):
+            raise ValueError(f"{ticks!r} is no number of ticks, or there are more than {MOST_TICKS:,} in all")
+        at = at | _numbers(changed)
+        inputs += [at] * ticks
+    return Kept(str(row["system"]), Run(_numbers(row["frozen"]), tuple(inputs)))
+
+
+def _numbers(values: Mapping[str, Any]) -> dict[str, int]:
+    wrong = [name for name, value in values.items() if not isinstance(value, int)]
+    if wrong:
+        raise ValueError(f"{wrong[0]} is {values[wrong[0]]!r}, no whole number")
+    return {name: int(value) for name, value in values.items()}
+
+
+__all__ = ["Kept", "file_of", "read", "text"]
