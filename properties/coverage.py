@@ -1,6 +1,6 @@
 """Which properties stand for which requirement, and what is said of a requirement that none stands for."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 from properties.forms import Property, Reachable
@@ -10,15 +10,26 @@ from spec_model.lang.errors import ModelError
 
 @dataclass(frozen=True)
 class Coverage:
-    """A row of the matrix: a requirement and the properties that name it."""
+    """A row of the matrix: a requirement and the properties that name it.
+
+    ``noticing`` are the properties known to notice that something is wrong: a fault put into the charts, or
+    the charts as they are.  None: that was not measured.
+    """
 
     requirement: Requirement
     properties: tuple[Property, ...]
+    noticing: Collection[str] | None = None
+
+    @property
+    def stated(self) -> bool:
+        """Whether a property demands something: that a state can be reached is no demand on it."""
+        return any(not isinstance(p.form, Reachable) for p in self.properties)
 
     @property
     def covered(self) -> bool:
-        """Whether a property demands something: that a state can be reached is no demand on it."""
-        return any(not isinstance(p.form, Reachable) for p in self.properties)
+        """Whether a property demands something, and notices a fault as far as that was measured."""
+        known = self.noticing
+        return self.stated and (known is None or any(p.id in known for p in self.properties))
 
     @property
     def open(self) -> bool:
@@ -32,11 +43,15 @@ class Coverage:
             return next((w for w in ("violated", "unknown") if w in words), "proved")
         if self.requirement.reason:
             return "reason"
+        if self.stated:
+            return "stated"
         return "reached" if self.properties else "open"
 
 
 def matrix(
-    properties: Iterable[Property], register: Mapping[str, Requirement] | None = None
+    properties: Iterable[Property],
+    register: Mapping[str, Requirement] | None = None,
+    noticing: Collection[str] | None = None,
 ) -> tuple[Coverage, ...]:
     """A row for every requirement of the register, by default that of the document, in its order.
 
@@ -47,9 +62,9 @@ def matrix(
         for id in prop.covers:
             by.setdefault(id, []).append(prop)
     known = requirements() if register is None else register
-    rows = tuple(Coverage(item, tuple(by.get(item.id, ()))) for item in known.values())
+    rows = tuple(Coverage(item, tuple(by.get(item.id, ())), noticing) for item in known.values())
     for row in rows:
-        if row.covered and row.requirement.reason:
+        if row.stated and row.requirement.reason:
             raise ModelError(
                 f"requirements.toml says why no property covers {row.requirement.id}, "
                 f"but {_shown(row.properties)} does; delete its reason."

@@ -94,7 +94,7 @@ def _shares(words: Sequence[str], called: Mapping[str, str]) -> str:
 
 
 def about_cases(found: Sequence["Compared"]) -> Iterator[str]:
-    """Which proofs speak of a case that never occurs, or of which it is not known; with strict, if none is."""
+    """Which proofs speak of a case that never occurs, or of which it is not known."""
     told = [(one.result.property, one.case.occurs) for one in found if one.case is not None]
     empty = [prop for prop, occurs in told if occurs is False]
     unknown = [prop.id for prop, occurs in told if occurs is None]

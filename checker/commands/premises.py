@@ -10,7 +10,7 @@ from checker.commands.output import write
 from checker.commands.wrapping import whole
 from checker.engine import Limits
 from checker.model import Model
-from checker.model.premise_runs import Kept, file_of, read, text
+from checker.model.kept_runs import Kept, file_of, read, text
 from checker.result import Result
 from checker.runs.known import reached, run_of
 from checker.trace import counted_ticks

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from checker.commands.check import Compared, results, worst
 from checker.commands.codes import Exit
+from checker.commands.killing import noticing
 from checker.commands.output import out
 from checker.commands.tables import listed
 from checker.engine import AUTO, Limits
@@ -20,6 +21,10 @@ DECIDED = "Verdicts were decided now."
 REACHED = (
     "A requirement is covered by a property that demands something; "
     "one whose properties only say that a state can be reached is not covered."
+)
+NOTICED = (
+    "Nor is one that is only stated: a property that covers it must notice a fault put into the charts "
+    "(kills.json), or something wrong with them as they are."
 )
 
 SAID = ("violated", "unknown", "proved", "not reached by", "reached by")
@@ -41,7 +46,7 @@ def requirements(decide: bool, as_json: bool, path: Path | None = None) -> Exit:
     """
     model = rover() if path is None else load(path)
     stated = model.stated()
-    rows = matrix(stated.values(), model.requirements)
+    rows = matrix(stated.values(), model.requirements, noticing(model))
     if not decide:
         return show(rows, {id: model.expected(id).verdict for id in stated}, ON_RECORD, as_json)
     found = [
@@ -67,9 +72,14 @@ def show(rows: Sequence[Coverage], verdicts: Verdicts, origin: str, as_json: boo
         [(row.requirement.id, row.state(verdicts), because(row, verdicts)) for row in rows],
     )
     out.print()
-    for line in (*counts(rows, verdicts), REACHED, origin):
+    for line in (*counts(rows, verdicts), *_meaning(rows), origin):
         out.print(line, markup=False)
     return code
+
+
+def _meaning(rows: Sequence[Coverage]) -> tuple[str, ...]:
+    """What covered means."""
+    return (REACHED, NOTICED) if any(row.noticing is not None for row in rows) else (REACHED,)
 
 
 def because(row: Coverage, verdicts: Verdicts, name: Callable[[str], str] = str) -> str:
@@ -100,9 +110,13 @@ def counts(rows: Sequence[Coverage], verdicts: Verdicts) -> tuple[str, ...]:
     opened = [row.requirement.id for row in rows if row.open]
     first = (
         f"{len(rows)} requirements: {covered} covered ({shares}), {states.count('reason')} with a reason "
-        f"instead ({_kinds_of_reasons(rows)}), {len(opened)} open."
+        f"instead ({_kinds_of_reasons(rows)}){_only_stated(states)}, {len(opened)} open."
     )
     return (first, f"Open: {', '.join(opened)}.") if opened else (first,)
+
+
+def _only_stated(states: Sequence[str]) -> str:
+    return f", {states.count('stated')} only stated" if "stated" in states else ""
 
 
 def _kinds_of_reasons(rows: Sequence[Coverage]) -> str:
@@ -143,9 +157,10 @@ def _row(row: Coverage, verdicts: Verdicts) -> dict[str, object]:
 
 def page(found: Sequence[Compared]) -> str:
     """The matrix in Markdown, from the verdicts found."""
-    rows, verdicts = matrix(c.result.property for c in found), words(found)
+    rows = matrix((c.result.property for c in found), noticing=noticing(rover()))
+    verdicts = words(found)
     lines = ["# Requirements", ""]
-    for said in (*counts(rows, verdicts), REACHED):
+    for said in (*counts(rows, verdicts), *_meaning(rows)):
         lines += [said, ""]
     lines += ["| requirement | source | text | state | properties, or the reason why none covers it |"]
     lines += ["|---|---|---|---|---|"]

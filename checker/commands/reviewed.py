@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, fields
 
 from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from checker.commands.check import Compared, evidence, recorded
+from checker.commands.killing import noticing
 from checker.commands.premises import Case
 from checker.model import Model
 from checker.render.review.model import (
@@ -213,12 +214,12 @@ def demands(
     """
     if not model.requirements:
         return ()
-    rows = (row for row in matrix(properties, model.requirements) if whole or row.properties)
+    rows = (row for row in matrix(properties, model.requirements, noticing(model)) if whole or row.properties)
     made = (_demand(row, row.state(verdicts)) for row in rows)
     return tuple(sorted(made, key=lambda d: ORDER.index(d.state)))
 
 
-ORDER = ("open", "reached", "reason", "violated", "unknown", "proved")
+ORDER = ("open", "reached", "stated", "reason", "violated", "unknown", "proved")
 """What a reviewer wants to see first."""
 
 

@@ -23,7 +23,7 @@ from checker.commands.variant import Variant
 from checker.commands.wrapping import whole
 from checker.engine import AUTO, Limits
 from checker.model import Model
-from checker.model.premise_runs import file_of, read
+from checker.model.kept_runs import file_of, read
 from checker.render.review import render
 from checker.render.review.model import Origin
 from properties.forms import Property

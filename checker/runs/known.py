@@ -44,8 +44,7 @@ def _reached(question: Question, run: Run) -> dict[str, int]:
         return found
     for number, tick in enumerate(run.inputs, start=1):
         inputs = {v.name: tick.get(v.name, v.init) for v in system.inputs}
-        within = all(inputs[v.name] in v.domain for v in system.inputs)
-        if not within or not admissible(system, at, inputs):
+        if not admissible(system, at, inputs):
             break
         after = step(system, at, inputs)
         if not stayed(system, after):

@@ -157,7 +157,7 @@ def _premises(
 ) -> "Premises":
     """Asks whether the cases occur that proofs speak of, and keeps the runs if wanted."""
     from checker.commands.premises import LONG, PATIENCE, cases, record, recordable
-    from checker.model.premise_runs import file_of, read
+    from checker.model.kept_runs import file_of, read
 
     model, systems = variant.model, variant.systems()
     if keep:

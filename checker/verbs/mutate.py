@@ -30,6 +30,9 @@ from checker.engine import LOADED, Limits
 )
 @click.option("--sample", type=click.IntRange(min=1), metavar="N", help="Only so many, drawn at random.")
 @click.option("--seed", type=int, default=0, show_default=True, metavar="N", help="Which ones are drawn.")
+@click.option(
+    "--record-kills", is_flag=True, help="Only find a fault that each property notices, and keep it."
+)
 @click.option("--json", "as_json", is_flag=True, help="Every mutant as JSON (checker/schemas/mutate-1.json).")
 @modelling
 @quietly
@@ -42,6 +45,7 @@ def mutate(
     jobs: int | None,
     sample: int | None,
     seed: int,
+    record_kills: bool,
     as_json: bool,
     model: Path | None,
 ) -> Exit:
@@ -56,6 +60,11 @@ def mutate(
         from checker.commands.mutating import mutate as run
         from checker.commands.variant import pick_variant
 
+        if record_kills:
+            from checker.commands.killing import record_kills as recorded
+
+            limits = Limits(None, timeout, int(memory * 2**30))
+            return recorded(pick_variant((), None, (), model).model, limits, jobs, about)
         wanted = Wanted(about, part, sample, seed, alone, jobs)
         limits = Limits(None, timeout, int(memory * 2**30))
         return run(pick_variant((), None, (), model).model, wanted, limits, as_json)

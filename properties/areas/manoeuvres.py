@@ -120,7 +120,7 @@ PB1_39h = always(
         _forward("Normale_marcia") & DEGRADED & previous(DEGRADED),
         v_ref == choose("S57", {"SCALE": y_norm * 0.5, "CLIP": minimum(y_norm, 0.5)}),
     ),
-    covers=["B1-REF-05"], on=ON, from_tick=2, readings=["S57", "S59"],
+    covers=["B1-GEN-05", "B1-REF-05"], on=ON, from_tick=2, readings=["S57", "S59"],
 )  # fmt: skip
 PB1_38d = always(
     "PB1-38d", "The stop procedure takes back what a pulled stick means.",

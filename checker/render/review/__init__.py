@@ -30,6 +30,7 @@ SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
 STATES = {
     "open": "not covered",
     "reached": "only reached",
+    "stated": "only stated",
     "reason": "with a reason",
     "violated": "violated",
     "unknown": "unknown",

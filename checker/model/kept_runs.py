@@ -1,4 +1,4 @@
-"""Runs kept beside the verdicts on record: each shows a case of which a property speaks."""
+"""Runs kept beside the verdicts on record: they show cases that occur, and faults that are noticed."""
 
 import json
 from collections.abc import Mapping
@@ -11,29 +11,33 @@ from checker.model.records import baseline_of
 from checker.verdict import Run
 from spec_model.lang.errors import ModelError
 
-SCHEMA = "rovercheck/premises/1"
-ROVER = Path(__file__).parents[2] / "properties" / "premises.json"
+SCHEMA = "rovercheck/{}/1"
+PREMISES, KILLS = "premises", "kills"
+"""What runs are kept for: cases that occur, and mutants that a property kills."""
+RECORD = {PREMISES: "rovercheck check --record-premises", KILLS: "rovercheck mutate --record-kills"}
+ROVER = Path(__file__).parents[2] / "properties"
 MOST_TICKS = 1_000_000
 """Ticks that a file may hold, all runs together: more would be no use and might not fit in memory."""
 
 
 @dataclass(frozen=True)
 class Kept:
-    """A run of the system of that name."""
+    """A run of the system of that name, with the fault of that id in it if there is one."""
 
     system: str
     run: Run
+    mutant: str = ""
 
 
-def file_of(model: Model) -> Path:
+def file_of(model: Model, kind: str = PREMISES) -> Path:
     """Where the runs are: ``premises.json`` beside the baseline, or ``NAME.premises.json``."""
     if model.path is None:
-        return ROVER
+        return ROVER / f"{kind}.json"
     table = baseline_of(model.path)
-    return table.with_name(f"{table.name.removesuffix('baseline.toml')}premises.json")
+    return table.with_name(f"{table.name.removesuffix('baseline.toml')}{kind}.json")
 
 
-def read(file: Path) -> dict[str, Kept]:
+def read(file: Path, kind: str = PREMISES) -> dict[str, Kept]:
     """The runs in a file by the id of their property, none if there is no file.
 
     Raises ``ModelError`` for a file that holds something else.
@@ -42,25 +46,25 @@ def read(file: Path) -> dict[str, Kept]:
         return {}
     try:
         whole = json.loads(file.read_text(encoding="utf-8"))
-        if whole["schema"] != SCHEMA:
-            raise ValueError(f"its schema is {whole['schema']!r}, not {SCHEMA!r}")
+        if whole["schema"] != SCHEMA.format(kind):
+            raise ValueError(f"its schema is {whole['schema']!r}, not {SCHEMA.format(kind)!r}")
         left, found = MOST_TICKS, dict[str, Kept]()
         for id, row in whole["runs"].items():
             found[id] = _kept(row, left)
             left -= len(found[id].run)
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         why = f"{type(error).__name__}: {error}" if isinstance(error, KeyError) else str(error)
-        again = "Remove it, and `rovercheck check --record-premises` writes it anew."
+        again = f"Remove it, and `{RECORD[kind]}` writes it anew."
         raise ModelError(f"{shown(file)} holds no runs: {why}. {again}") from error
     return found
 
 
-def text(runs: Mapping[str, Kept]) -> str:
+def text(runs: Mapping[str, Kept], kind: str = PREMISES) -> str:
     """The runs as JSON, one a line; of a tick the inputs that differ from the one before."""
     lines = (
         f"  {json.dumps(id)}: {json.dumps(_row(runs[id]), separators=(',', ':'))}" for id in sorted(runs)
     )
-    return f'{{"schema": {json.dumps(SCHEMA)}, "runs": {{\n' + ",\n".join(lines) + "\n}}\n"
+    return f'{{"schema": {json.dumps(SCHEMA.format(kind))}, "runs": {{\n' + ",\n".join(lines) + "\n}}\n"
 
 
 def _row(kept: Kept) -> dict[str, object]:
@@ -73,7 +77,8 @@ def _row(kept: Kept) -> dict[str, object]:
         else:
             blocks[-1] = (blocks[-1][0] + 1, blocks[-1][1])
         before = inputs
-    return {"system": kept.system, "frozen": dict(kept.run.frozen), "blocks": blocks}
+    mutant = {"mutant": kept.mutant} if kept.mutant else {}
+    return {"system": kept.system, **mutant, "frozen": dict(kept.run.frozen), "blocks": blocks}
 
 
 def _kept(row: Mapping[str, Any], most: int) -> Kept:
@@ -84,7 +89,7 @@ def _kept(row: Mapping[str, Any], most: int) -> Kept:
             raise ValueError(f"{ticks!r} is no number of ticks, or there are more than {MOST_TICKS:,} in all")
         at = at | _numbers(changed)
         inputs += [at] * ticks
-    return Kept(str(row["system"]), Run(_numbers(row["frozen"]), tuple(inputs)))
+    return Kept(str(row["system"]), Run(_numbers(row["frozen"]), tuple(inputs)), str(row.get("mutant", "")))
 
 
 def _numbers(values: Mapping[str, Any]) -> dict[str, int]:
@@ -94,4 +99,4 @@ def _numbers(values: Mapping[str, Any]) -> dict[str, int]:
     return {name: int(value) for name, value in values.items()}
 
 
-__all__ = ["Kept", "file_of", "read", "text"]
+__all__ = ["KILLS", "PREMISES", "Kept", "file_of", "read", "text"]

@@ -7,7 +7,8 @@ from pathlib import Path
 import pytest
 
 from checker.lowered import lowered
-from checker.model.premise_runs import SCHEMA, Kept, file_of, read, text
+from checker.model.kept_runs import PREMISES, Kept, file_of, read, text
+from checker.model.kept_runs import SCHEMA as SCHEMAS
 from checker.model.rover import rover
 from checker.runs.known import reached
 from checker.runs.replay import replay
@@ -16,6 +17,7 @@ from properties.premise import premise
 from properties.reduce import reduce
 from spec_model.lang.errors import ModelError
 
+SCHEMA = SCHEMAS.format(PREMISES)
 LONG = 500
 """Ticks; longer runs are gone through on the lowered system alone, which takes a sixth of the time."""
 

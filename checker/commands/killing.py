@@ -1,0 +1,112 @@
+"""``rovercheck mutate --record-kills``: for each property a fault that it notices."""
+
+from collections.abc import Collection, Generator, Mapping
+from contextlib import closing
+
+from checker.commands.codes import Exit
+from checker.commands.output import counted, err, out, wrapped, write
+from checker.commands.progress import ProgressLine
+from checker.commands.select import pick
+from checker.engine import Limits
+from checker.isolate import Send
+from checker.model import Model
+from checker.model.kept_runs import KILLS, Kept, file_of, read, text
+from checker.mutate.killing import Kill, kills
+from checker.pool import Order, Pool
+from checker.searches import SLACK, cores
+from checker.verdict import Run
+from properties.forms import Property, Reachable, Unbounded
+from spec_model.lang.system import System
+
+SHOWN = 40
+"""Properties that are named, of those for which no fault was found."""
+
+
+def record_kills(model: Model, limits: Limits, jobs: int | None, about: Collection[str] = ()) -> Exit:
+    """Look for a fault that each proved demand notices, and keep it with the run that shows it.
+
+    Only demands about the systems ``about``, if these are named.
+
+    What is on record of properties for which none is found now stays as it is.  Raises ``UsageError`` where
+    the file cannot be written, ``ModelError`` where what is on record cannot be read.
+    """
+    place, premises = file_of(model, KILLS), read(file_of(model))
+    known = {id: kept for id, kept in read(place, KILLS).items() if id in model.properties}
+    chosen = {pick("system", name, model.systems).name for name in about}
+    asked = {name: of for name, of in asked_of(model).items() if not chosen or name in chosen}
+    found = dict(known)
+    try:
+        for name, one in _found(model, premises, asked, limits, jobs):
+            found |= {id: Kept(name, kill.run, kill.mutant) for id, kill in one.items()}
+    except KeyboardInterrupt:
+        err.print("Interrupted: what was found so far is kept.")
+        return Exit.INTERRUPTED
+    finally:
+        write(text(found, KILLS), place)
+    total = [p.id for properties in asked.values() for p in properties]
+    left = [id for id in total if id not in found]
+    demands = counted(len(total), "proved demand", "proved demands")
+    out.print(f"{len(total) - len(left)} of {demands} notice a fault that was put into the charts.")
+    if left:
+        more = f" and {len(left) - SHOWN} more" if len(left) > SHOWN else ""
+        out.print(wrapped(f"None was found for {', '.join(left[:SHOWN])}{more}.", 4), markup=False)
+    return Exit.AS_EXPECTED
+
+
+def asked_of(model: Model) -> dict[str, list[Property]]:
+    """The demands that are proved, by system; those about what happens some day are left out."""
+    found: dict[str, list[Property]] = {}
+    for prop in model.stated().values():
+        proved = model.expected(prop.id).verdict == "proved" and not prop.costly
+        if proved and not isinstance(prop.form, Reachable | Unbounded):
+            found.setdefault(prop.on, []).append(prop)
+    return found
+
+
+def noticing(model: Model) -> frozenset[str] | None:
+    """The properties that notice a fault, or the charts as they are; None if no kills are on record."""
+    place = file_of(model, KILLS)
+    if not place.exists():
+        return None
+    broken = {id for id in model.properties if model.expected(id).verdict == "violated"}
+    return frozenset(broken | read(place, KILLS).keys())
+
+
+def _found(
+    model: Model,
+    premises: Mapping[str, Kept],
+    asked: Mapping[str, list[Property]],
+    limits: Limits,
+    jobs: int | None,
+) -> Generator[tuple[str, dict[str, Kill]], None, None]:
+    orders, names = [], list(asked)
+    for name in names:
+        system = model.systems[name]
+        runs = tuple(k.run for k in premises.values() if k.system in (name, system.concrete))
+        orders.append(Order((system, tuple(asked[name]), runs, limits.seconds or 60.0), name))
+    pool = Pool(jobs or cores(), _Killing, (), limits.memory + SLACK)
+    done = 0
+    with ProgressLine(err) as line, closing(pool.run(orders)) as events:
+        for event in events:
+            if isinstance(event.message, dict):
+                yield names[event.number], event.message
+            if event.done:
+                done += 1
+                line.show(f"{done}/{len(names)} systems done")
+
+
+class _Killing:
+    """Looks for kills in one system after the other, in a child."""
+
+    def __call__(
+        self,
+        send: Send,
+        system: System,
+        properties: tuple[Property, ...],
+        runs: tuple[Run, ...],
+        seconds: float,
+    ) -> None:
+        send(kills(system, properties, runs, seconds))
+
+
+__all__ = ["asked_of", "noticing", "record_kills"]

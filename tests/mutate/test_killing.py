@@ -1,0 +1,108 @@
+"""For each property a fault that it notices: found by runs on record and by chance, and kept."""
+
+import json
+from collections import defaultdict
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from checker.cli import run
+from checker.commands.codes import Exit
+from checker.commands.killing import noticing
+from checker.lowered import lowered
+from checker.model.kept_runs import KILLS, file_of, read
+from checker.model.load import load
+from checker.model.rover import rover
+from checker.mutate.asked import as_it_is
+from checker.mutate.killing import ON, kills, noticed, spread, tried
+from checker.mutate.mutants import Mutant, mutants
+from checker.runs.chance import random_runs
+from checker.runs.known import reached
+from checker.verdict import Run
+from properties.coverage import matrix
+from spec_model.lang.evaluate import admissible, step
+from spec_model.rover import systems
+from tests.cli.test_report import EMPTY
+from tests.mutate.lamp import LIT, NEVER, NIGHT, QUIET, lamps
+
+
+def test_every_kill_on_record_is_one() -> None:
+    """The run violates the property with the fault, and not without it."""
+    model = rover()
+    by: dict[str, list[str]] = defaultdict(list)
+    kept = read(file_of(model, KILLS), KILLS)
+    for id, one in kept.items():
+        by[one.system].append(id)
+    for name, ids in by.items():
+        system = as_it_is(model.systems[name])
+        wanted = {kept[id].mutant for id in ids}
+        known: dict[str, Mutant] = {
+            m.id: m for m in mutants(system, {id.partition("/")[0] for id in wanted}) if m.id in wanted
+        }
+        for id in ids:
+            prop = replace(model.properties[id], on=name)
+            assert noticed(known[kept[id].mutant], [prop], [kept[id].run]), f"{id}: record its kill anew"
+            assert not reached(system, [prop], [kept[id].run])
+
+
+def test_a_requirement_is_covered_by_a_property_that_notices_something() -> None:
+    model = rover()
+    known = noticing(model)
+    assert known is not None
+    rows = matrix(model.properties.values(), model.requirements, known)
+    assert [row.requirement.id for row in rows if row.open] == []
+    unmeasured = matrix(model.properties.values(), model.requirements)
+    none = matrix(model.properties.values(), model.requirements, frozenset())
+    assert {row.requirement.id for row in none if row.open} == {
+        row.requirement.id for row in unmeasured if row.covered
+    }
+
+
+def test_the_lamp_has_a_kill_for_each_property_that_some_fault_can_break() -> None:
+    found = kills(lamps, (LIT, QUIET, NIGHT, NEVER), (), 60.0)
+    assert {"LIT", "QUIET"} <= set(found)
+    for id, kill in found.items():
+        prop = next(p for p in (LIT, QUIET, NIGHT, NEVER) if p.id == id)
+        [mutant] = [m for m in mutants(lamps) if m.id == kill.mutant]
+        assert list(noticed(mutant, [prop], [kill.run])) == [id]
+
+
+def test_runs_on_record_go_on_for_a_while_the_shortest_first() -> None:
+    short, long = Run({}, ({"a": 1},)), Run({}, ({"a": 0}, {"a": 2}))
+    assert list(tried([long, short, Run({}, ())])) == [
+        Run({}, ({"a": 1},) * (1 + ON)),
+        Run({}, ({"a": 0}, *({"a": 2},) * (1 + ON))),
+    ]
+
+
+def test_every_mutant_is_tried_once() -> None:
+    found = mutants(lamps)
+    assert sorted(m.id for m in spread(found)) == sorted(m.id for m in found)
+
+
+@pytest.mark.parametrize("name", ["relay", "references", "handover_fine", "links"])
+def test_runs_by_chance_are_runs_of_the_system(name: str) -> None:
+    """Every step is admissible, and the same seed gives the same runs."""
+    system = lowered(systems()[name])
+    runs = list(random_runs(system, 3, 80))
+    assert runs == list(random_runs(system, 3, 80))
+    assert any(len(run) == 80 for run in runs)
+    for one in runs:
+        at = {**system.init, **one.frozen}
+        for inputs in one.inputs:
+            assert admissible(system, at, inputs)
+            at = {n: v for n, v in step(system, at, inputs).items() if n not in inputs}
+
+
+def test_kills_are_kept_beside_a_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "hall.py"
+    file.write_text(EMPTY, encoding="utf-8")
+    assert noticing(load(file)) is None
+    assert run(["mutate", "--model", str(file), "--record-kills"]) == Exit.AS_EXPECTED
+    said = capsys.readouterr().out
+    assert "1 of 2 proved demands notice a fault" in said or "2 of 2 proved demands notice a fault" in said
+    assert "FULL" in json.loads((tmp_path / "kills.json").read_text(encoding="utf-8"))["runs"]
+    assert "FULL" in (noticing(load(file)) or ())
+    assert run(["requirements", "--model", str(file)]) == Exit.AS_EXPECTED
+    assert "must notice a fault put into the charts" in " ".join(capsys.readouterr().out.split())
