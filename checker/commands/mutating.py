@@ -15,12 +15,14 @@ from checker.commands.progress import Watch
 from checker.commands.select import pick
 from checker.engine import AUTO, Limits
 from checker.model import Model
+from checker.model.kept_runs import file_of, read
 from checker.mutate.asked import as_it_is
 from checker.mutate.judging import Fate, Judged
 from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.planning import Plan, Planned, homes, rounds
 from checker.mutate.running import Doing, Told, fates
 from checker.printable import json_text
+from checker.verdict import Run
 from properties.forms import Property, Reachable, Unbounded
 from spec_model.lang.chart import parts
 from spec_model.lang.system import System
@@ -115,7 +117,8 @@ def _judged(
     """Judge the mutants, each first in its own system; what is found goes to ``found`` at once."""
     at = {mutant.id: name for name, mutant in todo}
     own = [p for p in properties if p.on in set(at.values())]
-    plan = Plan(model.systems, properties, {p.id: _recorded(model, p.id) for p in properties})
+    recorded = {p.id: _recorded(model, p.id) for p in properties}
+    plan = Plan(model.systems, properties, recorded, premises=_premises(model))
     _decide(plan, own, limits, wanted.jobs)
     found.undecided += [p.id for p in own if p.id not in plan.proved]
     first = [plan.own(mutant, name) for name, mutant in todo]
@@ -148,6 +151,14 @@ def _judged(
     finally:
         order = {mutant.id: number for number, (_, mutant) in enumerate(todo)}
         found.told.sort(key=lambda one: order[one[1].id])
+
+
+def _premises(model: Model) -> dict[str, list[Run]]:
+    """The runs on record that show cases of which properties speak, by system."""
+    found: dict[str, list[Run]] = {}
+    for kept in read(file_of(model)).values():
+        found.setdefault(kept.system, []).append(kept.run)
+    return found
 
 
 def _has_run(plan: Plan, prop: Property) -> bool:

@@ -13,7 +13,7 @@ from checker.mutate.product import product, same
 from checker.portfolio import Question, Told, answers
 from checker.result import Result, check_domains
 from checker.runs.domains import LeavesDomain
-from checker.runs.known import reached, run_of
+from checker.runs.known import reaching, run_of
 from checker.tasks import Task, tasks
 from checker.trace import Trace
 from checker.verdict import Open, Proved, Reached, Run, Unknown, Unreachable, Violated
@@ -68,7 +68,8 @@ class Case:
 
     ``sure``: that was found out, and not only read from a record.  ``named`` are the variables that
     properties of the system speak of, ``runs`` what is known to reach the goals of some in the original,
-    ``killers`` what kills other mutants, ``engines`` what proved a property of the original.
+    ``killers`` what kills other mutants, ``tries`` more runs that may, ``engines`` what proved a property of
+    the original.
     """
 
     original: System
@@ -80,6 +81,7 @@ class Case:
     named: frozenset[str] = frozenset()
     runs: Mapping[str, Run] = field(default_factory=dict)
     killers: Sequence[Run] = ()
+    tries: Sequence[Run] = ()
     engines: Mapping[str, str] = field(default_factory=dict)
 
     def settled(self, prop: Property) -> bool:
@@ -154,15 +156,16 @@ class _Hunt:
 
     def _tried(self, case: Case) -> Judged | None:
         """The mutant killed by a run that is known, if one does; what runs settle otherwise is kept."""
-        ran = reached(case.mutant, case.properties, (*case.killers, *case.runs.values()))
+        by_id = {p.id: p for p in case.properties}
         still = self._still.setdefault(case.mutant.name, set())
-        for prop in [p for p in case.properties if p.id in ran]:
+        runs = (*case.killers, *case.runs.values(), *case.tries)
+        for id, run in reaching(case.mutant, case.properties, runs):
+            prop = by_id[id]
             if case.settled(prop):
-                still.add(prop.id)
+                still.add(id)
             elif not isinstance(prop.form, Reachable) and self._confirmed(case, prop):
-                run, asked = ran[prop.id], self.asked + len(still) + 1
-                ticks = len(run.inputs)
-                return Judged(Fate.KILLED, prop.id, case.mutant.name, ticks, asked=asked, run=run)
+                asked, ticks = self.asked + len(still) + 1, len(run)
+                return Judged(Fate.KILLED, id, case.mutant.name, ticks, asked=asked, run=run)
         self.asked += len(still)
         return None
 

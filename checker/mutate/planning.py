@@ -6,6 +6,7 @@ from dataclasses import dataclass, field, replace
 from checker.mutate.asked import Cone, as_it_is, concerned, cones
 from checker.mutate.judging import Case, Fate, Judged
 from checker.mutate.mutants import Mutant, mutants
+from checker.mutate.tries import ROUNDS, by_chance, tried
 from checker.result import Result
 from checker.runs.known import run_of
 from checker.verdict import Proved, Run, Unknown
@@ -19,9 +20,6 @@ PROVERS = ("kinduction", "pdr")
 asked about a mutant at once."""
 KILLERS = 3
 """Runs kept of each property that kills mutants of a system."""
-
-ROUNDS = (16, 4, 1)
-"""Every 16th mutant is judged first, then every 4th of the others, then what is left."""
 
 
 @dataclass(frozen=True)
@@ -38,7 +36,8 @@ class Plan:
 
     ``recorded`` tells of a property whether it is proved, as far as that is on record, None if it is neither
     proved nor violated; ``proved`` and ``runs`` hold what was found out of the originals, ``killers`` the
-    runs that kill mutants of a system, by property, and ``engines`` what proved a property of the original.
+    runs that kill mutants of a system, by property, ``engines`` what proved a property of the original, and
+    ``premises`` runs of a system that show cases of which properties speak.
     """
 
     systems: Mapping[str, System]
@@ -48,6 +47,8 @@ class Plan:
     runs: dict[str, Run] = field(default_factory=dict)
     killers: dict[str, dict[str, list[Run]]] = field(default_factory=dict)
     engines: dict[str, str] = field(default_factory=dict)
+    premises: Mapping[str, Sequence[Run]] = field(default_factory=dict)
+    _tries: dict[str, tuple[Run, ...]] = field(default_factory=dict)
     _cones: dict[str, list[Cone]] = field(default_factory=dict)
     _mutants: dict[tuple[str, str], dict[str, Mutant]] = field(default_factory=dict)
 
@@ -92,6 +93,7 @@ class Plan:
                 c,
                 runs=self._runs(c.properties),
                 killers=self._killers(c.original.name),
+                tries=self._tried(c.original),
                 engines=self._engines(c.properties),
             )
             for c in planned.cases
@@ -106,6 +108,13 @@ class Plan:
 
     def _killers(self, name: str) -> tuple[Run, ...]:
         return tuple(run for runs in self.killers.get(name, {}).values() for run in runs)
+
+    def _tried(self, original: System) -> tuple[Run, ...]:
+        """Runs on record of a system, and runs by chance."""
+        name = original.name
+        if name not in self._tries:
+            self._tries[name] = (*tried(self.premises.get(name, ())), *by_chance(original))
+        return self._tries[name]
 
     def _case(self, mutant: Mutant, name: str, sure: bool) -> Case:
         original = as_it_is(self.systems[name])

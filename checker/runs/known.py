@@ -1,6 +1,6 @@
 """Runs that are known, tried on a mutant: what they reach needs no search."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from checker.lowered import lowered
 from checker.runs.domains import stayed
@@ -25,14 +25,24 @@ def reached(mutant: System, properties: Sequence[Property], runs: Sequence[Run])
 
     A run is tried only while there is something left to be found.  Nothing is said of the other properties.
     """
+    return dict(reaching(mutant, properties, runs))
+
+
+def reaching(
+    mutant: System, properties: Sequence[Property], runs: Iterable[Run]
+) -> Iterator[tuple[str, Run]]:
+    """What ``reached`` says, each as soon as it is found; of properties about runs of any length nothing."""
     asked = [p for p in properties if not isinstance(p.form, Unbounded)]
-    question = reduce(lowered(mutant), asked) if asked and runs else None
-    found: dict[str, Run] = {}
+    if not asked:
+        return
+    question, found = reduce(lowered(mutant), asked), set[str]()
     for run in runs:
-        if question is not None and len(found) < len(asked):
-            for id, ticks in _reached(question, run).items():
-                found.setdefault(id, Run(run.frozen, run.inputs[:ticks]))
-    return found
+        for id, ticks in _reached(question, run).items():
+            if id not in found:
+                found.add(id)
+                yield id, Run(run.frozen, run.inputs[:ticks])
+        if len(found) == len(asked):
+            return
 
 
 def _reached(question: Question, run: Run) -> dict[str, int]:
@@ -56,4 +66,4 @@ def _reached(question: Question, run: Run) -> dict[str, int]:
     return found
 
 
-__all__ = ["reached", "run_of"]
+__all__ = ["reached", "reaching", "run_of"]

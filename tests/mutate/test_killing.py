@@ -15,8 +15,9 @@ from checker.model.kept_runs import KILLS, file_of, read
 from checker.model.load import load
 from checker.model.rover import rover
 from checker.mutate.asked import as_it_is
-from checker.mutate.killing import ON, kills, noticed, spread, tried
+from checker.mutate.killing import kills, noticed
 from checker.mutate.mutants import Mutant, mutants
+from checker.mutate.tries import ON, spread, tried
 from checker.runs.chance import random_runs
 from checker.runs.known import reached
 from checker.verdict import Run
