@@ -3,7 +3,7 @@
 from properties.areas.board2_motion import at_rest, braking, drives, rotating
 from properties.document.causes import emergency
 from properties.forms import always, enters_only_if, holds_after, never, reachable
-from spec_model.lang.expr import implies
+from spec_model.lang.expr import all_of, implies
 from spec_model.lang.time import ticks
 from spec_model.lang.words import absolute, held, once, previous
 from spec_model.signals.board2_motion import (
@@ -14,7 +14,7 @@ from spec_model.signals.board2_motion import (
     is_rotating180,
     wheels_below_2_5,
 )
-from spec_model.signals.board2_supervisor import cmd, rover_safety_state, rx_status
+from spec_model.signals.board2_supervisor import cmd, rover_safety_state, rx_status, wheel_speed_rpm
 
 ON = "references_2"
 critical = rover_safety_state == "SAFETY_CRITICAL"
@@ -76,6 +76,11 @@ PB2_33g = never(
     covers=["B2-REF-01"], on=ON, readings=["S62"],
 )  # fmt: skip
 
+PB2_33h = always(
+    "PB2-33h", "For Board 2 the rover stands where all four wheels, as last received, turn below 2.5 rpm.",
+    that=wheels_below_2_5 == all_of(*(absolute(speed) < 2.5 for speed in wheel_speed_rpm.values())),
+    covers=["B2-REF-01"], on="references_2_drawn", readings=["S62"],
+)  # fmt: skip
 REACH2_NEAR = reachable(
     "REACH2-ROTATION-NEAR", "A rotation of Board 2 can come near its target.",
     that=drives & rotating & previous(rotating) & (absolute(angle_err) < 7.5),
