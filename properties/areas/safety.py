@@ -5,7 +5,7 @@ from properties.forms import always, holds_after, reachable, responds
 from spec_model.board1.safety import safety_state
 from spec_model.lang.expr import all_of, implies
 from spec_model.lang.time import tick, ticks
-from spec_model.lang.words import bit, named
+from spec_model.lang.words import bit, named, once
 from spec_model.readings import choose
 from spec_model.signals.board1 import (
     b2_critical,
@@ -33,6 +33,10 @@ PB1_16b = always(
     "While Board 1 actuates, with a critical or degraded cause the safety state is not OK in the same step.",
     that=implies(any_cause, NOT_OK),
     covers=["B1-REF-03", "B1-REF-07"], on=ON, from_tick=2, readings=["S55", "S56"],
+)  # fmt: skip
+PB1_16j = always(
+    "PB1-16j", "Before Board 1 actuates for the first time the safety state is OK.",
+    that=implies(~once(drives), rover_safety_state == "SAFETY_OK"), covers=["B1-REF-04"], on=ON,
 )  # fmt: skip
 PB1_16c = holds_after(
     "PB1-16c",
