@@ -34,10 +34,6 @@ PB1_16b = always(
     that=implies(any_cause, NOT_OK),
     covers=["B1-REF-03", "B1-REF-07"], on=ON, from_tick=2, readings=["S55", "S56"],
 )  # fmt: skip
-PB1_16j = always(
-    "PB1-16j", "Before Board 1 actuates for the first time the safety state is OK.",
-    that=implies(~once(drives), rover_safety_state == "SAFETY_OK"), covers=["B1-REF-04"], on=ON,
-)  # fmt: skip
 PB1_16c = holds_after(
     "PB1-16c",
     "A critical cause in two successive steps of actuation makes the safety state critical in the second.",
@@ -76,6 +72,10 @@ bit_0, bit_1, bit_2, bit_3 = (bit(crit_mask_b2, i) for i in range(4))
 any_critical, any_degraded = crit_mask_b2 != 0, degr_mask_b2 != 0
 stops = choose("S54", {"B2BITS": bit_0 | bit_1, "SAME-AS-B1": bit_0 | bit_1 | bit_3})
 slows = choose("S54", {"B2BITS": bit_2 | bit_3, "SAME-AS-B1": bit_2})
+PB1_16j = always(
+    "PB1-16j", "Before Board 1 actuates for the first time the safety state is OK.",
+    that=implies(~once(drives), rover_safety_state == "SAFETY_OK"), covers=["B1-REF-04"], on=ON,
+)  # fmt: skip
 PB1_16h = always(
     "PB1-16h",
     "Of Board 2, critical bits 0 and 1 are a critical cause; 2, 3 and any degraded bit are a degraded one.",
