@@ -22,14 +22,19 @@ def _combination(
     id: str, chart: Chart, btn1: Var, btn2: Var, x: Var, y: Var, backward: Var, covers: str, on: str
 ) -> Iterator[Property]:
     hands_off = (x == 0) & (y == 0)
-    presses = [(START, btn1, "Step2"), ("Step2", btn1, "Step3"), ("Step3", btn2, "Step4"), ("Step4", btn2, START)]
+    presses = [
+        (START, btn1, "Step2"),
+        ("Step2", btn1, "Step3"),
+        ("Step3", btn2, "Step4"),
+        ("Step4", btn2, START),
+    ]
 
     yield precedes(
         f"{id}a", "Backward mode is off until btn2 is pressed for the first time.",
         first=rising(btn2) & hands_off, then=backward, covers=[covers], on=on, readings=["S59"],
     )  # fmt: skip
     yield always(
-        f"{id}b", "With the stick at rest each press of the combination that is in time leads a step further.",
+        f"{id}b", "With the stick at rest each press that is in time leads the combination on.",
         that=all_of(*(
             implies(previous(chart.active(before)) & rising(button) & hands_off, chart.active(after))
             for before, button, after in presses
@@ -71,5 +76,6 @@ PB1_41a, PB1_41b, PB1_41c, PB1_41d, PB1_41e = _combination(
     "PB1-41", toggle, b1.btn1, b1.btn2, b1.x_norm, b1.y_norm, b1.backward_enabled, "B1-REF-02", "backward"
 )
 PB2_34a, PB2_34b, PB2_34c, PB2_34d, PB2_34e = _combination(
-    "PB2-34", toggle_2, b2.btn1, b2.btn2, b2.bx_norm, b2.ay_norm, b2.backward_enabled, "B2-REF-01", "backward_2"
-)
+    "PB2-34", toggle_2, b2.btn1, b2.btn2, b2.bx_norm, b2.ay_norm, b2.backward_enabled, "B2-REF-01",
+    "backward_2",
+)  # fmt: skip

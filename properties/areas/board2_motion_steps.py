@@ -43,8 +43,8 @@ PB2_33b = always(
 
 PB2_33c = always(
     "PB2-33c",
-    "A stop of Board 2 begins only by CMD_ESTOP to a rover that the user drove forward, not rotating, or by a "
-    "critical safety state.",
+    "A stop of Board 2 begins only by CMD_ESTOP to a rover that the user drove forward, not rotating, or by "
+    "a critical safety state.",
     that=implies(
         previous(drives) & stopped & ~previous(stopped),
         (cmd == "CMD_ESTOP") & previous(forward & ~is_rotating180) | critical,

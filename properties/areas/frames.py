@@ -20,7 +20,7 @@ from spec_model.signals import board2_supervisor as b2
 
 ON = "links"
 MANY = 8
-"""Lost frames in a row are counted up to this number; every age then exceeds its limit; a choice of the model."""
+"""Lost frames in a row are counted up to this number, at which every age exceeds its limit."""
 Fields = Mapping[str, tuple[Var, Var]]
 
 FROM_2: Fields = {
@@ -155,8 +155,8 @@ def _in_a_row(
     unseen = ago(sends, 2) & ~previous(accepted & (arrives == "newest")) & ~accepted
     return always(
         id,
-        f"Frames of {sender} lost in a row are counted up to eight: a frame that was not seen for two steps adds "
-        f"one, an accepted one ends the count.",
+        f"Frames of {sender} lost in a row are counted, up to eight: one not seen for two steps adds to "
+        f"the count, an accepted one ends it.",
         that=lost == ite(accepted, 0, ite(unseen, minimum(previous(lost) + 1, MANY), previous(lost))),
         covers=covers, on=ON, from_tick=3,
     )  # fmt: skip
@@ -240,11 +240,9 @@ PSY_24c_B1 = _in_a_row(
 PSY_24c_B2 = _in_a_row("PSY-24c-B2", "Board 2", b1.rx_update, arrives21, TRUE, lost21, ["B2-COM-05"])
 (
     PSY_25_B1a, PSY_25_B1b, PSY_25_B1c, PSY_25_B1d, PSY_25_B1e, PSY_25_B1f, PSY_25_B1g, REACH_SAME_COUNT_B1,
-) = _counter(
-    "B1", "Board 1", b2.rx_update, arrives12, runs_1, b2.sup_update, ["B2-FLT-01"]
-)
+) = _counter("B1", "Board 1", b2.rx_update, arrives12, runs_1, b2.sup_update, ["B2-FLT-01"])  # fmt: skip
 (
     PSY_25_B2a, PSY_25_B2b, PSY_25_B2c, PSY_25_B2d, PSY_25_B2e, PSY_25_B2f, PSY_25_B2g, REACH_SAME_COUNT_B2,
 ) = _counter(
     "B2", "Board 2", b1.rx_update, arrives21, runs_2, b1.heartbeat_update, ["B2-COM-06", "B1-SUP-01"]
-)
+)  # fmt: skip

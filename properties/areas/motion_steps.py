@@ -93,7 +93,7 @@ PB1_40f = always(
 
 def _dodges(id: str, side: str, state: str, omega: Expr) -> Property:
     return always(
-        f"PB1-40{id}", f"Dodging to the {side}, the healthy rover moves at most at 0.8 and turns at least 0.4.",
+        f"PB1-40{id}", f"Dodging to the {side} the healthy rover moves at most at 0.8, turning at least 0.4.",
         that=implies(
             _during(state) & (y_norm > 0) & OK, (v_ref == minimum(y_norm, 0.8)) & (omega_ref == omega)
         ),
@@ -141,7 +141,7 @@ PB1_40k = always(
 )  # fmt: skip
 slowing = maximum(absolute(angle_err), 15) * const(Fraction("0.005"), "1/°")
 PB1_40l = always(
-    "PB1-40l", "At 45° and less the healthy rover turns in proportion to what is left, 15° at least; at 0° not.",
+    "PB1-40l", "At 45° and less the healthy rover turns at 0.005 per degree left, 15° at least; at 0° not.",
     that=implies(
         _during("Retromarcia_180") & OK & (absolute(angle_err) <= 45),
         all_of(
@@ -160,7 +160,8 @@ PB1_40q = always(
 )  # fmt: skip
 REACH_NEAR = reachable(
     "REACH1-ROTATION-NEAR", "A rotation can come near its target.",
-    that=_during("Retromarcia_180") & (absolute(angle_err) < 7.5), covers=["B1-ACT-01"], on=ON, readings=["S60"],
+    that=_during("Retromarcia_180") & (absolute(angle_err) < 7.5),
+    covers=["B1-ACT-01"], on=ON, readings=["S60"],
 )  # fmt: skip
 
 # --- the stop -----------------------------------------------------------------------------------------
