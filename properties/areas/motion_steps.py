@@ -181,8 +181,9 @@ PB1_40m = always(
     covers=["B1-EST-01"], on=ON, from_tick=3, readings=["S61", "S63"],
 )  # fmt: skip
 PB1_40n = always(
-    "PB1-40n", "A rover at rest runs again in the next step in which Board 1 drives and nothing is critical.",
-    that=implies(previous(at_rest) & drives & ~CRITICAL, running & ~stopped),
+    "PB1-40n",
+    "A rover at rest runs again in the next step in which Board 1 drives, nothing critical and no CMD_ESTOP.",
+    that=implies(previous(at_rest) & drives & ~CRITICAL & (cmd != "CMD_ESTOP"), running & ~stopped),
     covers=["B1-EST-01", "B1-ACT-01"], on=ON, from_tick=2, readings=["S62"],
 )  # fmt: skip
 standing = stopped & (wheels_below_2_5 | ~drives)
