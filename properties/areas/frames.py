@@ -152,13 +152,15 @@ def _begins(id: str, sender: str, accepted: Var, arrives: Var, sends: Expr, cove
 def _in_a_row(
     id: str, sender: str, accepted: Var, arrives: Var, sends: Expr, lost: Var, covers: list[str]
 ) -> Property:
-    unseen = ago(sends, 2) & ~previous(accepted & (arrives == "newest")) & ~accepted
+    none_yet = ~ago(once(sends), 2)
+    unseen = ago(sends, 2) & ~previous(accepted & (arrives == "newest"))
     return always(
         id,
         f"Frames of {sender} lost in a row are counted, up to eight: one not seen for two steps adds to "
         f"the count, an accepted one ends it.",
-        that=lost == ite(accepted, 0, ite(unseen, minimum(previous(lost) + 1, MANY), previous(lost))),
-        covers=covers, on=ON, from_tick=3,
+        that=lost
+        == ite(accepted | none_yet, 0, ite(unseen, minimum(previous(lost) + 1, MANY), previous(lost))),
+        covers=covers, on=ON,
     )  # fmt: skip
 
 
