@@ -5,8 +5,8 @@ Each age may stop growing once it exceeds the limit of its source [seed Table 2,
 
 from properties.document.sources import BLE, IMU, RX, SUP
 from properties.forms import Property, always
-from spec_model.lang.expr import Var, ite
-from spec_model.lang.words import previous
+from spec_model.lang.expr import TRUE, Var, implies, ite
+from spec_model.lang.words import once, previous
 from spec_model.signals.board1 import heartbeat_age, heartbeat_update, rx_age, rx_update
 
 STEP = 20
@@ -21,11 +21,22 @@ def _age(id: str, what: str, update: Var, age: Var, limit: int, covers: str, on:
     )  # fmt: skip
 
 
+def _first(id: str, what: str, update: Var, age: Var, covers: str, on: str) -> Property:
+    return always(
+        id, f"In the first step, 20 ms after power-up, {what} that did not come is said to be 20 ms old.",
+        that=implies(~previous(once(TRUE)) & ~update, age == STEP), covers=[covers], on=on,
+    )  # fmt: skip
+
+
 PB1_37_RX = _age(
     "PB1-37-RX", "the last valid frame of Board 2", rx_update, rx_age, 120, "B1-RX-03", "reception"
 )
 PB1_37_SUP = _age(
     "PB1-37-SUP", "the heartbeat of Board 2", heartbeat_update, heartbeat_age, 120, "B1-SUP-03", "heartbeat"
+)
+PB1_37_RX_first = _first("PB1-37-RX-first", "a frame", rx_update, rx_age, "B1-RX-03", "reception")
+PB1_37_SUP_first = _first(
+    "PB1-37-SUP-first", "a heartbeat", heartbeat_update, heartbeat_age, "B1-SUP-03", "heartbeat"
 )
 PB2_29_SUP, PB2_29_BLE, PB2_29_IMU, PB2_29_RX = (
     _age(

@@ -3,7 +3,7 @@
 from properties.forms import always, holds_after, reachable
 from spec_model.lang.expr import all_of, implies
 from spec_model.lang.time import ticks
-from spec_model.lang.words import absolute, named, previous
+from spec_model.lang.words import absolute, named, once, previous
 from spec_model.signals.board2_motion import actuate_emergency_stop, omega_ref_actuation, v_ref_actuation
 from spec_model.signals.board2_supervisor import (
     autorized_to_send_command,
@@ -67,6 +67,28 @@ PB2_16s = holds_after(
 PB2_16q = always(
     "PB2-16q", "In a step with motor commands the stop pin follows the emergency stop.",
     that=implies(sends_speeds, stop_pin == actuate_emergency_stop), covers=["B2-ACT-01"], on=ON,
+)  # fmt: skip
+PB2_16t = holds_after(
+    "PB2-16t", "Half of full angular speed the other way, for 40 executions, turns the sides the other way.",
+    premise=autorized & (v_ref_actuation == 0) & (omega_ref_actuation == -0.5), for_=39 * ticks,
+    then=(left_rpm == LIMIT) & (right_rpm == -LIMIT),
+    covers=["B2-ACT-01", "B1-REF-05"], on=ON, from_tick=2,
+)  # fmt: skip
+PB2_16u = always(
+    "PB2-16u", "Until Board 2 sends speeds for the first time they are 0, and its stop pin is at stop level.",
+    that=implies(~once(sends_speeds), at_rest & stop_pin), covers=["B2-ACT-01"], on=ON,
+)  # fmt: skip
+PB2_16v = always(
+    "PB2-16v", "The first step in which Board 2 is authorised sends no wheel speeds.",
+    that=implies(sends_speeds, previous(once(autorized))), covers=["B2-ACT-01"], on=ON,
+)  # fmt: skip
+PB2_16w = always(
+    "PB2-16w", "Without authorisation the last commanded wheel speeds and the stop pin stay as they are.",
+    that=implies(
+        ~autorized,
+        all_of(*(side == previous(side) for side in (left_rpm, right_rpm)), stop_pin == previous(stop_pin)),
+    ),
+    covers=["B2-ACT-01"], on=ON, from_tick=2, readings=["E22"],
 )  # fmt: skip
 
 REACH_B2_FULL_SPEED = reachable(

@@ -10,15 +10,17 @@ from dataclasses import replace
 from properties.forms import Property, always, reachable
 from properties.past import ago
 from spec_model.composition.motors import board1_powered, runs_1, runs_2
-from spec_model.composition.systems import arrives12, arrives21
-from spec_model.lang.expr import TRUE, Expr, Var, implies, ite
-from spec_model.lang.words import once, previous
+from spec_model.composition.systems import arrives12, arrives21, lost12, lost21
+from spec_model.lang.expr import TRUE, Expr, Var, all_of, implies, ite
+from spec_model.lang.words import minimum, once, previous
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2 as obstacles
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
 
 ON = "links"
+MANY = 8
+"""Lost frames in a row are counted up to this number, at which every age exceeds its limit."""
 Fields = Mapping[str, tuple[Var, Var]]
 
 FROM_2: Fields = {
@@ -139,6 +141,29 @@ def _arrival(id: str, sender: str, accepted: Var, arrives: Var, sends: Expr, cov
     )  # fmt: skip
 
 
+def _begins(id: str, sender: str, accepted: Var, arrives: Var, sends: Expr, covers: list[str]) -> Property:
+    sent = ite(arrives == "newest", previous(once(sends)), ago(once(sends), 2))
+    return always(
+        id, f"No frame of {sender} is accepted before one was sent.",
+        that=implies(accepted, sent), covers=covers, on=ON,
+    )  # fmt: skip
+
+
+def _in_a_row(
+    id: str, sender: str, accepted: Var, arrives: Var, sends: Expr, lost: Var, covers: list[str]
+) -> Property:
+    none_yet = ~ago(once(sends), 2)
+    unseen = ago(sends, 2) & ~previous(accepted & (arrives == "newest"))
+    return always(
+        id,
+        f"Frames of {sender} lost in a row are counted, up to eight: one not seen for two steps adds to "
+        f"the count, an accepted one ends it.",
+        that=lost
+        == ite(accepted | none_yet, 0, ite(unseen, minimum(previous(lost) + 1, MANY), previous(lost))),
+        covers=covers, on=ON,
+    )  # fmt: skip
+
+
 def _counter(
     id: str, sender: str, accepted: Var, arrives: Var, executed: Expr, changed: Var, covers: list[str]
 ) -> Iterator[Property]:
@@ -179,6 +204,28 @@ def _counter(
         ),
         covers=covers, on=ON, from_tick=4,
     )  # fmt: skip
+    newest_before, older_before = previous(newest), previous(older)
+    yield always(
+        f"PSY-25-{id}f",
+        f"Of two frames of {sender} accepted in successive steps the second has another count exactly if the "
+        f"supervisor executed after the first was built.",
+        that=all_of(
+            implies(newest & newest_before, changed == ago(executed, 1)),
+            implies(newest & older_before, changed == (ago(executed, 1) | ago(executed, 2))),
+            implies(older & older_before, changed == ago(executed, 2)),
+        ),
+        covers=covers, on=ON, from_tick=4,
+    )  # fmt: skip
+    yield always(
+        f"PSY-25-{id}g",
+        f"The first accepted frame of {sender} has another count than 0 exactly if the supervisor executed "
+        f"before it was built.",
+        that=implies(
+            accepted & ~previous(once(accepted)),
+            changed == ite(arrives == "newest", previous(once(executed)), ago(once(executed), 2)),
+        ),
+        covers=covers, on=ON,
+    )  # fmt: skip
     yield reachable(
         f"REACH-SAME-COUNT-{id}", f"A frame of {sender} is accepted whose count has not changed.",
         that=accepted & ~changed, covers=covers, on=ON,
@@ -187,9 +234,17 @@ def _counter(
 
 PSY_24_B1 = _arrival("PSY-24-B1", "Board 1", b2.rx_update, arrives12, board1_powered, ["B2-COM-05"])
 PSY_24_B2 = _arrival("PSY-24-B2", "Board 2", b1.rx_update, arrives21, TRUE, ["B2-COM-05", "B1-RX-01"])
-PSY_25_B1a, PSY_25_B1b, PSY_25_B1c, PSY_25_B1d, PSY_25_B1e, REACH_SAME_COUNT_B1 = _counter(
-    "B1", "Board 1", b2.rx_update, arrives12, runs_1, b2.sup_update, ["B2-FLT-01"]
+PSY_24b_B1 = _begins("PSY-24b-B1", "Board 1", b2.rx_update, arrives12, board1_powered, ["B2-COM-05"])
+PSY_24b_B2 = _begins("PSY-24b-B2", "Board 2", b1.rx_update, arrives21, TRUE, ["B2-COM-05", "B1-RX-01"])
+PSY_24c_B1 = _in_a_row(
+    "PSY-24c-B1", "Board 1", b2.rx_update, arrives12, board1_powered, lost12, ["B2-COM-05"]
 )
-PSY_25_B2a, PSY_25_B2b, PSY_25_B2c, PSY_25_B2d, PSY_25_B2e, REACH_SAME_COUNT_B2 = _counter(
+PSY_24c_B2 = _in_a_row("PSY-24c-B2", "Board 2", b1.rx_update, arrives21, TRUE, lost21, ["B2-COM-05"])
+(
+    PSY_25_B1a, PSY_25_B1b, PSY_25_B1c, PSY_25_B1d, PSY_25_B1e, PSY_25_B1f, PSY_25_B1g, REACH_SAME_COUNT_B1,
+) = _counter("B1", "Board 1", b2.rx_update, arrives12, runs_1, b2.sup_update, ["B2-FLT-01"])  # fmt: skip
+(
+    PSY_25_B2a, PSY_25_B2b, PSY_25_B2c, PSY_25_B2d, PSY_25_B2e, PSY_25_B2f, PSY_25_B2g, REACH_SAME_COUNT_B2,
+) = _counter(
     "B2", "Board 2", b1.rx_update, arrives21, runs_2, b1.heartbeat_update, ["B2-COM-06", "B1-SUP-01"]
-)
+)  # fmt: skip

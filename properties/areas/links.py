@@ -50,6 +50,16 @@ PB1_08b = always(
     that=(b2_sup_status == "SUP_OK") == ((heartbeat_age <= 120) & ~heartbeat_slow),
     covers=["B1-SUP-02", "B1-SUP-03", "B1-SUP-04"], on="heartbeat", from_tick=2, readings=["S34", "S38"],
 )  # fmt: skip
+PB1_08g = always(
+    "PB1-08g", "A mean of ten intervals that becomes slow degrades the reception in the same step.",
+    that=implies((rx_age <= 120) & rx_slow, rx_status == "RX_DEGRADED"),
+    covers=["B1-RX-02"], on="reception_exact", from_tick=2, readings=["S34", "S38"],
+)  # fmt: skip
+PB1_08h = always(
+    "PB1-08h", "A mean of ten intervals that becomes slow degrades the supervisor in the same step.",
+    that=implies((heartbeat_age <= 120) & heartbeat_slow, b2_sup_status == "SUP_DEGRADED"),
+    covers=["B1-SUP-02"], on="heartbeat_exact", from_tick=2, readings=["S34", "S38"],
+)  # fmt: skip
 PB1_08c = holds_after(
     "PB1-08c",
     "Frames at least 60 ms apart, never missing for more than 120 ms, make the reception degraded.",

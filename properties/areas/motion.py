@@ -5,7 +5,6 @@ from properties.document.causes import critical
 from properties.forms import (
     Property,
     always,
-    costly,
     enters_only_if,
     holds_after,
     leaves_only_if,
@@ -64,11 +63,11 @@ PB1_24c = enters_only_if(
     covers=["B1-EST-01"], on=EXECUTED, from_tick=2, readings=["S62"],
 )  # fmt: skip
 
-PB1_24d = costly(always(
+PB1_24d = always(
     "PB1-24d", "The rover counts as standing where all four wheels are slower than 2.5 rpm.",
     that=wheels_below_2_5 == all_of(*(absolute(speed) < 2.5 for speed in wheel_speed_rpm.values())),
     covers=["B1-EST-01"], on="board1", readings=["S62"],
-))  # fmt: skip
+)  # fmt: skip
 
 calm = named(
     "calm",

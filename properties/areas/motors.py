@@ -1,10 +1,21 @@
 """What must be true of the motor driver behind the relay: when the motors move, and when they stop."""
 
 from properties.forms import always, holds_after
-from spec_model.composition.motors import board1_powered, connected, followed, motors_zero, runs_2
+from spec_model.composition.motors import (
+    board1_powered,
+    connected,
+    followed,
+    motors_zero,
+    power_lost,
+    runs_1,
+    runs_2,
+    started,
+    stop_1,
+    stop_2,
+)
 from spec_model.lang.expr import any_of, implies
 from spec_model.lang.time import ticks
-from spec_model.lang.words import held, named, previous
+from spec_model.lang.words import held, named, once, previous
 from spec_model.signals.board1 import actuate_emergency_stop, give_b2_actuation, omega_ref, v_ref
 from spec_model.signals.board2_supervisor import left_rpm, right_rpm, sends_speeds, stop_pin
 
@@ -15,6 +26,7 @@ stopped = named(
     "the stop pin of the connected board stops",
     ((connected == "Board1") & actuate_emergency_stop) | ((connected == "Board2") & stop_pin),
 )
+power_gone = once(power_lost)
 drives_1 = board1_powered & ~give_b2_actuation
 
 PSY_22a = holds_after(
@@ -54,4 +66,19 @@ PSY_22f = always(
         ~motors_zero,
     ),
     covers=["B1-REL-05", "B2-ACT-01"], on=ON, from_tick=2, readings=["E22"],
+)  # fmt: skip
+
+# --- what fails, for good [design] ---------------------------------------------------------------------
+
+PSY_27a = always(
+    "PSY-27a", "Board 1 has power until it loses it, and never again.",
+    that=board1_powered == ~power_gone, covers=["B1-REL-05"], on=ON, readings=["S47"],
+)  # fmt: skip
+PSY_27b = always(
+    "PSY-27b", "The supervisor of Board 1 executes until it stops after its first step or the power is lost.",
+    that=runs_1 == ~(power_gone | once(stop_1 & started)), covers=["B1-REL-05"], on=ON,
+)  # fmt: skip
+PSY_27c = always(
+    "PSY-27c", "The supervisor of Board 2 executes until it stops.",
+    that=runs_2 == ~once(stop_2), covers=["B2-ACT-01"], on=ON,
 )  # fmt: skip

@@ -4,7 +4,7 @@ from properties.forms import always, enters_only_if, holds_after, holds_for, lea
 from spec_model.board1.relay import relay
 from spec_model.lang.expr import implies
 from spec_model.lang.time import ticks
-from spec_model.lang.words import held, named, previous
+from spec_model.lang.words import held, named, once, previous
 from spec_model.signals.board1 import b2_sup_status, give_b2_actuation, heartbeat_age, rx_age, rx_status
 
 ON = "relay"
@@ -45,6 +45,11 @@ PB1_14 = holds_after(
     "PB1-14", "When neither has been critical for 3.02 s, Board 1 has the actuation.",
     premise=~critical, for_=151 * ticks, then=~give_b2_actuation,
     covers=["B1-REL-04"], on=ON, from_tick=2, readings=["S45"],
+)  # fmt: skip
+PB1_14b = always(
+    "PB1-14b", "Until a link is critical for the first time Board 1 has the actuation.",
+    that=implies(~once(critical), ~give_b2_actuation),
+    covers=["B1-REL-03"], on=ON, readings=["S43"],
 )  # fmt: skip
 PB1_15 = always(
     "PB1-15", "With reception and supervisor OK, Board 1 has the actuation in the same step.",

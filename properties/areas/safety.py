@@ -5,7 +5,7 @@ from properties.forms import always, holds_after, reachable, responds
 from spec_model.board1.safety import safety_state
 from spec_model.lang.expr import all_of, implies
 from spec_model.lang.time import tick, ticks
-from spec_model.lang.words import bit, named
+from spec_model.lang.words import bit, named, once
 from spec_model.readings import choose
 from spec_model.signals.board1 import (
     b2_critical,
@@ -72,6 +72,10 @@ bit_0, bit_1, bit_2, bit_3 = (bit(crit_mask_b2, i) for i in range(4))
 any_critical, any_degraded = crit_mask_b2 != 0, degr_mask_b2 != 0
 stops = choose("S54", {"B2BITS": bit_0 | bit_1, "SAME-AS-B1": bit_0 | bit_1 | bit_3})
 slows = choose("S54", {"B2BITS": bit_2 | bit_3, "SAME-AS-B1": bit_2})
+PB1_16j = always(
+    "PB1-16j", "Before Board 1 actuates for the first time the safety state is OK.",
+    that=implies(~once(drives), rover_safety_state == "SAFETY_OK"), covers=["B1-REF-04"], on=ON,
+)  # fmt: skip
 PB1_16h = always(
     "PB1-16h",
     "Of Board 2, critical bits 0 and 1 are a critical cause; 2, 3 and any degraded bit are a degraded one.",

@@ -182,6 +182,7 @@ references_commanded = in_order(
 )
 
 arrives12, arrives21 = link12.arrives, link21.arrives
+lost12, lost21 = link12.lost_in_a_row, link21.lost_in_a_row
 
 links = in_order(
     "links",

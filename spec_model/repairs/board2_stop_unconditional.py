@@ -27,4 +27,11 @@ board2_unconditional = Repair(
         "ObstaclesDriving": look_first,
         "Motion_Supervision_2": stop_while_commanded(cmd, rover_safety_state),
     },
+    gives_up={
+        "REACH2-ESTOP-IGNORED": "It shows that a rotation goes on under CMD_ESTOP, which the repair ends.",
+        "PB2-30d": "A rotation now ends by CMD_ESTOP too, far from its target.",
+        "PB2-32e": "A rover at rest now waits while CMD_ESTOP lasts.",
+        "PB2-33c": "A stop now begins by CMD_ESTOP whatever the user does.",
+        "PB2-56-first": "The obstacle chart now looks at the distances in its first execution.",
+    },
 )

@@ -33,5 +33,6 @@ unconditional = Repair(
     gives_up={
         "REACH1-ESTOP-IGNORED": "It shows that a rotation goes on under CMD_ESTOP, which the repair ends.",
         "PB1-26g": "A rotation now ends by CMD_ESTOP too, far from its target.",
+        "PB1-40m": "A stop now begins by CMD_ESTOP whatever the user does.",
     },
 )
