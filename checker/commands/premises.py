@@ -103,12 +103,12 @@ def _searched(
     jobs: int | None,
     quiet: bool,
 ) -> Iterator[Result]:
-    """What came of searching for cases; where none is found on the rover, with more runs."""
+    """What came of searching for cases; where none is found on the rover, on the system that was searched."""
     free = {name: replace(system, over=False, concrete="") for name, system in systems.items()}
     first = {name: system if system.concrete else free[name] for name, system in systems.items()}
     again = list[Property]()
     for one in results(asked, first, engine, limits, jobs, quiet=quiet) if asked else ():
-        if isinstance(one.verdict, Unknown) and first[one.property.on].over:
+        if not isinstance(one.verdict, Proved) and first[one.property.on].over:
             again.append(one.property)
         else:
             yield one

@@ -4,7 +4,7 @@ from properties.areas.references import drives, running
 from properties.forms import Property, always
 from spec_model.board1.motion import motion_supervision
 from spec_model.lang.expr import Expr, all_of, any_of, implies
-from spec_model.lang.words import maximum, minimum, previous
+from spec_model.lang.words import maximum, minimum, once, previous
 from spec_model.readings import choose
 from spec_model.signals.board1 import (
     actuate_emergency_stop,
@@ -121,6 +121,17 @@ PB1_39h = always(
         v_ref == choose("S57", {"SCALE": y_norm * 0.5, "CLIP": minimum(y_norm, 0.5)}),
     ),
     covers=["B1-GEN-05", "B1-REF-05"], on=ON, from_tick=2, readings=["S57", "S59"],
+)  # fmt: skip
+PB1_38c = always(
+    "PB1-38c", "Before Board 1 drives for the first time it stands, without stop or changed stick.",
+    that=implies(
+        ~once(drives),
+        all_of(
+            (v_ref == 0) & (omega_ref == 0), current_action == "CMD_NORMAL",
+            ~actuate_emergency_stop, ~invert_y,
+        ),
+    ),
+    covers=["B1-ACT-01"], on=ON,
 )  # fmt: skip
 PB1_38d = always(
     "PB1-38d", "The stop procedure takes back what a pulled stick means.",
