@@ -9,10 +9,12 @@ from checker.commands.check import results
 from checker.commands.codes import Exit, UsageError
 from checker.commands.mutating_found import Found
 from checker.commands.mutating_json import document
+from checker.commands.mutating_places import sites
 from checker.commands.mutating_text import report
 from checker.commands.output import err, out, wrapped
 from checker.commands.progress import Watch
 from checker.commands.select import pick
+from checker.commands.tables import listed
 from checker.engine import AUTO, Limits
 from checker.model import Model
 from checker.model.kept_runs import file_of, read
@@ -33,9 +35,10 @@ WORTH_RUNS = 4
 
 @dataclass(frozen=True)
 class Wanted:
-    """What the command line asks for; ``alone``: only properties about the named systems count.
+    """What the command line asks for.
 
-    ``named`` are systems, ``parts`` charts and blocks; without any, all are meant.
+    ``named`` are systems, ``parts`` charts and blocks; without any, all are meant.  ``alone``: only
+    properties about the named systems count; ``by_place``: also which properties constrain each place.
     """
 
     named: tuple[str, ...]
@@ -43,6 +46,7 @@ class Wanted:
     sample: int | None = None
     seed: int = 0
     alone: bool = False
+    by_place: bool = False
     jobs: int | None = None
 
 
@@ -72,6 +76,10 @@ def mutate(model: Model, wanted: Wanted, limits: Limits, as_json: bool) -> Exit:
     if as_json:
         print(json_text(document(found, code), ascii=True))
     else:
+        if wanted.by_place:
+            rows = [(site.name, site.counts, site.by) for site in sites(found)]
+            listed(("place", "faults", "constrained by"), rows)
+            out.print()
         for text, indent in report(found):
             out.print(wrapped(text, indent), markup=False)
     return code

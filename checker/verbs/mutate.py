@@ -33,6 +33,7 @@ from checker.engine import LOADED, Limits
 @click.option(
     "--record-kills", is_flag=True, help="Only find a fault that each property notices, and keep it."
 )
+@click.option("--by-place", is_flag=True, help="Also which properties constrain each arrow, action and wire.")
 @click.option("--json", "as_json", is_flag=True, help="Every mutant as JSON (checker/schemas/mutate-1.json).")
 @modelling
 @quietly
@@ -46,6 +47,7 @@ def mutate(
     sample: int | None,
     seed: int,
     record_kills: bool,
+    by_place: bool,
     as_json: bool,
     model: Path | None,
 ) -> Exit:
@@ -65,6 +67,6 @@ def mutate(
 
             limits = Limits(None, timeout, int(memory * 2**30))
             return recorded(pick_variant((), None, (), model).model, limits, jobs, about)
-        wanted = Wanted(about, part, sample, seed, alone, jobs)
+        wanted = Wanted(about, part, sample, seed, alone, by_place, jobs)
         limits = Limits(None, timeout, int(memory * 2**30))
         return run(pick_variant((), None, (), model).model, wanted, limits, as_json)

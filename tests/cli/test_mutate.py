@@ -133,3 +133,14 @@ def test_one_part_alone_is_made_faulty(capsys: pytest.CaptureFixture[str]) -> No
 def test_a_part_that_is_not_there_is_told_with_its_neighbours(capsys: pytest.CaptureFixture[str]) -> None:
     assert run([*LAMP, "--part", "Alrm"]) is Exit.USAGE
     assert "There is no chart or block 'Alrm'. Did you mean 'Alarm'?" in capsys.readouterr().err
+
+
+def test_each_place_is_shown_with_what_constrains_it(capsys: pytest.CaptureFixture[str]) -> None:
+    run([*LAMP, "--by-place"])
+    rows = [line.split() for line in capsys.readouterr().out.split("\n\n")[0].splitlines()]
+    assert rows[0] == ["place", "faults", "constrained", "by"]
+    said = {row[0]: " ".join(row[1:]) for row in rows}
+    assert said["Lamp/state/On/entry"] == "2 of 4 killed LIT"
+    assert said["Lamp/state/Night/entry"] == "4 of 4 killed LIT, NIGHT"
+    assert said["Lamp/arrow/Off.1"] == "0 of 10 killed NO PROPERTY"
+    assert said["Lamp/data/lit"] == "no fault -"
