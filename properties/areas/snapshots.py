@@ -1,7 +1,6 @@
 """What a snapshot holds: the datum that came last, until another comes [seed §1.1, Fig 13, §1.3.1]."""
 
 from properties.forms import Property, always
-from spec_model.environment_board2 import arriving
 from spec_model.lang.expr import Expr, Var, all_of, const, implies, ite
 from spec_model.lang.words import once, previous
 from spec_model.signals.board1 import (
@@ -17,6 +16,11 @@ from spec_model.signals.board2_supervisor import sonar_update
 
 STEPPED = previous(once(const(True)))
 """A step was made before this one."""
+
+
+def _arriving(datum: Var) -> Var:
+    """The free input that an update brings for a datum."""
+    return Var(f"new_{datum.name}", datum.domain, datum.init, f"{datum.name} of the update")
 
 
 def _kept(update: Var, datum: Var, new: Var) -> Expr:
@@ -40,6 +44,6 @@ PB1_40_BATT = _reading(
 )
 PB2_33 = always(
     "PB2-33", "A scan replaces the three distances, each by its own; without one they stay.",
-    that=all_of(*(_kept(sonar_update, d, arriving(d)) for d in SONARS)),
+    that=all_of(*(_kept(sonar_update, d, _arriving(d)) for d in SONARS)),
     covers=["B2-GEN-03", "B2-OBS-01"], on="sonar_silence", readings=["E13"],
 )  # fmt: skip
