@@ -34,7 +34,7 @@ COMMANDS = {
     "python3 -m venv .venv": INSTALLS,
     ". .venv/bin/activate": INSTALLS,
     "pip install ../rovercheck": INSTALLS,
-    "make check": Instead(MAKES.because, "rovercheck check PB1-11 PB1-15 PB2-01"),
+    "make check": Instead(MAKES.because, "rovercheck check PB1-15 PB2-01"),
     "make test": MAKES,
     "make check-full": MAKES,
     "rovercheck crosscheck": CROSSCHECKS,
