@@ -1,7 +1,10 @@
 """Formulas about steps before this one that more than one area states."""
 
-from spec_model.lang.expr import Expr
+from spec_model.lang.expr import TRUE, Expr
 from spec_model.lang.words import once, previous
+
+STEPPED = previous(once(TRUE))
+"""A step was made before this one."""
 
 
 def ago(value: Expr, steps: int) -> Expr:
@@ -14,4 +17,4 @@ def at_least(count: int, condition: Expr) -> Expr:
     return once(condition if count == 1 else condition & previous(at_least(count - 1, condition)))
 
 
-__all__ = ["ago", "at_least"]
+__all__ = ["STEPPED", "ago", "at_least"]

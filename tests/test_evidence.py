@@ -4,15 +4,18 @@ So is what the README shows of ``make check``.
 """
 
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from checker.commands.check import Compared, line, results, summary
-from checker.commands.findings import Guide, read_on
+from checker.commands.findings import Guide, about_cases, read_on
+from checker.commands.premises import cases
 from checker.commands.reporting import differences, pages
 from checker.commands.wrapping import plain
 from checker.engine import AUTO, Limits
+from checker.model.kept_runs import file_of, read
 from checker.model.rover import rover
 from properties.catalogue import catalogue, expected
 from spec_model.rover import systems
@@ -28,12 +31,15 @@ def test_verdicts_are_as_on_record_and_the_committed_reports_show_them(
 ) -> None:
     # One test, so that the properties are decided once however many processes run the suite.
     affordable = [prop for prop in catalogue().values() if not prop.costly]
-    verdicts = [Compared(r, expected(r.property.id)) for r in results(affordable, systems(), AUTO, Limits())]
+    decided = [Compared(r, expected(r.property.id)) for r in results(affordable, systems(), AUTO, Limits())]
+    told = cases(decided, systems(), read(file_of(rover())), AUTO, Limits())
+    verdicts = [replace(c, case=told.get(c.result.property.id), strict=True) for c in decided]
     assert len(verdicts) == len(affordable)
     assert [line(c) for c in verdicts if not c.as_expected] == []
     guide = Guide(gravest=rover().by_gravity, causes="reports/README.md")
     summary(verdicts, guide)
-    ending = [*capsys.readouterr().out.splitlines(), *read_on(verdicts, systems(), guide)]
+    said = capsys.readouterr().out.splitlines()
+    ending = [*said, *about_cases(verdicts), *read_on(verdicts, systems(), guide)]
     shown, end = sample()
     assert [s for s in shown if s not in {line(c) for c in verdicts}] == []
     assert end == [re.sub(r": \S*rovercheck ", ": .venv/bin/rovercheck ", plain(text)) for text in ending]

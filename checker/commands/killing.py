@@ -91,6 +91,8 @@ def _found(
             if isinstance(event.message, dict):
                 yield names[event.number], event.message
             if event.done:
+                if event.failure:
+                    err.print(f"{names[event.number]}: not looked at whole: {event.failure}", markup=False)
                 done += 1
                 line.show(f"{done}/{len(names)} systems done")
 

@@ -1,4 +1,4 @@
-"""For each property a fault that it notices: what runs on record and runs drawn by chance show."""
+"""For each property a fault that it notices: what runs on record and random runs show."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -6,7 +6,7 @@ from time import monotonic
 
 from checker.mutate.asked import as_it_is
 from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.tries import by_chance, spread, tried
+from checker.mutate.tries import random_runs, spread, tried
 from checker.runs.known import reached
 from checker.verdict import Run
 from properties.forms import Property
@@ -30,7 +30,7 @@ def kills(
     Nothing is said of the others: ``seconds`` may have been too few, or the run too rare.
     """
     original = as_it_is(system)
-    runs = [*tried(known), *by_chance(original)]
+    runs = [*tried(known), *random_runs(original)]
     left, found = {p.id: p for p in properties}, dict[str, Kill]()
     deadline = monotonic() + seconds
     for mutant in spread(mutants(original)):

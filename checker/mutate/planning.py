@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from checker.mutate.asked import Cone, as_it_is, concerned, cones
 from checker.mutate.judging import Case, Fate, Judged
 from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.tries import ROUNDS, by_chance, tried
+from checker.mutate.tries import ROUNDS, random_runs, tried
 from checker.result import Result
 from checker.runs.known import run_of
 from checker.verdict import Proved, Run, Unknown
@@ -110,10 +110,10 @@ class Plan:
         return tuple(run for runs in self.killers.get(name, {}).values() for run in runs)
 
     def _tried(self, original: System) -> tuple[Run, ...]:
-        """Runs on record of a system, and runs by chance."""
+        """Runs on record of a system, and random runs."""
         name = original.name
         if name not in self._tries:
-            self._tries[name] = (*tried(self.premises.get(name, ())), *by_chance(original))
+            self._tries[name] = (*tried(self.premises.get(name, ())), *random_runs(original))
         return self._tries[name]
 
     def _case(self, mutant: Mutant, name: str, sure: bool) -> Case:

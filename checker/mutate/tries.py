@@ -4,12 +4,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TypeVar
 
 from checker.lowered import lowered
-from checker.runs.chance import random_runs
 from checker.verdict import Run
 from spec_model.lang.system import System
 
 COUNT, TICKS = 10, 300
-"""Runs by chance of a system, and how long they are: longer than most timers."""
+"""Random runs of a system, and how long they are: longer than most timers."""
 LONGEST = 1_000
 """Ticks of a run on record that is still tried on every mutant."""
 ON = 60
@@ -20,9 +19,24 @@ ROUNDS = (16, 4, 1)
 One = TypeVar("One")
 
 
-def by_chance(system: System) -> tuple[Run, ...]:
-    """Runs of a system with inputs drawn by chance, always the same ones."""
-    return tuple(random_runs(lowered(system), COUNT, TICKS))
+def random_runs(system: System) -> tuple[Run, ...]:
+    """Runs of a system whose inputs are drawn at random and held for a while, always the same ones."""
+    from checker.encode.cone import as_written, cone, straying  # by numpy and Z3, which take a while to load
+    from checker.encode.simulate import Simulator
+    from checker.encode.symbolic import transition
+    from checker.encode.unrolling import Outside
+
+    whole = lowered(system)
+    stepped, names = transition(whole), [v.name for v in whole.variables]
+    escapes = straying(stepped, as_written(whole, names))
+    part = cone(stepped, [*names, *escapes])
+    outside = Outside(whole, part)
+    if not outside.possible:
+        return ()
+    simulator = Simulator(part, tuple(escapes.values()), lanes=COUNT)
+    trail = simulator.run(simulator.start(), TICKS)
+    frozen = [v.name for v in part.frozen]
+    return tuple(outside.complete(trail.extract(TICKS, lane, frozen)) for lane in range(COUNT))
 
 
 def tried(known: Sequence[Run]) -> Iterator[Run]:
@@ -38,4 +52,4 @@ def spread(found: Sequence[One]) -> Iterator[One]:
     return (found[number] for number in numbers)
 
 
-__all__ = ["ON", "ROUNDS", "by_chance", "spread", "tried"]
+__all__ = ["ON", "ROUNDS", "random_runs", "spread", "tried"]

@@ -5,8 +5,9 @@ Each age may stop growing once it exceeds the limit of its source [seed Table 2,
 
 from properties.document.sources import BLE, IMU, RX, SUP
 from properties.forms import Property, always
-from spec_model.lang.expr import Var, const, ite
-from spec_model.lang.words import once, previous
+from properties.past import STEPPED
+from spec_model.lang.expr import Var, ite
+from spec_model.lang.words import previous
 from spec_model.signals.board1 import (
     batt_age,
     batt_update,
@@ -19,8 +20,6 @@ from spec_model.signals.board1 import (
 )
 
 STEP = 20
-STEPPED = previous(once(const(True)))
-"""A step was made before this one; at power-up every stamp is 0 and so is the clock."""
 
 
 def _age(id: str, what: str, update: Var, age: Var, limit: int, covers: str, on: str) -> Property:

@@ -71,7 +71,7 @@ PB2_33f = holds_after(
     covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S62"],
 )  # fmt: skip
 PB2_33g = never(
-    "PB2-33g", "Without reception braking lasts more than 2 s, Board 2 driving.",
+    "PB2-33g", "Without reception braking lasts at most 2 s, Board 2 driving.",
     that=held(drives & braking & unheard, for_=100 * ticks),
     covers=["B2-REF-01"], on=ON, readings=["S62"],
 )  # fmt: skip

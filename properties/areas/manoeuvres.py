@@ -34,7 +34,7 @@ ACTIONS = {
 """The action that the rover is said to do in each state."""
 
 
-def _during(state: str) -> Expr:
+def during(state: str) -> Expr:
     """The state is executed: active before and after a step in which Board 1 drives."""
     active = motion_supervision.active(state)
     return drives & active & previous(active)
@@ -42,7 +42,7 @@ def _during(state: str) -> Expr:
 
 def _forward(state: str) -> Expr:
     """The same with the stick forward, which means forward."""
-    return _during(state) & (y_norm > 0) & ~invert_y
+    return during(state) & (y_norm > 0) & ~invert_y
 
 
 def _moves(id: str, text: str, state: str, v: Expr, omega: Expr) -> Property:
@@ -81,7 +81,7 @@ PB1_39c = _moves(
 PB1_39d = always(
     "PB1-39d", "Avoiding a side, the rover never turns to it, healthy or degraded.",
     that=all_of(
-        implies(_during("Evita_sinistra"), omega_ref <= 0), implies(_during("Evita_destra"), omega_ref >= 0)
+        implies(during("Evita_sinistra"), omega_ref <= 0), implies(during("Evita_destra"), omega_ref >= 0)
     ),
     covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
 )  # fmt: skip
@@ -110,7 +110,7 @@ PB1_39f = always(
 PB1_39g = always(
     "PB1-39g", "In backward mode the healthy rover follows the stick forward and back.",
     that=implies(
-        _during("Normale_marcia") & backward_enabled & ~invert_y & ~previous(invert_y) & OK, v_ref == y_norm
+        during("Normale_marcia") & backward_enabled & ~invert_y & ~previous(invert_y) & OK, v_ref == y_norm
     ),
     covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
 )  # fmt: skip

@@ -5,6 +5,7 @@ The stop is tested before the user's command of the step is read, the arrows of 
 
 from fractions import Fraction
 
+from properties.areas.manoeuvres import ACTIONS, DEGRADED, OK, during
 from properties.areas.motion import at_rest, braking, normal, rotating, stopped
 from properties.areas.references import drives, running
 from properties.forms import Property, always, enters_only_if, holds_after, reachable
@@ -28,22 +29,15 @@ from spec_model.signals.board1 import (
 )
 
 ON = "references"
-OK, DEGRADED = rover_safety_state == "SAFETY_OK", rover_safety_state == "SAFETY_DEGRADED"
 CRITICAL = rover_safety_state == "SAFETY_CRITICAL"
 MANOEUVRES = {
-    "Schivata_a_sinistra": "CMD_GO_LEFT",
-    "Schivata_a_destra": "CMD_GO_RIGHT",
-    "Evita_sinistra": "CMD_AVOID_LEFT",
-    "Evita_destra": "CMD_AVOID_RIGHT",
+    state: ACTIONS[state]
+    for state in ("Schivata_a_sinistra", "Schivata_a_destra", "Evita_sinistra", "Evita_destra")
 }
+"""The command that begins each dodge and each way round."""
 active = motion_supervision.active
 forward = (y_norm > 0) | (y_norm < 0) & previous(invert_y)
 """The user drives forward; a stick whose meaning changed in an earlier step does so pulled back, too."""
-
-
-def _during(state: str) -> Expr:
-    """The state is executed: active before and after a step in which Board 1 drives."""
-    return drives & active(state) & previous(active(state))
 
 
 # --- what the stick means --------------------------------------------------------------------------
@@ -61,7 +55,7 @@ PB1_40b = always(
 PB1_40c = always(
     "PB1-40c", "In backward mode a stick that has changed its meaning and is pulled back moves forward.",
     that=implies(
-        _during("Normale_marcia") & invert_y & previous(invert_y) & backward_enabled & OK, v_ref == -y_norm
+        during("Normale_marcia") & invert_y & previous(invert_y) & backward_enabled & OK, v_ref == -y_norm
     ),
     covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
 )  # fmt: skip
@@ -95,7 +89,7 @@ def _dodges(id: str, side: str, state: str, omega: Expr) -> Property:
     return always(
         f"PB1-40{id}", f"Dodging to the {side} the healthy rover moves at most at 0.8, turning at least 0.4.",
         that=implies(
-            _during(state) & (y_norm > 0) & OK, (v_ref == minimum(y_norm, 0.8)) & (omega_ref == omega)
+            during(state) & (y_norm > 0) & OK, (v_ref == minimum(y_norm, 0.8)) & (omega_ref == omega)
         ),
         covers=["B1-ACT-01", "B1-REF-04"], on=ON, from_tick=2, readings=["S57", "S60"],
     )  # fmt: skip
@@ -112,11 +106,11 @@ PB1_40i = always(
         DEGRADED & (y_norm > 0),
         all_of(
             implies(
-                _during("Schivata_a_sinistra"),
+                during("Schivata_a_sinistra"),
                 (v_ref == minimum(half_y, 0.4)) & (omega_ref == maximum(half_x, 0.2)),
             ),
             implies(
-                _during("Schivata_a_destra"),
+                during("Schivata_a_destra"),
                 (v_ref == minimum(half_y, 0.4)) & (omega_ref == minimum(half_x, -0.2)),
             ),
         ),
@@ -125,7 +119,7 @@ PB1_40i = always(
 )  # fmt: skip
 PB1_40j = always(
     "PB1-40j", "In normal running the degraded rover turns at half of what the stick says.",
-    that=implies(_during("Normale_marcia") & DEGRADED, omega_ref == half_x),
+    that=implies(during("Normale_marcia") & DEGRADED, omega_ref == half_x),
     covers=["B1-REF-05"], on=ON, from_tick=2, readings=["S57", "S59"],
 )  # fmt: skip
 
@@ -143,7 +137,7 @@ slowing = maximum(absolute(angle_err), 15) * const(Fraction("0.005"), "1/°")
 PB1_40l = always(
     "PB1-40l", "At 45° and less the healthy rover turns at 0.005 per degree left, 15° at least; at 0° not.",
     that=implies(
-        _during("Retromarcia_180") & OK & (absolute(angle_err) <= 45),
+        during("Retromarcia_180") & OK & (absolute(angle_err) <= 45),
         all_of(
             implies(angle_err < 0, omega_ref == slowing),
             implies(angle_err > 0, omega_ref == -slowing),
@@ -155,12 +149,12 @@ PB1_40l = always(
 
 PB1_40q = always(
     "PB1-40q", "Normal running does not go on with a stick pulled back beyond half, outside backward mode.",
-    that=~(_during("Normale_marcia") & (y_norm < -0.5) & ~backward_enabled),
+    that=~(during("Normale_marcia") & (y_norm < -0.5) & ~backward_enabled),
     covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S59", "S60"],
 )  # fmt: skip
 REACH_NEAR = reachable(
     "REACH1-ROTATION-NEAR", "A rotation can come near its target.",
-    that=_during("Retromarcia_180") & (absolute(angle_err) < 7.5),
+    that=during("Retromarcia_180") & (absolute(angle_err) < 7.5),
     covers=["B1-ACT-01"], on=ON, readings=["S60"],
 )  # fmt: skip
 

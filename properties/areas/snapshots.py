@@ -1,8 +1,9 @@
 """What a snapshot holds: the datum that came last, until another comes [seed §1.1, Fig 13, §1.3.1]."""
 
 from properties.forms import Property, always
-from spec_model.lang.expr import Expr, Var, all_of, const, implies, ite
-from spec_model.lang.words import once, previous
+from properties.past import STEPPED
+from spec_model.lang.expr import Expr, Var, all_of, implies, ite
+from spec_model.lang.words import previous
 from spec_model.signals.board1 import (
     batt_reading,
     batt_update,
@@ -13,9 +14,6 @@ from spec_model.signals.board1 import (
 )
 from spec_model.signals.board2 import SONARS
 from spec_model.signals.board2_supervisor import sonar_update
-
-STEPPED = previous(once(const(True)))
-"""A step was made before this one."""
 
 
 def _arriving(datum: Var) -> Var:

@@ -1,12 +1,17 @@
 """Proofs of cases that never occur: told by `check`, an error with `--strict`."""
 
 import json
+from collections.abc import Generator, Sequence
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from checker.cli import run
+from checker.commands.check import results
 from checker.commands.codes import Exit
+from checker.result import Result
+from properties.forms import Property
 from tests.cli.test_report import EMPTY
 
 
@@ -74,18 +79,28 @@ def test_runs_are_kept_and_gone_through_again(hall: Path, capsys: pytest.Capture
 def test_a_run_that_shows_its_case_no_more_is_searched_anew(
     hall: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """The lamp is on at first now: the case occurs without the button."""
+    from checker.commands import premises
+
+    searched = list[int]()
+
+    def counted(asked: Sequence[Property], *rest: Any, **more: Any) -> Generator[Result, None, None]:
+        searched.append(len(asked))
+        return results(asked, *rest, **more)
+
     kept = hall.with_name("premises.json")
     checked(hall, "--record-premises")
-    wrong = kept.read_text(encoding="utf-8").replace('"button":1', '"button":0')
-    kept.write_text(wrong, encoding="utf-8")
-    assert checked(hall, "--strict", "FULL") == Exit.AS_EXPECTED
-    kept.write_text(wrong.replace('"button":0', '"button":77'), encoding="utf-8")
-    assert checked(hall, "--strict", "FULL") == Exit.AS_EXPECTED
-    kept.write_text(wrong.replace('"button"', '"knob"'), encoding="utf-8")
-    assert checked(hall, "--strict", "FULL") == Exit.AS_EXPECTED
-    kept.write_text(wrong.replace('"hall"', '"cellar"'), encoding="utf-8")
-    assert checked(hall, "--strict", "FULL") == Exit.AS_EXPECTED
+    right = kept.read_text(encoding="utf-8")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(premises, "results", counted)
+        for old, new in (
+            ('"button":1', '"button":0'),
+            ('"button":1', '"button":77'),
+            ('"button"', '"knob"'),
+            ('"hall"', '"cellar"'),
+        ):
+            kept.write_text(right.replace(old, new), encoding="utf-8")
+            assert checked(hall, "--strict", "FULL") == Exit.AS_EXPECTED
+    assert searched == [1, 1, 1, 1]
     capsys.readouterr()
 
 
