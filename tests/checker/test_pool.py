@@ -36,7 +36,8 @@ class Doing:
                 time.sleep(60)
             case "nest":
                 for pid in messages(tell_and_sleep, 60):
-                    send(pid)
+                    if pid is not None:  # a beat: starting may take longer than one
+                        send(pid)
             case "fill":
                 send(len(bytearray(4 << 30)))
 
