@@ -29,8 +29,10 @@ from properties.forms import Property, Reachable, Unbounded
 from spec_model.lang.chart import parts
 from spec_model.lang.system import System
 
+UNKILLED = (Fate.SURVIVOR, Fate.NOTICED, Fate.UNKNOWN)
+"""What a mutant may be in its own system that properties of other systems may still kill."""
 WORTH_RUNS = 4
-"""Survivors from which on the runs of other systems are searched once, to be tried on each of them."""
+"""Such mutants from which on the runs of other systems are searched once, to be tried on each of them."""
 
 
 @dataclass(frozen=True)
@@ -130,31 +132,31 @@ def _judged(
     _decide(plan, own, limits, wanted.jobs)
     found.undecided += [p.id for p in own if p.id not in plan.proved]
     first = [plan.own(mutant, name) for name, mutant in todo]
-    survived: dict[str, Judged] = {}
+    unkilled: dict[str, Judged] = {}
     try:
         for told in _told(plan, first, limits, wanted.jobs, {}):
-            if told.judged.fate is Fate.SURVIVOR and not wanted.alone:
-                survived[told.mutant.id] = told.judged
+            if told.judged.fate in UNKILLED and not wanted.alone:
+                unkilled[told.mutant.id] = told.judged
             else:
                 found.told.append((at[told.mutant.id], told.mutant, told.judged))
-        again = [plan.elsewhere(one.mutant, at[one.mutant.id]) for one in first if one.mutant.id in survived]
+        again = [plan.elsewhere(one.mutant, at[one.mutant.id]) for one in first if one.mutant.id in unkilled]
         for one in again:
             if not one.cases:
-                judged = survived.pop(one.mutant.id)
+                judged = unkilled.pop(one.mutant.id)
                 found.told.append((at[one.mutant.id], one.mutant, judged))
         again = [one for one in again if one.cases]
         if len(again) >= WORTH_RUNS:
             asked = {p.id: p for one in again for case in one.cases for p in case.properties}
             with_runs = [p for p in asked.values() if p.id not in plan.proved and _has_run(plan, p)]
             _decide(plan, with_runs, limits, wanted.jobs)
-        for told in _told(plan, again, limits, wanted.jobs, survived):
-            survived.pop(told.mutant.id)
+        for told in _told(plan, again, limits, wanted.jobs, unkilled):
+            unkilled.pop(told.mutant.id)
             found.told.append((at[told.mutant.id], told.mutant, told.judged))
     except KeyboardInterrupt:
         left = {one.mutant.id: one.mutant for one in first}
         why = "interrupted before other systems were looked at"
-        for id, judged in survived.items():
-            found.told.append((at[id], left[id], replace(judged, fate=Fate.UNKNOWN, why=why)))
+        for id, judged in unkilled.items():
+            found.told.append((at[id], left[id], replace(judged, fate=Fate.UNKNOWN, why=judged.why or why)))
         raise
     finally:
         order = {mutant.id: number for number, (_, mutant) in enumerate(todo)}

@@ -229,8 +229,10 @@ class _Hunt:
 
 
 def _still(before: Judged, hunt: _Hunt) -> Judged:
-    """What a mutant that survived in one system is after others were looked at."""
+    """What a mutant that nothing killed in its own system is after others were looked at."""
     asked, left = before.asked + hunt.asked, len(hunt.open)
+    if before.fate is not Fate.SURVIVOR:
+        return replace(before, asked=asked, open=before.open + left)
     if hunt.gone is not None:
         return hunt.gone
     if not left:

@@ -59,6 +59,11 @@ PB1_30c_FL, PB1_30c_FR, PB1_30c_RL, PB1_30c_RR = _each(
     lambda wheel, lost: implies(_degraded(wheel), lost),
     "B1-WHL-01", ["S27"],
 )  # fmt: skip
+PB1_30d_FL, PB1_30d_FR, PB1_30d_RL, PB1_30d_RR = _each(
+    "PB1-30d", "is OK only if the motion is consistent.",
+    lambda wheel, _: implies(_ok(wheel), consistent),
+    "B1-WHL-04", ["S27"],
+)  # fmt: skip
 
 REACH_WHEEL_DEG = reachable(
     "REACH-WHEEL-DEG", "A wheel can have a degraded encoder.",

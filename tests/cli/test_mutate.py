@@ -57,6 +57,23 @@ def test_a_weak_property_leaves_survivors(tmp_path: Path, capsys: pytest.Capture
     assert "Nothing demands: when go = true, then out is true." in said
 
 
+NOTICED_AT_HOME = """
+echo = flag("echo")
+echoing = in_order("echoing", *copying.components, Block("Echo", [assign(echo, out)]))
+Q = always("Q", "It is echoed.", that=(echo & go) | (~echo & ~go), covers=["R"], on=echoing)
+"""
+
+
+@pytest.mark.parametrize(("extra", "fates"), [((), {"killed"}), (("--alone",), {"noticed", "survivor"})])
+def test_what_only_mends_a_finding_at_home_may_be_killed_elsewhere(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], extra: tuple[str, ...], fates: set[str]
+) -> None:
+    file = tmp_path / "echo_model.py"
+    file.write_text(WEAK.replace("THAT", "~out") + NOTICED_AT_HOME, encoding="utf-8")
+    run(["mutate", "--model", str(file), "--part", "Copy", "--quiet", "--json", *extra])
+    assert {m["fate"] for m in json.loads(capsys.readouterr().out)["mutants"]} == fates
+
+
 def test_the_document_holds_every_mutant(capsys: pytest.CaptureFixture[str]) -> None:
     code = run([*LAMP, "--json", "--sample", "12", "--seed", "3"])
     document = json.loads(capsys.readouterr().out)
