@@ -49,9 +49,12 @@ class Transition:
     terms: Terms
 
 
-def transition(system: TransitionSystem) -> Transition:
-    """Execute the step symbolically.  Raises ``ModelError`` on a temporal word."""
-    terms = Terms()
+def transition(system: TransitionSystem, terms: Terms | None = None) -> Transition:
+    """Execute the step symbolically, with formulas of a table of their own, or of that of another system.
+
+    Raises ``ModelError`` on a temporal word.
+    """
+    terms = terms or Terms()
     store = Store()
     store.update({v.name: terms.var(v) for v in (*system.variables, *system.inputs, *system.frozen)})
     executor, facts = _Executor(terms), Facts(terms.range)

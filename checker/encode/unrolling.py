@@ -113,13 +113,17 @@ class Unrolling:
         return z3.simplify(together(*arguments))
 
 
-def model_of(conditions: Sequence[Expr], variables: Sequence[Var]) -> dict[str, int] | None:
+def model_of(
+    conditions: Sequence[Expr], variables: Sequence[Var], patience: int | None = None
+) -> dict[str, int] | None:
     """Values of the variables, within their domains, that satisfy the conditions; None if there are none.
 
-    Raises ``ArithmeticError`` when Z3 gives up.
+    Raises ``ArithmeticError`` when Z3 gives up, at the latest after ``patience`` of its steps.
     """
     symbols = _symbols(variables)
     encode, solver = Encoder(symbols), z3.SolverFor("QF_BV")
+    if patience is not None:
+        solver.set("rlimit", patience)
     solver.add(*map(encode, conditions))
     solver.add(*(m for v in variables for m in member(symbols[v.name], v.domain)))
     if not satisfiable(solver):

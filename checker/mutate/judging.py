@@ -10,6 +10,7 @@ from checker.engine import AUTO, Limits, Progress
 from checker.lowered import lowered
 from checker.mutate.observing import Difference, difference, observable
 from checker.mutate.product import product, same
+from checker.mutate.step_equality import equal_in_every_step
 from checker.portfolio import Question, Told, answers
 from checker.result import Result, check_domains
 from checker.runs.domains import LeavesDomain
@@ -24,6 +25,8 @@ from spec_model.lang.system import System
 
 DOMAINS, REFUSED = "(leaves a domain)", "(refused)"
 """Who kills a mutant that no property is needed for: the commands refuse such a model whatever is asked."""
+EQUAL_STEPS = "every tick takes every valuation to the same one"
+"""Why a mutant is equivalent that no search is needed for."""
 SHARE = 0.5
 """Of the time that is left, what one search may take at most while others wait."""
 
@@ -109,6 +112,11 @@ def judged(cases: Sequence[Case], limits: Limits, progress: Progress, before: Ju
     deadline = limits.deadline()
     hunt = _Hunt(cases, limits, deadline, progress)
     try:
+        killed = hunt.killed_by_runs()
+        if killed is not None:
+            return killed
+        if before is None and equal_in_every_step(lowered(first.original), lowered(first.mutant)):
+            return Judged(Fate.EQUIVALENT, why=EQUAL_STEPS, asked=hunt.asked)
         killed = hunt.killed()
         if killed is not None:
             return killed
@@ -137,13 +145,17 @@ class _Hunt:
         self.open: list[str] = []
         self._still: dict[str, set[str]] = {}
 
-    def killed(self) -> Judged | None:
-        """The mutant killed by the first property that notices it, if one does; known runs come first."""
+    def killed_by_runs(self) -> Judged | None:
+        """The mutant killed by a run that is known, if one does; what runs settle otherwise is kept."""
         for case in self._cases:
             self.on = case.mutant.name
             judged = self._tried(case)
             if judged is not None:
                 return judged
+        return None
+
+    def killed(self) -> Judged | None:
+        """The mutant killed by the first property that notices it, of those that no run has settled."""
         for case, task in self._tasks():
             self.on = task.system.name
             for result in self._found(case, task):
@@ -155,7 +167,6 @@ class _Hunt:
         return None
 
     def _tried(self, case: Case) -> Judged | None:
-        """The mutant killed by a run that is known, if one does; what runs settle otherwise is kept."""
         by_id = {p.id: p for p in case.properties}
         still = self._still.setdefault(case.mutant.name, set())
         runs = (*case.killers, *case.runs.values(), *case.tries)

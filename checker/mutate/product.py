@@ -32,7 +32,7 @@ def same(original: TransitionSystem, mutant: TransitionSystem) -> bool:
     return (
         _key(original.step) == _key(mutant.step)
         and structure(original.assume) == structure(mutant.assume)
-        and _described(original.variables) == _described(mutant.variables)
+        and described(original.variables) == described(mutant.variables)
     )
 
 
@@ -113,7 +113,8 @@ def _key(program: Iterable[Action]) -> tuple[object, ...]:
     )
 
 
-def _described(variables: Sequence[Var]) -> dict[str, tuple[object, int]]:
+def described(variables: Sequence[Var]) -> dict[str, tuple[object, int]]:
+    """Domain and initial value of each variable, by name."""
     return {v.name: (v.domain, v.init) for v in variables}
 
 
@@ -128,8 +129,8 @@ def _reached(
     A statement around the fault that reads such a thing, or writes one, is there twice, and so is all that it
     writes.
     """
-    here = _described((*original.variables, *original.temps))
-    there = _described((*mutant.variables, *mutant.temps))
+    here = described((*original.variables, *original.temps))
+    there = described((*mutant.variables, *mutant.temps))
     found = {n for n in here.keys() | there.keys() if here.get(n) != there.get(n)}
     found |= writes(middle[0]).keys() | writes(middle[1]).keys()
     known = [(_read([s]), set(writes([s]))) for s in around]
@@ -211,4 +212,4 @@ class _Twin:
                 return expr
 
 
-__all__ = ["Product", "product", "same"]
+__all__ = ["Product", "described", "product", "same"]
