@@ -70,9 +70,9 @@ class Case:
     """A mutant in one system, with the properties to ask and whether each is proved of the original.
 
     ``sure``: that was found out, and not only read from a record.  ``named`` are the variables that
-    properties of the system speak of, ``runs`` what is known to reach the goals of some in the original,
-    ``killers`` what kills other mutants, ``tries`` more runs that may, ``engines`` what proved a property of
-    the original.
+    properties speak of, ``abroad`` those that parts of other systems read; ``runs`` are known to reach the
+    goals of some properties in the original, ``killers`` kill other mutants, ``tries`` may kill this one;
+    ``engines`` says what proved a property of the original.
     """
 
     original: System
@@ -82,6 +82,7 @@ class Case:
     proved: Mapping[str, bool]
     sure: bool = True
     named: frozenset[str] = frozenset()
+    abroad: frozenset[str] = frozenset()
     runs: Mapping[str, Run] = field(default_factory=dict)
     killers: Sequence[Run] = ()
     tries: Sequence[Run] = ()
@@ -255,7 +256,8 @@ def _still(before: Judged, hunt: _Hunt) -> Judged:
 def _compared(case: Case, hunt: _Hunt, limits: Limits, progress: Progress) -> Judged:
     """The fate of a mutant that no property kills."""
     original, mutant = lowered(case.original), lowered(case.mutant)
-    seen = observable(case.original, case.parts, case.named) | observable(case.mutant, case.parts, case.named)
+    seen = observable(case.original, case.named, case.abroad)
+    seen |= observable(case.mutant, case.named, case.abroad)
     both = product(original, mutant, seen & {v.name for v in original.variables})
     asked, left = hunt.asked, len(hunt.open)
     if both is None:

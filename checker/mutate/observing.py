@@ -4,15 +4,13 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 from checker.mutate.product import Product
-from checker.mutate.wiring import written_by
 from checker.runs.calm import calmed
 from checker.runs.replay import ReplayError, followed
 from checker.trace import Tick
 from checker.verdict import Run
 from spec_model.lang.chart import Chart, parts
 from spec_model.lang.evaluate import admissible
-from spec_model.lang.system import System, TransitionSystem, enabled_in
-from spec_model.lang.walk import variables
+from spec_model.lang.system import System, TransitionSystem
 
 
 @dataclass(frozen=True)
@@ -36,25 +34,26 @@ class Difference:
         return len(self.inputs)
 
 
-def observable(system: System, concerned: Collection[str], named: Collection[str] = ()) -> set[str]:
-    """The variables by which others know what some parts do.
+def observable(system: System, named: Collection[str] = (), abroad: Collection[str] = ()) -> set[str]:
+    """The variables by which anybody outside the system knows what its parts do.
 
-    That is what they write for others to read, data that properties speak of (those ``named``), and what they
-    write that nobody reads, which is an output.  A part that writes no data is known by its states.
+    That is data that properties speak of (those ``named``), data that parts of other systems read (those
+    ``abroad``), and what no part of this system reads, which is an output.  What one part tells another
+    matters as far as one of these differs in the end.  A part that tells nobody anything is known by all that
+    it writes, a chart that writes no data by its states.
     """
     everything = list(parts(system.components))
-    outside = set(variables(system.assumed, *(e.by for e in enabled_in(system.components))))
+    inside = set[str]().union(*(p.read for p in everything))
+    outside = {*named, *abroad}
     found: set[str] = set()
     for part in everything:
-        if part.name not in concerned:
-            continue
-        others = outside.union(*(p.read for p in everything if p is not part))
-        own = {data.name for data, _ in part.local_to} if isinstance(part, Chart) else set()
-        seen = {n for n in written_by(part) if n in others}
-        seen |= {n for n in part.written if n not in own and (n not in part.read or n in named)}
-        if not seen and isinstance(part, Chart):
-            seen = {v.name for v in part.locations}
-        found |= seen or part.written.keys()
+        local = {data.name for data, _ in part.local_to} if isinstance(part, Chart) else set[str]()
+        written = part.written.keys() - local
+        seen = {n for n in written if n not in inside or n in outside}
+        told = any(n in p.read for p in everything if p is not part for n in written)
+        found |= seen if seen or told else written
+        if isinstance(part, Chart) and not part.written:
+            found |= {v.name for v in part.locations}
     return found
 
 

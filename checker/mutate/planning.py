@@ -2,6 +2,7 @@
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from checker.mutate.asked import Cone, as_it_is, concerned, cones
 from checker.mutate.judging import Case, Fate, Judged
@@ -50,6 +51,7 @@ class Plan:
     premises: Mapping[str, Sequence[Run]] = field(default_factory=dict)
     _tries: dict[str, tuple[Run, ...]] = field(default_factory=dict)
     _cones: dict[str, list[Cone]] = field(default_factory=dict)
+    _read_abroad: dict[str, frozenset[str]] = field(default_factory=dict)
     _mutants: dict[tuple[str, str], dict[str, Mutant]] = field(default_factory=dict)
 
     def learn(self, result: Result) -> None:
@@ -124,10 +126,25 @@ class Plan:
         }
         asked = concerned({name: self._known(name)}, original, mutant.system, mutant.parts)
         properties = tuple(c.property for c in asked if c.property.id in known)
-        named = frozenset(n for p in self._stated(name) for n in variables(*formulas(p.form)))
         return Case(
-            original, mutant.system, mutant.parts, properties, known, sure, named, self._runs(properties)
-        )
+            original, mutant.system, mutant.parts, properties, known, sure,
+            self._named, self._abroad(original), self._runs(properties),
+        )  # fmt: skip
+
+    @cached_property
+    def _named(self) -> frozenset[str]:
+        """What the properties of any system speak of."""
+        return frozenset(n for p in self.properties for n in variables(*formulas(p.form)))
+
+    def _abroad(self, original: System) -> frozenset[str]:
+        """What parts read that other systems have, and this one has not."""
+        if original.name not in self._read_abroad:
+            own = {part.name for part in parts(original.components)}
+            others = (part for system in self.systems.values() for part in parts(system.components))
+            self._read_abroad[original.name] = frozenset(
+                n for part in others if part.name not in own for n in part.read
+            )
+        return self._read_abroad[original.name]
 
     def _stated(self, name: str) -> list[Property]:
         return [p for p in self.properties if p.on == name]

@@ -64,6 +64,12 @@ PB2_12_next = holds_after(
     covers=("B2-OBS-04", "B2-OBS-22"), on="obstacles_d",
 )  # fmt: skip
 
+PB2_12_only = always(
+    "PB2-12-only", "In no step, not even the first, does the degraded chart stop without such an obstacle.",
+    that=implies(~inside_3m, B2DecDegraded == 5),
+    covers=["B2-OBS-22"], on="obstacles_d",
+)  # fmt: skip
+
 # --- the choice between the two charts -------------------------------------------------------------
 
 a_cause = named("a fault on Board 1, or Board 2 drove", deg_mask_b1 | crit_mask_b1 | autorized_prev)

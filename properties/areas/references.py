@@ -5,7 +5,7 @@ from properties.forms import always, holds_after, reachable, until
 from spec_model.board1.motion import motion_supervision
 from spec_model.lang.expr import Expr, all_of, any_of, implies
 from spec_model.lang.time import tick, ticks
-from spec_model.lang.words import absolute, named, previous
+from spec_model.lang.words import absolute, named, once, previous
 from spec_model.signals.board1 import (
     OMEGA_GO_LEFT,
     OMEGA_GO_RIGHT,
@@ -110,6 +110,11 @@ PB1_20f = always(
         implies(CRITICAL, _limits(0, 0, 0, 0)),
     ),
     covers=["B1-REF-04", "B1-REF-05", "B1-REF-06"], on=ON, from_tick=2,
+)  # fmt: skip
+
+PB1_20g = always(
+    "PB1-20g", "Before Board 1 drives for the first time the five limits are nominal.",
+    that=once(drives) | _limits(1.0, 1.0, 0.8, 0.4), covers=["B1-REF-04"], on=ON,
 )  # fmt: skip
 
 # --- nominal references [seed §2.2] ----------------------------------------------------------------
