@@ -8,8 +8,8 @@ from spec_model.board1.reception import reception_monitor
 from spec_model.board1.relay import relay
 from spec_model.board1.systems import FEW_VALUES, FREE_STATUSES, references_executed
 from spec_model.board1.temperature import monitor_temperature
-from spec_model.environment import battery_readings, temperature_readings
-from spec_model.lang.expr import implies
+from spec_model.environment import battery_readings, check_stop, temperature_readings
+from spec_model.lang.expr import all_of, implies
 from spec_model.lang.system import System, in_order
 from spec_model.signals import board1 as b1
 from spec_model.signals import board1_fine as fine
@@ -112,6 +112,22 @@ references_jitter = in_order(
     elapsed=env.step_ms,
 )
 
+COMMANDED = "No cause is critical or degraded; the stick is pushed forward."
+stop_jitter = in_order(
+    "stop_jitter",
+    check_stop,
+    *references_executed.components,
+    text="A commanded stop of Board 1, in steps of 19 to 21 ms.",
+    assume=all_of(
+        *(~cause for cause in (b1.b1_critical, b1.b1_degraded, b1.b2_critical, b1.b2_degraded)),
+        b1.y_norm == 1,
+        b1.x_norm == 0,
+    ),
+    notes=[env.JITTER, *references_executed.notes, COMMANDED],
+    under=True,
+    elapsed=env.step_ms,
+)
+
 SYSTEMS: tuple[System, ...] = (
     reception_jitter,
     frames_jitter_exact,
@@ -121,4 +137,5 @@ SYSTEMS: tuple[System, ...] = (
     temperature_jitter,
     battery_jitter,
     references_jitter,
+    stop_jitter,
 )

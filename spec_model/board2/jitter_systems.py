@@ -8,24 +8,26 @@ from spec_model.board2.classify import process_masks
 from spec_model.board2.failure_check import check_board1
 from spec_model.board2.monitor_systems import FORGOTTEN
 from spec_model.board2.monitors import monitors
-from spec_model.board2.motion_systems import SYSTEMS as MOTION
+from spec_model.board2.motion import check_stop_2, motion_2_with_free_error
+from spec_model.board2.motion_systems import COMES_BEFORE, FREE_BACKWARD
 from spec_model.board2.obstacles import obstacles_n
 from spec_model.board2.slow2 import Record, exact_ms, forgotten
 from spec_model.board2.systems import AS_DRAWN, FREE_HEADING, TURNS
 from spec_model.environment_fine import clock
 from spec_model.lang.action import assign
-from spec_model.lang.chart import Block, Component
+from spec_model.lang.chart import Block, Component, Enabled
 from spec_model.lang.expiry import free_timers
 from spec_model.lang.expr import Expr, all_of, flag, implies
 from spec_model.lang.system import System, in_order
 from spec_model.signals import board2_supervisor as b2
 from spec_model.signals.board2 import d1, d2, d3, prevDEG_B1
-from spec_model.signals.board2_motion import wheels_below_2_5
+from spec_model.signals.board2_motion import ay_norm, bx_norm
 
 # --- the monitors ---------------------------------------------------------------------------------------
 
 SUP, BLE, IMU, RX = SOURCES = tuple(b2.between_steps(source, env.LAG) for source in b2.SOURCES)
 """With stamps some ms before the step that sees them."""
+b1_sup_age_ms = SUP.age
 
 
 def _lag(source: b2.Source) -> Expr:
@@ -156,16 +158,28 @@ window_jitter = replace(
 
 # --- the stop -------------------------------------------------------------------------------------------
 
-_executed = next(system for system in MOTION if system.name == "references_2_executed")
-references_jitter = in_order(
-    "references_2_jitter",
-    *_executed.components,
-    text="As references_2_executed, in steps of 19 to 21 ms, on wheels that never come to rest.",
-    assume=~wheels_below_2_5,
-    notes=[env.JITTER, *_executed.notes, "wheels_below_2_5 is false in every step."],
+deaf_jitter = in_order(
+    "deaf_jitter",
+    *_aged(RX, forgotten),
+    check_board1,
+    check_stop_2,
+    Enabled(b2.autorized_to_send_command, *COMES_BEFORE, motion_2_with_free_error),
+    text="Board 2 that hears no frame from power-up on, on turning wheels, in steps of 19 to 21 ms.",
+    assume=all_of(
+        ~RX.update,
+        ~b2.b1_requests_switch, b2.b1_sup_status == "SUP_OK", ~b2.b1_emergency, ~b2.b2_emergency,
+        *(speed > 2.5 for speed in b2.wheel_speed_rpm.values()),
+        ay_norm == 1, bx_norm == 0, _lag(RX) == 0,
+    ),
+    notes=[
+        env.JITTER,
+        "No frame of Board 1 comes, its wheels turn as last reported, and no other fault is there; the stick "
+        "is pushed forward.",
+        FREE_BACKWARD,
+    ],
     under=True,
     elapsed=env.step_ms,
-)
+)  # fmt: skip
 
 SYSTEMS: tuple[System, ...] = (
     *(make(source) for source in SOURCES for make in (_exact, _monitor)),
@@ -176,5 +190,5 @@ SYSTEMS: tuple[System, ...] = (
     check_requests_jitter,
     obstacles_passing_jitter,
     window_jitter,
-    references_jitter,
+    deaf_jitter,
 )
