@@ -50,7 +50,7 @@ class Voice:
         return span.measured(self.measured or None) and span.ticks(1) > 0
 
     def ms(self, steps: int) -> str:
-        return f"{steps * self.tick_ms} ms"
+        return f"{'nominally ' * self.measured}{steps * self.tick_ms} ms"
 
 
 def quoted(name: str) -> str:

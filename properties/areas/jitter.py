@@ -232,6 +232,10 @@ PB2_60m = always(
     "PB2-60m", "With jitter on both boards, without loss, the reception of Board 2 is OK.",
     that=_status(RX, 0), covers=["B2-FLT-01"], on=WITHOUT_LOSS, readings=["E26"],
 )  # fmt: skip
+PB2_60n = always(
+    "PB2-60n", "With jitter on both boards, without loss, the last frame for Board 2 is at most 20 ms old.",
+    that=b2.rx_age_ms <= 20, covers=["B2-FLT-01"], on=WITHOUT_LOSS,
+)  # fmt: skip
 PB2_60i = _recovers("PB2-60i", RX, "the reception from Board 1", 1 * sec)
 PB2_60j = _recovers("PB2-60j", RX, "the reception from Board 1", 950 * ms, free=True)
 PB2_60k = _recovers("PB2-60k", SUP, "the supervisor of Board 1", 2 * sec)

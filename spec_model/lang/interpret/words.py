@@ -63,11 +63,16 @@ class Words:
     def start_of_step(self, at: Mapping[str, int]) -> None:
         """Read the arguments of ``rising`` and ``held``; states active now are one step older."""
         for held in self._held.values():
-            passed = at[self._elapsed.name] if held.in_ms and held.count and self._elapsed else 1
+            # The first tick of a row is not counted in ms: it only begins here.
+            passed = self._passed(at) if held.in_ms and held.count else 1
             held.count = held.count + passed if _argument(held.word, at) else 0
         now = {key: _argument(word, at) for key, word in self._edges.items()}
         self._before, self._now = self._now or {key: 1 for key in now}, now
         self._since = {path: age + 1 for path, age in self._since.items()}
+
+    def _passed(self, at: Mapping[str, int]) -> int:
+        assert self._elapsed is not None
+        return at[self._elapsed.name]
 
     def entered(self, path: Path) -> None:
         self._since[path] = 0
