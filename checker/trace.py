@@ -86,7 +86,7 @@ class Trace:
     ``violated`` tells whether the run breaks the property; it is None for a run of no property, and for one
     of which only the parts that it makes false are known.  ``shortest``: no shorter run ends so.
     ``again`` is the command that shows the run, where it is known.  ``frozen`` names the choices that are
-    fixed for the whole run.
+    fixed for the whole run.  ``ends`` has the ms at the end of each tick, where ticks last unlike times.
     """
 
     system: str
@@ -115,6 +115,15 @@ class Trace:
     shortest: bool = False
     again: str = field(default="", compare=False, repr=False)
     frozen: tuple[str, ...] = ()
+    ends: tuple[int, ...] = ()
+
+    def clock(self) -> int | tuple[int, ...]:
+        """The length of each tick in ms; where they differ, the time at the end of each, from tick 0 on."""
+        return (0, *self.ends) if self.ends else self.tick_ms
+
+    def ms(self, tick: int) -> int:
+        """The time in ms at the end of a tick, from the start of the run; 0 of tick 0."""
+        return self.ends[tick - 1] if tick and self.ends else tick * self.tick_ms
 
     def __len__(self) -> int:
         return len(self.ticks)

@@ -37,20 +37,21 @@ HOW_TO_READ = (
 )
 
 
-def sentence(prop: Property, tick_ms: int) -> str:
+def sentence(prop: Property, tick_ms: int, measured: bool = False) -> str:
     """What is checked, in one sentence; ``tick_ms`` is the length of a step of the system.
 
+    ``measured``: its steps last unlike times, and lengths in ms are measured (``System.elapsed``).
     Raises ``ModelError`` for a time that is no whole number of steps.
     """
-    said = _form(prop.form, Voice(tick_ms))
+    said = _form(prop.form, Voice(tick_ms, measured=measured))
     if prop.from_tick > 1:
         return f"From step {prop.from_tick} on, {said}."
     return f"{said[0].upper()}{said[1:]}."
 
 
-def definitions(prop: Property, tick_ms: int) -> tuple[str, ...]:
+def definitions(prop: Property, tick_ms: int, measured: bool = False) -> tuple[str, ...]:
     """One sentence for each name that the sentence, or a definition before, quotes."""
-    voice, said = Voice(tick_ms), sentence(prop, tick_ms)
+    voice, said = Voice(tick_ms, measured=measured), sentence(prop, tick_ms, measured)
     found: dict[str, str] = {}
     for formula in _names(prop.form):
         if formula.name not in found and quoted(formula.name) in said:
@@ -121,6 +122,8 @@ def _always(that: Expr, v: Voice) -> str:
 
 
 def _within(span: Span, v: Voice) -> str:
+    if v.in_ms(span):
+        return f"in that step or a later one at most {span} after it"
     steps = v.steps(span)
     if steps == 0:
         return "in that step"
@@ -129,6 +132,9 @@ def _within(span: Span, v: Voice) -> str:
 
 
 def _throughout(premise: Expr, span: Span, v: Voice) -> str:
+    if v.in_ms(span):
+        stretch = f"in each of successive steps, the first and the last at least {span} apart,"
+        return f"{stretch} {part(premise, v)}, then in the last of them"
     steps = v.steps(span)
     if steps == 0:
         return f"{clause(premise, v)}, then in that step"
@@ -137,6 +143,8 @@ def _throughout(premise: Expr, span: Span, v: Voice) -> str:
 
 
 def _from_then(span: Span, v: Voice) -> str:
+    if v.in_ms(span):
+        return f"in that step and each later one at most {span} after it"
     steps = v.steps(span)
     if steps == 0:
         return "in that step"

@@ -28,10 +28,14 @@ _SUMS = (Op.ADD, Op.SUB)
 
 @dataclass(frozen=True)
 class Voice:
-    """How formulas are spoken of: the length of a step, and whether a step before is meant."""
+    """How formulas are spoken of: the length of a step, and whether a step before is meant.
+
+    ``measured``: steps last unlike times, so that a length in ms is no number of steps.
+    """
 
     tick_ms: int
     past: bool = False
+    measured: bool = False
 
     @property
     def be(self) -> str:
@@ -41,8 +45,12 @@ class Voice:
         """The number of steps of a span.  Raises ``ModelError`` unless it is whole."""
         return span.ticks(self.tick_ms)
 
+    def in_ms(self, span: Span) -> bool:
+        """Whether the span is a length of time that is no number of steps."""
+        return span.measured(self.measured or None) and span.ticks(1) > 0
+
     def ms(self, steps: int) -> str:
-        return f"{steps * self.tick_ms} ms"
+        return f"{'nominally ' * self.measured}{steps * self.tick_ms} ms"
 
 
 def quoted(name: str) -> str:
@@ -188,7 +196,7 @@ def _temporal(expr: Temporal, voice: Voice, yes: bool) -> str:
         return _previous(expr.arg, voice, yes)
     match expr:
         case Temporal(When.HELD, Expr() as arg, Span() as span, _):
-            return f"{_last(voice.steps(span), voice, yes)} {part(arg, voice, yes)}"
+            return f"{_last(span, voice, yes)} {part(arg, voice, yes)}"
         case Temporal(When.ONCE, Expr() as arg, _, _):
             some = "in this step or some step before" if yes else "in this step and every step before"
             return f"{some} {part(arg, voice, yes)}"
@@ -205,11 +213,14 @@ def _previous(arg: Expr, voice: Voice, yes: bool) -> str:
     return f"{part(inner, replace(voice, past=True), yes)} {when}{' that' * voice.past}"
 
 
-def _last(steps: int, voice: Voice, each: bool) -> str:
+def _last(span: Span, voice: Voice, each: bool) -> str:
     """The stretch of ``held``, this step and as many before it; its negation is true in one of them."""
+    quantity = "each" if each else "some"
+    if voice.in_ms(span):
+        return f"in {quantity} step of the last {span}, from one as long ago or longer on,"
+    steps = voice.steps(span)
     if steps == 0:
         return "in this step"
-    quantity = "each" if each else "some"
     return f"in {quantity} of the last {steps + 1} steps ({voice.ms(steps)}, ends included)"
 
 

@@ -72,8 +72,9 @@ def without_step(system: System) -> TransitionSystem:
     own = [v for v in system.written.values() if v.name not in {f.name for f in system.frozen}]
     inputs = tuple(system.inputs.values())
     return TransitionSystem(
-        system.name, inputs, system.frozen, (*places, *own), (), (), tick_ms=system.tick_ms
-    )
+        system.name, inputs, system.frozen, (*places, *own), (), (), tick_ms=system.tick_ms,
+        elapsed=system.elapsed,
+    )  # fmt: skip
 
 
 def reduce(system: TransitionSystem, properties: Sequence[Property]) -> Question:
@@ -140,13 +141,13 @@ class _Monitors:
             case Reachable(that):
                 return all_of(armed, f(that)), None
             case Responds(trigger, response, within):
-                ticks = self._ticks("within", within)
-                return self._responds(all_of(armed, f(trigger)), f(response), ticks), response
+                return self._responds(all_of(armed, f(trigger)), f(response), within), response
             case HoldsAfter(premise, for_, then):
-                held = self._held(all_of(armed, f(premise)), self._ticks("for_", for_))
+                self._ticks("for_", for_)
+                held = self._held(all_of(armed, f(premise)), for_)
                 return held & ~f(then), then
             case HoldsFor(start, that, for_):
-                return self._holds_for(f(start), armed, f(that), self._ticks("for_", for_)), that
+                return self._holds_for(f(start), armed, f(that), for_), that
             case LeavesOnlyIf(leaving, only_if):
                 left = self._previous(f(leaving), 0) & ~f(leaving)
                 return all_of(armed, left, ~f(only_if)), only_if
@@ -207,7 +208,8 @@ class _Monitors:
                 return arg & ~self._previous(arg, 1)
             case When.HELD:
                 assert word.span is not None
-                return self._held(arg, self._ticks_of(word, word.span))
+                self._ticks_of(word, word.span)
+                return self._held(arg, word.span)
             case _:
                 return self._once(arg)
 
@@ -220,16 +222,19 @@ class _Monitors:
 
         return self._memory(("previous", structure(arg), init), f"previous({arg})", make)
 
-    def _held(self, arg: Expr, ticks: int) -> Expr:
-        if ticks == 0:
+    def _held(self, arg: Expr, span: Span) -> Expr:
+        length, passed = self._length(span), self._passed(span)
+        if length == 0:
             return arg
 
         def make(name: str) -> Expr:
-            counter = self._variable(name, integer(0, ticks + 1), 0, f"ticks in a row with {arg}")
-            self.before.append(_count(counter, arg))
-            return counter >= ticks + 1
+            doc = f"{'ticks in a row' if passed is None else 'ms'} with {arg}"
+            counter = self._variable(name, _counting(length + 1, passed), 0, doc)
+            self.before.append(_count(counter, arg, passed))
+            return counter >= length + 1
 
-        return self._memory(("held", structure(arg), ticks), f"held({arg}, {ticks})", make)
+        key = ("held", structure(arg), length, passed is None)
+        return self._memory(key, f"held({arg}, {length if passed is None else span})", make)
 
     def _once(self, arg: Expr) -> Expr:
         def make(name: str) -> Var:
@@ -256,20 +261,27 @@ class _Monitors:
 
     # --- forms with a counter of their own ---
 
-    def _responds(self, trigger: Expr, response: Expr, ticks: int) -> Expr:
-        if ticks == 0:
+    def _responds(self, trigger: Expr, response: Expr, within: Span) -> Expr:
+        length, passed = self._ticks("within", within), self._passed(within)
+        if length == 0:
             return trigger & ~response
-        waiting = self._own("waiting", integer(0, ticks + 1), "ticks a trigger has waited, this one included")
+        # A response later than the last ms that is allowed comes too late; of ticks none is left out.
+        most = length + (1 if passed is None else 2)
+        doc = f"{_unit(passed)} a trigger has waited, this one included"
+        waiting = self._own("waiting", _counting(most, passed), doc)
         first = ite(trigger, _one(waiting), _zero(waiting))
-        later = ite(waiting > 0, minimum(waiting + 1, ticks + 1), first)
-        self.before.append(Assign(waiting, ite(response, _zero(waiting), later)))
-        return waiting >= ticks + 1
+        later = ite(waiting > 0, minimum(waiting + (1 if passed is None else passed), most), first)
+        in_time = response if passed is None else response & (later <= length + 1)
+        self.before.append(Assign(waiting, ite(in_time, _zero(waiting), later)))
+        return waiting >= length + 1
 
-    def _holds_for(self, start: Expr, armed: Expr, that: Expr, ticks: int) -> Expr:
-        doc = "ticks for which it must still hold, this one included"
-        left = self._own("left", integer(0, ticks + 1), doc)
+    def _holds_for(self, start: Expr, armed: Expr, that: Expr, for_: Span) -> Expr:
+        length, passed = self._ticks("for_", for_), self._passed(for_)
+        doc = f"{_unit(passed)} for which it must still hold, this one included"
+        left = self._own("left", _counting(length + 1, passed), doc)
         begins = all_of(armed, start & ~self._previous(start, 0))
-        self.before.append(Assign(left, ite(begins, Const(ticks + 1, left.sort), maximum(left - 1, 0))))
+        less = maximum(left - (1 if passed is None else passed), 0)
+        self.before.append(Assign(left, ite(begins, Const(length + 1, left.sort), less)))
         return (left > 0) & ~that
 
     def _until(self, start: Expr, holds: Expr, release: Expr) -> Expr:
@@ -307,16 +319,24 @@ class _Monitors:
     def _ticks(self, argument: str, span: Span) -> int:
         """The ticks of an argument.  Raises ``ModelError`` that names it."""
         try:
-            return span.ticks(self.system.tick_ms)
+            return self._length(span)
         except ModelError as error:
             raise ModelError(f"{self._owner}: {argument}={error}") from None
 
     def _ticks_of(self, word: Temporal, span: Span) -> int:
         """The ticks of a temporal word.  Raises ``ModelError`` that shows it."""
         try:
-            return span.ticks(self.system.tick_ms)
+            return self._length(span)
         except ModelError as error:
             raise ModelError(f"{self._owner}: `{word}`: {error}") from None
+
+    def _length(self, span: Span) -> int:
+        """The span in what its counter counts: ticks, or ms where ticks last unlike times."""
+        return span.ticks(self.system.tick_ms if self._passed(span) is None else 1)
+
+    def _passed(self, span: Span) -> Var | None:
+        """By what its counter grows in a tick: by what has elapsed if it counts ms, else by 1 (None)."""
+        return self.system.elapsed if span.measured(self.system.elapsed) else None
 
     def _initial(self, arg: Expr) -> int:
         """The value of a formula before the first tick; inputs have their initial values then."""
@@ -355,8 +375,19 @@ def _one(counter: Var) -> Const:
     return Const(1, counter.sort)
 
 
-def _count(counter: Var, condition: Expr) -> Assign:
-    return Assign(counter, ite(condition, minimum(counter + 1, counter.domain.high), _zero(counter)))
+def _unit(passed: Var | None) -> str:
+    return "ticks" if passed is None else "ms"
+
+
+def _counting(most: int, passed: Var | None) -> Domain:
+    return integer(0, most, "" if passed is None else "ms")
+
+
+def _count(counter: Var, condition: Expr, passed: Var | None) -> Assign:
+    more = minimum(counter + (1 if passed is None else passed), counter.domain.high)
+    if passed is not None:
+        more = ite(counter > 0, more, _one(counter))
+    return Assign(counter, ite(condition, more, _zero(counter)))
 
 
 __all__ = ["Goal", "Question", "reduce", "without_step"]

@@ -7,10 +7,10 @@ step is at 20 ms.
 
 from dataclasses import replace
 
-from spec_model.intervals import Arrivals, any_mean
+from spec_model.intervals import STEP, Arrivals, any_mean
 from spec_model.lang.action import Action, assign, when
 from spec_model.lang.chart import Block
-from spec_model.lang.expr import Var, const
+from spec_model.lang.expr import Expr, Var, const
 from spec_model.lang.system import Note
 from spec_model.lang.words import minimum
 from spec_model.readings import under
@@ -29,9 +29,9 @@ heartbeat = Arrivals("heartbeat", b1.heartbeat_update, fine.heartbeat_lag, fine.
 counted_heartbeat = replace(heartbeat, moves=b1.heartbeat_moves)
 
 
-def clock(name: str, update: Var, lag: Var, age: Var) -> Block:
-    """The age of a time stamp that an update sets to ``lag`` before the step."""
-    older = minimum(age + const(20, "ms"), const(age.domain.high, "ms"))
+def clock(name: str, update: Var, lag: Expr, age: Var, step: Expr = STEP) -> Block:
+    """The age of a time stamp that an update sets to ``lag`` before the step, which lasts ``step``."""
+    older = minimum(age + step, const(age.domain.high, "ms"))
     return Block(
         name, [when(update, [assign(age, lag)], [assign(age, older)])], text=f"Time since {update.name}."
     )

@@ -27,6 +27,9 @@ LONG = INTERVALS * LIMIT + 1
 MOST_LAG = TICK_MS - 1
 """ms from an arrival to the step that sees it, at most: one on the edge counts for the later tick."""
 
+STEP = const(TICK_MS, "ms")
+"""The length of a step, where it is constant."""
+
 MOST_MOVES = 3
 """By how much a heartbeat may move between two steps (S40)."""
 
@@ -40,7 +43,7 @@ class Arrivals:
 
     Without a ``lag`` they come at the instants of the steps.  ``first_lag`` is the lag of another update
     before the latest within the same tick, which is there iff it is greater than ``lag`` (S36).  ``moves``
-    is by how much the counter moved (S40).
+    is by how much the counter moved (S40).  ``step`` is how long the step has lasted.
     """
 
     name: str
@@ -48,6 +51,12 @@ class Arrivals:
     lag: Var | None = None
     first_lag: Var | None = None
     moves: Var | None = None
+    step: Expr = STEP
+
+    @property
+    def most_lag(self) -> int:
+        """ms from an arrival to the step that sees it, at most."""
+        return MOST_LAG if self.lag is None else self.lag.domain.high
 
     @property
     def updates(self) -> Var:
@@ -96,7 +105,7 @@ def interval_record(arrivals: Arrivals) -> list[Action]:
     between = when(under("S35", "OPEN"), [assign(arrivals.slow, _mean_over([gap, *last[:-1]], open_too))])
     return [
         from_power_up(updates),
-        *_grow(gap),
+        *_grow(gap, arrivals.step),
         when(arrivals.update, [*_closing(arrivals, gap, close), at_update], [between]),
     ]
 
@@ -133,7 +142,7 @@ def any_mean(arrivals: Arrivals, answer: Var) -> list[Action]:
     between = when(under("S35", "OPEN"), [assign(slow, open_too & answer)])
     return [
         from_power_up(updates),
-        *_grow(gap),
+        *_grow(gap, arrivals.step),
         when(arrivals.update, [*_closing(arrivals, gap, close), assign(slow, enough & mean)], [between]),
     ]
 
@@ -142,14 +151,16 @@ def _gap(arrivals: Arrivals, long: int) -> Var:
     """The open interval; it stops growing where each of its shares is ``long`` at every lag."""
     if arrivals.moves is None:
         return var(
-            f"{arrivals.name}_gap", integer(0, long + MOST_LAG, "ms"), doc="ms since the latest update"
+            f"{arrivals.name}_gap",
+            integer(0, long + arrivals.most_lag, "ms"),
+            doc="ms since the latest update",
         )
-    most = MOST_MOVES * long + MOST_LAG
+    most = MOST_MOVES * long + arrivals.most_lag
     return var(f"{arrivals.name}_span", integer(0, most, "ms"), doc="ms since the latest update")
 
 
-def _grow(gap: Var) -> list[Action]:
-    return [assign(gap, minimum(gap + const(TICK_MS, "ms"), const(gap.domain.high, "ms")))]
+def _grow(gap: Var, step: Expr) -> list[Action]:
+    return [assign(gap, minimum(gap + step, const(gap.domain.high, "ms")))]
 
 
 def _closing(arrivals: Arrivals, gap: Var, close: Close) -> list[Action]:

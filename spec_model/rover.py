@@ -28,6 +28,8 @@ BOARDS = (
     "spec_model.composition.weather",
     "spec_model.composition.receiver",
     "spec_model.composition.counters",
+    "spec_model.board1.jitter_systems",
+    "spec_model.board2.jitter_systems",
 )
 """Modules with a tuple SYSTEMS, in the order in which the systems are listed."""
 

@@ -319,7 +319,7 @@ def evidence(result: Result) -> str:
 
 def ticks(trace: Trace) -> str:
     """``155 ticks = 3.1 s``, and how many of them repeat for ever."""
-    seconds = len(trace) * trace.tick_ms / 1000
+    seconds = trace.ms(len(trace)) / 1000
     return f"{counted_ticks(len(trace))} = {seconds:g} s{repeating(trace)}"
 
 

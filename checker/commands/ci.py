@@ -11,6 +11,7 @@ from checker.certify.outcome import Rejected
 from checker.commands.check import Compared, evidence, length, recorded
 from checker.commands.codes import Exit, UsageError
 from checker.commands.output import possible, write
+from checker.commands.wording import formally
 from checker.commands.wrapping import whole
 from checker.render.ci import Finding, Level, Report
 from checker.render.ci.github import annotations, summary
@@ -18,7 +19,6 @@ from checker.render.ci.junit import junit
 from checker.render.ci.sarif import sarif
 from checker.trace import Trace, counted_ticks
 from checker.verdict import Exhausted, Unknown, Violated
-from properties.english import definitions, sentence
 from properties.forms import Reachable
 from spec_model.lang.system import System
 
@@ -92,7 +92,6 @@ def finding(compared: Compared, systems: Mapping[str, System], options: str = ""
     because = verdict.reason if isinstance(verdict, Unknown) else verdict.because
     on_record = compared.verdict.word == compared.expected.verdict
     system = systems.get(compared.result.system, systems.get(prop.on))
-    step = system.tick_ms if system is not None else 0
     return Finding(
         id=prop.id,
         text=prop.text,
@@ -102,7 +101,7 @@ def finding(compared: Compared, systems: Mapping[str, System], options: str = ""
         evidence=_rejected(compared) or evidence(compared.result),
         recorded=recorded(compared.expected),
         because=compared.expected.because if on_record else "",
-        help="\n".join([sentence(prop, step), *definitions(prop, step)]) if step else prop.text,
+        help="\n".join(formally(prop, system, "")) if system is not None else prop.text,
         tags=prop.covers,
         place=prop.place,
         trace=because if isinstance(because, Trace) else None,

@@ -30,6 +30,11 @@ def concrete(trace: Trace, system: System) -> Trace:
             f"{trace.system} advances by {system.tick_ms} ms and lets every task start at any phase; a "
             f"supervisor is executed every {TICK_MS} ms, so this run cannot be given to one. {ASK}"
         )
+    if system.elapsed is not None:
+        raise ModelError(
+            f"{trace.system} has steps that last unlike times; a supervisor is given steps of {TICK_MS} ms, "
+            f"so this run cannot be given to one. {ASK}"
+        )
     runs, reasons = [], []
     for board in boards().values():
         if _parts(board.system) & _parts(system):

@@ -27,9 +27,10 @@ Found = tuple[str, str, Trace]
 
 
 def concerns(board: Board, system: System) -> bool:
-    """Whether a system runs a chart of the board, a step of the board in each tick."""
+    """Whether a system runs a chart of the board, a step of 20 ms in each tick."""
     own = {chart.name for chart in board.system.charts}
-    return system.tick_ms == TICK_MS and any(chart.name in own for chart in system.charts)
+    constant = system.tick_ms == TICK_MS and system.elapsed is None
+    return constant and any(chart.name in own for chart in system.charts)
 
 
 def runs(found: Iterable[Found], known: Mapping[str, System]) -> dict[str, list[Kept]]:

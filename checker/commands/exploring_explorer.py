@@ -23,7 +23,7 @@ class Explorer:
     def prompt(self) -> str:
         """``tick 12, 240 ms> ``."""
         sim = self.session.simulation
-        return f"tick {sim.at}, {sim.at * sim.lowered.tick_ms} ms> "
+        return f"tick {sim.at}, {sim.ms} ms> "
 
     def say(self, sentence: str, style: str = "") -> None:
         """A sentence in the width of the terminal."""

@@ -8,9 +8,9 @@ from checker.commands.codes import Exit, UsageError
 from checker.commands.output import err, write, wrote
 from checker.commands.select import pick, pick_properties
 from checker.commands.variant import Variant
+from checker.commands.wording import formally
 from checker.commands.wrapping import whole
 from checker.export import Exporter, exporters, problem
-from properties.english import sentence
 from properties.forms import Property
 from spec_model.lang.errors import ModelError
 from spec_model.lang.lower import lower
@@ -72,7 +72,7 @@ def _several(
 
 
 def _exported(prop: Property, system: System, exporter: Exporter, variant: str) -> str | bytes:
-    about = [f"checked: {sentence(prop, system.tick_ms)}", *([f"variant: {variant}"] if variant else [])]
+    about = [formally(prop, system, "checked: ")[0], *([f"variant: {variant}"] if variant else [])]
     return exporter.export(problem(lower(system), prop, about))
 
 

@@ -33,7 +33,7 @@ def _property(prop: Property, model: Model) -> Item:
     return {
         "id": prop.id,
         "text": prop.text,
-        "formally": list(formally(prop, model.systems[prop.on].tick_ms)),
+        "formally": list(formally(prop, model.systems[prop.on])),
         "system": prop.on,
         "area": prop.area,
         "requirements": list(prop.covers),

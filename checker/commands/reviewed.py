@@ -8,6 +8,7 @@ from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from checker.commands.check import Compared, evidence, recorded
 from checker.commands.killing import noticing
 from checker.commands.premises import Case
+from checker.commands.wording import formally
 from checker.model import Model
 from checker.render.review.model import (
     About,
@@ -24,7 +25,7 @@ from checker.render.review.model import (
 from checker.trace import Trace
 from checker.verdict import Exhausted, Unknown
 from properties.coverage import Coverage, matrix
-from properties.english import HOW_TO_READ, definitions, sentence
+from properties.english import HOW_TO_READ
 from properties.forms import Form, Property, formulas
 from spec_model.lang.chart import Chart
 from spec_model.lang.expr import Expr, Named
@@ -105,7 +106,7 @@ def checked(compared: Compared, model: Model, extras: Extras) -> Checked:
         verdict.engine,
         evidence(compared.result),
         type(prop.form).__name__,
-        (sentence(prop, system.tick_ms), *definitions(prop, system.tick_ms)),
+        formally(prop, system, ""),
         (*written(prop), *named(prop.form)),
         compared.result.in_part,
         recorded(entry),

@@ -1,13 +1,13 @@
 """Properties in structured English, for the terminal and for the reports."""
 
 from collections.abc import Sequence
-from functools import cache
 
 from checker.commands.output import out, text_width
 from checker.commands.wrapping import filled
 from checker.model import Model
 from properties.english import HOW_TO_READ, definitions, sentence
 from properties.forms import Property
+from spec_model.lang.system import System
 from spec_model.rover import systems
 
 
@@ -25,23 +25,19 @@ def paragraph(prop: Property, model: Model) -> str:
         (
             head,
             filled(prop.text, text_width()),
-            *map(_indented, formally(prop, model.systems[prop.on].tick_ms)),
+            *map(_indented, formally(prop, model.systems[prop.on])),
         )
     )
 
 
-def formally(prop: Property, tick_ms: int | None = None) -> tuple[str, ...]:
+def formally(prop: Property, system: System | None = None, lead: str = "Formally: ") -> tuple[str, ...]:
     """What is checked, in a sentence, and a sentence for each formula that it names.
 
-    ``tick_ms`` is the length of a step of the system, by default that of the rover's system.
+    ``system`` is what it is checked on, by default the rover's system of that name.
     """
-    tick_ms = tick_ms or _tick_ms()[prop.on]
-    return f"Formally: {sentence(prop, tick_ms)}", *definitions(prop, tick_ms)
-
-
-@cache
-def _tick_ms() -> dict[str, int]:
-    return {name: system.tick_ms for name, system in systems().items()}
+    system = system or systems()[prop.on]
+    tick_ms, measured = system.tick_ms, system.elapsed is not None
+    return f"{lead}{sentence(prop, tick_ms, measured)}", *definitions(prop, tick_ms, measured)
 
 
 def _indented(text: str) -> str:

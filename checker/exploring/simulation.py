@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from checker.exploring.admitted import broken, conjuncts
 from checker.exploring.written import Refused, outside
-from checker.runs.replay import ReplayError, arrow_of
+from checker.runs.replay import ReplayError, arrow_of, ends
 from checker.trace import Tick, Trace
 from spec_model.lang.chart import Path, Transition
 from spec_model.lang.evaluate import step
@@ -139,6 +139,12 @@ class Simulation:
 
     # --- looking ---
 
+    @property
+    def ms(self) -> int:
+        """The time at the end of the tick that is looked at."""
+        measured = ends(self.lowered, tuple(self._ticks(1)))
+        return measured[-1] if measured else self.at * self.lowered.tick_ms
+
     def tested(self) -> tuple[Tested, ...]:
         """Every arrow that was tested in the tick that is looked at, in order."""
         found: list[Tested] = []
@@ -158,6 +164,7 @@ class Simulation:
             self.system.name, self.lowered.tick_ms, self.variables, tuple(self.inputs), before,
             tuple(self._ticks(first)), relevant=frozenset(self.variables), charts=frozenset(drawn),
             statecharts=drawn, components=self.system.components,
+            ends=ends(self.lowered, tuple(self._ticks(1))),
         )  # fmt: skip
 
     def _ticks(self, first: int) -> Iterator[Tick]:

@@ -9,7 +9,7 @@ from checker.graph import StateGraph, Way
 from checker.graphs.projecting import project
 from checker.graphs.search import Exploration, checks_of, explore
 from checker.graphs.telling import Telling
-from checker.runs.replay import followed
+from checker.runs.replay import ends, followed
 from checker.slice import sliced
 from checker.trace import Trace
 from spec_model.lang.lower.ranges import checked
@@ -61,7 +61,7 @@ class Made:
         trace = Trace(
             system.name, system.tick_ms, table, tuple(v.name for v in system.inputs),
             {**system.init, **run.frozen}, ticks, (), frozenset(relevant), frozenset(charts),
-            statecharts={c.name: c for c in drawn},
+            statecharts={c.name: c for c in drawn}, ends=ends(system, ticks),
         )  # fmt: skip
         at = exploration.explored.at(place)
         shown = ((n, table[n].domain.show(raw)) for n, raw in at.items() if not table[n].hidden)

@@ -21,15 +21,14 @@ class Again:
     last: int
     period: int
     times: int
-    tick_ms: int
+    lasts: int
 
     @property
     def what(self) -> str:
         """The repetition in one sentence."""
         begin = self.first - self.period
         once = f"ticks {begin}–{self.first - 1}" if self.period > 1 else f"tick {begin}"
-        count = self.times * self.period
-        ticks = f"{counted_ticks(count)} = {duration(count * self.tick_ms)}"
+        ticks = f"{counted_ticks(self.times * self.period)} = {duration(self.lasts)}"
         return f"ticks {self.first}–{self.last}: {once} again, {self.times} times; {ticks}"
 
 
@@ -47,7 +46,7 @@ def folded(trace: Trace) -> Iterator[Row | Again]:
             continue
         yield from told[at : at + length]
         first, last = _ticks(told[at + length])[0], _ticks(told[at + length * (times + 1) - 1])[1]
-        yield Again(first, last, (last - first + 1) // times, times, trace.tick_ms)
+        yield Again(first, last, (last - first + 1) // times, times, trace.ms(last) - trace.ms(first - 1))
         at += length * (times + 1)
 
 

@@ -17,7 +17,7 @@ class Reason:
 
     first: int
     last: int
-    tick_ms: int
+    ends: tuple[int, int]
     what: str
     every: int = 1
 
@@ -32,8 +32,8 @@ class Reason:
     @property
     def ms(self) -> str:
         """``20–140 ms``: the ends of the first and of the last tick."""
-        first = f"{self.first * self.tick_ms}–" if self.last > self.first else ""
-        return f"{first}{self.last * self.tick_ms} ms"
+        first = f"{self.ends[0]}–" if self.last > self.first else ""
+        return f"{first}{self.ends[1]} ms"
 
 
 def reasons(trace: Trace, regular: bool = False) -> tuple[Reason, ...]:
@@ -46,10 +46,11 @@ def reasons(trace: Trace, regular: bool = False) -> tuple[Reason, ...]:
         ticks.setdefault((one.name, one.values), []).append(one.number)
     order = {name: i for i, name in enumerate(trace.inputs)}
     found = [
-        ((first, last, order.get(name, len(order))), Reason(first, last, trace.tick_ms, what, every))
+        ((first, last, order.get(name, len(order))), Reason(first, last, ends, what, every))
         for (name, values), numbers in ticks.items()
         for what in [_allowed(trace, name, values)]
         for first, last, every in _stretches(sorted(numbers), regular)
+        for ends in [(trace.ms(first), trace.ms(last))]
     ]
     return tuple(reason for _, reason in sorted(found, key=lambda pair: pair[0]))
 

@@ -55,11 +55,11 @@ class Event:
 
 @dataclass(frozen=True)
 class Quiet:
-    """Ticks ``first`` to ``last``, in which nothing but ``counters`` changed, from old to new."""
+    """Ticks ``first`` to ``last`` in which, for ``lasts`` ms, nothing but ``counters`` changed."""
 
     first: int
     last: int
-    tick_ms: int
+    lasts: int
     counters: tuple[Change, ...]
 
     @property
@@ -70,7 +70,7 @@ class Quiet:
     def what(self) -> str:
         """The stretch in one sentence."""
         span = f"ticks {self.first}–{self.last}" if self.count > 1 else f"tick {self.first}"
-        ticks = f"{counted_ticks(self.count)} = {duration(self.count * self.tick_ms)}"
+        ticks = f"{counted_ticks(self.count)} = {duration(self.lasts)}"
         if not self.counters:
             return f"{span}: nothing changes; {ticks}"
         return f"{span}: nothing but timers ({'; '.join(map(str, self.counters))}); {ticks}"
@@ -196,13 +196,13 @@ class _Telling:
     def quiet(self, start: int, end: int) -> Quiet:
         names = [n for n in _changed(self.trace, self.at[start], self.at[end]) if n in self.at[start]]
         counters = tuple(self._counted(n, start, end) for n in names)
-        return Quiet(start + 1, end, self.trace.tick_ms, counters)
+        return Quiet(start + 1, end, self.trace.ms(end) - self.trace.ms(start), counters)
 
     def event(self, i: int, arrows: tuple[Arrow, ...], names: list[str]) -> Event:
         changes = [self._change(n, i) for n in names]
         changes.sort(key=lambda change: not change.is_input)
         number = self.trace.ticks[i].number
-        return Event(number, number * self.trace.tick_ms, tuple(changes), arrows)
+        return Event(number, self.trace.ms(number), tuple(changes), arrows)
 
     def _change(self, name: str, i: int) -> Change:
         trace, old, new = self.trace, self.at[i], self.at[i + 1]
@@ -259,8 +259,8 @@ UNTOLD = (
 def heading(trace: Trace) -> str:
     """One line about the whole run."""
     count = len(trace)
-    ticks = f"{counted_ticks(count)} of {trace.tick_ms} ms"
-    return f"{trace.system}: {ticks}, {duration(count * trace.tick_ms)}{repeating(trace)}"
+    ticks = counted_ticks(count) if trace.ends else f"{counted_ticks(count)} of {trace.tick_ms} ms"
+    return f"{trace.system}: {ticks}, {duration(trace.ms(count))}{repeating(trace)}"
 
 
 def repeating(trace: Trace) -> str:

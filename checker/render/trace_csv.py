@@ -35,7 +35,7 @@ def render(trace: Trace) -> str:
     for tick in trace.ticks:
         cells = _cells(trace, names, {**fixed, **tick.after, **tick.inputs})
         arrows = csv_cell("; ".join(map(str, tick.arrows)))
-        table.writerow([tick.number, tick.number * trace.tick_ms, *cells, arrows])
+        table.writerow([tick.number, trace.ms(tick.number), *cells, arrows])
     return out.getvalue()
 
 

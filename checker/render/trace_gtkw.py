@@ -30,10 +30,10 @@ def render(trace: Trace, dump: str = "") -> str:
     """The save file for a dump in the file ``dump``; by default named as the property."""
     out = StringIO()
     save = GTKWSave(out)
-    end = len(trace) * trace.tick_ms
+    end = trace.ms(len(trace))
     save.dumpfile(dump or f"{_plain(trace.property or trace.system)}.vcd", abspath=False)
     save.timestart(0)
-    loop = {"a": (trace.loop + 1) * trace.tick_ms} if trace.loop is not None else {}
+    loop = {"a": trace.ms(trace.loop + 1)} if trace.loop is not None else {}
     save.zoom_markers(min(0.0, -math.log2(max(1, end) / _WIDTH)), end, **loop)
     _property(save, trace)
     found = waves(trace)

@@ -68,7 +68,7 @@ def _variable(name: str, variable: Var, is_input: bool) -> dict[str, Any]:
 
 def _state(trace: Trace, tick: Tick) -> dict[str, Any]:
     return {
-        "#meta": {"tick": tick.number, "ms": tick.number * trace.tick_ms},
+        "#meta": {"tick": tick.number, "ms": trace.ms(tick.number)},
         "inputs": _values(trace, tick.inputs),
         "after": _values(trace, tick.after),
         "fired": [_arrow(arrow) for arrow in tick.arrows],

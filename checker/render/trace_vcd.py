@@ -29,7 +29,7 @@ _SIGNS = str.maketrans({"$": "S", "°": "deg", "≤": "<=", "≥": ">=", "→": 
 def render(trace: Trace) -> str:
     """The dump as text."""
     out = StringIO()
-    end = len(trace) * trace.tick_ms
+    end = trace.ms(len(trace))
     with VCDWriter(out, timescale="1 ms", date="", version="rovercheck", comment=_comment(trace)) as writer:
         found = [(w, writer.register_var(w.path[:-1], w.path[-1], w.sort.value, size=_size(w),
                                          init=_first(trace, w))) for w in waves(trace)]  # fmt: skip
@@ -38,7 +38,7 @@ def render(trace: Trace) -> str:
         if trace.loop is not None:
             again = writer.register_var(Group.PROPERTY.value, "repeats", "wire", size=1, init=0)
         for tick in trace.ticks:
-            now = tick.number * trace.tick_ms
+            now = trace.ms(tick.number)
             at = {**tick.inputs, **tick.after}
             for wave, variable in found:
                 if wave.name in at:

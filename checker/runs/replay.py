@@ -5,6 +5,7 @@ trace that both produce is evidence about the charts.
 """
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import accumulate
 
 from checker.runs.domains import leaves, stayed, stray
 from checker.slice import sliced
@@ -46,7 +47,16 @@ def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
         property=goal.property.id, text=goal.property.text, statecharts={c.name: c for c in drawn},
         place=goal.property.place, components=system.source.components if system.source else (),
         parts=shown, truths=truths, violated=not goal.reach, frozen=tuple(v.name for v in system.frozen),
+        ends=ends(system, ticks),
     )  # fmt: skip
+
+
+def ends(system: TransitionSystem, ticks: Sequence[Tick]) -> tuple[int, ...]:
+    """The time in ms at the end of each tick, where ticks last unlike times; else nothing."""
+    if system.elapsed is None:
+        return ()
+    name = system.elapsed.name
+    return tuple(accumulate({**t.inputs, **t.after}[name] for t in ticks))
 
 
 def followed(system: TransitionSystem, run: Run, what: str) -> tuple[tuple[Tick, ...], Mapping[str, int]]:

@@ -56,9 +56,10 @@ RELAY = Promise(
     "authorised by the detected faults.",
     "§2.5, Fig 16, §3.1",
     "in the same step",
-    "opens in the same step, closes after 3.02 s (Fig 16); Board 2 is authorised in the same step if asked, "
-    "in the second step of silence if not (PB2-14d, of a part of Board 2)",
-    ("PB1-15", "PB2-14c", "PSY-02a", "PSY-19"),
+    "opens in the same step, closes after 3.02 s (Fig 16), in steps of 19 to 21 ms after 2.869 to 3.171 s "
+    "(PB1-44b, PB1-44c); Board 2 is authorised in the same step if asked, in the second step of silence if "
+    "not (PB2-14d, of a part of Board 2)",
+    ("PB1-15", "PB1-44a", "PB2-14c", "PB2-58a", "PSY-02a", "PSY-19"),
     (OPENS, ONLY_THEN, CLOSES, CLOSED_AGAIN, ASKED),
     (
         Chain(

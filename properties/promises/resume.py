@@ -38,7 +38,8 @@ RESUME = Promise(
     "Fig 16, Fig 21, §2.7",
     "after a second at rest, after 3 s with the relay",
     "at full speed after 1.14 s, after 1.3 s where a monitor of Board 2 has to recover, after 3.02 s where a "
-    "link was lost, with both boards and one failure; but a rotation that does not end stays (PB1-25)",
-    ("PB1-25", "PB1-25a"),
+    "link was lost, with both boards and one failure; but a rotation that does not end stays (PB1-25), and "
+    "the second at rest is 0.969 s in steps of 19 ms (PB1-46b)",
+    ("PB1-25", "PB1-25a", "PB1-46a"),
     (NEAR, HOT, FLAT, JOYSTICK, IMU, LINK12, LINK21),
 )

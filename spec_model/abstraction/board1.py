@@ -7,9 +7,11 @@ from spec_model.abstraction.signals import discrete, measured, outputs, stamp
 from spec_model.abstraction.stamps import MeanOfTen, Stamp, age
 from spec_model.board1 import SUPERVISOR
 from spec_model.environment import check_stop
+from spec_model.environment_jitter import step_ms
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TICK_MS, in_order
 from spec_model.signals import board1 as b1
+from spec_model.signals import board1_fine as fine
 
 AGES: dict[str, Var] = {
     "last_valid_b2_ms": b1.heartbeat_age,
@@ -18,6 +20,12 @@ AGES: dict[str, Var] = {
     "batt_last_valid_ms": b1.batt_age,
 }
 """What the charts see of each stamp."""
+
+AGES_MS: dict[str, Var] = {
+    "last_valid_b2_ms": fine.heartbeat_age_ms,
+    "b2_data_last_valid_ms": fine.rx_age_ms,
+}
+"""Those of systems in which a stamp may lie at any ms."""
 
 SLOW = {"last_valid_b2_ms": b1.heartbeat_slow, "b2_data_last_valid_ms": b1.rx_slow}
 MEAN_MS = 40
@@ -68,9 +76,14 @@ class Writer1:
         self._stamps = {name: Stamp() for name in AGES}
 
     def step(self, at: Mapping[str, int]) -> dict[str, Value]:
-        self._now += TICK_MS
+        self._now += at.get(step_ms.name, TICK_MS)
         inputs: dict[str, Value] = {"now_ms": self._now}
         for name, var in AGES.items():
+            to_the_ms = AGES_MS.get(name)
+            if to_the_ms is not None and to_the_ms.name in at:
+                old, most = at[to_the_ms.name], to_the_ms.domain.high
+                inputs[name] = self._stamps[name].step(self._now, old, most, 1)
+                continue
             stopped = var.domain.high if var.domain.high < 1000 else _grows_to(var)
             inputs[name] = self._stamps[name].step(self._now, at.get(var.name, 0), stopped)
         for signal, var in SAMPLES.items():

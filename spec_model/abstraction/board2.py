@@ -8,6 +8,7 @@ from spec_model.abstraction.signals import discrete, measured, outputs, stamp
 from spec_model.abstraction.stamps import Stamp, Updates, age, since
 from spec_model.board2 import ACTUATION, supervisor
 from spec_model.board2.heading import measured as heading
+from spec_model.environment_jitter import step_ms
 from spec_model.lang.expr import Var, var
 from spec_model.lang.system import TICK_MS, in_order
 from spec_model.signals import board2_motion as motion
@@ -22,6 +23,8 @@ SOURCES = {
     "ble_last_valid_ms": b2.BLE,
 }
 """The monitored source of each stamp."""
+AGES_MS = {name: b2.between_steps(source).age for name, source in SOURCES.items()}
+"""The ages of systems in which a stamp may lie at any ms."""
 COUNTED = (b2.SUP, b2.IMU)
 """Those whose updates the coherence counts in steps."""
 
@@ -79,11 +82,14 @@ class Writer2:
         self._stamps = {name: Stamp() for name in (*SOURCES, sonar_last_valid_ms.name)}
 
     def step(self, at: Mapping[str, int]) -> dict[str, Value]:
-        self._now += TICK_MS
+        self._now += at.get(step_ms.name, TICK_MS)
         ages = {name: source.age for name, source in SOURCES.items()}
         inputs: dict[str, Value] = {"now_ms": self._now}
         for name, old in {**ages, sonar_last_valid_ms.name: b2.sonar_age}.items():
-            inputs[name] = self._stamps[name].step(self._now, at.get(old.name, 0), old.domain.high)
+            to_the_ms, grid = AGES_MS.get(name), TICK_MS
+            if to_the_ms is not None and to_the_ms.name in at:
+                old, grid = to_the_ms, 1
+            inputs[name] = self._stamps[name].step(self._now, at.get(old.name, 0), old.domain.high, grid)
         for signal, datum in SAMPLES.items():
             known = datum.name in at
             inputs[signal.name] = units(datum.domain, at[datum.name]) if known else signal.initial

@@ -60,8 +60,8 @@ class Stamp:
     def __init__(self) -> None:
         self._value = 0
 
-    def step(self, now_ms: int, ticks: int, most: int) -> int:
+    def step(self, now_ms: int, ticks: int, most: int, tick_ms: int = TICK_MS) -> int:
         """``ticks`` is the raw age; at ``most`` it stands for all larger ones, and the stamp stays."""
         if ticks < most:
-            self._value = now_ms - ticks * TICK_MS
+            self._value = now_ms - ticks * tick_ms
         return self._value

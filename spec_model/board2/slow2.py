@@ -15,7 +15,8 @@ from dataclasses import dataclass
 from spec_model.lang.action import Action, assign, when
 from spec_model.lang.chart import Block
 from spec_model.lang.domain import integer
-from spec_model.lang.expr import Expr, Var, flag, ite, var
+from spec_model.lang.errors import ModelError
+from spec_model.lang.expr import Const, Expr, Var, const, flag, ite, var
 from spec_model.lang.system import TICK_MS
 from spec_model.lang.words import maximum, minimum
 from spec_model.readings import choose
@@ -46,6 +47,24 @@ def exact(source: Source) -> Slow2:
     most = source.mean // TICK_MS
     # With nine other positive gaps the sum exceeds ten times ``most``, with fewer gaps all the more.
     pending, note = _pending(source, (most - 1) * GAPS + 2)
+    return _ten(source, most, pending, note)
+
+
+def exact_ms(step: Expr) -> Record:
+    """The record with its ten gaps to the ms, for steps that last ``step``.
+
+    The ``phase`` of the source is how long before the step that sees it a stamp is set.
+    """
+
+    def record(source: Source) -> Slow2:
+        # With fewer gaps than ten the sum exceeds the mean of as many all the more.
+        pending, note = _pending_ms(source, source.mean * GAPS + 1, step)
+        return _ten(source, source.mean, pending, note)
+
+    return record
+
+
+def _ten(source: Source, most: int, pending: Var, note: Block) -> Slow2:
     last = [
         var(f"{source.name}_gap{i}", pending.domain, doc=f"gap {i}, latest first", hidden=True)
         for i in range(1, 11)
@@ -55,7 +74,7 @@ def exact(source: Source) -> Slow2:
     for gap in last[1:]:
         total = total + gap
     shift = [assign(older, newer) for newer, older in zip(reversed(last[:-1]), reversed(last), strict=False)]
-    answer = assign(source.deg, enough(gaps) & (total > gaps * most))
+    answer = assign(source.deg, enough(gaps) & (total > gaps * Const(most, pending.sort)))
     return Slow2(note, _question(source, pending, [*shift, assign(last[0], pending), one_more, answer]))
 
 
@@ -121,6 +140,35 @@ def _pending(source: Source, longest: int) -> tuple[Var, Block]:
             )
         ],
         text="The gap that the next question of slow2 will find.",
+    )
+    return pending, note
+
+
+def _pending_ms(source: Source, longest: int, step: Expr) -> tuple[Var, Block]:
+    """The same in ms, of a source with a phase."""
+    if source.phase is None:
+        raise ModelError(f"{source.name} has no phase; its gaps are counted in ticks.")
+    milliseconds, most = integer(0, longest, "ms"), const(longest, "ms")
+    since = var(f"{source.name}_since_ms", milliseconds, doc="ms since the stamp, at the step", hidden=True)
+    pending = var(
+        f"{source.name}_pending_ms",
+        milliseconds,
+        doc="ms from the stamp at the latest question to the stamp",
+        hidden=True,
+    )
+    note = Block(
+        f"{source.name}.note",
+        [
+            when(
+                source.update,
+                [
+                    assign(pending, minimum(pending + since + step - source.phase, most)),
+                    assign(since, source.phase),
+                ],
+                [assign(since, minimum(since + step, most))],
+            )
+        ],
+        text="The gap that the next question of slow2 will find, to the ms.",
     )
     return pending, note
 

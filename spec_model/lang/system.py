@@ -68,7 +68,10 @@ class System:
     more or fewer behaviours than the specification.  ``concrete`` names the system that a violation
     found on an over-approximation must be reproduced on.  A tick is ``tick_ms`` long; the temporal words
     of charts count executed steps of ``step_ms``, by default a tick: it is longer where the charts execute
-    in few of the ticks.  ``place`` is where it is written.
+    in few of the ticks.  ``elapsed`` is the input that says how many ms have passed since the tick
+    before, where ticks last unlike times: ``tick_ms`` is then what one should last.  Only ``held``, and the
+    lengths of time of properties, are measured by it; the timers of states count executed steps, as Stateflow
+    does.  ``place`` is where it is written.
     """
 
     name: str
@@ -83,6 +86,7 @@ class System:
     under: bool = False
     concrete: str = ""
     assumptions: tuple[Assumption, ...] = ()
+    elapsed: Var | None = None
     place: Place | None = field(default=None, compare=False, repr=False)
 
     def __post_init__(self) -> None:
@@ -130,6 +134,8 @@ class System:
             found |= part.read
         for enabled in enabled_in(self.components):
             found |= variables(enabled.by)
+        if self.elapsed is not None:
+            found |= variables(self.elapsed)
         own = {v.name for c in self.charts for v in (*c.locations, c.entered)}
         hidden = {v.name for v in self.frozen} | set(self.written) | own
         return {name: v for name, v in found.items() if name not in hidden}
@@ -156,11 +162,13 @@ def in_order(
     tick_ms: int = TICK_MS,
     assumptions: Sequence[Assumption] = (),
     step_ms: int = 0,
+    elapsed: Var | None = None,
 ) -> System:
     """A system whose components run in the order given, once per tick, by default of 20 ms.
 
-    Times in charts are counted in executed steps of ``step_ms``, by default those of a tick.
-    Raises ``ModelError`` where something else stands for a list.
+    Times in charts are counted in executed steps of ``step_ms``, by default those of a tick; ``elapsed`` is
+    the input that says how long each tick lasts, where that varies.  Raises ``ModelError`` where
+    something else stands for a list.
     """
     return System(
         name,
@@ -175,6 +183,7 @@ def in_order(
         under,
         concrete,
         several(name, "assumptions", assumptions),
+        elapsed,
     )
 
 
@@ -189,6 +198,7 @@ class TransitionSystem:
     temps      written before being read in every tick; they are no part of a valuation
     step       the program of one tick
     assume     condition on the inputs of a tick, read before ``step`` runs
+    elapsed    the input that says how many ms a tick lasts, where that varies
     checks     conditions that must hold after every tick for the model to have a meaning: each is a
                boolean variable of the system that is 1 when broken, and the sentence to show
     """
@@ -203,6 +213,7 @@ class TransitionSystem:
     checks: tuple[tuple[Var, str], ...] = ()
     tick_ms: int = TICK_MS
     notes: tuple[str, ...] = ()
+    elapsed: Var | None = None
     source: System | None = field(default=None, compare=False)
 
     def __post_init__(self) -> None:

@@ -35,6 +35,10 @@ class Span:
             raise ModelError(f"{self} is longer than any board counts in 64 bits; write less.")
         return int(count)
 
+    def measured(self, elapsed: object) -> bool:
+        """Whether it is measured in ms where ``elapsed`` says how long a tick lasts (None: all the same)."""
+        return elapsed is not None and self.unit == "ms"
+
     def __str__(self) -> str:
         if self.unit == "ms" and self.amount % 1000 == 0:
             return f"{show(self.amount / 1000)} s"

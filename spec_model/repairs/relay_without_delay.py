@@ -11,7 +11,7 @@ relay_without_delay = Repair(
     fixes=("PB1-15",),
     readings={"S45": "IMMEDIATE"},
     gives_up={
-        **dict.fromkeys(("PB1-13a", "PB1-13b", "PB1-13c", "REACH-RELAY-LAST-STEP"), _EXCLUDES),
-        **dict.fromkeys(("PB2-15a", "PB2-15c", "PB2-15d", "REACH-B2-LAST-STEP"), _BOARD2_TOO),
+        **dict.fromkeys(("PB1-13a", "PB1-13b", "PB1-13c", "PB1-44b", "REACH-RELAY-LAST-STEP"), _EXCLUDES),
+        **dict.fromkeys(("PB2-15a", "PB2-15c", "PB2-15d", "PB2-58b", "REACH-B2-LAST-STEP"), _BOARD2_TOO),
     },
 )

@@ -9,14 +9,19 @@ from supervisor.bench.course import Course, Setting
 from supervisor.bench.errors import ScenarioError
 from supervisor.bench.events import Event, courses, parse_event, parse_settings
 from supervisor.bench.expectation import Expectation, parse_expectation
-from supervisor.bench.quantities import DRIFT, shown
+from supervisor.bench.quantities import DRIFT, shown, time_us
 from supervisor.bench.schedule import PERIODS_US
 from supervisor.bench.table import Table
 
 LONGEST_US = 600 * 10**6
 MOST_PHASE_US = 19_999
 MOST_DRIFT_PPM = 10_000
-KEYS = ("title", "about", "duration", "phase", "drift", "seed", "initial", "phases", "event", "expect")
+SHORTEST_US, MOST_PERIODS = 1_000, 10
+"""A period lasts a millisecond at least, and at most so many times what it should."""
+KEYS = (
+    *("title", "about", "duration", "phase", "drift", "seed"),
+    *("initial", "phases", "periods", "event", "expect"),
+)
 
 
 @dataclass(frozen=True)
@@ -25,7 +30,8 @@ class Scenario:
 
     Board 1 is powered up at time 0 and Board 2 ``phase_us`` later; the clock of Board 2 gains
     ``drift_ppm`` microseconds a second on that of Board 1.  ``phases_us`` shifts single tasks within their
-    period; ``seed`` decides which frames and bits the link damages.
+    period, ``periods_us`` has what each period of a task lasts, in turn and again and again; ``seed`` decides
+    which frames and bits the link damages.
     """
 
     title: str
@@ -35,6 +41,7 @@ class Scenario:
     drift_ppm: int
     seed: int
     phases_us: Mapping[str, int]
+    periods_us: Mapping[str, tuple[int, ...]]
     events: tuple[Event, ...]
     expectations: tuple[Expectation, ...]
     courses: Mapping[str, Course]
@@ -73,6 +80,7 @@ def parse(written: Mapping[str, object]) -> Scenario:
         drift_ppm=_drift(top),
         seed=top.whole("seed"),
         phases_us=MappingProxyType(_phases(Table("phases", top.take("phases", {})))),
+        periods_us=MappingProxyType(_periods(Table("periods", top.take("periods", {})))),
         events=tuple(sorted(events, key=lambda event: event.at_us)),
         expectations=tuple(parse_expectation(table, duration_us) for table in top.tables("expect")),
         courses=MappingProxyType(courses(initial, events)),
@@ -122,3 +130,22 @@ def _phases(table: Table) -> dict[str, int]:
             )
     table.end(PERIODS_US)
     return phases
+
+
+def _periods(table: Table) -> dict[str, tuple[int, ...]]:
+    """What the periods of single tasks last, those of the others as they should."""
+    periods = {}
+    for task, period_us in PERIODS_US.items():
+        written = table.take(task, [f"{period_us} us"])
+        path, several = table.at(task), written if isinstance(written, list) else [written]
+        periods[task] = tuple(time_us(path, one) for one in several)
+        if not periods[task]:
+            raise ScenarioError(path, 'there is no period; write one, as in "19 ms", or several in a list.')
+        for found in periods[task]:
+            if not SHORTEST_US <= found <= MOST_PERIODS * period_us:
+                most = shown(MOST_PERIODS * period_us)
+                raise ScenarioError(
+                    path, f"{shown(found)} is no period; write {shown(SHORTEST_US)} to {most}."
+                )
+    table.end(PERIODS_US)
+    return periods

@@ -1,9 +1,10 @@
 """The periodic tasks of a board that is powered: they stop for good when its power goes."""
 
 from dataclasses import dataclass
+from itertools import cycle
 
 from supervisor.bench.scenario import Scenario
-from supervisor.bench.schedule import LATER, PERIODS_US, Action, Agenda, Clock, Rank
+from supervisor.bench.schedule import LATER, Action, Agenda, Clock, Rank
 
 
 @dataclass
@@ -17,13 +18,13 @@ class Tasks:
 
     def every(self, task: str, rank: Rank, action: Action) -> None:
         """Run ``action`` once in every period of the task."""
-        period_us = PERIODS_US[task]
-        first_us = self.scenario.phases_us[task] + (period_us if task in LATER else 0)
+        periods_us = cycle(self.scenario.periods_us[task])
+        first_us = self.scenario.phases_us[task] + (next(periods_us) if task in LATER else 0)
 
         def run(time_us: int, local_us: int) -> None:
             if self.powered:
                 action(time_us)
-                enter(local_us + period_us)
+                enter(local_us + next(periods_us))
 
         def enter(local_us: int) -> None:
             self.agenda.enter(self.clock.time_us(local_us), rank, lambda time_us: run(time_us, local_us))

@@ -128,6 +128,13 @@ def test_a_task_may_be_shifted_within_its_period() -> None:
     assert stamps[5]["sonar_last_valid_ms"] == 110
 
 
+def test_the_periods_of_a_task_may_last_unlike_times() -> None:
+    record = run(periods={"supervisor_1": ["19 ms", "21 ms", "20 ms"], "transmit_1": "19 ms"})
+    assert [step.inputs.now_ms for step in record.board1][:6] == [19, 40, 60, 79, 100, 120]
+    heard = [step.inputs.b1_data_last_valid_ms for step in record.board2]
+    assert {b - a for a, b in pairwise(heard[2:])} <= {19, 38}
+
+
 # --- faults ------------------------------------------------------------------------------------------
 
 

@@ -118,6 +118,8 @@ def _context(vocabulary: Vocabulary, prop: Property, system: System) -> tuple[Ch
         return everywhere, "no finite run breaks it"
     if system.tick_ms != TICK_MS:
         return everywhere, f"it counts ticks of {system.tick_ms} ms"
+    if system.elapsed is not None:
+        return everywhere, "it measures steps that last unlike times"
     if system.under or not isinstance(system.assumed, Const):
         return (
             everywhere,

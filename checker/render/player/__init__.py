@@ -71,7 +71,7 @@ def _played(trace: Trace, charts: Iterable[Chart], played: Script) -> dict[str, 
     by_name = {chart.name: chart for chart in charts}
     return {
         "ticks": len(trace),
-        "ms": trace.tick_ms,
+        "ms": trace.clock(),
         "loop": trace.loop,
         "events": [_event(trace, event, by_name) for event in played.events],
         "steps": list(_changing(played.steps)),

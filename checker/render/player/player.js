@@ -179,7 +179,7 @@
 
     where(step) {
       if (!this.tick) return "Before the first tick";
-      const here = `Tick ${this.tick} of ${this.data.ticks} · ${this.tick * this.data.ms} ms`;
+      const here = `Tick ${this.tick} of ${this.data.ticks} · ${this.data.ms[this.tick] ?? this.tick * this.data.ms} ms`;
       const same = this.steps.filter((other) => other.tick === this.tick);
       if (this.tick > step.tick || same.length < 2) return here;
       return `${here} · step ${same.indexOf(step) + 1} of ${same.length}`;

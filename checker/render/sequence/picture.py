@@ -72,7 +72,7 @@ def picture(trace: Trace, sequence: MessageSequence) -> str:
             case Step():
                 drawn, y = _step(columns, step, y)
             case Pause():
-                drawn, below = _pause(columns, step, trace.tick_ms, y)
+                drawn, below = _pause(columns, step, trace.ms(step.last) - trace.ms(step.first - 1), y)
                 pauses.append((y, below))
                 y = below
             case Repeats():
@@ -220,10 +220,10 @@ def _note(note: Note, lines: Sequence[str], x: int, wide: int, y: int) -> str:
     return tag("g", title + box + "".join(told))
 
 
-def _pause(columns: Columns, pause: Pause, tick_ms: int, y: int) -> Piece:
+def _pause(columns: Columns, pause: Pause, ms: int, y: int) -> Piece:
     """How many ticks are left out here."""
     span = f"ticks {pause.first}–{pause.last}" if pause.last > pause.first else f"tick {pause.first}"
-    told = f"{span}: {pause.why} ({duration((pause.last - pause.first + 1) * tick_ms)})"
+    told = f"{span}: {pause.why} ({duration(ms)})"
     x, wide = (LEFT + columns.right) // 2, width(told) + 16
     box = tag("rect", x=x - wide // 2, y=y + 12, width=wide, height=18, class_="gap")
     return [box, *_middle(x, y + 13, [told], "soft")], y + 40

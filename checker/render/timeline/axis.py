@@ -88,7 +88,7 @@ def labelled(timeline: Timeline, axis: Axis) -> list[int]:
     taken: list[tuple[float, float]] = [_middle(axis, first, last) for first, last in axis.breaks]
     found: set[int] = set()
     for tick in dict.fromkeys(t for t in wanted if 1 <= t <= timeline.ticks):
-        half = width(f"{tick * timeline.tick_ms}", SMALL) / 2 + 3
+        half = width(f"{timeline.ms(tick)}", SMALL) / 2 + 3
         left, right = axis.middle(tick) - half, axis.middle(tick) + half
         if not _inside(axis, tick) and all(right <= a or left >= b for a, b in taken):
             taken.append((left, right))

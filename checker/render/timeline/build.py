@@ -39,7 +39,7 @@ def timeline(trace: Trace, *, everything: bool = False) -> Timeline:
         text=trace.text,
         heading=heading(trace),
         ticks=len(trace),
-        tick_ms=trace.tick_ms,
+        clock=trace.clock(),
         lanes=(*sorted(lanes, key=_place(shown)), *parts(trace)),
         constant=tuple(_told(trace, still)),
         quiet=tuple((row.first, row.last) for row in rows(shown) if isinstance(row, Quiet)),

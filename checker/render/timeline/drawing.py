@@ -88,7 +88,7 @@ def _axis(placed: Placed) -> Iterator[str]:
     for tick in labelled(timeline, axis):
         x = axis.middle(tick)
         yield text(x, HEAD - 18, str(tick), "tl-tick", text_anchor="middle")
-        yield text(x, HEAD - 5, str(tick * timeline.tick_ms), "tl-ms", text_anchor="middle")
+        yield text(x, HEAD - 5, str(timeline.ms(tick)), "tl-ms", text_anchor="middle")
         yield tag("path", d=f"M{axis.left(tick)} {HEAD}V{placed.height}", class_="tl-grid")
     yield tag("path", d=f"M0 {HEAD}H{axis.width}", class_="tl-base")
 

@@ -66,7 +66,7 @@ def broken(name: str) -> Markup:
 def _data(shown: Timeline, axis: Axis) -> dict[str, Any]:
     """What the script needs: the edges of ticks, and the runs of each lane."""
     edges = axis.edges if shown.ticks else (0,)
-    return {"edges": edges, "ms": shown.tick_ms, "lanes": [_runs(lane) for lane in shown.lanes]}
+    return {"edges": edges, "ms": shown.clock, "lanes": [_runs(lane) for lane in shown.lanes]}
 
 
 def _runs(lane: Lane) -> list[list[int | str]]:

@@ -93,7 +93,7 @@ class Lane:
 
 @dataclass(frozen=True)
 class Timeline:
-    """A run over time.
+    """A run over time; ``clock`` is that of its trace.
 
     ``constant`` are the variables that never change and have no lane, ``quiet`` the stretches of ticks
     (first, last) in which nothing happens but steady counts.  ``wrong`` says what is false at the end, and
@@ -104,7 +104,7 @@ class Timeline:
     text: str
     heading: str
     ticks: int
-    tick_ms: int
+    clock: int | tuple[int, ...]
     lanes: tuple[Lane, ...]
     constant: tuple[tuple[str, str], ...] = ()
     quiet: tuple[tuple[int, int], ...] = ()
@@ -112,6 +112,10 @@ class Timeline:
     wrong: tuple[str, ...] = ()
     ending: str = ""
     forced: str = ""
+
+    def ms(self, tick: int) -> int:
+        """The time at the end of a tick."""
+        return self.clock * tick if isinstance(self.clock, int) else self.clock[tick]
 
     def of(self, group: Group) -> tuple[Lane, ...]:
         """The lanes of a group, in their order."""

@@ -130,7 +130,9 @@ def _below(timeline: Timeline, placed: Placed, letters: int) -> Iterator[tuple[t
 def scale(timeline: Timeline, placed: Placed) -> str:
     """Whether the picture is to scale, and what is left out."""
     if not placed.axis.breaks:
-        return f"To scale: every tick is {timeline.tick_ms} ms; the time is that at its end."
+        if isinstance(timeline.clock, int):
+            return f"To scale: every tick is {timeline.clock} ms; the time is that at its end."
+        return "Ticks of unlike lengths are drawn alike; the time is that at the end of a tick."
     left_out = shortened(placed.axis.breaks)
     return (
         f"Not to scale: {left_out} of {timeline.ticks} ticks, in which nothing but steady counts changes, "

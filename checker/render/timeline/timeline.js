@@ -126,7 +126,7 @@
       const left = this.data.edges[Math.max(0, this.tick - 1)];
       this.cursor.setAttribute("x", left);
       this.cursor.setAttribute("width", this.data.edges[this.tick] - left);
-      this.now.textContent = this.tick ? `tick ${this.tick}\n${this.tick * this.data.ms} ms` : "before the\nfirst tick";
+      this.now.textContent = this.tick ? `tick ${this.tick}\n${this.data.ms[this.tick] ?? this.tick * this.data.ms} ms` : "before the\nfirst tick";
       this.data.lanes.forEach((runs, place) => {
         const now = shown(runs, this.tick), cell = this.cells[place];
         cell.replaceChildren(...now.split(/(?<=_)/).flatMap((piece) => [piece, document.createElement("wbr")]));

@@ -44,13 +44,14 @@ class ChartRun:
         tick_ms: int,
         admits: Admits | None = None,
         tested: Testing | None = None,
+        elapsed: Var | None = None,
     ) -> None:
         self.chart = chart
         self._tested = tested
         self._at = at
         self._admits = admits or contains
         self._fired = fired
-        self._words = Words(chart, tick_ms)
+        self._words = Words(chart, tick_ms, elapsed)
         self._active: dict[Path, int] = {}
         self._entries = 0
         self._owners = [(data, {chart.path(o) for o in owners}) for data, owners in chart.local_to]

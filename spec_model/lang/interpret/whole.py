@@ -40,7 +40,7 @@ class Interpreter:
         self._fired: list[Fired] = []
         self._places = {v.name for c in system.charts for v in (*c.locations, c.entered)}
         self._runs = {
-            id(c): ChartRun(c, self._at, self._fired, system.step_ms, self._admits, tested)
+            id(c): ChartRun(c, self._at, self._fired, system.step_ms, self._admits, tested, system.elapsed)
             for c in system.charts
         }
 

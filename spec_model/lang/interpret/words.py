@@ -1,4 +1,4 @@
-"""Temporal words of one chart, counted in executed steps (rules G13 to G15, and ``held``).
+"""Temporal words of one chart, counted in executed steps (rules G13 to G15, and ``held``, also in ms).
 
 Nothing saturates here: counts are plain numbers, kept per source state and per word.
 """
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from spec_model.lang.chart import Chart, Path
 from spec_model.lang.errors import ModelError
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, Temporal, When
+from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, Temporal, Var, When
 from spec_model.lang.walk import nodes
 
 
@@ -20,16 +20,17 @@ class _Count:
     word: Temporal
     ticks: int
     count: int = 0
+    in_ms: bool = False
 
 
 class Words:
     """Counters and memories of the temporal words of one chart."""
 
-    def __init__(self, chart: Chart, tick_ms: int) -> None:
-        self._tick_ms = tick_ms
+    def __init__(self, chart: Chart, tick_ms: int, elapsed: Var | None = None) -> None:
+        self._tick_ms, self._elapsed = tick_ms, elapsed
         self._since: dict[Path, int] = {}
         self._durations = {p: self._durations_of(chart, p) for p in chart.states}
-        self._held = {id(w): _Count(w, self._ticks(w)) for w in _words(chart, When.HELD)}
+        self._held = {id(w): self._count_of_held(w) for w in _words(chart, When.HELD)}
         self._edges = {id(w): w for w in _words(chart, When.RISING)}
         self._before: dict[int, int] = {}
         self._now: dict[int, int] = {}
@@ -37,6 +38,11 @@ class Words:
 
     def _ticks(self, word: Temporal) -> int:
         return 0 if word.span is None else word.span.ticks(self._tick_ms)
+
+    def _count_of_held(self, word: Temporal) -> _Count:
+        if word.span is not None and word.span.measured(self._elapsed):
+            return _Count(word, word.span.ticks(1), in_ms=True)
+        return _Count(word, self._ticks(word))
 
     def _durations_of(self, chart: Chart, path: Path) -> dict[int, _Count]:
         """The durations that guards of paths leaving the state may ask for."""
@@ -57,10 +63,16 @@ class Words:
     def start_of_step(self, at: Mapping[str, int]) -> None:
         """Read the arguments of ``rising`` and ``held``; states active now are one step older."""
         for held in self._held.values():
-            held.count = held.count + 1 if _argument(held.word, at) else 0
+            # The first tick of a row is not counted in ms: it only begins here.
+            passed = self._passed(at) if held.in_ms and held.count else 1
+            held.count = held.count + passed if _argument(held.word, at) else 0
         now = {key: _argument(word, at) for key, word in self._edges.items()}
         self._before, self._now = self._now or {key: 1 for key in now}, now
         self._since = {path: age + 1 for path, age in self._since.items()}
+
+    def _passed(self, at: Mapping[str, int]) -> int:
+        assert self._elapsed is not None
+        return at[self._elapsed.name]
 
     def entered(self, path: Path) -> None:
         self._since[path] = 0

@@ -37,9 +37,9 @@ class Way:
 class Flow:
     """One chart being lowered."""
 
-    def __init__(self, chart: Chart, tick_ms: int) -> None:
+    def __init__(self, chart: Chart, tick_ms: int, elapsed: Var | None = None) -> None:
         self.chart = chart
-        self.timers = Timers(chart, tick_ms)
+        self.timers = Timers(chart, tick_ms, elapsed)
         self.flags: list[Var] = []
         self._executions: dict[object, tuple[Statement, ...]] = {}
         self._absent: frozenset[Path] = frozenset()

@@ -2,7 +2,8 @@
 
 A counter stops one above what is ever asked of it and is 0 while its state is not active, so that
 valuations that behave alike are equal.  One that is only asked for its first tick is set anew in each
-step and belongs to no valuation.
+step and belongs to no valuation.  Where ticks last unlike times, ``held`` counts milliseconds: 1 in the first
+tick, and in each later one what has elapsed.
 """
 
 from collections.abc import Iterator
@@ -20,9 +21,9 @@ from spec_model.lang.words import minimum
 class Timers:
     """The counters of one chart, and formulas with their temporal words replaced by them."""
 
-    def __init__(self, chart: Chart, tick_ms: int) -> None:
+    def __init__(self, chart: Chart, tick_ms: int, elapsed: Var | None = None) -> None:
         self.chart = chart
-        self.tick_ms = tick_ms
+        self.tick_ms, self.elapsed = tick_ms, elapsed
         self.after: dict[Path, Var] = {}
         self.durations: dict[Path, dict[tuple[object, ...], tuple[Temporal, Var]]] = {}
         self.risings: dict[tuple[object, ...], tuple[Expr, Var]] = {}
@@ -65,12 +66,19 @@ class Timers:
             self.risings[structure(word)] = (word.arg, memory)
         if word.when is When.HELD and structure(word) not in self.helds:
             name = f"{self.chart.name}.held{len(self.helds) + 1}"
-            top = integer(0, self._ticks(word) + 1)
-            self.helds[structure(word)] = (word, Var(name, top, 0, f"ticks in a row with {word.arg}"))
+            self.helds[structure(word)] = (word, self._counter_of_held(name, word))
+
+    def _counter_of_held(self, name: str, word: Temporal) -> Var:
+        top, measured = self._ticks(word) + 1, self._measured(word)
+        unit, counted = ("ms", "ms with") if measured else ("", "ticks in a row with")
+        return Var(name, integer(0, top, unit), 0, f"{counted} {word.arg}")
+
+    def _measured(self, word: Temporal) -> bool:
+        return word.when is When.HELD and word.span is not None and word.span.measured(self.elapsed)
 
     def _ticks(self, word: Temporal) -> int:
         assert word.span is not None
-        return word.span.ticks(self.tick_ms)
+        return word.span.ticks(1 if self._measured(word) else self.tick_ms)
 
     @cached_property
     def variables(self) -> tuple[Var, ...]:
@@ -111,7 +119,10 @@ class Timers:
 
     def at_start(self) -> list[Statement]:
         """What counts at the start of every executed step of the chart, the first included."""
-        counts: list[Statement] = [_count(counter, word.arg) for word, counter in self.helds.values()]
+        counts: list[Statement] = [
+            _count(counter, word.arg, self.elapsed if self._measured(word) else None)
+            for word, counter in self.helds.values()
+        ]
         return counts + [
             Assign(c, ite(self.chart.active_path(path), _one(c), _zero(c)))
             for path, c in self.after.items()
@@ -166,7 +177,9 @@ def _one(counter: Var) -> Const:
     return Const(1, counter.sort)
 
 
-def _count(counter: Var, condition: Expr | None) -> Assign:
+def _count(counter: Var, condition: Expr | None, elapsed: Var | None = None) -> Assign:
     assert condition is not None
-    more = minimum(counter + 1, counter.domain.high) if counter.domain.high > 1 else _one(counter)
+    more: Expr = minimum(counter + 1, counter.domain.high) if counter.domain.high > 1 else _one(counter)
+    if elapsed is not None:
+        more = ite(counter > 0, minimum(counter + elapsed, counter.domain.high), _one(counter))
     return Assign(counter, ite(condition, more, _zero(counter)))

@@ -14,7 +14,7 @@ from spec_model.lang.wellformed import check_system
 def lower(system: System) -> TransitionSystem:
     """The transition system of a system.  Raises ``ModelError`` for an ill-formed one."""
     check_system(system)
-    made = _Made(system.step_ms)
+    made = _Made(system.step_ms, system.elapsed)
     body = made.run(system.components)
     data = {n: v for n, v in system.written.items() if n not in {f.name for f in system.frozen}}
     checks = _checks(body)
@@ -29,6 +29,7 @@ def lower(system: System) -> TransitionSystem:
         checks=tuple((check, check.doc) for check in checks),
         tick_ms=system.tick_ms,
         notes=system.notes,
+        elapsed=system.elapsed,
         source=system,
     )
 
@@ -36,8 +37,8 @@ def lower(system: System) -> TransitionSystem:
 class _Made:
     """What lowering the components creates besides their statements."""
 
-    def __init__(self, tick_ms: int) -> None:
-        self.tick_ms = tick_ms
+    def __init__(self, tick_ms: int, elapsed: Var | None) -> None:
+        self.tick_ms, self.elapsed = tick_ms, elapsed
         self.locations: list[Var] = []
         self.timers: list[Var] = []
         self.flags: list[Var] = []
@@ -55,7 +56,7 @@ class _Made:
         return tuple(out)
 
     def _chart(self, chart: Chart) -> list[Statement]:
-        flow = Flow(chart, self.tick_ms)
+        flow = Flow(chart, self.tick_ms, self.elapsed)
         statements = flow.step()
         self.locations += [*([chart.entered] if chart.root.parallel else []), *chart.locations]
         self.timers += flow.timers.variables

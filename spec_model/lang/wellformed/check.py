@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from weakref import WeakValueDictionary
 
 from spec_model.lang.chart import Chart, parts
-from spec_model.lang.domain import Bool
+from spec_model.lang.domain import Bool, fixed
 from spec_model.lang.errors import ModelError, with_article
 from spec_model.lang.expr import Expr
 from spec_model.lang.system import TICK_MS, System, enabled_in
@@ -50,6 +50,7 @@ def _chart_faults(chart: Chart, tick_ms: int) -> list[str]:
 
 def _system_faults(system: System) -> Iterator[str]:
     yield from _length_faults(system)
+    yield from _elapsed_faults(system)
     yield from _name_faults(system)
     conditions = [(f"the enable `{e.by}`", e.by) for e in enabled_in(system.components)]
     conditions += [
@@ -69,6 +70,16 @@ def _length_faults(system: System) -> Iterator[str]:
             f"step_ms={system.step_ms} is no multiple of tick_ms={system.tick_ms}; charts execute in ticks "
             "only, write a multiple of one."
         )
+
+
+def _elapsed_faults(system: System) -> Iterator[str]:
+    elapsed = system.elapsed
+    if elapsed is None:
+        return
+    if elapsed.sort != fixed(0, 1, 1, "ms").sort or elapsed.domain.low < 1:
+        yield f"elapsed={elapsed} is {elapsed.domain}; write whole milliseconds, at least 1."
+    if elapsed.name in system.written:
+        yield f"elapsed={elapsed} is written by a component; it must be an input, or frozen."
 
 
 def _condition_faults(what: str, condition: Expr) -> Iterator[str]:
