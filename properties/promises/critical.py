@@ -109,8 +109,8 @@ CRITICAL = Promise(
     "§2.7, Fig 20, Fig 21",
     "in the step in which a cause is critical",
     "in the next step (20 ms later); for a silent sensor of Board 2 in the fourth step of silence; the "
-    "motors stand 500 ms after the last datum of joystick or IMU, 4.5 s at 64 °C, 5.5 s at 10 %, however the rover "
-    "is steered",
+    "motors stand 500 ms after the last datum of joystick or IMU, 4.5 s at 64 °C, 5.5 s at 10 %, however the "
+    "rover is steered",
     ("PB1-17a", "PB2-17"),
     (
         HOT, ASSUMED_HOT, FLAT, ASSUMED_FLAT, WHEEL, TOLD_BY_2, TOLD_BY_1, JOYSTICK, INERTIAL,

@@ -73,7 +73,7 @@ CALM_FORWARD = costly(holds_after(
     "P-WEATHER-CALM-FORWARD",
     "With obstacles at 70 cm or less for 100 ms, Board 1 healthy and driving, the stick forward "
     "meanwhile and no half turn, the motors stand, whatever buttons and heading do.",
-    premise=within(70) & drives_1 & (motion.ay_norm > 0) & ~half_turn, for_=80 * ms, then=at_rest,
+    premise=within(70) & healthy & (motion.ay_norm > 0) & ~half_turn, for_=100 * ms, then=at_rest,
     covers=covers, on="weather_calm", from_tick=2, readings=["S63"],
 ))  # fmt: skip
 NEAR_LINK21 = costly(holds_after(
