@@ -25,6 +25,7 @@ BOARDS = (
     "spec_model.plain_systems",
     "spec_model.composition.systems",
     "spec_model.composition.fine_systems",
+    "spec_model.composition.rover_ms",
     "spec_model.composition.weather",
     "spec_model.composition.receiver",
     "spec_model.composition.counters",

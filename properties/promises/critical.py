@@ -5,24 +5,17 @@ from collections.abc import Sequence
 from properties.areas import battery, temperature
 from properties.document.sources import BLE, IMU, silent_ms
 from properties.forms import Property, costly, holds_after
-from properties.promises import shown
+from properties.promises import shown, steered
+from properties.promises.driving import drives_1, drives_2, zero_1, zero_2
 from properties.promises.promise import Chain, Promise
 from spec_model.lang.expr import Expr, any_of
 from spec_model.lang.time import Span, sec, tick, ticks
-from spec_model.lang.words import bit, held, named
+from spec_model.lang.words import bit, held
 from spec_model.signals import board1 as b1
-from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
 
 BEYOND_THE_LINK = (0, 1, 3, 4, 5, 6)
 """Bits of Board 1's critical mask that a loss of the link does not set [seed Table 1]."""
-
-drives_1 = named("Board 1 actuates", ~b1.give_b2_actuation)
-drives_2 = named("Board 2 drives", b2.autorized_to_send_command)
-zero_1 = named("zero references", (b1.v_ref == 0) & (b1.omega_ref == 0))
-zero_2 = named(
-    "zero references of Board 2", (motion.v_ref_actuation == 0) & (motion.omega_ref_actuation == 0)
-)
 
 
 def _board_1(id: str, text: str, cause: Expr, covers: Sequence[str]) -> Property:
@@ -115,8 +108,13 @@ CRITICAL = Promise(
     "In SAFETY_CRITICAL the five limits are 0; the references then stop the rover.",
     "§2.7, Fig 20, Fig 21",
     "in the step in which a cause is critical",
-    "in the next step (20 ms later); for a silent sensor of Board 2 in the fourth step of silence",
+    "in the next step (20 ms later); for a silent sensor of Board 2 in the fourth step of silence; the "
+    "motors stand 500 ms after the last datum of joystick or IMU, 4.5 s at 64 °C, 5.5 s at 10 %, however the "
+    "rover is steered",
     ("PB1-17a", "PB2-17"),
-    (HOT, ASSUMED_HOT, FLAT, ASSUMED_FLAT, WHEEL, TOLD_BY_2, TOLD_BY_1, JOYSTICK, INERTIAL),
+    (
+        HOT, ASSUMED_HOT, FLAT, ASSUMED_FLAT, WHEEL, TOLD_BY_2, TOLD_BY_1, JOYSTICK, INERTIAL,
+        steered.JOYSTICK, steered.IMU, steered.HOT, steered.FLAT,
+    ),
     tuple(_chain(first, cause) for first, cause in BEYOND),
-)
+)  # fmt: skip

@@ -2,7 +2,8 @@
 
 from properties.areas import temperature
 from properties.forms import always, costly, holds_after
-from properties.promises.critical import drives_1, zero_1, zero_2
+from properties.promises import steered
+from properties.promises.driving import drives_1, half_1, half_2, zero_1, zero_2
 from properties.promises.promise import Promise
 from spec_model.lang.expr import any_of, implies
 from spec_model.lang.time import ticks
@@ -11,8 +12,6 @@ from spec_model.signals import board1 as b1
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
 
-half_1 = named("at most half speed", (absolute(b1.v_ref) <= 0.5) & (absolute(b1.omega_ref) <= 0.5))
-half_2 = (absolute(motion.v_ref_actuation) <= 0.5) & (absolute(motion.omega_ref_actuation) <= 0.5)
 degraded = named(
     "a degraded cause",
     any_of(
@@ -69,6 +68,6 @@ LIMITS = Promise(
     "in the same step",
     "in the third step, and only under CMD_NORMAL: a deviation keeps the speed of its entry, and the last "
     "45° of a 180° rotation are turned at the speed of before",
-    ("PB1-20a", "PB1-20b", "PB1-20c", "PB1-20d"),
-    (DEGRADED, FULL, BOARD_2, MOTORS, ESTOP_1, ESTOP_2),
+    ("PB1-20a", "PB1-20b", "PB1-20c", "PB1-20d", steered.WHEEL.id),
+    (DEGRADED, FULL, BOARD_2, MOTORS, ESTOP_1, ESTOP_2, steered.LINK21),
 )

@@ -1,20 +1,15 @@
 """The relay and the authorisation: from the age of frames and heartbeats to who may move the rover."""
 
 from properties.forms import always, costly, enters_only_if, holds_after, leaves_only_if
-from properties.promises import shown
+from properties.promises import hand_over, shown, steered
+from properties.promises.driving import unheard
 from properties.promises.promise import Chain, Promise
 from spec_model.lang.expr import implies
 from spec_model.lang.time import ticks
 from spec_model.lang.words import bit, held, named
 from spec_model.signals import board1 as b1
 from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board1_fine import rx_age_ms
 
-unheard = named(
-    "no frame, or no new heartbeat, for more than 120 ms",
-    (rx_age_ms > 120) | (b1.heartbeat_age > 120),
-)
-"""[seed Table 2, §2.5]"""
 asked = named("Board 1 asks to switch", bit(b2.crit_mask_b1, 2) | bit(b2.crit_mask_b1, 7))
 """Its reception or its view of Board 2's supervisor is critical [seed Table 1]."""
 
@@ -58,9 +53,14 @@ RELAY = Promise(
     "in the same step",
     "opens in the same step, closes after 3.02 s (Fig 16), in steps of 19 to 21 ms after 2.869 to 3.171 s "
     "(PB1-44b, PB1-44c); Board 2 is authorised in the same step if asked, in the second step of silence if "
-    "not (PB2-14d, of a part of Board 2)",
+    "not (PB2-14d, of a part of Board 2); Board 2 drives 240 ms after the last frame for Board 1, or its "
+    "power, and Board 1 while only Board 2 hears nothing",
     ("PB1-15", "PB1-44a", "PB2-14c", "PB2-58a", "PSY-02a", "PSY-19"),
-    (OPENS, ONLY_THEN, CLOSES, CLOSED_AGAIN, ASKED),
+    (
+        OPENS, ONLY_THEN, CLOSES, CLOSED_AGAIN, ASKED, hand_over.SWITCHED, hand_over.SWITCHED_BACK,
+        hand_over.LINK21, hand_over.LINK12, hand_over.LINKS, hand_over.SUPERVISOR2, hand_over.POWER,
+        steered.SUPERVISOR2,
+    ),
     (
         Chain(
             "PSY-03d",
@@ -74,4 +74,4 @@ RELAY = Promise(
             last=ASKED.id,
         ),
     ),
-)
+)  # fmt: skip

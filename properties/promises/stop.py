@@ -3,8 +3,8 @@
 from properties.areas.composition_fine import driven_forward
 from properties.document.distances import within
 from properties.forms import costly, holds_after
-from properties.promises import weather
-from properties.promises.critical import drives_1, drives_2, zero_1
+from properties.promises import steered, weather
+from properties.promises.driving import drives_1, drives_2, zero_1
 from properties.promises.promise import Chain, Promise
 from spec_model.lang.time import tick, ticks
 from spec_model.signals import board1 as b1
@@ -49,9 +49,17 @@ STOP = Promise(
     "§3.4, §3.4.1, §3.4.2",
     "at once",
     "commanded in the second step; obeyed by Board 1 one step after it has the command, stick forward; "
-    "in the scene of P-WEATHER-NEAR the motors stand 80 ms after the step that sees the obstacle",
-    ("PB2-01", "PB2-12", "PB2-13a-0", "PSY-10a", "PSY-11"),
-    (NEAR, DEGRADED, WHILE_2_DRIVES, OBEYED, weather.NEAR),
+    "with the stick forward and no half turn the motors stand 80 ms after the step that sees the obstacle, "
+    "500 ms with a second fault; a rover that turns does not stop, and each push of the stick is a step at "
+    "full speed",
+    (
+        *("PB2-01", "PB2-12", "PB2-13a-0", "PSY-10a", "PSY-11"),
+        *(prop.id for prop in (steered.NEAR, steered.PUSHED, steered.CALM)),
+    ),
+    (
+        NEAR, DEGRADED, WHILE_2_DRIVES, OBEYED, weather.NEAR, weather.NEAR_2, steered.NEAR_LINK21,
+        steered.FORWARD, steered.CALM_FORWARD,
+    ),
     (
         Chain(
             "PSY-10e",
@@ -65,4 +73,4 @@ STOP = Promise(
             by={"SUP2.contract": "P-STOP-NEAR", "SUP1.contract": "PSY-10m"},
         ),
     ),
-)
+)  # fmt: skip

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from properties.forms import HoldsAfter, Property, costly, holds_after, reachable
-from properties.promises.limits import half_1
+from properties.promises.driving import half_1
 from properties.promises.promise import Promise
 from spec_model.composition.motors import connected, motors_zero
 from spec_model.composition.weather import SPELLS, for_a_step, other
@@ -87,7 +87,27 @@ JOYSTICK_LINK21, IMU_LINK21 = (
 
 JOYSTICK_2, IMU_2, LINK12_2 = map(_and_another, (JOYSTICK, IMU, LINK12))
 SUPERVISOR2_2, WHEEL_2 = map(_and_another, (SUPERVISOR2, WHEEL))
-"""The other faults last too long, or leave too much open, for all second ones to be enumerated."""
+
+
+def _and_another_heard(alone: Property, after: Span) -> Property:
+    """The same, whatever else fails that leaves Board 2 hearing Board 1."""
+    assert isinstance(alone.form, HoldsAfter)
+    return costly(replace(
+        alone,
+        id=f"{alone.id}-2",
+        text=f"{alone.text.replace(str(alone.form.for_), str(after))[:-1]}, whatever else fails while "
+        "Board 2 hears Board 1.",
+        on=f"{alone.on}_2",
+        form=replace(alone.form, for_=after),
+    ))  # fmt: skip
+
+
+NEAR_2 = _and_another_heard(NEAR, 500 * ms)
+HOT_2, FLAT_2 = _and_another_heard(HOT, 4500 * ms), _and_another_heard(FLAT, 5500 * ms)
+LINK21_2 = _and_another_heard(LINK21, 500 * ms)
+"""Of the others no second one is asked for.  Where no scan comes nothing is promised; without a supervisor of
+Board 1 nothing holds (PSY-08); readings that stay away degrade only after half a minute, and a Board 2 that
+drives is never faster than half speed (P-LIMITS-BOARD-2)."""
 
 LOSS = Promise(
     "LOSS",
@@ -108,6 +128,6 @@ LOSS = Promise(
     ),
     (
         JOYSTICK, IMU, LINK21, SUPERVISOR2, POWER, WHEEL, HOT, FLAT,
-        NO_TEMPERATURE, NO_BATTERY, SUPERVISOR2_2, WHEEL_2,
+        NO_TEMPERATURE, NO_BATTERY, SUPERVISOR2_2, WHEEL_2, HOT_2, FLAT_2, LINK21_2,
     ),
 )  # fmt: skip

@@ -57,7 +57,10 @@ in_every_step = Repair(
         "the manoeuvres go backwards in backward mode only; the rotation sets v_ref to 0 and slows down near "
         "its target in every safety state."
     ),
-    fixes=("PB1-20a", "PB1-20b", "PB1-20c", "PB1-20d", "PB1-20e", "PB1-26", "PB1-26f", "PB1-27a"),
+    fixes=(
+        *("PB1-20a", "PB1-20b", "PB1-20c", "PB1-20d", "PB1-20e", "PB1-26", "PB1-26f", "PB1-27a"),
+        "P-WEATHER-WHEEL-STEERED",
+    ),
     charts={"Motion_Supervision": writing_in_every_step},
     gives_up={
         "PB1-26b": "It says that the rotation keeps the linear reference, which PB1-26 wants zero.",

@@ -21,7 +21,7 @@ from spec_model.lang.operators import Op
 from spec_model.lang.system import in_order
 from spec_model.lang.walk import variables
 from spec_model.rover import systems
-from spec_model.signals.common import PHASE
+from spec_model.signals.common import PHASE, PHASE_CLASS
 
 PROMISES = promises()
 OWN = {p.id: p for p in as_written().values() if p.id.startswith("P-")}
@@ -31,6 +31,7 @@ MEASURED = {
     "temp_age", "temperature_degC", "batt_age", "battery_pct", "isMotionConsistent", "rx_age",
     "heartbeat_age", "cmd", "y_norm", "crit_mask_b2", "degr_mask_b2",
     "d1", "d2", "d3", "esp_age", "imu_age", "b1_sup_age", "B2.rx_age", "B2.crit_mask_b1", "B2.degr_mask_b1",
+    "ay_norm", "bx_norm",
 }  # fmt: skip
 """What the snapshots of the two boards hold: measured, or received in a frame."""
 
@@ -63,6 +64,9 @@ def test_it_is_about_a_whole_board_or_both_with_stamps_between_the_steps(prop: P
     if prop.on in ("board1_ms", "board2_ms"):
         assert not system.over and not system.under and prop.costly
         assert [v.name for v in system.frozen if v.domain == PHASE]
+    elif prop.on == "rover_ms":
+        assert not system.over and not system.under and prop.costly
+        assert len([v.name for v in system.frozen if v.domain == PHASE_CLASS]) == 4
     else:
         assert system.under and {"Monitor_reception", "Monitors_2"} <= {c.name for c in system.charts}
 
@@ -176,7 +180,7 @@ def test_a_contract_does_all_that_it_allows_and_nothing_else(contract: Contract)
 
 def of_weather(name: str) -> bool:
     """Whether a variable says what has failed."""
-    return name.endswith(".spell")
+    return name.endswith((".spell", ".runs"))
 
 
 def _premises(prop: Property) -> list[Expr]:
