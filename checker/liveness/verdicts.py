@@ -105,7 +105,7 @@ def _hunted(prop: Property, system: System, ask: Ask, progress: Progress) -> tup
     hunted = hunt(question, question.goals[0])
     loop = attempted(SETTLING, system.name, lambda: settled(hunted, progress)) if _vast(hunted) else None
     if isinstance(loop, Reached):
-        if question.system.checks and shape(Question(question.system, ())).kind == "narrow":
+        if question.system.checks and shape(Question(question.system, ())).enumerable:
             check_domains(question.system, ask(question.system, []))
         return hunted, loop, SETTLING
     found = ask(hunted.lasso.system, [hunted.lasso.goal], Hint.SHORT)

@@ -48,6 +48,12 @@ CHECKS = Turn("explicit", memory=128 * MB, transitions=250_000_000, share=0.5)
 """The turn in which it is asked at last whether a model of few valuations leaves a domain at all, where a run
 that counts whatever other runs do has ended the other turns before that was known."""
 
+_FEW = Turn("explicit", memory=32 * MB, transitions=32_000_000, share=0.3)
+"""A second at most: of a broad question it is not known before whether it has few valuations."""
+
+_SOON = Turn("kinduction", seconds=60, share=0.2)
+"""A broad question with more valuations than that is mostly proved in one to four seconds, or not at all."""
+
 _RUNS = Turn("simulation", share=0.2)
 """A second or two for runs that a person would think of; of no use where runs are short or loops."""
 
@@ -61,15 +67,13 @@ _PROOFS = (
 )
 """Engines that prove without enumerating; of narrow questions, what a small enumeration left open."""
 
+_LONG = (_RUNS, *_PROOFS, Turn("explicit", share=0.8), Turn("bmc"))
+"""What remains for questions that some enumeration has not decided."""
+
 ORDERS: Mapping[str, tuple[Turn, ...]] = MappingProxyType(
     {
-        "narrow": (
-            CHECKS,
-            _RUNS,
-            *_PROOFS,
-            Turn("explicit", share=0.8),
-            Turn("bmc"),
-        ),
+        "narrow": (CHECKS, *_LONG),
+        "broad": (_FEW, _SOON, CHECKS, *_LONG),
         "driven": (
             Turn("explicit", share=0.8),
             Turn("bmc", depth=32, share=0.3),

@@ -12,8 +12,14 @@ WIDE, VAST = 200, 800
 """Bits of a valuation, of what the goals depend on: up to the first, enumerating valuations is worth much
 effort, up to the second some, above it none (compiling such a step takes longer than deciding it)."""
 
+BROAD = 64
+"""Bits of a valuation: with more, enumerating is soon given up, and taken up again if no proof is found."""
+
 FEW = 4
 """Bits that are free in each tick: with so few a valuation has few successors, however wide it is."""
+
+MANY = 40
+"""Bits that are free in each tick: with more, a wide valuation has more successors than can be enumerated."""
 
 
 @dataclass(frozen=True)
@@ -34,12 +40,19 @@ class Shape:
     @property
     def kind(self) -> str:
         """The row of the table of orders that is meant for it."""
-        wide = (self.bits if self.at_once is None else self.at_once) > WIDE
-        if wide and self.free is not None and self.free <= FEW and not self.hint.value:
+        at_once = self.bits if self.at_once is None else self.at_once
+        wide = at_once > WIDE
+        free = None if self.hint.value or not wide else self.free
+        if free is not None and free <= FEW:
             return "driven"
-        if wide and self.bits > VAST:
+        if wide and (self.bits > VAST or (free is not None and free > MANY)):
             return "vast"
-        return self.hint.value or ("wide" if wide else "narrow")
+        return self.hint.value or ("wide" if wide else "broad" if at_once > BROAD else "narrow")
+
+    @property
+    def enumerable(self) -> bool:
+        """Whether enumerating its valuations is worth much effort."""
+        return self.kind in ("narrow", "broad")
 
 
 def shape(question: Question) -> Shape:

@@ -53,7 +53,7 @@ def _turn(
 
 def _affordable(question: Question, deadline: float | None) -> bool:
     """Whether it is soon found out that the model has no meaning, though a run has decided what was asked."""
-    wide = shape(question).kind == "narrow" or shape(Question(question.system, ())).kind != "narrow"
+    wide = shape(question).enumerable or not shape(Question(question.system, ())).enumerable
     return not wide and (deadline is None or monotonic() < deadline)
 
 

@@ -27,7 +27,7 @@ def reproduced(question: Question, runs: Runs, concrete: System, ask: Ask) -> li
     reached = [g for g in question.goals if g.var.name in runs]
     there = reduce(lowered(concrete), [replace(g.property, on=concrete.name) for g in reached])
     asked = Asked(there.system, ())
-    if there.system.checks and shape(asked).kind == "narrow":  # else it costs too much
+    if there.system.checks and shape(asked).enumerable:  # else it costs too much
         check_domains(there.system, ask(there.system, []))
     found: list[Result] = []
     left: list[tuple[Goal, Goal]] = []

@@ -302,15 +302,15 @@ def rescale(expr: Expr, sort: Num) -> Expr:
 def is_multiple(literal: Const, resolution: Fraction) -> bool:
     """Whether the constant is a whole number of steps of the resolution."""
     assert isinstance(literal.sort, Num)
-    if literal.sort.resolution == resolution:
-        return True
-    return (literal.value * literal.sort.resolution / resolution).denominator == 1
+    same = literal.sort.resolution == resolution
+    return same or (literal.value * literal.sort.resolution / resolution).denominator == 1
 
 
 def aligned(where: str, *exprs: Expr) -> tuple[tuple[Expr, ...], Num]:
     """Numbers of one unit in one resolution."""
-    sorts = [as_number(e, where).sort for e in exprs]
-    nums = [s for s in sorts if isinstance(s, Num)]
+    nums = [s for e in exprs if isinstance(s := as_number(e, where).sort, Num)]
+    if all(n == nums[0] for n in nums):
+        return exprs, nums[0]
     if len({n.unit for n in nums}) > 1:
         shown = " and ".join(f"`{e}` in {n.unit or 'no unit'}" for e, n in zip(exprs, nums, strict=True))
         raise ModelError(f"`{where}` mixes {shown}; convert with a factor that has a unit.")

@@ -2,9 +2,9 @@
 
 import pytest
 
-from checker.portfolio import Question
+from checker.portfolio import Hint, Question
 from checker.portfolio.order import ORDERS
-from checker.portfolio.shape import FEW, VAST, WIDE, Shape, shape
+from checker.portfolio.shape import BROAD, FEW, MANY, VAST, WIDE, Shape, shape
 from spec_model.composition.motors import motors_zero
 from spec_model.lang.chart import Chart, State, to
 from spec_model.lang.lower import lower
@@ -36,20 +36,33 @@ def test_counters_of_states_that_are_never_active_together_do_not_make_a_questio
 
 
 @pytest.mark.parametrize(("bits", "at_once", "kind"), [
-    (WIDE, None, "narrow"), (WIDE + 1, None, "wide"), (VAST + 1, None, "vast"),
-    (VAST + 1, WIDE, "narrow"), (VAST + 1, WIDE + 1, "vast"),
+    (BROAD, None, "narrow"), (BROAD + 1, None, "broad"), (WIDE, None, "broad"), (WIDE + 1, None, "wide"),
+    (VAST + 1, None, "vast"), (VAST + 1, BROAD, "narrow"), (VAST + 1, WIDE, "broad"),
+    (VAST + 1, WIDE + 1, "vast"),
 ])  # fmt: skip
 def test_the_kind_follows_from_what_is_there_at_once(bits: int, at_once: int | None, kind: str) -> None:
     assert Shape(bits, at_once=at_once).kind == kind
 
 
 @pytest.mark.parametrize(("bits", "free", "kind"), [
-    (WIDE, FEW, "narrow"), (VAST, FEW, "driven"), (VAST + 1, FEW, "driven"), (VAST, FEW + 1, "wide"),
+    (BROAD, FEW, "narrow"), (WIDE, FEW, "broad"), (VAST, FEW, "driven"), (VAST + 1, FEW, "driven"),
+    (VAST, FEW + 1, "wide"),
 ])  # fmt: skip
 def test_a_wide_valuation_with_few_free_bits_is_enumerated_first(bits: int, free: int, kind: str) -> None:
     assert Shape(bits, free=free).kind == kind
     if kind == "driven":
         assert ORDERS[kind][0].engine == "explicit"
+
+
+@pytest.mark.parametrize(("bits", "free", "hint", "kind"), [
+    (WIDE, MANY + 1, Hint.NONE, "broad"), (WIDE + 1, MANY, Hint.NONE, "wide"),
+    (WIDE + 1, MANY + 1, Hint.NONE, "vast"), (WIDE + 1, MANY + 1, Hint.CONCRETE, "concrete"),
+])  # fmt: skip
+def test_a_wide_valuation_with_many_free_bits_is_not_enumerated(
+    bits: int, free: int, hint: Hint, kind: str
+) -> None:
+    assert Shape(bits, hint, free=free).kind == kind
+    assert kind != "vast" or "explicit" not in {turn.engine for turn in ORDERS[kind]}
 
 
 def test_free_bits_are_those_of_inputs_that_the_goals_depend_on() -> None:
