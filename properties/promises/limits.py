@@ -1,6 +1,6 @@
 """Limits: what the references may be at most, whatever is commanded, and what an emergency stop means."""
 
-from properties.areas import temperature
+from properties.document import temperature
 from properties.forms import always, costly, holds_after
 from properties.promises.critical import drives_1, zero_1, zero_2
 from properties.promises.promise import Promise
