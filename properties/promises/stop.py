@@ -42,6 +42,25 @@ OBEYED = costly(holds_after(
     covers=["B1-EST-01", "B2-OBS-01"], on="board1_ms", from_tick=2, readings=["S63", "E11"],
 ))  # fmt: skip
 
+
+def _chain(across: str, contract: str, by: str, under: str = "") -> Chain:
+    """From an obstacle to what Board 1 does of the command."""
+    return Chain(
+        across,
+        stands={
+            "near": within(70),
+            "estop_decided": COMMANDED,
+            "estop_received": b1.cmd == "CMD_ESTOP",
+            "forward": driven_forward,
+            "actuates": drives_1,
+            "v_positive": b1.v_ref > 0,
+            "references_nonzero": ~zero_1,
+        },
+        by={"SUP2.contract": NEAR.id, contract: by},
+        under=under,
+    )
+
+
 STOP = Promise(
     "STOP",
     "Obstacle: stop",
@@ -50,19 +69,11 @@ STOP = Promise(
     "at once",
     "commanded in the second step; obeyed by Board 1 one step after it has the command, stick forward; "
     "in the scene of P-WEATHER-NEAR the motors stand 80 ms after the step that sees the obstacle",
-    ("PB2-01", "PB2-12", "PB2-13a-0", "PSY-10a", "PSY-11"),
+    ("PB2-01", "PB2-12", "PB2-13a-0", "PB1-23f", "PSY-10a", "PSY-11"),
     (NEAR, DEGRADED, WHILE_2_DRIVES, OBEYED, weather.NEAR),
     (
-        Chain(
-            "PSY-10e",
-            stands={
-                "near": within(70),
-                "estop_decided": COMMANDED,
-                "estop_received": b1.cmd == "CMD_ESTOP",
-                "forward": driven_forward,
-                "v_positive": b1.v_ref > 0,
-            },
-            by={"SUP2.contract": "P-STOP-NEAR", "SUP1.contract": "PSY-10m"},
-        ),
+        _chain("PSY-10e", "SUP1.contract", "PSY-10m"),
+        _chain("PSY-10o", "SUP1.obeys", OBEYED.id),
+        _chain("PSY-10u", "SUP1.stops", "PB1-23f", under="stop-unconditional"),
     ),
 )

@@ -28,7 +28,7 @@ unconditional = Repair(
         "The arrow to In_frenata_di_emergenza asks for CMD_ESTOP alone, the default arrow tests it too, and "
         "Procedura_emergency_stop is not left while CMD_ESTOP lasts."
     ),
-    fixes=("PB1-23a", "PB1-23b", "PB1-23c", "PB1-23d", "PB1-23e", "PSY-12"),
+    fixes=("PB1-23a", "PB1-23b", "PB1-23c", "PB1-23d", "PB1-23e", "PB1-23f", "PSY-12"),
     charts={"Motion_Supervision": stop_while_commanded(cmd, rover_safety_state)},
     gives_up={
         "REACH1-ESTOP-IGNORED": "It shows that a rotation goes on under CMD_ESTOP, which the repair ends.",
