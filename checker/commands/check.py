@@ -49,7 +49,7 @@ class Compared:
     """A result beside the verdict on record; ``variant`` says how the charts differ from those specified.
 
     ``case``: whether the case occurs that a proof speaks of, ``noticed``: whether a fault is known that it
-    notices, each if that was asked.  With ``strict``, a proof is not enough if it does not.
+    notices, each if that was asked.  With ``strict``, a proof of a case that never occurs is not enough.
     """
 
     result: Result
@@ -98,8 +98,6 @@ class Compared:
             return Exit.INTERNAL
         if self.strict and self.case is not None and not self.case.occurs:
             return Exit.CHANGED if self.empty else Exit.INCONCLUSIVE
-        if self.strict and self.idle:
-            return Exit.INCONCLUSIVE
         if self.as_expected or (self.variant and isinstance(self.verdict, Proved)):
             return Exit.AS_EXPECTED
         return Exit.INCONCLUSIVE if isinstance(self.verdict, Unknown) else Exit.CHANGED
@@ -186,7 +184,7 @@ def check(
 
     ``guide`` is what helps to read on.  ``deliver`` is called once at the end, however that comes.  With
     ``quiet``, only what is not as expected is printed.  What is asked ``further`` is asked of all that was
-    found; ``strict`` makes a proof of a case that never occurs an error, and one that notices no known fault.
+    found; ``strict`` makes a proof of a case that never occurs an error.
     """
     if not properties:
         err.print("Nothing to check: the selection holds no property.")
@@ -241,7 +239,7 @@ def check(
             out.print(wrapped(text, 4), markup=False)
     elif strict:
         wrong = [c for c in found if c.code is not Exit.AS_EXPECTED]
-        for text in (*about_cases(wrong), *about_faults(wrong)):
+        for text in about_cases(wrong):
             out.print(wrapped(text, 4), markup=False)
     deliver(found, len(properties), _alarmed(faults))
     return Exit.INTERNAL if faults else worst(found)

@@ -100,6 +100,13 @@ PSY_10o = holds_after(
     premise=near & forward, for_=101 * ms, then=~nonzero,
     covers=["B2-OBS-01", "B1-EST-01"], on="stop_obeyed_fine", readings=["E12"],
 )  # fmt: skip
+PSY_10d = holds_after(
+    "PSY-10d",
+    "With the repair degraded-by-either, the same of an obstacle at 300 cm or less and a fault in a mask of "
+    "Board 2, both constant, in the place of one at 70 cm.",
+    premise=near & forward, for_=101 * ms, then=~nonzero,
+    covers=["B2-OBS-04", "B1-EST-01"], on="stop_obeyed_fine", readings=["E09", "E12"],
+)  # fmt: skip
 PSY_10u = holds_after(
     "PSY-10u",
     "With the repair stop-unconditional: within 81 ms of a sonar snapshot with an obstacle at 70 cm or less, "

@@ -195,7 +195,7 @@ heartbeat_fine = _chain(
 
 # --- an obstacle stops Board 1 --------------------------------------------------------------------
 
-near = flag("near", "the snapshot holds a distance of at most 70 cm")
+near = flag("near", "the snapshot holds an obstacle that Board 2 stops for, such as one at 70 cm")
 stop_decided = flag("estop_decided", "the command in the snapshot of Board 2 is CMD_ESTOP")
 stop_received = flag("estop_received", "the received command is CMD_ESTOP")
 other_stop = flag("other_stop", "free: whether Board 2 commands CMD_ESTOP otherwise")
@@ -213,7 +213,7 @@ line_cmd = line(
 
 obstacle_contract = Contract(
     "SUP2.contract",
-    "Contract: at most 70 cm in two successive steps give CMD_ESTOP in the second.",
+    "Contract: what Board 2 stops for, in two successive steps, gives CMD_ESTOP in the second.",
     near, stop_decided, other_stop, before=near,
 )  # fmt: skip
 motion_contract = Contract(

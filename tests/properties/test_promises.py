@@ -42,6 +42,8 @@ COVERED = {
     "give_b2_actuation": ["P-RELAY-OPENS", "P-RELAY-ONLY-THEN"],
     "autorized_to_send_command": ["P-RELAY-ASKED", "PB2-14d"],
     "critical_mask": ["P-SHOWN-TEMPERATURE", "P-SHOWN-BATTERY", "P-SHOWN-WHEELS", "P-SHOWN-LINK"],
+    "B2.critical_mask": ["PB1-10d"],
+    "B2.degraded_mask": ["PB1-10e"],
     "is_rotating180": ["PB1-26h"],
     "actuate_emergency_stop": ["PB1-23a"],
     "B2.actuate_emergency_stop": ["PB2-16h"],
