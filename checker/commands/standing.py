@@ -8,10 +8,12 @@ from typing import TYPE_CHECKING
 from checker.commands.chains import check
 from checker.commands.variant import Variant
 from checker.lowered import lowered
-from checker.mutate.asked import changed
+from checker.mutate.asked import depends_on
+from checker.mutate.product import same
 from properties.catalogue import promises
 from properties.forms import Property
 from properties.promises.promise import Chain, Promise
+from spec_model.lang.system import System, TransitionSystem
 
 if TYPE_CHECKING:
     from checker.commands.check import Compared
@@ -62,9 +64,9 @@ class Chains:
         stated = self.variant.properties()
         links = [stated[id] for id in ids]
         if self.variant.name:
-            before, after = Variant({}).systems(), self.variant.systems()
+            specified, before, after = Variant({}).properties(), Variant({}).systems(), self.variant.systems()
             concerned = sorted(filter(self.variant.concerns(), links), key=lambda p: p.on)
-            links = [p for p in concerned if any(changed(lowered(before[p.on]), lowered(after[p.on]), [p]))]
+            links = [p for p in concerned if not same(_slice(before, specified[p.id]), _slice(after, p))]
         return {p.id: p for p in links}
 
     def standings(self, found: Sequence["Compared"]) -> list[Standing]:
@@ -77,6 +79,11 @@ class Chains:
             left = tuple(id for id, word in words.items() if word == "unknown")
             told.append(Standing(promise, chain, False if broken else None if left else True, broken or left))
         return told
+
+
+def _slice(systems: Mapping[str, System], prop: Property) -> TransitionSystem:
+    """What the verdict on a property rests on."""
+    return depends_on(lowered(systems[prop.on]), prop)
 
 
 __all__ = ["Chains", "Standing"]

@@ -16,6 +16,7 @@ from checker.engine import AUTO, Limits
 from properties.catalogue import promises
 from properties.promises.promise import Promise
 from spec_model.repairs import repairs
+from spec_model.rover import systems
 
 RELAY = next(promise for promise in promises() if promise.id == "RELAY")
 
@@ -56,24 +57,37 @@ def test_a_repair_asks_again_what_its_charts_can_change() -> None:
     assert undecided == {"PSY-10e", "PSY-10o"}
 
 
-def test_a_link_that_a_repair_breaks_breaks_its_chain(capsys: pytest.CaptureFixture[str]) -> None:
+def test_a_reading_asks_again_what_it_makes_another_sentence() -> None:
+    """S19 says whether 15 % is in the critical range of the battery."""
+    assert "P-SHOWN-BATTERY" in Chains(Variant({"S19": "UNIFORM-OPEN"})).links
+    assert "P-SHOWN-LINK" not in Chains(Variant({"S19": "UNIFORM-OPEN"})).links
+
+
+def test_a_link_that_a_repair_breaks_breaks_its_chain() -> None:
     variant = Variant({}, repairs()["safety-critical-first"])
-    prop, systems = variant.properties()["PSY-10m"], variant.systems()
-    [found] = results([prop], systems, AUTO, Limits())
+    prop = variant.properties()["PSY-10m"]
+    [found] = results([prop], variant.systems(), AUTO, Limits())
     told = Chains(variant).standings([Compared(found, variant.expected(prop.id), variant.name)])
     [stop] = [one for one in told if one.chain.across == "PSY-10e"]
     assert stop.holds is False and stop.text == "STOP over PSY-10e does not hold: PSY-10m is violated."
-    capsys.readouterr()
+
+
+def test_what_becomes_of_chains_is_told_after_the_verdicts(capsys: pytest.CaptureFixture[str]) -> None:
+    chains = Chains(Variant({}))
+    [first, *others] = chains.standings([])
+    further = Further(chains=lambda _: [replace(first, holds=False, failing=("PSY-10m",)), *others])
     for as_json in (False, True):
-        further = Further(chains=lambda _: [stop])
-        code = check([prop], systems, AUTO, Limits(), as_json, variant.name, further=further)
-        assert code == Exit.CHANGED, "proved as specified"
+        capsys.readouterr()
+        prop = chains.variant.properties()["PB1-12"]
+        assert check([prop], systems(), AUTO, Limits(), as_json, further=further) == Exit.AS_EXPECTED
         said = capsys.readouterr().out
         if as_json:
-            [row] = json.loads(said)["chains"]
-            assert row == {"promise": "STOP", "over": "PSY-10e", "holds": False, "failing": ["PSY-10m"]}
+            assert json.loads(said)["chains"][0] == {
+                "promise": "STOP", "over": "PSY-10e", "holds": False, "failing": ["PSY-10m"],
+            }  # fmt: skip
         else:
-            assert "0 of 1 chain across the link hold" in said and f"\n  {stop.text}" in said
+            assert f"{len(others)} of {len(others) + 1} chains across the link hold" in said
+            assert "\n  STOP over PSY-10e does not hold: PSY-10m is violated.\n" in said
 
 
 def test_a_chain_that_rests_on_a_repair_is_told_with_it_only() -> None:
