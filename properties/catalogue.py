@@ -3,7 +3,9 @@
 import importlib
 import pkgutil
 import tomllib
+import traceback
 from collections.abc import Collection, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
@@ -12,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 from properties.forms import Property, formulas
 from properties.requirements import requirement
 from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.lang.place import Place
 from spec_model.lang.walk import variables
 from spec_model.readings import fixed, readings
 from spec_model.rover import readings_of
@@ -20,7 +23,7 @@ if TYPE_CHECKING:
     from properties.promises.promise import Promise
 
 EXCEPTIONS = ("violated", "unknown")
-FIELDS: dict[str, type] = {"verdict": str, "depth": int, "because": str, "no_repair": str}
+FIELDS: dict[str, type] = {"verdict": str, "depth": int, "because": str, "no_repair": str, "no_fault": str}
 KINDS: dict[type, str] = {str: "text", int: "whole number"}
 
 
@@ -29,13 +32,14 @@ class Expected:
     """A verdict on record: ``depth`` is the length in ticks of the shortest counterexample.
 
     ``because`` names the arrow or sentence that causes it; ``no_repair`` says why no change of a chart is
-    proposed, where none is.
+    proposed, where none is; ``no_fault`` why a proof need not notice any fault of the charts.
     """
 
     verdict: str = "proved"
     depth: int | None = None
     because: str = ""
     no_repair: str = ""
+    no_fault: str = ""
 
 
 @cache
@@ -83,8 +87,29 @@ def _stated_in(folder: str) -> Iterator[tuple[str, object]]:
     """Everything that a module of the folder names, with the module's name, in its order."""
     package = importlib.import_module(f"{__package__}.{folder}")
     for entry in sorted(pkgutil.iter_modules(package.__path__), key=lambda e: e.name):
-        module = importlib.import_module(f"{package.__name__}.{entry.name}")
+        with _told_with_place():
+            module = importlib.import_module(f"{package.__name__}.{entry.name}")
         yield from ((entry.name, thing) for thing in vars(module).values())
+
+
+@contextmanager
+def _told_with_place() -> Iterator[None]:
+    """Raises ``ModelError`` with file and line for what Python refuses in a file of properties.
+
+    An error inside of what such a file calls is left as it is: it may be one of ours.
+    """
+    try:
+        yield
+    except ModelError:
+        raise
+    except Exception as error:
+        frame = traceback.extract_tb(error.__traceback__)[-1]
+        if isinstance(error, SyntaxError) and error.filename is not None:
+            frame = traceback.FrameSummary(error.filename, error.lineno, "", line=error.text)
+        if Path(frame.filename).parent.parent != Path(__file__).parent:
+            raise
+        place, line = Place(frame.filename, frame.lineno or 1), (frame.line or "").strip()
+        raise ModelError(f"{place}: {type(error).__name__}: {error}, in `{line}`.") from error
 
 
 def _add(found: dict[str, Property], prop: Property) -> None:
@@ -120,14 +145,24 @@ def on_record(table: Mapping[str, Any], known: Collection[str], file: str) -> di
 def _entry_faults(id: str, row: Any, known: Collection[str]) -> Iterator[str]:
     if id not in known:
         yield f" lists {id!r}, which is no property. {did_you_mean(id, known)}"
-    if not isinstance(row, dict) or not row.get("because") or row.get("verdict") not in EXCEPTIONS:
-        yield f": {id} needs because = and verdict = 'violated' or 'unknown'."
+    if not isinstance(row, dict) or not (_excused(row) or _exception(row)):
+        yield f": {id} needs because = and verdict = 'violated' or 'unknown', or no_fault = alone."
         return
     for name, value in row.items():
         if name not in FIELDS:
             yield f": {id} has no {name!r}. {did_you_mean(name, FIELDS)}"
         elif type(value) is not FIELDS[name]:
             yield f": {id} has {name} = {value!r}; write a {KINDS[FIELDS[name]]}."
+
+
+def _exception(row: Mapping[str, Any]) -> bool:
+    """Whether a verdict other than "proved" is expected, with its reason."""
+    return bool(row.get("because")) and row.get("verdict") in EXCEPTIONS
+
+
+def _excused(row: Mapping[str, Any]) -> bool:
+    """Whether a proof is expected that notices no fault."""
+    return row.keys() == {"no_fault"} and bool(row["no_fault"])
 
 
 def expected(id: str) -> Expected:

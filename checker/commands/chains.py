@@ -13,7 +13,7 @@ from spec_model.composition.fine_systems import CONTRACTS, WIRES
 from spec_model.composition.systems import link12, link21
 from spec_model.lang.action import assign
 from spec_model.lang.edit import everywhere
-from spec_model.lang.errors import ModelError
+from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.expr import FALSE, TRUE, Expr, Temporal, Var, flag
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables
@@ -27,23 +27,54 @@ FIELDS: Mapping[str, Expr] = {
 
 
 def check(promise: Promise) -> None:
-    """Raises ``ModelError`` that names every hole in the chains of a promise."""
-    found = [
-        f"{place}: the chain of {promise.id} over {chain.across} has a hole: {hole}"
-        for chain in promise.chains
-        for place in [as_written()[chain.across].place]
-        for hole in holes(chain)
-    ]
+    """Raises ``ModelError`` that names every hole in the chains of a promise.
+
+    Readings are left open, so that a chain without a hole has none under any of their choices.
+    """
+    found = [f"{_place(promise, chain)}{hole}" for chain in promise.chains for hole in holes(chain)]
     if found:
         raise ModelError("\n".join(found))
 
 
+def _place(promise: Promise, chain: Chain) -> str:
+    across = as_written().get(chain.across)
+    where = f"{across.place}: " if across else ""
+    return f"{where}the chain of {promise.id} over {chain.across} has a hole: "
+
+
 def holes(chain: Chain) -> Iterator[str]:
-    """What is taken for granted in a chain and said by none of its links."""
-    across = as_written()[chain.across]
-    if not isinstance(across.form, HoldsAfter):
+    """What is taken for granted in a chain and said by none of its links, and links that rest on chains."""
+    wrong = [*_across(chain), *_links(chain)]
+    yield from wrong or _left_open(chain)
+
+
+def _across(chain: Chain) -> Iterator[str]:
+    """Whether the statement in the middle is one about a chain of tasks, of what lasts."""
+    across = as_written().get(chain.across)
+    if across is None:
+        yield f"{chain.across} is no property. {did_you_mean(chain.across, as_written())}"
+    elif not isinstance(across.form, HoldsAfter):
         yield f"{across.id} says nothing of what lasts; chains need a statement made with holds_after."
-        return
+    elif across.on not in WIRES:
+        yield f"{across.id} is about {across.on}, no chain of tasks; it is one of {', '.join(WIRES)}."
+
+
+def _links(chain: Chain) -> Iterator[str]:
+    """Whether every link is a property of a board, which rests on no chain in turn: so there is no circle."""
+    wanted = {"first": chain.first, "last": chain.last, **chain.by}
+    for name, id in wanted.items():
+        prop = as_written().get(id)
+        if prop is not None and prop.on in WIRES:
+            circle = " itself, which is a circle" if id == chain.across else ""
+            yield f"{id}, which is to prove {name}, rests on a chain{circle}; take one about a board."
+        elif id and prop is None:
+            yield f"{id} is no property. {did_you_mean(id, as_written())}"
+
+
+def _left_open(chain: Chain) -> Iterator[str]:
+    """The holes of a chain whose links are properties of the boards."""
+    across = as_written()[chain.across]
+    assert isinstance(across.form, HoldsAfter)
     contracts = {c.name: c for c in CONTRACTS.get(across.on, ())}
     for name in sorted(chain.by.keys() - contracts.keys()):
         yield f"{across.on} has no contract {name!r}; it has {', '.join(contracts) or 'none'}."
@@ -83,14 +114,10 @@ def _empty(id: str, cause: Expr, then: Expr) -> Iterator[str]:
 
 def _unproved(chain: Chain, contract: Contract, id: str) -> Iterator[str]:
     """Whether a property of a board says what a contract does."""
-    prop = as_written().get(id)
-    if prop is None:
-        yield f"{id} is no property."
-        return
-    if prop.on in CONTRACTS:
-        yield f"{id}, which is to prove {contract.name}, rests on contracts itself; take one about a board."
-        return
+    prop = as_written()[id]
     premise, before = _where(chain, contract.premise), _where(chain, contract.before)
+    if prop.from_tick > contract.begins:
+        yield f"{id} says nothing before step {prop.from_tick}; {contract.name} does, write first=False."
     yield from _empty(id, premise & before, _where(chain, contract.then))
     match prop.form:
         case HoldsAfter(needed, span, _) if span.ticks(20) > 1 or (span.ticks(20) and before is TRUE):

@@ -6,10 +6,19 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol
 
 from checker.certify.outcome import Rejected
-from checker.commands.certificates import certificates, certified, outcome
+from checker.commands.certificates import certificates, certified
 from checker.commands.codes import Exit, UsageError
 from checker.commands.failing import alarm, code_of, told
-from checker.commands.findings import ALONE, Guide, about_cases, read_on, totals
+from checker.commands.findings import (
+    ALONE,
+    Guide,
+    about_cases,
+    about_chains,
+    about_faults,
+    read_on,
+    totals,
+)
+from checker.commands.further import NOTHING_FURTHER, Further
 from checker.commands.output import err, out, wrapped
 from checker.commands.progress import Watch
 from checker.commands.wrapping import plain
@@ -30,11 +39,8 @@ if TYPE_CHECKING:
     from checker.certifying import Certifying
     from checker.commands.premises import Case
 
-SCHEMA = 1
 EVIDENCE = 33
 """The column in which the evidence of a verdict begins."""
-CASE = {True: "occurs", False: "never", None: "unknown"}
-"""Whether the case occurs that a proof speaks of."""
 SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
 
 
@@ -42,14 +48,15 @@ SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
 class Compared:
     """A result beside the verdict on record; ``variant`` says how the charts differ from those specified.
 
-    ``case``: whether the case occurs that a proof speaks of, if that was asked.  With ``strict``, a proof is
-    not enough if it does not.
+    ``case``: whether the case occurs that a proof speaks of, ``noticed``: whether a fault is known that it
+    notices, each if that was asked.  With ``strict``, a proof of a case that never occurs is not enough.
     """
 
     result: Result
     expected: Expected
     variant: str = ""
     case: "Case | None" = None
+    noticed: bool | None = None
     strict: bool = False
 
     @property
@@ -66,6 +73,11 @@ class Compared:
     def empty(self) -> bool:
         """Whether it is a proof of a case that never occurs."""
         return self.case is not None and self.case.occurs is False
+
+    @property
+    def idle(self) -> bool:
+        """Whether it is a proof that notices no known fault, and the baseline does not say why."""
+        return self.noticed is False and not self.expected.no_fault
 
     @property
     def as_expected(self) -> bool:
@@ -148,15 +160,6 @@ class Deliver(Protocol):
     def __call__(self, found: Sequence[Compared], wanted: int, ended: str = "") -> None: ...
 
 
-Premises = Callable[[Sequence[Compared]], Mapping[str, "Case"]]
-"""Says of each proof that speaks of a case, by id, whether the case occurs."""
-
-
-def unasked(_: Sequence[Compared]) -> Mapping[str, "Case"]:
-    """Nothing is asked about cases."""
-    return {}
-
-
 def undelivered(found: Sequence[Compared], wanted: int, ended: str = "") -> None:
     """No report beside what is printed."""
 
@@ -174,14 +177,14 @@ def check(
     guide: Guide = ALONE,
     deliver: Deliver = undelivered,
     quiet: bool = False,
-    premises: Premises = unasked,
+    further: Further = NOTHING_FURTHER,
     strict: bool = False,
 ) -> Exit:
     """Print every verdict with its evidence and what the baseline says of it.
 
     ``guide`` is what helps to read on.  ``deliver`` is called once at the end, however that comes.  With
-    ``quiet``, only what is not as expected is printed.  ``premises`` are asked of what was found; ``strict``
-    makes a proof of a case that never occurs an error.
+    ``quiet``, only what is not as expected is printed.  What is asked ``further`` is asked of all that was
+    found; ``strict`` makes a proof of a case that never occurs an error.
     """
     if not properties:
         err.print("Nothing to check: the selection holds no property.")
@@ -198,10 +201,15 @@ def check(
                 found.append(Compared(result, expect(result.property.id), variant))
                 if not as_json and not (quiet and found[-1].code is Exit.AS_EXPECTED):
                     out.print(wrapped(line(found[-1]), EVIDENCE), markup=False)
-        cases = premises(found)
-        found = [replace(c, case=cases.get(c.result.property.id), strict=strict) for c in found]
+        cases, chains = further.cases(found), further.chains(found)
+        found = [
+            replace(c, case=cases.get(c.result.property.id), noticed=further.noticed(c), strict=strict)
+            for c in found
+        ]
     except BaseException as error:
         if as_json:
+            from checker.commands.checking_json import document
+
             gravest = bool(faults) and not isinstance(error, KeyboardInterrupt)
             print(json_text(document(found, code_of(error), gravest), ascii=True))
         alarms = _alarmed(faults)
@@ -215,14 +223,23 @@ def check(
         err.print(f"Interrupted: {len(found)} of {len(properties)} properties decided.")
         return Exit.INTERRUPTED
     if as_json:
-        print(json_text(document(found, faulty=bool(faults)), ascii=True))
+        from checker.commands.checking_json import document
+
+        print(json_text(document(found, chains=chains, faulty=bool(faults)), ascii=True))
     elif not quiet:
         out.print()
         summary(found, guide)
-        for text in (*about_cases(found), *read_on(found, systems, guide)):
+        said = (
+            *about_cases(found),
+            *about_faults(found),
+            *about_chains(chains),
+            *read_on(found, systems, guide),
+        )
+        for text in said:
             out.print(wrapped(text, 4), markup=False)
     elif strict:
-        for text in about_cases([c for c in found if c.code is not Exit.AS_EXPECTED]):
+        wrong = [c for c in found if c.code is not Exit.AS_EXPECTED]
+        for text in about_cases(wrong):
             out.print(wrapped(text, 4), markup=False)
     deliver(found, len(properties), _alarmed(faults))
     return Exit.INTERNAL if faults else worst(found)
@@ -350,41 +367,6 @@ def _explain(compared: Compared, guide: Guide) -> None:
         for arrow in fired[-3:]:
             out.print(f"  fired: {arrow}", markup=False)
         out.print(f"  See it whole: {guide.command('trace', prop.id)}", markup=False)
-
-
-def document(found: Sequence[Compared], ended: Exit | None = None, faulty: bool = False) -> dict[str, object]:
-    """The verdicts as JSON; ``ended`` is the exit code of what ended the command before it was complete.
-
-    ``faulty``: an engine failed, which is a bug of ours whatever the others found.
-    """
-    code = Exit.INTERNAL if faulty else worst(found) if ended is None else ended
-    return {
-        "schema": f"rovercheck/check/{SCHEMA}",
-        "variant": found[0].variant if found else "",
-        "complete": ended is None,
-        "exit": int(code),
-        "results": [_row(c) for c in sorted(found, key=lambda c: c.result.property.id)],
-    }
-
-
-def _row(compared: Compared) -> dict[str, object]:
-    prop, verdict = compared.result.property, compared.verdict
-    return {
-        "id": prop.id,
-        "text": prop.text,
-        "requirements": list(prop.covers),
-        "system": compared.result.system,
-        "verdict": verdict.word,
-        "in_part": compared.result.in_part,
-        "engine": verdict.engine,
-        "evidence": evidence(compared.result),
-        "ticks": length(verdict),
-        "expected": compared.expected.verdict,
-        "as_expected": compared.as_expected,
-        "certificate": outcome(compared.result.certificate),
-        "case": None if compared.case is None else CASE[compared.case.occurs],
-        "because": compared.expected.because,
-    }
 
 
 __all__ = ["Compared", "check", "evidence", "length", "results", "ticks"]

@@ -17,6 +17,7 @@ from spec_model.lang.system import System
 
 if TYPE_CHECKING:
     from checker.commands.check import Compared
+    from checker.commands.standing import Standing
     from checker.commands.variant import Variant
 
 REPORTS = Path("reports/README.md")
@@ -106,6 +107,22 @@ def about_cases(found: Sequence["Compared"]) -> Iterator[str]:
         yield from (f"  {prop.id}, {prop.on}: {prop.text}" for prop in empty)
     if unknown:
         yield f"Proved, not known whether the case occurs that is spoken of: {', '.join(unknown)}."
+
+
+def about_faults(found: Sequence["Compared"]) -> Iterator[str]:
+    """Which proofs notice no fault that is known."""
+    idle = [one.result.property.id for one in found if one.idle]
+    if idle:
+        more = f" and {len(idle) - SHOWN} more" if len(idle) > SHOWN else ""
+        yield f"Proved, and no fault of the charts is known that it notices: {', '.join(idle[:SHOWN])}{more}."
+
+
+def about_chains(told: Sequence["Standing"]) -> Iterator[str]:
+    """How many chains across the link hold, and which do not."""
+    if told:
+        good = sum(one.holds is True for one in told)
+        yield f"{good} of {counted(len(told), 'chain', 'chains')} across the link hold, link by link."
+        yield from (f"  {one.text}" for one in told if not one.holds)
 
 
 def read_on(found: Sequence["Compared"], systems: Mapping[str, System], guide: Guide) -> Iterator[str]:

@@ -4,6 +4,7 @@ from collections.abc import Collection, Generator, Mapping
 from contextlib import closing
 
 from checker.commands.codes import Exit
+from checker.commands.further import asks_for_fault
 from checker.commands.output import counted, err, out, wrapped, write
 from checker.commands.progress import ProgressLine
 from checker.commands.select import pick
@@ -11,11 +12,11 @@ from checker.engine import Limits
 from checker.isolate import Send
 from checker.model import Model
 from checker.model.kept_runs import KILLS, Kept, file_of, read, text
-from checker.mutate.killing import Kill, kills
+from checker.mutate.killing import Kill, kills, still
 from checker.pool import Order, Pool
 from checker.searches import SLACK, cores
 from checker.verdict import Run
-from properties.forms import Property, Reachable, Unbounded
+from properties.forms import Property
 from spec_model.lang.system import System
 
 SHOWN = 40
@@ -25,65 +26,63 @@ SHOWN = 40
 def record_kills(model: Model, limits: Limits, jobs: int | None, about: Collection[str] = ()) -> Exit:
     """Look for a fault that each proved demand notices, and keep it with the run that shows it.
 
-    Only demands about the systems ``about``, if these are named.
-
-    What is on record of properties for which none is found now stays as it is.  Raises ``UsageError`` where
+    Only demands about the systems ``about``, if these are named.  What is on record is gone through again;
+    only demands of which it shows nothing any more are looked at.  Raises ``UsageError`` where
     the file cannot be written, ``ModelError`` where what is on record cannot be read.
     """
     place, premises = file_of(model, KILLS), read(file_of(model))
     known = {id: kept for id, kept in read(place, KILLS).items() if id in model.properties}
     chosen = {pick("system", name, model.systems).name for name in about}
     asked = {name: of for name, of in asked_of(model).items() if not chosen or name in chosen}
-    found = dict(known)
+    total = [p.id for properties in asked.values() for p in properties]
+    found = {id: kept for id, kept in known.items() if id not in total}
+    whole = True
     try:
-        for name, one in _found(model, premises, asked, limits, jobs):
-            found |= {id: Kept(name, kill.run, kill.mutant) for id, kill in one.items()}
+        for name, one in _found(model, premises, known, asked, limits, jobs):
+            if one is None:
+                whole = False
+                found = {p.id: known[p.id] for p in asked[name] if p.id in known} | found
+            else:
+                found |= {id: Kept(name, kill.run, kill.mutant) for id, kill in one.items()}
     except KeyboardInterrupt:
+        found = known | found
         err.print("Interrupted: what was found so far is kept.")
         return Exit.INTERRUPTED
     finally:
         write(text(found, KILLS), place)
-    total = [p.id for properties in asked.values() for p in properties]
     left = [id for id in total if id not in found]
     demands = counted(len(total), "proved demand", "proved demands")
     out.print(f"{len(total) - len(left)} of {demands} notice a fault that was put into the charts.")
     if left:
         more = f" and {len(left) - SHOWN} more" if len(left) > SHOWN else ""
         out.print(wrapped(f"None was found for {', '.join(left[:SHOWN])}{more}.", 4), markup=False)
-    return Exit.AS_EXPECTED
+    return Exit.AS_EXPECTED if whole else Exit.INCONCLUSIVE
 
 
 def asked_of(model: Model) -> dict[str, list[Property]]:
     """The demands that are proved, by system; those about what happens some day are left out."""
     found: dict[str, list[Property]] = {}
     for prop in model.stated().values():
-        proved = model.expected(prop.id).verdict == "proved" and not prop.costly
-        if proved and not isinstance(prop.form, Reachable | Unbounded):
+        if model.expected(prop.id).verdict == "proved" and asks_for_fault(prop):
             found.setdefault(prop.on, []).append(prop)
     return found
-
-
-def noticing(model: Model) -> frozenset[str] | None:
-    """The properties that notice a fault, or the charts as they are; None if no kills are on record."""
-    place = file_of(model, KILLS)
-    if not place.exists():
-        return None
-    broken = {id for id in model.properties if model.expected(id).verdict == "violated"}
-    return frozenset(broken | read(place, KILLS).keys())
 
 
 def _found(
     model: Model,
     premises: Mapping[str, Kept],
+    known: Mapping[str, Kept],
     asked: Mapping[str, list[Property]],
     limits: Limits,
     jobs: int | None,
-) -> Generator[tuple[str, dict[str, Kill]], None, None]:
+) -> Generator[tuple[str, dict[str, Kill] | None], None, None]:
+    """The kills system by system, as they are found; None of one that was not looked at whole."""
     orders, names = [], list(asked)
     for name in names:
         system = model.systems[name]
         runs = tuple(k.run for k in premises.values() if k.system in (name, system.concrete))
-        orders.append(Order((system, tuple(asked[name]), runs, limits.seconds or 60.0), name))
+        kept = {p.id: Kill(known[p.id].mutant, known[p.id].run) for p in asked[name] if p.id in known}
+        orders.append(Order((system, tuple(asked[name]), kept, runs, limits.seconds or 60.0), name))
     pool = Pool(jobs or cores(), _Killing, (), limits.memory + SLACK)
     done = 0
     with ProgressLine(err) as line, closing(pool.run(orders)) as events:
@@ -93,6 +92,7 @@ def _found(
             if event.done:
                 if event.failure:
                     err.print(f"{names[event.number]}: not looked at whole: {event.failure}", markup=False)
+                    yield names[event.number], None
                 done += 1
                 line.show(f"{done}/{len(names)} systems done")
 
@@ -105,10 +105,14 @@ class _Killing:
         send: Send,
         system: System,
         properties: tuple[Property, ...],
+        kept: Mapping[str, Kill],
         runs: tuple[Run, ...],
         seconds: float,
     ) -> None:
-        send(kills(system, properties, runs, seconds))
+        good = still(system, properties, kept)
+        send(good)
+        for found in kills(system, [p for p in properties if p.id not in good], runs, seconds):
+            send(found)
 
 
-__all__ = ["asked_of", "noticing", "record_kills"]
+__all__ = ["asked_of", "record_kills"]

@@ -136,7 +136,7 @@ def pages_of_verdicts(found: Sequence[Compared], proved: Sequence[Proof] = ()) -
     ordered = sorted(found, key=lambda c: (c.result.property.area, c.result.property.id))
     made = {
         "README.md": _index(ordered),
-        "promises.md": HEADER + promises_page(ordered),
+        "promises.md": HEADER + promises_page(ordered, proved),
         "requirements.md": HEADER + matrix_page(ordered),
         "systems.md": _systems(),
     }

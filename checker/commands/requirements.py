@@ -5,7 +5,7 @@ from pathlib import Path
 
 from checker.commands.check import Compared, results, worst
 from checker.commands.codes import Exit
-from checker.commands.killing import noticing
+from checker.commands.further import noticing
 from checker.commands.output import out
 from checker.commands.tables import listed
 from checker.engine import AUTO, Limits

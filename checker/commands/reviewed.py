@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, fields
 
 from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from checker.commands.check import Compared, evidence, recorded
-from checker.commands.killing import noticing
+from checker.commands.further import noticing
 from checker.commands.premises import Case
 from checker.commands.wording import formally
 from checker.model import Model

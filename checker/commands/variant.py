@@ -92,6 +92,10 @@ class Variant:
 
         return concerned
 
+    def promised(self) -> list[Property]:
+        """What the repair repairs, also what takes long."""
+        return [self.properties()[id] for id in self.repair.fixes] if self.repair else []
+
     def askable(self, properties: Sequence[Property]) -> list[Property]:
         """The properties that speak of what the changed systems still have; says which do not.
 

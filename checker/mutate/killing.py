@@ -1,17 +1,31 @@
-"""For each property a fault that it notices: what runs on record and random runs show."""
+"""For each property a fault that it notices: by runs on record, by random runs, then by a search."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from time import monotonic
 
-from checker.mutate.asked import as_it_is
+from checker.decide import decide
+from checker.engine import AUTO, Limits, quiet
+from checker.lowered import lowered
+from checker.mutate.asked import as_it_is, changed
 from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.tries import random_runs, spread, tried
-from checker.runs.known import reached
-from checker.verdict import Run
+from checker.runs.known import reached, run_of
+from checker.tasks import tasks
+from checker.verdict import Run, Violated
 from properties.forms import Property
 from spec_model.lang.errors import ModelError
 from spec_model.lang.system import System
+
+SEARCHES = (
+    ("bmc", Limits(depth=6, seconds=2.0)),
+    ("bmc", Limits(depth=60, seconds=10.0)),
+    (AUTO, Limits(seconds=30.0)),
+)
+"""Engines, with what each may spend on a fault, as another fault may be noticed sooner.  ``bmc`` proves
+nothing, which is not asked; what takes long runs is left to all of them."""
+DEAD = "dead"
+"""The operator that takes a whole part away: tried first, a property that notices it needs the part."""
 
 
 @dataclass(frozen=True)
@@ -22,32 +36,92 @@ class Kill:
     run: Run
 
 
+def still(system: System, properties: Sequence[Property], known: Mapping[str, Kill]) -> dict[str, Kill]:
+    """Of the kills on record those that are kills of the properties and charts as they are now, by id."""
+    original, found = as_it_is(system), dict[str, Kill]()
+    wanted = {kill.mutant for kill in known.values()}
+    made = {m.id: m for m in mutants(original, {id.partition("/")[0] for id in wanted}) if m.id in wanted}
+    for prop in (p for p in properties if p.id in known):
+        kill = known[prop.id]
+        if kill.mutant in made and noticed(made[kill.mutant], [prop], [kill.run]):
+            found[prop.id] = kill
+    again = reached(original, properties, [kill.run for kill in found.values()])
+    return {id: kill for id, kill in found.items() if id not in again}
+
+
 def kills(
     system: System, properties: Sequence[Property], known: Sequence[Run], seconds: float
-) -> dict[str, Kill]:
-    """For properties that hold on the system, by id, a mutant on which they do not.
+) -> Iterator[dict[str, Kill]]:
+    """For properties that hold on the system, by id, a mutant on which they do not; as they are found.
 
-    Nothing is said of the others: ``seconds`` may have been too few, or the run too rare.
+    Runs are tried for ``seconds`` at most, and then a run is searched for as long.  Nothing is said of the
+    others: ``seconds`` may have been too few.
     """
     original = as_it_is(system)
     runs = [*tried(known), *random_runs(original)]
-    left, found = {p.id: p for p in properties}, dict[str, Kill]()
+    left = {p.id: p for p in properties}
     deadline = monotonic() + seconds
     for mutant in spread(mutants(original)):
         if not left or monotonic() > deadline:
             break
-        for id, run in noticed(mutant, list(left.values()), runs).items():
-            found[id] = Kill(mutant.id, run)
-            del left[id]
-    return found
+        found = noticed(mutant, list(left.values()), runs)
+        if found:
+            left = {id: prop for id, prop in left.items() if id not in found}
+            yield {id: Kill(mutant.id, run) for id, run in found.items()}
+    yield from searched(original, list(left.values()), seconds)
 
 
-def noticed(mutant: Mutant, properties: Sequence[Property], runs: Sequence[Run]) -> dict[str, Run]:
+def searched(original: System, properties: Sequence[Property], seconds: float) -> Iterator[dict[str, Kill]]:
+    """The same by engines, only of faults that change what a property depends on."""
+    left = {p.id: p for p in properties}
+    made = _the_dead_first(original) if left else []
+    for engine, limits in SEARCHES:
+        deadline = monotonic() + seconds
+        for mutant in made:
+            if not left or monotonic() > deadline:
+                break
+            asked = list(left.values())
+            found = dict(_violated(original, mutant, asked, engine, limits, deadline))
+            if found:
+                left = {id: prop for id, prop in left.items() if id not in found}
+                yield {id: Kill(mutant.id, run) for id, run in found.items()}
+
+
+def _the_dead_first(original: System) -> list[Mutant]:
+    made = mutants(original)
+    return [m for m in made if m.operator == DEAD] + [*spread([m for m in made if m.operator != DEAD])]
+
+
+def _violated(
+    original: System,
+    mutant: Mutant,
+    properties: Sequence[Property],
+    engine: str,
+    limits: Limits,
+    deadline: float,
+) -> Iterator[tuple[str, Run]]:
+    """The properties that a run found now violates on a mutant; none of one that has no meaning."""
+    try:
+        asked = list(changed(lowered(original), lowered(mutant.system), properties))
+        systems = {mutant.system.name: mutant.system}
+        for task in tasks(asked, systems):
+            seconds = min(limits.seconds or 0.0, deadline - monotonic())
+            if seconds <= 0:
+                return
+            for one in decide(task, systems, engine, replace(limits, seconds=seconds), quiet):
+                run = run_of(one.verdict) if isinstance(one.verdict, Violated) else None
+                if run is not None:
+                    yield one.property.id, run
+    except ModelError:
+        return
+
+
+def noticed(mutant: Mutant, properties: Collection[Property], runs: Sequence[Run]) -> dict[str, Run]:
     """The properties that some of the runs violate on a mutant; none of one that has no meaning."""
     try:
-        return reached(mutant.system, properties, runs)
+        return reached(mutant.system, list(properties), runs)
     except ModelError:
         return {}
 
 
-__all__ = ["Kill", "kills", "noticed"]
+__all__ = ["Kill", "kills", "noticed", "searched", "still"]

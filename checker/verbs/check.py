@@ -1,6 +1,7 @@
 """The verb ``check``: properties against the verdicts on record."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from shlex import join
 from typing import TYPE_CHECKING
@@ -12,9 +13,14 @@ from checker.commands.options import GIB, modelling, searching, varying
 from checker.engine import ALL, AUTO, LOADED, Limits, Timers
 
 if TYPE_CHECKING:
-    from checker.commands.check import Compared, Premises
+    from checker.commands.check import Compared
+    from checker.commands.further import Further
     from checker.commands.premises import Case
+    from checker.commands.standing import Chains
     from checker.commands.variant import Variant
+
+Premises = Callable[[Sequence["Compared"]], Mapping[str, "Case"]]
+"""Says of each proof that speaks of a case, by id, whether the case occurs."""
 
 
 @click.command(short_help="Check properties, and compare with the verdicts on record.")
@@ -24,7 +30,9 @@ if TYPE_CHECKING:
 )
 @click.option("--full", is_flag=True, help="Also the properties that take long.")
 @click.option(
-    "--strict", is_flag=True, help="A proof of a case that never occurs, or may never, is an error."
+    "--strict",
+    is_flag=True,
+    help="A proof of a case that never occurs, or may never, is an error.",
 )
 @click.option("--no-premises", is_flag=True, help="Do not ask whether the cases occur that proofs speak of.")
 @click.option(
@@ -106,7 +114,7 @@ def check(
     with prepared(*LOADED):
         from checker.commands.certificates import writable
         from checker.commands.check import check as run
-        from checker.commands.check import unasked, undelivered
+        from checker.commands.check import undelivered
         from checker.commands.findings import Guide, causes
         from checker.commands.select import pick_engine, pick_properties
         from checker.commands.variant import pick_variant
@@ -115,6 +123,11 @@ def check(
         properties = pick_properties(ids, about, variant.properties(), full, variant.unchanged())
         if variant.name and not ids:
             properties = list(filter(variant.concerns(), properties))
+        chains = _chains(variant) if not ids and not about and (full or variant.name) else None
+        if chains is not None:
+            properties = list(
+                {p.id: p for p in (*properties, *variant.promised(), *chains.links.values())}.values()
+            )
         if variant.name:
             properties = variant.askable(properties)
         if no_premises and (strict or record_premises):
@@ -147,9 +160,32 @@ def check(
             Guide(variant.options, _selection(ids, about, full), variant.model.by_gravity, causes(variant)),
             deliver,
             quiet,
-            unasked if no_premises else _premises(variant, asked, limits, jobs, quiet, record_premises),
+            _further(
+                variant,
+                None if no_premises else _premises(variant, asked, limits, jobs, quiet, record_premises),
+                chains,
+            ),
             strict,
         )
+
+
+def _chains(variant: "Variant") -> "Chains | None":
+    """The chains of the rover's promises, checked for holes; a model of a user's own has none."""
+    if variant.own is not None:
+        return None
+    from checker.commands.standing import Chains
+
+    return Chains(variant)
+
+
+def _further(variant: "Variant", premises: "Premises | None", chains: "Chains | None") -> "Further":
+    """What is asked of the verdicts; faults are kept of the charts as they are."""
+    from checker.commands.further import Further, noticing
+
+    further = Further(noticing=None if variant.name else noticing(variant.model))
+    if premises is not None:
+        further = replace(further, cases=premises)
+    return further if chains is None else replace(further, chains=chains.standings)
 
 
 def _premises(

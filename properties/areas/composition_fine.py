@@ -3,6 +3,7 @@
 from properties.document.distances import within
 from properties.forms import always, holds_after, responds, until
 from spec_model.composition.fine_systems import (
+    actuates,
     asks_switch,
     critical_sent,
     forward,
@@ -91,6 +92,27 @@ PSY_10f = holds_after(
     "PSY-10f", "The same within 81 ms.",
     premise=near & forward, for_=81 * ms, then=~v_positive,
     covers=["B2-OBS-01", "B1-EST-01"], on="stop_fine", readings=["E12"],
+)  # fmt: skip
+PSY_10o = holds_after(
+    "PSY-10o",
+    "Within 101 ms of a sonar snapshot with an obstacle at 70 cm or less, constant, both references of Board "
+    "1 are zero, if it actuates, the user drives forward and no rotation is active meanwhile.",
+    premise=near & forward, for_=101 * ms, then=~nonzero,
+    covers=["B2-OBS-01", "B1-EST-01"], on="stop_obeyed_fine", readings=["E12"],
+)  # fmt: skip
+PSY_10d = holds_after(
+    "PSY-10d",
+    "With the repair degraded-by-either, the same of an obstacle at 300 cm or less and a fault in a mask of "
+    "Board 2, both constant, in the place of one at 70 cm.",
+    premise=near & forward, for_=101 * ms, then=~nonzero,
+    covers=["B2-OBS-04", "B1-EST-01"], on="stop_obeyed_fine", readings=["E09", "E12"],
+)  # fmt: skip
+PSY_10u = holds_after(
+    "PSY-10u",
+    "With the repair stop-unconditional: within 81 ms of a sonar snapshot with an obstacle at 70 cm or less, "
+    "constant, both references of Board 1 are zero, if it actuates meanwhile, whatever the user does.",
+    premise=near & actuates, for_=81 * ms, then=~nonzero,
+    covers=["B2-OBS-01", "B1-EST-01"], on="stop_unconditional_fine", readings=["E12"],
 )  # fmt: skip
 
 PSY_14a = holds_after(

@@ -123,7 +123,9 @@ PB1_39h = always(
     covers=["B1-GEN-05", "B1-REF-05"], on=ON, from_tick=2, readings=["S57", "S59"],
 )  # fmt: skip
 PB1_38c = always(
-    "PB1-38c", "Before Board 1 drives for the first time it stands, without stop or changed stick.",
+    "PB1-38c",
+    "Before Board 1 drives for the first time, in its first step where the relay is (PB1-14b), it stands, "
+    "without stop or changed stick.",
     that=implies(
         ~once(drives),
         all_of(

@@ -172,6 +172,11 @@ PB1_23e = always(
     that=implies(stop_commanded & previous(drives & running & (v_user > 0)), actuate_emergency_stop),
     covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S63", "E11"],
 )  # fmt: skip
+PB1_23f = always(
+    "PB1-23f", "While Board 1 actuates, CMD_ESTOP makes both references zero in the same step.",
+    that=implies(stop_commanded, (v_ref == 0) & (omega_ref == 0)),
+    covers=["B1-EST-01", "B2-OBS-01"], on=ON, from_tick=2, readings=["S63", "E11"],
+)  # fmt: skip
 
 # --- outputs of a board that does not actuate [seed §2.1] --------------------------------------------
 

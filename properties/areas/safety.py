@@ -73,7 +73,9 @@ any_critical, any_degraded = crit_mask_b2 != 0, degr_mask_b2 != 0
 stops = choose("S54", {"B2BITS": bit_0 | bit_1, "SAME-AS-B1": bit_0 | bit_1 | bit_3})
 slows = choose("S54", {"B2BITS": bit_2 | bit_3, "SAME-AS-B1": bit_2})
 PB1_16j = always(
-    "PB1-16j", "Before Board 1 actuates for the first time the safety state is OK.",
+    "PB1-16j",
+    "Before Board 1 actuates for the first time, in its first step where the relay is (PB1-14b), the safety "
+    "state is OK.",
     that=implies(~once(drives), rover_safety_state == "SAFETY_OK"), covers=["B1-REF-04"], on=ON,
 )  # fmt: skip
 PB1_16h = always(

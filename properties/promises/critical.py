@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from properties.areas import battery, temperature
+from properties.document import battery, temperature
 from properties.document.sources import BLE, IMU, silent_ms
 from properties.forms import Property, costly, holds_after
 from properties.promises import shown, steered

@@ -1,6 +1,6 @@
 """Limits: what the references may be at most, whatever is commanded, and what an emergency stop means."""
 
-from properties.areas import temperature
+from properties.document import temperature
 from properties.forms import always, costly, holds_after
 from properties.promises import steered
 from properties.promises.driving import drives_1, half_1, half_2, zero_1, zero_2

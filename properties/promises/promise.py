@@ -18,7 +18,8 @@ class Chain:
     that proves it, ``stands`` says of the variables of that system what they are on the boards.  ``first``, a
     property that demands something of every step with ``cause``, leads to the premise of ``across``; ``last``
     leads from what arrives to its conclusion.  A chain without contracts needs both.  What the promise takes
-    for granted beside that is in ``assuming``.
+    for granted beside that is in ``assuming``.  ``under`` names the repair with which the links hold, if they
+    do not hold as specified.
     """
 
     across: str
@@ -28,6 +29,7 @@ class Chain:
     cause: Expr = TRUE
     last: str = ""
     assuming: Expr = TRUE
+    under: str = ""
 
     @property
     def properties(self) -> tuple[str, ...]:

@@ -1,6 +1,6 @@
 """What each board shows the other: from the measured datum to the bit of the mask that is sent."""
 
-from properties.areas import battery, temperature
+from properties.document import battery, temperature
 from properties.document.sources import BLE, IMU, RX, SUP, Source, silent_ms
 from properties.forms import Property, always, costly, holds_after
 from properties.promises.promise import Promise

@@ -195,7 +195,7 @@ heartbeat_fine = _chain(
 
 # --- an obstacle stops Board 1 --------------------------------------------------------------------
 
-near = flag("near", "the snapshot holds a distance of at most 70 cm")
+near = flag("near", "the snapshot holds an obstacle that Board 2 stops for, such as one at 70 cm")
 stop_decided = flag("estop_decided", "the command in the snapshot of Board 2 is CMD_ESTOP")
 stop_received = flag("estop_received", "the received command is CMD_ESTOP")
 other_stop = flag("other_stop", "free: whether Board 2 commands CMD_ESTOP otherwise")
@@ -204,13 +204,16 @@ forward = flag(
 )
 v_positive = flag("v_positive", "v_ref of Board 1 is positive")
 any_reference = flag("any_reference", "free: whether v_ref is positive otherwise")
+actuates = flag("actuates", "Board 1 actuates")
+any_nonzero = flag("any_nonzero", "free: whether the references are not zero otherwise")
+nonzero = flag("references_nonzero", "a reference of the receiving board is not zero")
 line_cmd = line(
     "B2-B1.command", [(stop_decided, stop_received)], tx2.due, flag("B1.command_frame", "a frame came")
 )
 
 obstacle_contract = Contract(
     "SUP2.contract",
-    "Contract: at most 70 cm in two successive steps give CMD_ESTOP in the second.",
+    "Contract: what Board 2 stops for, in two successive steps, gives CMD_ESTOP in the second.",
     near, stop_decided, other_stop, before=near,
 )  # fmt: skip
 motion_contract = Contract(
@@ -218,17 +221,48 @@ motion_contract = Contract(
     "Contract: CMD_ESTOP received, the user forward in two successive steps, gives v_ref <= 0 in the second.",
     stop_received & forward, ~v_positive, any_reference, before=forward,
 )  # fmt: skip
+obeying_contract = Contract(
+    "SUP1.obeys",
+    "Contract: CMD_ESTOP received and the user forward in two successive steps give zero references in the "
+    "second.",
+    stop_received & forward, ~nonzero, any_nonzero, before=stop_received & forward,
+)  # fmt: skip
+stopping_contract = Contract(
+    "SUP1.stops",
+    "Contract, with stop-unconditional: CMD_ESTOP received gives zero references in the same step.",
+    stop_received & actuates, ~nonzero, any_nonzero, first=False,
+)  # fmt: skip
 
-stop_fine = _chain(
+
+def _stopping(name: str, text: str, motion: Contract) -> System:
+    """From a sonar snapshot over Board 2 and the link to what Board 1 does."""
+    return _chain(
+        name,
+        text,
+        line_cmd.receive,
+        Enabled(sup1.due, motion.block, name="Board 1"),
+        Enabled(sup2.due, obstacle_contract.block, name="Board 2"),
+        line_cmd.send,
+        tasks=(sup2, tx2),
+        assume=implies(line_cmd.busy, line_cmd.intact),
+        notes=[NO_LOSS],
+    )
+
+
+stop_fine = _stopping(
     "stop_fine",
     "From a sonar snapshot over Board 2, the link and Board 1 to the linear reference.",
-    line_cmd.receive,
-    Enabled(sup1.due, motion_contract.block, name="Board 1"),
-    Enabled(sup2.due, obstacle_contract.block, name="Board 2"),
-    line_cmd.send,
-    tasks=(sup2, tx2),
-    assume=implies(line_cmd.busy, line_cmd.intact),
-    notes=[NO_LOSS],
+    motion_contract,
+)
+stop_obeyed_fine = _stopping(
+    "stop_obeyed_fine",
+    "From a sonar snapshot over Board 2, the link and Board 1 to both references, the user forward.",
+    obeying_contract,
+)
+stop_unconditional_fine = _stopping(
+    "stop_unconditional_fine",
+    "From a sonar snapshot over Board 2, the link and Board 1, repaired, to both references.",
+    stopping_contract,
 )
 
 # --- a critical fault of one board stops the other -------------------------------------------------
@@ -260,13 +294,11 @@ critical_sent = flag("critical_sent", "so says the mask in the snapshot of the s
 critical_received = flag("critical_received", "so says the mask last received")
 critical_frame = flag("critical_frame", "a frame came")
 other_critical = flag("other_critical", "free: whether the mask says so otherwise")
-any_nonzero = flag("any_nonzero", "free: whether the references are not zero otherwise")
-nonzero = flag("references_nonzero", "a reference of the receiving board is not zero")
 
 say = Contract(
     "Sender.contract",
-    "Contract: the bit of a critical component is set in the step in which it is critical.",
-    critical, critical_sent, other_critical,
+    "Contract: the bit of a critical component is set in each step but the first in which it is critical.",
+    critical, critical_sent, other_critical, first=False,
 )  # fmt: skip
 obey = Contract(
     "Receiver.contract",
@@ -294,12 +326,16 @@ SYSTEMS: tuple[System, ...] = (
     silence_fine,
     heartbeat_fine,
     stop_fine,
+    stop_obeyed_fine,
+    stop_unconditional_fine,
     critical_2_to_1,
     critical_1_to_2,
 )
 
 CONTRACTS: Mapping[str, tuple[Contract, ...]] = {
     stop_fine.name: (obstacle_contract, motion_contract),
+    stop_obeyed_fine.name: (obstacle_contract, obeying_contract),
+    stop_unconditional_fine.name: (obstacle_contract, stopping_contract),
     critical_2_to_1.name: (say, obey),
     critical_1_to_2.name: (say, obey),
 }
@@ -308,6 +344,8 @@ CONTRACTS: Mapping[str, tuple[Contract, ...]] = {
 WIRES: Mapping[str, tuple[Var, Var]] = {
     handover_fine.name: (asks_switch, b2.b1_requests_switch),
     stop_fine.name: (stop_decided, stop_received),
+    stop_obeyed_fine.name: (stop_decided, stop_received),
+    stop_unconditional_fine.name: (stop_decided, stop_received),
     critical_2_to_1.name: (critical_sent, critical_received),
     critical_1_to_2.name: (critical_sent, critical_received),
 }

@@ -45,8 +45,12 @@ class Unit:
     powers: tuple[tuple[str, int], ...] = ()
 
     @staticmethod
-    def of(text: str) -> "Unit":
-        """Read ``a·b/c``: what follows a slash is divided by."""
+    def of(text: "str | Unit") -> "Unit":
+        """Read ``a·b/c``: what follows a slash is divided by.  Raises ``ModelError`` for what is no text."""
+        if isinstance(text, Unit):
+            return text
+        if not isinstance(text, str):
+            raise ModelError(f"{brief(text)} is no unit; write one as a text, such as 'ms' or '°C/s'.")
         powers: dict[str, int] = {}
         for position, part in enumerate(text.split("/")):
             for symbol in filter(None, part.replace("*", "·").split("·")):

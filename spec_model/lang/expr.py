@@ -228,7 +228,7 @@ def member(domain: Domain, name: str) -> Const:
     return Const(domain.raw(name), domain.sort)
 
 
-def const(value: Number | bool | SupportsIndex, unit: str = "") -> Const:
+def const(value: Number | bool | SupportsIndex, unit: str | Unit = "") -> Const:
     """A constant; a number takes the resolution it needs and the unit given.
 
     A factor with a unit converts: ``minutes * const(60, "s/min")`` is in seconds.

@@ -34,6 +34,7 @@ unconditional = Repair(
         "PB1-23c",
         "PB1-23d",
         "PB1-23e",
+        "PB1-23f",
         "PSY-10a",
         "PSY-11",
         "PSY-12",

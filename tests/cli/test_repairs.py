@@ -5,9 +5,13 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
+from checker.commands.check import results
 from checker.commands.codes import Exit
+from checker.commands.promises import page
 from checker.commands.repairing import Proof, repair_pages, sections
-from properties.catalogue import expected
+from checker.commands.variant import Variant
+from checker.engine import AUTO, Limits
+from properties.catalogue import expected, promises
 from spec_model.repairs import repairs
 
 
@@ -51,6 +55,28 @@ def test_the_pages_show_the_changed_arrows_and_the_picture_of_the_repaired_chart
     assert "| arrows of Batt_CRIT | <code>1: → decide</code> |" in page and "2: → Batt_DEG" in page
     made = repair_pages([proof])
     assert set(made) == {"repairs/README.md", "repairs/battery-gap-releases/Monitor_battery.svg"}
+
+
+def test_the_page_of_promises_says_what_holds_with_each_repair() -> None:
+    """Decided now, or as on record, which ``check --repair NAME`` decides again."""
+    repair = repairs()["relay-without-delay"]
+    variant = Variant(repair.readings, repair)
+    decided = results([variant.properties()["PB1-15"]], variant.systems(), AUTO, Limits())
+    text = page([], [Proof(repair, tuple(decided))])
+    rows = [row.split(" | ") for row in text.splitlines() if row.startswith("| [")]
+    told = {(row[0].partition("]")[0][3:], row[1]): row[2] for row in rows}
+    assert told["relay-without-delay", "PB1-15"] == "proved"
+    assert told["monitor-critical-by-age", "P-WEATHER-IMU-2"] == "proved in part*"
+    for promise in promises():
+        for id in promise.required:
+            for name in (name for name, one in repairs().items() if id in one.fixes):
+                assert (name, id) in told
+
+
+def test_the_page_of_promises_says_which_chains_a_repair_breaks() -> None:
+    tree = page([]).partition("- PSY-10e ")[2].partition("\n- ")[0]
+    assert "no longer holds with a repair that gives up a link: " in tree
+    assert "[safety-critical-first](repairs/README.md#safety-critical-first) (PSY-10m)" in tree
 
 
 def test_a_finding_without_a_repair_says_why() -> None:

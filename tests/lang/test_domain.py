@@ -1,6 +1,7 @@
 """Domains, units, times and labels: what is written comes back, and slips are named."""
 
 from fractions import Fraction
+from typing import Any
 
 import pytest
 from hypothesis import given
@@ -19,6 +20,7 @@ from spec_model.lang.domain import (
     show,
 )
 from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.lang.expr import const
 from spec_model.lang.time import ms, sec, tick, ticks
 
 STATUS = enumeration("Status", {"OK": 0, "DEGRADED": 1, "CRITICAL": 4})
@@ -83,6 +85,19 @@ def test_units(written: str, shown: str) -> None:
 
 def test_units_multiply() -> None:
     assert Unit.of("°C/ms") * Unit.of("ms") == Unit.of("°C")
+
+
+@pytest.mark.parametrize(
+    "wrong", [7, None, fixed(0, 5, 1, "ms"), Num()], ids=["number", "none", "domain", "sort"]
+)
+def test_what_is_no_unit_is_told(wrong: Any) -> None:
+    """It ended in an AttributeError."""
+    with pytest.raises(ModelError, match=r"is no unit; write one as a text, such as 'ms'"):
+        const(5, wrong)
+
+
+def test_the_unit_of_something_else_is_a_unit() -> None:
+    assert const(5, Unit.of("ms")).sort == const(5, "ms").sort
 
 
 @given(st.fractions(min_value="1/100", max_value=10), st.fractions(min_value="1/100", max_value=10))

@@ -14,7 +14,14 @@ from spec_model.rover import charts, charts_of, systems
 
 SPECIFIED = systems()
 EVERY = list(repairs().values())
-CHEAP = ("battery-gap-releases", "degraded-first-step", "relay-without-delay", "wheel-by-feedback")
+CHEAP = (
+    "battery-absent-slows",
+    "battery-gap-releases",
+    "degraded-first-step",
+    "relay-without-delay",
+    "temperature-absent-slows",
+    "wheel-by-feedback",
+)
 
 
 def variant(repair: Repair) -> Variant:

@@ -1,6 +1,7 @@
 """For each property a fault that it notices: found by runs on record and random ones, and kept."""
 
 import json
+import os
 from collections import defaultdict
 from dataclasses import replace
 from pathlib import Path
@@ -8,23 +9,27 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
+from checker.commands import killing
 from checker.commands.codes import Exit
-from checker.commands.killing import noticing
+from checker.commands.further import noticing
 from checker.lowered import lowered
 from checker.model.kept_runs import KILLS, file_of, read
 from checker.model.load import load
 from checker.model.rover import rover
-from checker.mutate.asked import as_it_is
-from checker.mutate.killing import kills, noticed
+from checker.mutate.asked import as_it_is, changed
+from checker.mutate.killing import kills, noticed, searched, still
 from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.tries import COUNT, ON, TICKS, random_runs, spread, tried
 from checker.runs.known import reached
 from checker.verdict import Run
 from properties.coverage import matrix
+from properties.forms import Always, always
 from spec_model.lang.evaluate import admissible, step
+from spec_model.lang.expr import implies
+from spec_model.lang.words import bit
 from spec_model.rover import systems
 from tests.cli.test_report import EMPTY
-from tests.mutate.lamp import LIT, NEVER, NIGHT, QUIET, lamps
+from tests.mutate.lamp import LIT, NEVER, QUIET, alarm, lamps, level, lit
 
 
 def test_every_kill_on_record_is_one() -> None:
@@ -60,12 +65,67 @@ def test_a_requirement_is_covered_by_a_property_that_notices_something() -> None
 
 
 def test_the_lamp_has_a_kill_for_each_property_that_some_fault_can_break() -> None:
-    found = kills(lamps, (LIT, QUIET, NIGHT, NEVER), (), 60.0)
+    found = {id: kill for one in kills(lamps, (LIT, QUIET, NEVER), (), 60.0) for id, kill in one.items()}
     assert {"LIT", "QUIET"} <= set(found)
     for id, kill in found.items():
-        prop = next(p for p in (LIT, QUIET, NIGHT, NEVER) if p.id == id)
+        prop = next(p for p in (LIT, QUIET, NEVER) if p.id == id)
         [mutant] = [m for m in mutants(lamps) if m.id == kill.mutant]
         assert list(noticed(mutant, [prop], [kill.run])) == [id]
+
+
+LOUD = always(
+    "LOUD", "A lit lamp at an odd level has an alarm.", that=implies(lit & bit(level, 0), alarm),
+    covers=["R"], on=lamps,
+)  # fmt: skip
+
+
+def test_a_search_takes_away_whole_parts_first() -> None:
+    """A property that notices it needs the part."""
+    found = {id: kill for one in searched(lamps, (LIT, LOUD), 60.0) for id, kill in one.items()}
+    assert found["LOUD"].mutant == "Alarm/block/dead"
+    made = {m.id: m for m in mutants(lamps)}
+    for prop in (LIT, LOUD):
+        kill = found[prop.id]
+        assert list(noticed(made[kill.mutant], [prop], [kill.run])) == [prop.id]
+        assert not reached(lamps, [prop], [kill.run])
+
+
+def test_only_faults_that_change_the_slice_of_a_property_are_searched() -> None:
+    whole = lowered(lamps)
+    by_id = {m.id: m for m in mutants(lamps)}
+    dead = lowered(by_id["Alarm/block/dead"].system)
+    assert list(changed(whole, dead, (LIT, QUIET, LOUD))) == [QUIET, LOUD]
+
+
+def test_a_kill_that_is_none_any_more_is_dropped() -> None:
+    """A property that was weakened to nothing kept its kill."""
+    found = {id: kill for one in searched(lamps, (LIT, QUIET), 60.0) for id, kill in one.items()}
+    assert still(lamps, (LIT, QUIET), found) == found
+    idle = replace(LIT, form=Always(lit | ~lit))
+    assert still(lamps, (idle, QUIET), found) == {"QUIET": found["QUIET"]}
+    gone = {"LIT": replace(found["LIT"], mutant="Lamp/chart/gone")}
+    assert still(lamps, (LIT,), gone) == {}
+
+
+class Dying:
+    """A child that ends itself where kills are looked for."""
+
+    def __call__(self, *_: object) -> None:
+        os._exit(3)
+
+
+def test_a_child_that_dies_is_no_success(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It was told, and the exit code was 0; what is on record of its system stays."""
+    file = tmp_path / "hall.py"
+    file.write_text(EMPTY, encoding="utf-8")
+    assert run(["mutate", "--model", str(file), "--record-kills"]) == Exit.AS_EXPECTED
+    before = (tmp_path / "kills.json").read_bytes()
+    monkeypatch.setattr(killing, "_Killing", Dying)
+    assert run(["mutate", "--model", str(file), "--record-kills"]) == Exit.INCONCLUSIVE
+    assert "hall: not looked at whole: " in capsys.readouterr().err
+    assert (tmp_path / "kills.json").read_bytes() == before
 
 
 def test_runs_on_record_go_on_for_a_while_the_shortest_first() -> None:

@@ -8,6 +8,7 @@ from itertools import product
 import pytest
 
 from checker.commands.chains import check, holes
+from checker.commands.variant import Variant
 from properties.catalogue import as_written, catalogue, expected, promises
 from properties.forms import Always, EntersOnlyIf, HoldsAfter, LeavesOnlyIf, Property, formulas
 from properties.promises.promise import Chain, Promise
@@ -15,12 +16,15 @@ from spec_model.composition.contracts import Contract
 from spec_model.composition.fine_systems import CONTRACTS
 from spec_model.lang.errors import ModelError
 from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named
+from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, implies
 from spec_model.lang.interpret import Interpreter
 from spec_model.lang.operators import Op
 from spec_model.lang.system import in_order
 from spec_model.lang.walk import variables
+from spec_model.lang.words import previous
+from spec_model.repairs import repairs
 from spec_model.rover import systems
+from spec_model.signals.board1 import give_b2_actuation
 from spec_model.signals.common import PHASE, PHASE_CLASS
 
 PROMISES = promises()
@@ -39,6 +43,8 @@ COVERED = {
     "give_b2_actuation": ["P-RELAY-OPENS", "P-RELAY-ONLY-THEN"],
     "autorized_to_send_command": ["P-RELAY-ASKED", "PB2-14d"],
     "critical_mask": ["P-SHOWN-TEMPERATURE", "P-SHOWN-BATTERY", "P-SHOWN-WHEELS", "P-SHOWN-LINK"],
+    "B2.critical_mask": ["PB1-10d"],
+    "B2.degraded_mask": ["PB1-10e"],
     "is_rotating180": ["PB1-26h"],
     "actuate_emergency_stop": ["PB1-23a"],
     "B2.actuate_emergency_stop": ["PB2-16h"],
@@ -73,14 +79,26 @@ def test_it_is_about_a_whole_board_or_both_with_stamps_between_the_steps(prop: P
 
 @pytest.mark.parametrize("prop", OWN.values(), ids=lambda p: p.id)
 def test_it_begins_at_nothing_that_a_board_computes_but_what_is_covered(prop: Property) -> None:
-    begins = {v.name for premise in _premises(prop) for v in variables(premise).values()}
-    computed = {
-        name for name in begins & systems()[prop.on].written.keys() - MEASURED if not of_weather(name)
-    }
+    computed = _computed(prop)
     assert computed <= COVERED.keys()
     for name in computed:
         for id in COVERED[name]:
             assert name in variables(*formulas(catalogue()[id].form))
+
+
+@pytest.mark.parametrize("name", ["b1_critical", "rover_safety_state", "temp_status", "v_user"])
+def test_a_statement_that_begins_at_what_a_chart_computes_is_found(name: str) -> None:
+    """Cut the block that computes it from what is measured, and such a statement stays proved."""
+    begun = systems()["board1_ms"].written[name]
+    form = Always(implies(begun == previous(begun), ~give_b2_actuation))
+    bad = replace(OWN["P-LIMITS-ESTOP-1"], id="P-BAD", form=form)
+    assert _computed(bad) == {name} and not _computed(bad) <= COVERED.keys()
+
+
+def test_each_link_of_a_chain_begins_at_what_is_measured_or_covered() -> None:
+    links = {id for chain in CHAINS for id in (chain.first, chain.last, *chain.by.values()) if id}
+    for prop in (catalogue()[id] for id in sorted(links - OWN.keys())):
+        assert _computed(prop) <= COVERED.keys(), prop.id
 
 
 CHAINS = [chain for promise in PROMISES for chain in promise.chains]
@@ -89,7 +107,8 @@ CHAINS = [chain for promise in PROMISES for chain in promise.chains]
 @pytest.mark.parametrize("chain", CHAINS, ids=lambda c: "-".join(c.properties))
 def test_a_chain_has_no_hole_and_rests_on_what_is_proved(chain: Chain) -> None:
     assert not list(holes(chain))
-    assert {expected(id).verdict for id in chain.properties} == {"proved"}
+    variant = Variant({}, repairs()[chain.under] if chain.under else None)
+    assert {variant.expected(id).verdict for id in chain.properties} == {"proved"}
     system = systems()[catalogue()[chain.across].on]
     assert system.over and system.tick_ms == 1
 
@@ -115,8 +134,17 @@ STOP, CRITICAL, RELAY = (next(p for p in PROMISES if p.id == id) for id in ("STO
         ),
         (
             replace(STOP.chains[0], by={**STOP.chains[0].by, "SUP2.contract": "PSY-14a"}),
-            "PSY-14a, which is to prove SUP2.contract, rests on contracts itself",
+            "PSY-14a, which is to prove SUP2.contract, rests on a chain; take one about a board",
         ),
+        (
+            replace(STOP.chains[0], by={**STOP.chains[0].by, "SUP2.contract": "PSY-10e"}),
+            "PSY-10e, which is to prove SUP2.contract, rests on a chain itself, which is a circle",
+        ),
+        (replace(RELAY.chains[0], first="PSY-03d"), "PSY-03d, which is to prove first, .* is a circle"),
+        (replace(RELAY.chains[0], last="PSY-03a"), "PSY-03a, which is to prove last, rests on a chain"),
+        (replace(RELAY.chains[0], first="P-SHOWN-LINKS"), "P-SHOWN-LINKS is no property. Did you mean"),
+        (replace(RELAY.chains[0], across="PSY-03z"), "PSY-03z is no property. Did you mean"),
+        (replace(RELAY.chains[0], across="P-STOP-NEAR"), "P-STOP-NEAR is about board2_ms, no chain of tasks"),
         (replace(STOP.chains[0], by={**STOP.chains[0].by, "SUP9": "PSY-10m"}), "has no contract 'SUP9'"),
         (replace(STOP.chains[0], by={**STOP.chains[0].by, "SUP1.contract": "P-1"}), "P-1 is no property"),
         (replace(CRITICAL.chains[0], assuming=TRUE), "critical_received, .* is not what the frame carries"),
@@ -144,6 +172,16 @@ def test_holes_are_told(chain: Chain, hole: str) -> None:
     assert re.search(hole, "\n".join(holes(chain)))
 
 
+def test_a_link_that_begins_later_than_what_rests_on_it_is_a_hole(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first execution of a sender was taken for granted; the properties of its mask say nothing of it."""
+    say, obey = CONTRACTS["critical_1_to_2"]
+    assert say.begins == 2
+    everywhere = {**CONTRACTS, "critical_1_to_2": (replace(say, first=True), obey)}
+    monkeypatch.setattr("checker.commands.chains.CONTRACTS", everywhere)
+    hole = "P-SHOWN-TEMPERATURE says nothing before step 2; Sender.contract does"
+    assert hole in "\n".join(holes(CRITICAL.chains[0]))
+
+
 def test_a_hole_ends_the_page_with_the_place_of_the_statement() -> None:
     broken = replace(RELAY, chains=(replace(RELAY.chains[0], cause=TRUE),))
     with pytest.raises(ModelError, match=r"composition_fine\.py:\d+: .* over PSY-03d has a hole"):
@@ -161,7 +199,7 @@ def test_a_chain_that_does_not_say_what_a_variable_stands_for_is_refused() -> No
 def test_a_contract_does_all_that_it_allows_and_nothing_else(contract: Contract) -> None:
     own = next(iter(variables(contract.then).values()))
     inputs = list(variables(contract.premise, contract.before).values())
-    met = False
+    met, seen_first = False, set[tuple[tuple[int, ...], int, int]]()
     for values in product((0, 1), repeat=2 * len(inputs) + 1):
         seen = set()
         for free in (0, 1):
@@ -169,6 +207,9 @@ def test_a_contract_does_all_that_it_allows_and_nothing_else(contract: Contract)
             first = dict(zip((v.name for v in inputs), values, strict=False))
             second = dict(zip((v.name for v in inputs), values[len(inputs) :], strict=False))
             block.step({**first, contract.free.name: values[-1]})
+            begun = evaluate(contract.premise, first) and contract.begins == 1
+            assert not begun or evaluate(contract.then, {own.name: block.data[own.name]})
+            seen_first.add((tuple(first.values()), values[-1], int(block.data[own.name])))
             block.step({**second, contract.free.name: free})
             demanded = evaluate(contract.premise, second) and evaluate(contract.before, first)
             assert not demanded or evaluate(contract.then, {own.name: block.data[own.name]})
@@ -176,11 +217,21 @@ def test_a_contract_does_all_that_it_allows_and_nothing_else(contract: Contract)
         assert len(seen) == (1 if demanded else 2)
         met = met or bool(demanded)
     assert met
+    if contract.begins == 2:
+        given = {at for at, _, _ in seen_first}
+        assert len({(at, own) for at, _, own in seen_first}) == 2 * len(given), "nothing is said of the first"
 
 
 def of_weather(name: str) -> bool:
     """Whether a variable says what has failed."""
     return name.endswith((".spell", ".runs"))
+
+
+def _computed(prop: Property) -> set[str]:
+    """What a statement begins at and a board computes."""
+    begins = {v.name for premise in _premises(prop) for v in variables(premise).values()}
+    written = systems()[prop.on].written.keys()
+    return {name for name in begins & written - MEASURED if not of_weather(name)}
 
 
 def _premises(prop: Property) -> list[Expr]:
