@@ -9,6 +9,8 @@ from collections.abc import Iterable
 from properties.areas import battery, temperature
 from properties.areas.board2_motion import braking as braking_2
 from properties.areas.motion import braking as braking_1
+from properties.document import battery as flat
+from properties.document import temperature as hot_or_cold
 from properties.document.causes import q
 from properties.document.sources import BLE, IMU, RX, SUP, Source
 from properties.forms import (
@@ -142,11 +144,11 @@ def _held(
 
 
 PB1_45a, PB1_45b = _held(
-    "ab", "the temperature becomes", 4, temperature.CRITICAL, temperature.critical_range,
+    "ab", "the temperature becomes", 4, temperature.CRITICAL, hot_or_cold.critical_range,
     "temperature_jitter", "B1-TEMP-03",
 )  # fmt: skip
 PB1_45c, PB1_45d = _held(
-    "cd", "the battery becomes", 5, battery.CRITICAL, battery.critical_range, "battery_jitter", "B1-BATT-03",
+    "cd", "the battery becomes", 5, battery.CRITICAL, flat.critical_range, "battery_jitter", "B1-BATT-03",
 )  # fmt: skip
 
 # --- how long a stop lasts [seed §2.3] ------------------------------------------------------------------
