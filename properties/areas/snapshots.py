@@ -3,7 +3,7 @@
 from properties.forms import Property, always
 from properties.past import STEPPED
 from spec_model.lang.expr import Expr, Var, all_of, implies, ite
-from spec_model.lang.words import previous
+from spec_model.lang.words import once, previous
 from spec_model.signals.board1 import (
     batt_reading,
     batt_update,
@@ -26,10 +26,16 @@ def _kept(update: Var, datum: Var, new: Var) -> Expr:
     return ite(update, datum == new, implies(STEPPED, datum == previous(datum)))
 
 
+def _at_first(update: Var, datum: Var) -> Expr:
+    """0 before the first reading [design]."""
+    return implies(~once(update), datum == 0)
+
+
 def _reading(id: str, what: str, update: Var, datum: Var, new: Var, covers: str, on: str) -> Property:
     return always(
-        id, f"{what} is the reading that came last: a new one replaces it at once, and nothing else does.",
-        that=_kept(update, datum, new),
+        id, f"{what} is the reading that came last: a new one replaces it at once, and nothing else does; it "
+        "is 0 before the first one.",
+        that=_kept(update, datum, new) & _at_first(update, datum),
         covers=[covers], on=on,
     )  # fmt: skip
 
