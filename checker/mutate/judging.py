@@ -8,9 +8,10 @@ from time import monotonic
 from checker.decide import decide
 from checker.engine import AUTO, Limits, Progress
 from checker.lowered import lowered
-from checker.mutate.observing import Difference, difference, observable
-from checker.mutate.product import product, same
+from checker.mutate.observing import Difference, difference, observable, shown
+from checker.mutate.product import Product, at_the_fault, product, same
 from checker.portfolio import Question, Told, answers
+from checker.portfolio.question import stays
 from checker.result import Result, check_domains
 from checker.runs.domains import LeavesDomain
 from checker.runs.known import reaching, run_of
@@ -69,7 +70,7 @@ class Case:
     ``sure``: that was found out, and not only read from a record.  ``named`` are the variables that
     properties of the system speak of, ``runs`` what is known to reach the goals of some in the original,
     ``killers`` what kills other mutants, ``tries`` more runs that may, ``engines`` what proved a property of
-    the original.
+    the original, ``elsewhere`` what parts read that only other systems have.
     """
 
     original: System
@@ -83,6 +84,7 @@ class Case:
     killers: Sequence[Run] = ()
     tries: Sequence[Run] = ()
     engines: Mapping[str, str] = field(default_factory=dict)
+    elsewhere: frozenset[str] = frozenset()
 
     def settled(self, prop: Property) -> bool:
         """Whether the verdict on the original rests on a run to the goal, as it then does on the mutant."""
@@ -241,30 +243,60 @@ def _still(before: Judged, hunt: _Hunt) -> Judged:
 
 def _compared(case: Case, hunt: _Hunt, limits: Limits, progress: Progress) -> Judged:
     """The fate of a mutant that no property kills."""
-    original, mutant = lowered(case.original), lowered(case.mutant)
+    original, mutant, deadline = lowered(case.original), lowered(case.mutant), limits.deadline()
+    asked, left = hunt.asked, len(hunt.open)
+
+    def equivalent(why: str) -> Judged:
+        return hunt.gone or Judged(Fate.EQUIVALENT, why=why, asked=asked, open=left)
+
     seen = observable(case.original, case.parts, case.named) | observable(case.mutant, case.parts, case.named)
     both = product(original, mutant, seen & {v.name for v in original.variables})
-    asked, left = hunt.asked, len(hunt.open)
     if both is None:
-        why = "no observable variable depends on what is changed"
-        return hunt.gone or Judged(Fate.EQUIVALENT, why=why, asked=asked, open=left)
-    found = answers(Question(both.system, (both.goal,)), AUTO, limits, Told(progress))
+        return equivalent("no observable variable depends on what is changed")
+    never = _never(at_the_fault(original, mutant), _share(limits, deadline), progress)
+    if never is not None:
+        return equivalent(f"the fault never computes anything else; {never}")
+    found = answers(Question(both.system, (both.goal,)), AUTO, limits.until(deadline), Told(progress))
     answer, by = found[both.goal.name]
     if not isinstance(answer, Reached):
         check_domains(both.system, found)
     match answer:
         case Unreachable(because):
-            return hunt.gone or Judged(Fate.EQUIVALENT, why=f"{by}: {because.how}", asked=asked, open=left)
+            return equivalent(f"{by}: {because.how}")
         case Open(reason, _):
             return hunt.gone or Judged(Fate.UNKNOWN, why=reason, asked=asked, open=left)
         case Reached(run, shortest):
             apart = difference(original, mutant, both, run, shortest)
             if hunt.gone is not None:
                 return hunt.gone
+            last = shown(case.original, seen, case.named | case.elsewhere) & {
+                v.name for v in original.variables
+            }
+            never = _never(product(original, mutant, last), limits.until(deadline), progress)
+            if never is not None:
+                return equivalent(f"nothing that reads what differs shows it; {never}")
             if hunt.open:
                 why = f"{left} of {asked + left} properties are not decided; {hunt.open[0]}"
                 return Judged(Fate.UNKNOWN, why=why, asked=asked, open=left, difference=apart)
             return Judged(Fate.SURVIVOR, asked=asked, difference=apart)
+
+
+def _share(limits: Limits, deadline: float | None) -> Limits:
+    return (
+        limits if deadline is None else limits.until(monotonic() + SHARE * max(0.0, deadline - monotonic()))
+    )
+
+
+def _never(both: Product | None, limits: Limits, progress: Progress) -> str | None:
+    """The proof that the goal of a product is never reached; None if there is none within the limits."""
+    if both is None:
+        return None
+    question = Question(both.system, (both.goal,))
+    found = answers(question, AUTO, limits, Told(progress))
+    match found[both.goal.name]:
+        case Unreachable(because), by if stays(question, found):
+            return f"{by}: {because.how}"
+    return None
 
 
 __all__ = ["Case", "Fate", "Judged", "judged"]

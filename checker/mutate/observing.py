@@ -58,6 +58,26 @@ def observable(system: System, concerned: Collection[str], named: Collection[str
     return found
 
 
+def shown(system: System, seen: Collection[str], named: Collection[str] = ()) -> set[str]:
+    """What of ``seen`` shows in the end: what other parts read shows by what they write, and so on.
+
+    What conditions and assumptions read, and what is ``named``, is shown itself.
+    """
+    everything = list(parts(system.components))
+    kept = {*named, *variables(system.assumed, *(e.by for e in enabled_in(system.components)))}
+    found, known, todo = set[str](), set(seen), list(seen)
+    while todo:
+        name = todo.pop()
+        readers = [p.name for p in everything if name in p.read and name not in written_by(p)]
+        if name in kept or not readers:
+            found.add(name)
+            continue
+        more = observable(system, readers, named) - known
+        known |= more
+        todo += more
+    return found
+
+
 def difference(
     original: TransitionSystem, mutant: TransitionSystem, both: Product, run: Run, shortest: bool
 ) -> Difference:
@@ -120,4 +140,4 @@ def _places(system: TransitionSystem, ticks: tuple[Tick, ...]) -> dict[str, str]
     return {v.name: v.domain.show(at[v.name]) for c in charts for v in c.locations if v.name in at}
 
 
-__all__ = ["Difference", "difference", "observable"]
+__all__ = ["Difference", "difference", "observable", "shown"]

@@ -50,6 +50,7 @@ class Plan:
     premises: Mapping[str, Sequence[Run]] = field(default_factory=dict)
     _tries: dict[str, tuple[Run, ...]] = field(default_factory=dict)
     _cones: dict[str, list[Cone]] = field(default_factory=dict)
+    _readers: dict[str, set[str]] = field(default_factory=dict)
     _mutants: dict[tuple[str, str], dict[str, Mutant]] = field(default_factory=dict)
 
     def learn(self, result: Result) -> None:
@@ -126,8 +127,18 @@ class Plan:
         properties = tuple(c.property for c in asked if c.property.id in known)
         named = frozenset(n for p in self._stated(name) for n in variables(*formulas(p.form)))
         return Case(
-            original, mutant.system, mutant.parts, properties, known, sure, named, self._runs(properties)
-        )
+            original, mutant.system, mutant.parts, properties, known, sure, named, self._runs(properties),
+            elsewhere=self._elsewhere(name),
+        )  # fmt: skip
+
+    def _elsewhere(self, name: str) -> frozenset[str]:
+        """What is read by parts that the system does not have."""
+        if not self._readers:
+            for system in self.systems.values():
+                for part in parts(system.components):
+                    self._readers.setdefault(part.name, set()).update(part.read)
+        own = {part.name for part in parts(self.systems[name].components)}
+        return frozenset().union(*(read for part, read in self._readers.items() if part not in own))
 
     def _stated(self, name: str) -> list[Property]:
         return [p for p in self.properties if p.on == name]

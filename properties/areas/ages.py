@@ -19,6 +19,7 @@ from spec_model.signals.board1 import (
     temp_age,
     temp_update,
 )
+from spec_model.signals.board2_supervisor import sonar_age, sonar_update
 
 STEP = 20
 
@@ -68,3 +69,19 @@ PB2_29_SUP, PB2_29_BLE, PB2_29_IMU, PB2_29_RX = (
         (SUP, "the heartbeat of Board 1"), (BLE, "the joystick"), (IMU, "the IMU"), (RX, "frames of Board 1"),
     )
 )  # fmt: skip
+PB2_59_SUP, PB2_59_BLE, PB2_59_IMU, PB2_59_RX, PB2_59_SONARS = (
+    _age(f"PB2-59-{name}", what, update, age, _above(limit), covers, "inputs_2")
+    for name, what, update, age, limit, covers in (
+        *(
+            (s.region, what, s.update, s.age, s.limit, "B2-FLT-01")
+            for s, what in (
+                (SUP, "the heartbeat of Board 1, on all of Board 2,"),
+                (BLE, "the joystick, on all of Board 2,"),
+                (IMU, "the IMU, on all of Board 2,"),
+                (RX, "frames of Board 1, on all of Board 2,"),
+            )
+        ),
+        ("Sonars", "the distances", sonar_update, sonar_age, 280, "B2-GEN-03"),
+    )
+)
+"""As PB2-29, of the clocks that all of Board 2 shares; 300 ms stand for the age of any older scan."""
