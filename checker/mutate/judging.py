@@ -9,9 +9,10 @@ from checker.decide import decide
 from checker.engine import AUTO, Limits, Progress
 from checker.lowered import lowered
 from checker.mutate.observing import Difference, difference, observable
-from checker.mutate.product import product, same
+from checker.mutate.product import Product, at_the_fault, product, same
 from checker.mutate.step_equality import equal_in_every_step
 from checker.portfolio import Question, Told, answers
+from checker.portfolio.question import stays
 from checker.result import Result, check_domains
 from checker.runs.domains import LeavesDomain
 from checker.runs.known import reaching, run_of
@@ -255,21 +256,27 @@ def _still(before: Judged, hunt: _Hunt) -> Judged:
 
 def _compared(case: Case, hunt: _Hunt, limits: Limits, progress: Progress) -> Judged:
     """The fate of a mutant that no property kills."""
-    original, mutant = lowered(case.original), lowered(case.mutant)
+    original, mutant, deadline = lowered(case.original), lowered(case.mutant), limits.deadline()
+    asked, left = hunt.asked, len(hunt.open)
+
+    def equivalent(why: str) -> Judged:
+        return hunt.gone or Judged(Fate.EQUIVALENT, why=why, asked=asked, open=left)
+
     seen = observable(case.original, case.named, case.abroad)
     seen |= observable(case.mutant, case.named, case.abroad)
     both = product(original, mutant, seen & {v.name for v in original.variables})
-    asked, left = hunt.asked, len(hunt.open)
     if both is None:
-        why = "no observable variable depends on what is changed"
-        return hunt.gone or Judged(Fate.EQUIVALENT, why=why, asked=asked, open=left)
-    found = answers(Question(both.system, (both.goal,)), AUTO, limits, Told(progress))
+        return equivalent("no observable variable depends on what is changed")
+    never = _never(at_the_fault(original, mutant), _share(limits, deadline), progress)
+    if never is not None:
+        return equivalent(f"the fault never computes anything else; {never}")
+    found = answers(Question(both.system, (both.goal,)), AUTO, limits.until(deadline), Told(progress))
     answer, by = found[both.goal.name]
     if not isinstance(answer, Reached):
         check_domains(both.system, found)
     match answer:
         case Unreachable(because):
-            return hunt.gone or Judged(Fate.EQUIVALENT, why=f"{by}: {because.how}", asked=asked, open=left)
+            return equivalent(f"{by}: {because.how}")
         case Open(reason, _):
             return hunt.gone or Judged(Fate.UNKNOWN, why=reason, asked=asked, open=left)
         case Reached(run, shortest):
@@ -280,6 +287,24 @@ def _compared(case: Case, hunt: _Hunt, limits: Limits, progress: Progress) -> Ju
                 why = f"{left} of {asked + left} properties are not decided; {hunt.open[0]}"
                 return Judged(Fate.UNKNOWN, why=why, asked=asked, open=left, difference=apart)
             return Judged(Fate.SURVIVOR, asked=asked, difference=apart)
+
+
+def _share(limits: Limits, deadline: float | None) -> Limits:
+    return (
+        limits if deadline is None else limits.until(monotonic() + SHARE * max(0.0, deadline - monotonic()))
+    )
+
+
+def _never(both: Product | None, limits: Limits, progress: Progress) -> str | None:
+    """The proof that the goal of a product is never reached; None if there is none within the limits."""
+    if both is None:
+        return None
+    question = Question(both.system, (both.goal,))
+    found = answers(question, AUTO, limits, Told(progress))
+    match found[both.goal.name]:
+        case Unreachable(because), by if stays(question, found):
+            return f"{by}: {because.how}"
+    return None
 
 
 __all__ = ["Case", "Fate", "Judged", "judged"]

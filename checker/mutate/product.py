@@ -1,7 +1,7 @@
 """Two systems side by side on the same inputs: what no fault reaches is there once, what it reaches twice.
 
 The goal of the product is that something observable differs after a tick, or that the inputs of a tick are
-allowed for one system only.
+allowed for one system only.  A smaller question comes before it: does the fault ever compute anything else?
 """
 
 from collections.abc import Collection, Iterable, Sequence
@@ -10,12 +10,12 @@ from dataclasses import dataclass
 from checker.slice import names
 from spec_model.lang.action import Action, Assign, If, each_action, writes
 from spec_model.lang.domain import Bool, boolean
-from spec_model.lang.expr import Apply, Expr, Named, Temporal, Var, any_of
+from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, any_of
 from spec_model.lang.operators import Op
 from spec_model.lang.system import Program, Statement, TransitionSystem
 from spec_model.lang.walk import structure
 
-TOLD_APART, REFUSED = "told apart", "refused by one"
+TOLD_APART, REFUSED, COMPUTED = "told apart", "refused by one", "computed otherwise"
 
 
 @dataclass(frozen=True)
@@ -81,6 +81,46 @@ def product(
         original.tick_ms,
     )
     return Product(made, goal, observed)
+
+
+def at_the_fault(original: TransitionSystem, mutant: TransitionSystem) -> Product | None:
+    """The original with the faulty statements executed beside its own, on the same values, in every tick.
+
+    The goal is that they ever write anything else.  If they never do, the two systems do the same for ever.
+    None if the fault is not in the step alone.
+    """
+    if described(original.variables) != described(mutant.variables):
+        return None
+    if structure(original.assume) != structure(mutant.assume):
+        return None
+    start, end = _ends(original.step, mutant.step)
+    before, after = original.step[:start], original.step[len(original.step) - end :]
+    ours, theirs = (
+        original.step[start : len(original.step) - end],
+        mutant.step[start : len(mutant.step) - end],
+    )
+    written = writes(ours) | writes(theirs)
+    twin = _Twin(original, mutant, set(written))
+    kept = {v.name for v in original.variables} | writes(before).keys()
+    temps = {v.name for v in original.temps}
+    if not written.keys() <= twin.renamed.keys() & (kept | temps):
+        return None
+    blank = [Assign(v, Const(v.init, v.sort)) for n, v in written.items() if n not in kept]
+    copied = [Assign(twin.renamed[n], v) for n, v in written.items()]
+    goal = Var(twin.free(COMPUTED), boolean, 0, "the fault computes something else")
+    found = Assign(goal, any_of(*(_different(v, twin.renamed[n]) for n, v in written.items())))
+    made = TransitionSystem(
+        f"{original.name} beside a fault",
+        _union(original.inputs, mutant.inputs),
+        original.frozen,
+        (*original.variables, goal),
+        (*original.temps, *twin.renamed.values()),
+        (*before, *blank, *copied, *twin.program(theirs), *ours, found, *after),
+        original.assume,
+        original.checks,
+        original.tick_ms,
+    )
+    return Product(made, goal, tuple(written))
 
 
 def _union(one: Sequence[Var], other: Sequence[Var]) -> tuple[Var, ...]:
@@ -212,4 +252,4 @@ class _Twin:
                 return expr
 
 
-__all__ = ["Product", "described", "product", "same"]
+__all__ = ["Product", "at_the_fault", "described", "product", "same"]

@@ -11,7 +11,7 @@ from spec_model.lang.domain import Bool
 from spec_model.lang.edit import in_actions, in_block, in_expressions, in_system, instead
 from spec_model.lang.expr import FALSE, Const, Expr, Var
 from spec_model.lang.place import Place
-from spec_model.lang.system import Assumption, System
+from spec_model.lang.system import Assumption, System, TransitionSystem
 
 
 @dataclass(frozen=True)
@@ -99,13 +99,21 @@ def _initial_values(system: System, wanted: Wanted) -> Iterator[Wrong]:
     outlives = {v.name for v in sliced(whole, whole.variables).variables} if data else set()
     for name, v in data.items():
         begins = _beside(v)
-        if name not in outlives or begins is None:
+        if name not in outlives or begins is None or _set_first(whole, everything, name):
             continue
         concerned = tuple(p.name for p in everything if name in p.written or name in p.read)
         text = f"{name} begins as {v.domain.show(begins)}, not as {v.domain.show(v.init)}"
         changed = _renewed(system, replace(v, init=begins))
         site = f"{first[name].name}/data/{name}"
         yield Wrong(site, "initial", text, first[name].place, concerned, changed)
+
+
+def _set_first(whole: TransitionSystem, everything: Sequence[Chart | Block], name: str) -> bool:
+    """Whether other parts read a variable, and none of them before it is written."""
+    if not any(name in part.read and name not in written_by(part) for part in everything):
+        return False
+    others = [v for v in whole.variables if v.name != name]
+    return name not in {v.name for v in sliced(whole, others).variables}
 
 
 def _beside(v: Var) -> int | None:

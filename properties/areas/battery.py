@@ -2,8 +2,9 @@
 
 from properties.document.battery import absent, critical_range, fresh, stale_below_15
 from properties.forms import always, holds_after, reachable, until
+from properties.past import STEPPED
 from spec_model.board1.battery import monitor_battery
-from spec_model.lang.expr import implies
+from spec_model.lang.expr import implies, ite
 from spec_model.lang.time import sec
 from spec_model.lang.words import held, previous
 from spec_model.signals.board1 import batt_status, batt_update
@@ -59,6 +60,18 @@ PB1_29 = always(
     that=implies(CRITICAL, held(critical_range, for_=5 * sec) | stale_below_15),
     covers=["B1-BATT-03", "B1-BATT-04", "B1-BATT-05"], on=ON, from_tick=2,
     readings=["S16", "S19", "S22", "S24"],
+)  # fmt: skip
+PB1_33k = always(
+    "PB1-33k", "The rows of the battery, the first that is true: critical after 5 s in [0;15] or by an "
+    "estimate below 15 %; below 23 % degraded; above 25 % OK. Between them the status stays, OK at first.",
+    that=ite(
+        held(critical_range, for_=5 * sec) | stale_below_15, CRITICAL,
+        ite(b < 23, DEGRADED, ite(b > 25, OK, ite(
+            STEPPED, (CRITICAL == previous(CRITICAL)) & (DEGRADED == previous(DEGRADED)), OK
+        ))),
+    ),
+    covers=["B1-BATT-01", "B1-BATT-02", "B1-BATT-03", "B1-BATT-04", "B1-BATT-05"], on=ON,
+    readings=["S15", "S16", "S17", "S18", "S19", "S20", "S21", "S22", "S23", "S24", "S26", "S65"],
 )  # fmt: skip
 PB1_33f = always(
     "PB1-33f", "A battery below 23 % is reported degraded or critical (so bit 1 of a mask is set: PB1-10).",

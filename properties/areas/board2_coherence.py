@@ -41,9 +41,9 @@ PB2_28b = until(
     covers=["B1-IN-03"], on=BLOCKED, from_tick=2,
 )  # fmt: skip
 PB2_28c = always(
-    "PB2-28c", "Of the long windows only one that ends with such a difference makes the motion inconsistent.",
-    that=implies(incoherent, (long_ends & differs) | ~short_result),
-    covers=["B1-IN-03"], on=LONG, from_tick=2,
+    "PB2-28c", "Of the long windows exactly one that ends with such a difference makes the motion "
+    "inconsistent, and the short ones do by their own result.",
+    that=incoherent == ((long_ends & differs) | ~short_result), covers=["B1-IN-03"], on=LONG,
 )  # fmt: skip
 PB2_28d = always(
     "PB2-28d", "A short window makes the motion inconsistent only with eight hits in ten.",

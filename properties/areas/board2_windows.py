@@ -9,8 +9,7 @@ only takes them down, and begins both windows.
 from fractions import Fraction
 
 from properties.document.sources import IMU, SUP
-from properties.forms import Property, always, holds_after, holds_for
-from properties.past import ago
+from properties.forms import Property, always, holds_after
 from spec_model.board2.coherence import (
     differs,
     hit,
@@ -27,7 +26,7 @@ from spec_model.board2.coherence import (
 )
 from spec_model.lang.expr import Expr, Var, all_of, const, implies, ite
 from spec_model.lang.time import ticks
-from spec_model.lang.words import absolute, bit, minimum, once, previous
+from spec_model.lang.words import absolute, bit, held, maximum, minimum, once, previous
 from spec_model.signals.board2_supervisor import gz_dps, is_motion_consistent, wheel_speed_rpm
 
 EXACT, LONG, SHORT = "coherence", "coherence_long", "coherence_short"
@@ -35,31 +34,24 @@ STEPPED = once(const(True))
 """A step was made: true in every step, and before the first one false."""
 SEEN = previous(STEPPED)
 STEP = const(Fraction(1, 50), "s")
-BY_IMU, BY_WHEELS = (
-    gz_dps,
-    (wheel_speed_rpm["FL"] + wheel_speed_rpm["RL"] - wheel_speed_rpm["FR"] - wheel_speed_rpm["RR"]),
-)
-"""How fast the rover turns: in degrees per second, and as the difference of two wheels on either side."""
+_by_wheels = wheel_speed_rpm["FL"] + wheel_speed_rpm["RL"] - wheel_speed_rpm["FR"] - wheel_speed_rpm["RR"]
+BY_IMU, BY_WHEELS = (gz_dps, IMU.update, imu_gap), (_by_wheels, SUP.update, wheel_gap)
+"""How fast the rover turns, in degrees per second, and as the difference of two wheels on either side, each
+with its stamp and the steps since."""
 
 
-def _steps(update: Var) -> Expr:
-    """Steps since the stamp before this one, or since 0 ms; 0 where they are too many."""
-    found: Expr = const(0)
-    for steps in (4, 3, 2, 1):
-        found = ite(ago(update, steps) | ~ago(STEPPED, steps), steps, found)
-    return ite(update & SEEN, found, 0)
+def _steps(update: Var, gap: Var) -> Expr:
+    """Steps since the stamp before this one, or since 0 ms (PB2-28v, PB2-28w); 0 where they are too many."""
+    return ite(update & SEEN & (previous(gap) < 4), previous(gap) + 1, 0)
 
 
-def _sum(total: Var, rate: Expr, update: Var) -> Expr:
-    """A sum with what this step adds, before a window that ends in it clears it."""
-    return previous(total) + rate * _steps(update) * STEP
-
-
-def _summed(id: str, what: str, total: Var, most: Expr, rate: Expr, update: Var, ends: Var) -> Property:
-    grown = _sum(total, rate, update)
+def _summed(id: str, what: str, total: Var, most: Expr, by: tuple[Expr, Var, Var], ends: Var) -> Property:
+    rate, update, gap = by
+    grown = minimum(maximum(previous(total) + rate * _steps(update, gap) * STEP, -most), most)
     return always(
-        id, f"The rotation by {what} grows by rate times time since the last stamp; its end clears it.",
-        that=implies(absolute(grown) <= most, total == ite(ends, 0, grown)),
+        id, f"The rotation by {what} grows by rate times time since the last stamp, up to {most}; its end "
+        "clears it.",
+        that=total == ite(ends, 0, grown),
         covers=["B1-IN-03"], on=EXACT,
     )  # fmt: skip
 
@@ -69,12 +61,12 @@ def _rpm_s(most: int) -> Expr:
 
 
 PB2_28h, PB2_28i, PB2_28j, PB2_28k = (
-    _summed(f"PB2-28{letter}", what, total, most, rate, update, ends)
-    for letter, what, total, most, rate, update, ends in (
-        ("h", "the IMU in a short window", imu_short, const(400, "°"), BY_IMU, IMU.update, short_ends),
-        ("i", "the IMU in a long window", imu_long, const(6200, "°"), BY_IMU, IMU.update, long_ends),
-        ("j", "the wheels in a short window", odo_short, _rpm_s(800), BY_WHEELS, SUP.update, short_ends),
-        ("k", "the wheels in a long window", odo_long, _rpm_s(4000), BY_WHEELS, SUP.update, long_ends),
+    _summed(f"PB2-28{letter}", what, total, most, by, ends)
+    for letter, what, total, most, by, ends in (
+        ("h", "the IMU in a short window", imu_short, const(400, "°"), BY_IMU, short_ends),
+        ("i", "the IMU in a long window", imu_long, const(6200, "°"), BY_IMU, long_ends),
+        ("j", "the wheels in a short window", odo_short, _rpm_s(800), BY_WHEELS, short_ends),
+        ("k", "the wheels in a long window", odo_long, _rpm_s(4000), BY_WHEELS, long_ends),
     )
 )  # fmt: skip
 
@@ -114,9 +106,12 @@ PB2_28m = always(
 
 
 def _not_before(id: str, what: str, ends: Var, steps: int, on: str) -> Property:
-    return holds_for(
-        id, f"After the end of a {what} window none ends for {20 * (steps - 1)} ms.",
-        start=previous(ends), that=~ends, for_=(steps - 2) * ticks, covers=["B1-IN-03"], on=on,
+    """A window begins with the stamp that ends another, the first with that of the first step, else at 0."""
+    begun = ends | ~SEEN & IMU.update
+    return always(
+        id, f"After the beginning of a {what} window none ends for {20 * (steps - 1)} ms.",
+        that=implies(ends, held(SEEN & ~previous(begun), for_=(steps - 2) * ticks)),
+        covers=["B1-IN-03"], on=on,
     )  # fmt: skip
 
 

@@ -1,9 +1,15 @@
 """What a snapshot holds: the datum that came last, until another comes [seed §1.1, Fig 13, §1.3.1]."""
 
+from collections.abc import Sequence
+from dataclasses import replace
+
+from properties.document.sources import BLE, IMU, RX
 from properties.forms import Property, always
 from properties.past import STEPPED
+from spec_model.composition.motors import started
+from spec_model.lang.domain import Bool
 from spec_model.lang.expr import Expr, Var, all_of, implies, ite
-from spec_model.lang.words import previous
+from spec_model.lang.words import once, previous
 from spec_model.signals.board1 import (
     batt_reading,
     batt_update,
@@ -13,7 +19,14 @@ from spec_model.signals.board1 import (
     temperature_degC,
 )
 from spec_model.signals.board2 import SONARS
-from spec_model.signals.board2_supervisor import sonar_update
+from spec_model.signals.board2_motion import ay_norm, btn1, btn2, bx_norm, yaw
+from spec_model.signals.board2_supervisor import (
+    crit_mask_b1,
+    degr_mask_b1,
+    gz_dps,
+    sonar_update,
+    wheel_speed_rpm,
+)
 
 
 def _arriving(datum: Var) -> Var:
@@ -26,10 +39,16 @@ def _kept(update: Var, datum: Var, new: Var) -> Expr:
     return ite(update, datum == new, implies(STEPPED, datum == previous(datum)))
 
 
+def _at_first(update: Var, datum: Var) -> Expr:
+    """0, or false, before the first reading [design]."""
+    return implies(~once(update), ~datum if isinstance(datum.sort, Bool) else datum == 0)
+
+
 def _reading(id: str, what: str, update: Var, datum: Var, new: Var, covers: str, on: str) -> Property:
     return always(
-        id, f"{what} is the reading that came last: a new one replaces it at once, and nothing else does.",
-        that=_kept(update, datum, new),
+        id, f"{what} is the reading that came last: a new one replaces it at once, and nothing else does; it "
+        "is 0 before the first one.",
+        that=_kept(update, datum, new) & _at_first(update, datum),
         covers=[covers], on=on,
     )  # fmt: skip
 
@@ -40,8 +59,44 @@ PB1_42_TEMP = _reading(
 PB1_42_BATT = _reading(
     "PB1-42-BATT", "The battery", batt_update, battery_pct, batt_reading, "B1-BATT-05", "battery"
 )
-PB2_57 = always(
-    "PB2-57", "A scan replaces the three distances, each by its own; without one they stay.",
-    that=all_of(*(_kept(sonar_update, d, _arriving(d)) for d in SONARS)),
-    covers=["B2-GEN-03", "B2-OBS-01"], on="sonar_silence", readings=["E13"],
+
+
+def _snapshot(id: str, text: str, update: Var, data: Sequence[Var], covers: list[str]) -> Property:
+    return always(
+        id, text,
+        that=all_of(*(_kept(update, d, _arriving(d)) & _at_first(update, d) for d in data)),
+        covers=covers, on="inputs_2",
+    )  # fmt: skip
+
+
+PB2_57a = _snapshot(
+    "PB2-57a", "A scan replaces the three distances, each by its own; without one they stay, 0 at first.",
+    sonar_update, SONARS, ["B2-GEN-03", "B2-OBS-01"],
+)  # fmt: skip
+PB2_57b = replace(
+    _snapshot(
+        "PB2-57b", "A complete read of the joystick replaces axes and buttons, each by its own; without one "
+        "they stay, at rest at first.",
+        BLE.update, (ay_norm, bx_norm, btn1, btn2), ["B2-GEN-03"],
+    ),
+    readings=("E28",),
+)  # fmt: skip
+PB2_57c = _snapshot(
+    "PB2-57c", "A datum of the IMU replaces heading and yaw rate; without one they stay, 0 at first.",
+    IMU.update, (yaw, gz_dps), ["B2-GEN-03"],
+)  # fmt: skip
+PB2_57d = _snapshot(
+    "PB2-57d", "A frame replaces the four wheel speeds, each by its own; without one they stay, 0 at first.",
+    RX.update, [wheel_speed_rpm[wheel] for wheel in ("FL", "FR", "RL", "RR")], ["B2-FLT-01"],
+)  # fmt: skip
+PB2_57e, PB2_57f = (
+    _snapshot(
+        f"PB2-57{letter}", f"A frame replaces the {kind} mask of Board 1; without one it stays, 0 at first.",
+        RX.update, [mask], ["B2-FLT-01"],
+    )
+    for letter, kind, mask in (("e", "critical", crit_mask_b1), ("f", "degraded", degr_mask_b1))
+)  # fmt: skip
+PSY_29 = always(
+    "PSY-29", "From the first step on both boards have started, so that a supervisor can stop.",
+    that=started, covers=["B1-REL-05"], on="weather_joystick",
 )  # fmt: skip

@@ -60,9 +60,9 @@ PB1_30c_FL, PB1_30c_FR, PB1_30c_RL, PB1_30c_RR = _each(
     "B1-WHL-01", ["S27"],
 )  # fmt: skip
 PB1_30d_FL, PB1_30d_FR, PB1_30d_RL, PB1_30d_RR = _each(
-    "PB1-30d", "is OK only if the motion is consistent.",
-    lambda wheel, _: implies(_ok(wheel), consistent),
-    "B1-WHL-04", ["S27"],
+    "PB1-30d", "with feedback and inconsistent motion has a degraded encoder in the same step.",
+    lambda wheel, lost: implies(~lost & ~consistent, _degraded(wheel)),
+    "B1-WHL-04", ["S27", "S29", "S31"],
 )  # fmt: skip
 
 REACH_WHEEL_DEG = reachable(

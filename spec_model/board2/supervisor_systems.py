@@ -210,6 +210,18 @@ joystick_task = in_order(
     notes=["The clock is counted modulo 320 ms; it is only compared with the present.", FEW_VALUES],
 )
 
+# --- what reaches Board 2 -------------------------------------------------------------------------------
+
+inputs = in_order(
+    "inputs_2",
+    *env.SNAPSHOTS,
+    *env.clocks,
+    env.sonar_clock,
+    text="The data of the sensors and of Board 1 as Board 2 reads them, and the ages of their stamps.",
+    assume=env.heartbeat_travels_in_frames,
+    notes=[GRID, WITH_FRAMES, FEW_VALUES, HEADING],
+)
+
 # --- the whole ----------------------------------------------------------------------------------------
 
 FREE_HEADING = "The 45 degree test of the heading is a free input, false in the step of entry."
@@ -336,6 +348,7 @@ SYSTEMS: tuple[System, ...] = (
     actuation,
     sonar_task,
     joystick_task,
+    inputs,
     sonar_silence,
     sonar_without_echo,
     on_its_own,

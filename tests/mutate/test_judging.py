@@ -1,5 +1,6 @@
 """The fate of every mutant of a small model, against a naive search of pairs of valuations."""
 
+from dataclasses import replace
 from functools import cache
 
 import pytest
@@ -15,8 +16,8 @@ from checker.runs.known import reached, run_of
 from checker.tasks import Task
 from properties.forms import Reachable
 from properties.reduce import reduce
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
+from spec_model.lang.action import assign, when
+from spec_model.lang.chart import Block, Enabled
 from spec_model.lang.domain import integer
 from spec_model.lang.errors import ModelError
 from spec_model.lang.evaluate import step
@@ -24,6 +25,7 @@ from spec_model.lang.expr import flag, ite, var
 from spec_model.lang.interpret import Interpreter
 from spec_model.lang.lower import lower
 from spec_model.lang.system import System, in_order
+from spec_model.lang.words import minimum
 from tests.mutate.lamp import LIT, NEVER, NIGHT, QUIET, lamps
 from tests.naive import search, vectors
 
@@ -181,3 +183,41 @@ def test_runs_of_the_original_settle_only_what_a_search_finds_too() -> None:
             settled += 1
             assert verdicts[id] == isinstance(forms[id], Reachable), (mutant.id, id)
     assert settled
+
+
+def test_a_fault_that_never_computes_anything_else_is_equivalent() -> None:
+    n, twice = var("n", integer(0, 3)), var("twice", integer(0, 9))
+    count = Block("Count", [assign(n, ite(n < 3, n + 1, 0)), assign(twice, minimum(n + n, 9))])
+    system = in_order("count", count)
+    [wrong] = [m for m in mutants(system) if m.operator == "limit-down" and "`9`" in m.text]
+    found = judged([Case(system, wrong.system, wrong.parts, (), {})], Limits(), quiet)
+    assert found.fate is Fate.EQUIVALENT and found.why.startswith("the fault never computes anything else")
+
+
+def test_a_wire_is_seen_by_what_its_readers_make_of_it() -> None:
+    """What a slot begins with is not read: it is full only after it was written twice."""
+    filled, full = flag("filled"), flag("full")
+    newest, slot, seen, fresh = (var(name, integer(0, 3)) for name in ("newest", "slot", "seen", "fresh"))
+    read = Block("Read", [when(full, [assign(seen, slot)])])
+    fill = Block(
+        "Fill", [assign(slot, newest), assign(full, filled), assign(newest, fresh), assign(filled, True)]
+    )
+    system = in_order("slots", read, fill)
+    [wrong] = [m for m in mutants(system) if m.id == "Fill/data/newest/initial"]
+    case = Case(system, wrong.system, wrong.parts, (), {})
+    found = judged([case], Limits(), quiet)
+    assert found.fate is Fate.EQUIVALENT and found.why != ""
+    for slot_matters in (
+        replace(case, named=frozenset({"slot"})),
+        replace(case, abroad=frozenset({"slot"})),
+    ):
+        assert judged([slot_matters], Limits(), quiet).fate is Fate.SURVIVOR
+
+
+def test_what_is_written_before_others_read_it_has_no_initial_value_to_be_wrong() -> None:
+    go, limit, seen, fresh = flag("go"), *(var(name, integer(0, 3)) for name in ("limit", "seen", "fresh"))
+    write, read = Block("Write", [assign(limit, fresh)]), Block("Read", [assign(seen, limit)])
+    together = in_order("together", Enabled(go, write, read))
+    apart = in_order("apart", Enabled(go, write), read)
+    initial = [{m.id for m in mutants(s) if m.operator == "initial"} for s in (together, apart)]
+    assert initial == [{"Read/data/seen/initial"}, {"Write/data/limit/initial"}]
