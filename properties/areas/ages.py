@@ -69,8 +69,8 @@ PB2_29_SUP, PB2_29_BLE, PB2_29_IMU, PB2_29_RX = (
         (SUP, "the heartbeat of Board 1"), (BLE, "the joystick"), (IMU, "the IMU"), (RX, "frames of Board 1"),
     )
 )  # fmt: skip
-PB2_59_SUP, PB2_59_BLE, PB2_59_IMU, PB2_59_RX, PB2_59_SONARS = (
-    _age(f"PB2-59-{name}", what, update, age, _above(limit), covers, "inputs_2")
+PB2_77_SUP, PB2_77_BLE, PB2_77_IMU, PB2_77_RX, PB2_77_SONARS = (
+    _age(f"PB2-77-{name}", what, update, age, _above(limit), covers, "inputs_2")
     for name, what, update, age, limit, covers in (
         *(
             (s.region, what, s.update, s.age, s.limit, "B2-FLT-01")

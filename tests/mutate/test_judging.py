@@ -186,8 +186,8 @@ def test_runs_of_the_original_settle_only_what_a_search_finds_too() -> None:
 
 
 def test_a_fault_that_never_computes_anything_else_is_equivalent() -> None:
-    n, twice = var("n", integer(0, 3)), var("twice", integer(0, 9))
-    count = Block("Count", [assign(n, ite(n < 3, n + 1, 0)), assign(twice, minimum(n + n, 9))])
+    n, twice = var("n", integer(0, 9)), var("twice", integer(0, 9))
+    count = Block("Count", [assign(twice, minimum(n + n, 9)), assign(n, ite(n < 3, n + 1, 0))])
     system = in_order("count", count)
     [wrong] = [m for m in mutants(system) if m.operator == "limit-down" and "`9`" in m.text]
     found = judged([Case(system, wrong.system, wrong.parts, (), {})], Limits(), quiet)
