@@ -14,11 +14,11 @@ Value = Word
 
 
 def bits_needed(var: Var) -> int:
-    """The bits that stand for a variable: no sign where its domain has no negative value."""
+    """The bits that stand for a variable, one at least: no sign where its domain has no negative value."""
     if isinstance(var.sort, Bool):
         return 1
     low, high = var.domain.low, var.domain.high
-    return Interval(low, high).width - (low >= 0)
+    return max(Interval(low, high).width - (low >= 0), 1)
 
 
 def as_word(var: Var, bits: Sequence[Literal]) -> Value:

@@ -1,0 +1,27 @@
+"""A variable that is 0 in every run had no bits, and the engines on bits failed on it."""
+
+import pytest
+
+from checker.commands.check import results
+from checker.engine import Limits
+from checker.verdict import Proved
+from properties.forms import always, never
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Block
+from spec_model.lang.domain import integer
+from spec_model.lang.expr import flag, var
+from spec_model.lang.system import in_order
+
+none = var("none", integer(0, 0))
+kept, seen = var("kept", integer(0, 0)), flag("seen")
+SYSTEM = in_order("zero", Block("B", [assign(seen, seen | (none > 0)), assign(kept, none)]))
+PROPERTIES = (
+    never("ZERO-1", "Nothing is seen.", that=seen, covers=["R1"], on=SYSTEM.name),
+    always("ZERO-2", "What is kept is what came.", that=kept == none, covers=["R1"], on=SYSTEM.name),
+)
+
+
+@pytest.mark.parametrize("engine", ["bdd", "pdr", "kinduction", "explicit"])
+def test_a_variable_of_one_value_is_decided(engine: str) -> None:
+    found = list(results(PROPERTIES, {SYSTEM.name: SYSTEM}, engine, Limits()))
+    assert [type(result.verdict) for result in found] == [Proved, Proved]
