@@ -58,7 +58,7 @@ STOP = Promise(
     ),
     (
         NEAR, DEGRADED, WHILE_2_DRIVES, OBEYED, weather.NEAR, weather.NEAR_2, steered.NEAR_LINK21,
-        steered.FORWARD, steered.CALM_FORWARD,
+        steered.FORWARD,
     ),
     (
         Chain(
