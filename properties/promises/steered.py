@@ -25,7 +25,7 @@ def _steered(held: Property) -> Property:
 
 
 JOYSTICK, IMU, HOT, FLAT = map(_steered, (weather.JOYSTICK, weather.IMU, weather.HOT, weather.FLAT))
-LINK21, SUPERVISOR2 = map(_steered, (weather.LINK21, weather.SUPERVISOR2))
+SUPERVISOR2 = _steered(weather.SUPERVISOR2)
 
 near = SPELLS["near"] == "present"
 healthy = named(
