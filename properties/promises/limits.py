@@ -69,5 +69,5 @@ LIMITS = Promise(
     "in the third step, and only under CMD_NORMAL: a deviation keeps the speed of its entry, and the last "
     "45° of a 180° rotation are turned at the speed of before",
     ("PB1-20a", "PB1-20b", "PB1-20c", "PB1-20d", steered.WHEEL.id),
-    (DEGRADED, FULL, BOARD_2, MOTORS, ESTOP_1, ESTOP_2, steered.LINK21),
+    (DEGRADED, FULL, BOARD_2, MOTORS, ESTOP_1, ESTOP_2),
 )

@@ -25,7 +25,7 @@ def _steered(held: Property) -> Property:
 
 
 JOYSTICK, IMU, HOT, FLAT = map(_steered, (weather.JOYSTICK, weather.IMU, weather.HOT, weather.FLAT))
-LINK21, SUPERVISOR2 = map(_steered, (weather.LINK21, weather.SUPERVISOR2))
+SUPERVISOR2 = _steered(weather.SUPERVISOR2)
 
 near = SPELLS["near"] == "present"
 healthy = named(
@@ -42,19 +42,19 @@ WHEEL = holds_after(
     premise=SPELLS["wheel"] == "present", for_=80 * ms, then=slow,
     covers=["B1-WHL-01", "B1-REF-05"], on="weather_wheel_steered", from_tick=2,
 )  # fmt: skip
-NEAR = holds_after(
+NEAR = costly(holds_after(
     "P-WEATHER-NEAR-STEERED",
     "With an obstacle at 70 cm for 80 ms, the motors stand, steered at will.",
     premise=near, for_=80 * ms, then=at_rest,
     covers=covers, on="weather_near_steered", from_tick=2, readings=["E11", "S63"],
-)  # fmt: skip
-PUSHED = holds_after(
+))  # fmt: skip
+PUSHED = costly(holds_after(
     "P-WEATHER-NEAR-PUSHED",
     "With an obstacle at 70 cm for 80 ms, the stick forward or at rest meanwhile and no half turn, the "
     "motors stand.",
     premise=near & (motion.ay_norm >= 0) & (motion.bx_norm == 0) & ~half_turn, for_=80 * ms, then=at_rest,
     covers=covers, on="weather_near_steered", from_tick=2, readings=["S63"],
-)  # fmt: skip
+))  # fmt: skip
 FORWARD = costly(holds_after(
     "P-WEATHER-NEAR-FORWARD",
     "With an obstacle at 70 cm for 80 ms, the stick forward meanwhile and no half turn, the motors stand, "
@@ -69,13 +69,6 @@ CALM = holds_after(
     premise=within(70) & healthy, for_=100 * ms, then=at_rest,
     covers=covers, on="weather_calm", from_tick=2, readings=["E11", "S63"],
 )  # fmt: skip
-CALM_FORWARD = costly(holds_after(
-    "P-WEATHER-CALM-FORWARD",
-    "With obstacles at 70 cm or less for 100 ms, Board 1 healthy and driving, the stick forward "
-    "meanwhile and no half turn, the motors stand, whatever buttons and heading do.",
-    premise=within(70) & healthy & (motion.ay_norm > 0) & ~half_turn, for_=100 * ms, then=at_rest,
-    covers=covers, on="weather_calm", from_tick=2, readings=["S63"],
-))  # fmt: skip
 NEAR_LINK21 = costly(holds_after(
     "P-WEATHER-NEAR-LINK21",
     "With an obstacle at 70 cm for 500 ms, the motors stand, also when a frame for Board 1 is lost, or all.",

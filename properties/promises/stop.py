@@ -87,7 +87,7 @@ STOP = Promise(
     ),
     (
         NEAR, DEGRADED, WHILE_2_DRIVES, OBEYED, weather.NEAR, weather.NEAR_2, steered.NEAR_LINK21,
-        steered.FORWARD, steered.CALM_FORWARD,
+        steered.FORWARD,
     ),
     (
         _chain("PSY-10e", within(70), NEAR.id, "SUP1.contract", "PSY-10m"),
