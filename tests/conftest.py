@@ -19,6 +19,10 @@ os.environ["ROVERCHECK_SECRET"] = str(Path(_OURS.name, "cache-secret"))  # the u
 # The command is found by its name, as in an environment that is activated: so it is called in what is shown.
 os.environ["PATH"] = os.pathsep.join((str(Path(sys.executable).parent), os.environ.get("PATH", "")))
 
+# Hundreds of processes load what is tested: its modules are compiled by the first of them, for all.
+os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+sys.dont_write_bytecode = False
+
 for name in ("SIGINT", "SIGHUP"):  # a job in the background ignores them, and so would all that it starts
     number = getattr(signal, name, None)
     if number is not None and signal.getsignal(number) is signal.SIG_IGN:
