@@ -123,12 +123,13 @@ def alone(fault: Fault) -> System:
     """The rover with this fault, whenever it begins and ends."""
     ends = flag(f"{fault.name}.ends", f"{fault.name} works again from this step on")
     spell = _turn(fault.name, ends if fault.ends else FALSE)
+    several = [fault.name] if fault.name in which else []
     return _weather(
         f"weather_{fault.name}",
         f"The rover in a scene in which from some step on {fault.text}.",
         {fault.ages: TRUE} if fault.ages else {},
-        [spell, *HELD_FORWARD, *world(_only(fault), any_part=True)],
-        frozen=[which[fault.name]] if fault.name in which else (),
+        [spell, *HELD_FORWARD, *world(_only(fault), any_part=several)],
+        frozen=[which[name] for name in several],
     )
 
 

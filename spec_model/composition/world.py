@@ -81,10 +81,10 @@ def value(of: Var, number: int | float) -> Const:
     return Const(of.domain.raw(number), of.sort)
 
 
-def world(there: There, free: Collection[Var] = (), *, any_part: bool = False) -> list[Action]:
+def world(there: There, free: Collection[Var] = (), any_part: Collection[str] = ()) -> list[Action]:
     """What reaches the boards in this step, by what has failed, but for what is ``free`` to be anything.
 
-    A fault strikes ``any_part`` of several alike, or always the first.  What the user does, and where the
+    Of several alike the faults named in ``any_part`` strike any, the others always the first.  What the user does, and where the
     rover heads, is apart.
     """
 
@@ -97,7 +97,7 @@ def world(there: There, free: Collection[Var] = (), *, any_part: bool = False) -
 
     def strikes(fault: str, part: str) -> Expr:
         chosen = which[fault]
-        struck = chosen if any_part else Const(chosen.domain.low, chosen.sort)
+        struck = chosen if fault in any_part else Const(chosen.domain.low, chosen.sort)
         return there(fault) & (struck == part)
 
     reaches = [
