@@ -71,6 +71,11 @@ PB2_28h, PB2_28i, PB2_28j, PB2_28k = (
 )  # fmt: skip
 
 
+PB2_58 = always(
+    "PB2-58", "The latest result on record is that of the short window that ends in this step.",
+    that=implies(short_ends, bit(ring, 0) == hit), covers=["B1-IN-03"], on=EXACT,
+)  # fmt: skip
+
 GAPS = {
     wheel_gap.name: (SUP.update, "of the wheels", EXACT),
     imu_gap.name: (IMU.update, "of the IMU", SHORT),
@@ -138,7 +143,8 @@ PB2_28r, PB2_28s = (
 PB2_28t = always(
     "PB2-28t", "The end of a short window moves the last nine results on by one; nothing else changes them.",
     that=all_of(*(
-        (bit(ring, i) == ite(short_ends, previous(bit(ring, i - 1)) if i else hit, previous(bit(ring, i))))
+        bit(ring, i)
+        == ite(short_ends, previous(bit(ring, i - 1)) if i else hit, SEEN & previous(bit(ring, i)))
         for i in range(10)
     )),
     covers=["B1-IN-03"], on=SHORT,
