@@ -71,8 +71,8 @@ PB2_28h, PB2_28i, PB2_28j, PB2_28k = (
 )  # fmt: skip
 
 
-PB2_58 = always(
-    "PB2-58", "The latest result on record is that of the short window that ends in this step.",
+PB2_78 = always(
+    "PB2-78", "The latest result on record is that of the short window that ends in this step.",
     that=implies(short_ends, bit(ring, 0) == hit), covers=["B1-IN-03"], on=EXACT,
 )  # fmt: skip
 
