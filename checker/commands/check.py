@@ -148,13 +148,13 @@ class Deliver(Protocol):
     def __call__(self, found: Sequence[Compared], wanted: int, ended: str = "") -> None: ...
 
 
-Premises = Callable[[Sequence[Compared]], Mapping[str, "Case"]]
-"""Says of each proof that speaks of a case, by id, whether the case occurs."""
+class Premises(Protocol):
+    """Says of each proof that speaks of a case, by id, whether the case occurs."""
 
+    def heard(self, one: Compared) -> None:
+        """A result, while others are searched for."""
 
-def unasked(_: Sequence[Compared]) -> Mapping[str, "Case"]:
-    """Nothing is asked about cases."""
-    return {}
+    def __call__(self, found: Sequence[Compared]) -> Mapping[str, "Case"]: ...
 
 
 def undelivered(found: Sequence[Compared], wanted: int, ended: str = "") -> None:
@@ -174,7 +174,7 @@ def check(
     guide: Guide = ALONE,
     deliver: Deliver = undelivered,
     quiet: bool = False,
-    premises: Premises = unasked,
+    premises: Premises | None = None,
     strict: bool = False,
 ) -> Exit:
     """Print every verdict with its evidence and what the baseline says of it.
@@ -198,7 +198,9 @@ def check(
                 found.append(Compared(result, expect(result.property.id), variant))
                 if not as_json and not (quiet and found[-1].code is Exit.AS_EXPECTED):
                     out.print(wrapped(line(found[-1]), EVIDENCE), markup=False)
-        cases = premises(found)
+                if premises is not None:
+                    premises.heard(found[-1])
+        cases = premises(found) if premises is not None else {}
         found = [replace(c, case=cases.get(c.result.property.id), strict=strict) for c in found]
     except BaseException as error:
         if as_json:

@@ -1,6 +1,5 @@
 """The verb ``check``: properties against the verdicts on record."""
 
-from collections.abc import Mapping, Sequence
 from pathlib import Path
 from shlex import join
 from typing import TYPE_CHECKING
@@ -12,8 +11,7 @@ from checker.commands.options import GIB, modelling, searching, varying
 from checker.engine import ALL, AUTO, LOADED, Limits, Timers
 
 if TYPE_CHECKING:
-    from checker.commands.check import Compared, Premises
-    from checker.commands.premises import Case
+    from checker.commands.check import Premises
     from checker.commands.variant import Variant
 
 
@@ -106,7 +104,7 @@ def check(
     with prepared(*LOADED):
         from checker.commands.certificates import writable
         from checker.commands.check import check as run
-        from checker.commands.check import unasked, undelivered
+        from checker.commands.check import undelivered
         from checker.commands.findings import Guide, causes
         from checker.commands.select import pick_engine, pick_properties
         from checker.commands.variant import pick_variant
@@ -147,7 +145,7 @@ def check(
             Guide(variant.options, _selection(ids, about, full), variant.model.by_gravity, causes(variant)),
             deliver,
             quiet,
-            unasked if no_premises else _premises(variant, asked, limits, jobs, quiet, record_premises),
+            None if no_premises else _premises(variant, asked, limits, jobs, quiet, record_premises),
             strict,
         )
 
@@ -156,22 +154,13 @@ def _premises(
     variant: "Variant", engine: str, limits: Limits, jobs: int | None, quiet: bool, keep: bool
 ) -> "Premises":
     """Asks whether the cases occur that proofs speak of, and keeps the runs if wanted."""
-    from checker.commands.premises import LONG, PATIENCE, cases, record, recordable
+    from checker.commands.premises import Asking, recordable
     from checker.model.kept_runs import file_of, read
 
-    model, systems = variant.model, variant.systems()
+    model = variant.model
     if keep:
         recordable(model, variant.name)
-
-    known = read(file_of(model))
-
-    def asked(found: "Sequence[Compared]") -> "Mapping[str, Case]":
-        told = cases(found, systems, known, engine, limits, jobs, quiet, LONG if keep else PATIENCE)
-        if keep:
-            record(told, model)
-        return told
-
-    return asked
+    return Asking(model, variant.systems(), read(file_of(model)), engine, limits, jobs, quiet, keep)
 
 
 def _selection(ids: tuple[str, ...], about: tuple[str, ...], full: bool) -> str:
