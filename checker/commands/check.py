@@ -201,6 +201,7 @@ def check(
                 found.append(Compared(result, expect(result.property.id), variant))
                 if not as_json and not (quiet and found[-1].code is Exit.AS_EXPECTED):
                     out.print(wrapped(line(found[-1]), EVIDENCE), markup=False)
+                further.heard(found[-1])
         cases, chains = further.cases(found), further.chains(found)
         found = [
             replace(c, case=cases.get(c.result.property.id), noticed=further.noticed(c), strict=strict)

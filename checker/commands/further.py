@@ -15,6 +15,10 @@ if TYPE_CHECKING:
     from checker.commands.standing import Standing
 
 
+def _unheard(_: "Compared") -> None:
+    """Nothing is asked while others are searched for."""
+
+
 def _no_cases(_: Sequence["Compared"]) -> Mapping[str, "Case"]:
     return {}
 
@@ -27,11 +31,12 @@ def _no_chains(_: Sequence["Compared"]) -> Sequence["Standing"]:
 class Further:
     """What is asked of the verdicts; by default nothing.
 
-    ``cases`` says of each proof that speaks of a case, by id, whether the case occurs, ``chains`` what
-    becomes of chains of properties.  ``noticing`` are the properties that notice a fault which is on
-    record; None where none are kept.
+    ``heard`` is told each result while others are searched for.  ``cases`` says of each proof that speaks of
+    a case, by id, whether the case occurs, ``chains`` what becomes of chains of properties.  ``noticing`` are
+    the properties that notice a fault which is on record; None where none are kept.
     """
 
+    heard: Callable[["Compared"], None] = _unheard
     cases: Callable[[Sequence["Compared"]], Mapping[str, "Case"]] = _no_cases
     chains: Callable[[Sequence["Compared"]], Sequence["Standing"]] = _no_chains
     noticing: Collection[str] | None = None

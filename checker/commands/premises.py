@@ -2,7 +2,7 @@
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 from checker.commands.check import Compared, evidence, results
 from checker.commands.codes import UsageError
@@ -44,20 +44,52 @@ def cases(
     jobs: int | None = None,
     quiet: bool = False,
     patience: float = PATIENCE,
+    shown: Mapping[str, Case] | None = None,
 ) -> dict[str, Case]:
     """For each proof that speaks of a case, by id, whether it occurs on its system.
 
-    A ``known`` run is gone through again on the charts as they are now; only where it does not show the case
-    any more a run is searched for, ``patience`` seconds long at most.
+    A ``known`` run is gone through again on the charts as they are now, unless that was done and it is among
+    those ``shown``; only where it does not show the case any more a run is searched for, ``patience`` seconds
+    long at most.
     """
-    asked = {c.result.property.id: c.result.property for c in found if isinstance(c.verdict, Proved)}
-    wanted = {id: case for id, prop in asked.items() if (case := premise(prop)) is not None}
-    found_out = dict(_again(wanted, known, systems))
+    wanted, before = _wanted(found), shown or {}
+    found_out = {id: before[id] for id in wanted if id in before}
+    found_out |= _again({id: case for id, case in wanted.items() if id not in before}, known, systems)
     left = [case for id, case in wanted.items() if id not in found_out]
     brief = replace(limits, seconds=min(patience, limits.seconds or patience))
     for one in _searched(left, systems, engine, brief, jobs, quiet):
         found_out[one.property.id] = told(one, systems)
     return found_out
+
+
+@dataclass
+class Asking:
+    """Asks of each proof whether its case occurs; ``keep``: for longer, and the runs that show it are kept.
+
+    Runs on record are gone through as the proofs are heard of: while others are searched for, there is time.
+    """
+
+    model: Model
+    systems: Mapping[str, System]
+    known: Mapping[str, Kept]
+    engine: str
+    limits: Limits
+    jobs: int | None
+    quiet: bool
+    keep: bool
+    _shown: dict[str, Case] = field(default_factory=dict)
+
+    def heard(self, one: Compared) -> None:
+        """Go through the run on record of a proof that speaks of a case."""
+        self._shown |= _again(_wanted([one]), self.known, self.systems)
+
+    def __call__(self, found: Sequence[Compared]) -> Mapping[str, Case]:
+        """For each proof that speaks of a case, by id, whether it occurs on its system."""
+        asked = self.systems, self.known, self.engine, self.limits, self.jobs, self.quiet
+        told = cases(found, *asked, LONG if self.keep else PATIENCE, self._shown)
+        if self.keep:
+            record(told, self.model)
+        return told
 
 
 def record(known: Mapping[str, Case], model: Model) -> None:
@@ -80,6 +112,12 @@ def recordable(model: Model, variant: str) -> None:
     file = file_of(model)
     if not file.parent.is_dir() or file.is_dir():
         raise UsageError(f"Cannot write {whole(file)}: it is no file in a folder that exists.")
+
+
+def _wanted(found: Sequence[Compared]) -> dict[str, Property]:
+    """The cases that proofs speak of, by id."""
+    proved = (c.result.property for c in found if isinstance(c.verdict, Proved))
+    return {prop.id: case for prop in proved if (case := premise(prop)) is not None}
 
 
 def _again(
@@ -134,4 +172,4 @@ def _occurs(ticks: int, system: System) -> str:
     return f"it occurs: after {counted_ticks(ticks)} of {system.name}{more}"
 
 
-__all__ = ["LONG", "PATIENCE", "Case", "cases", "record", "recordable", "told"]
+__all__ = ["LONG", "PATIENCE", "Asking", "Case", "cases", "record", "recordable", "told"]

@@ -1,6 +1,5 @@
 """The verb ``check``: properties against the verdicts on record."""
 
-from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from shlex import join
@@ -13,14 +12,10 @@ from checker.commands.options import GIB, modelling, searching, varying
 from checker.engine import ALL, AUTO, LOADED, Limits, Timers
 
 if TYPE_CHECKING:
-    from checker.commands.check import Compared
     from checker.commands.further import Further
-    from checker.commands.premises import Case
+    from checker.commands.premises import Asking
     from checker.commands.standing import Chains
     from checker.commands.variant import Variant
-
-Premises = Callable[[Sequence["Compared"]], Mapping[str, "Case"]]
-"""Says of each proof that speaks of a case, by id, whether the case occurs."""
 
 
 @click.command(short_help="Check properties, and compare with the verdicts on record.")
@@ -178,36 +173,27 @@ def _chains(variant: "Variant") -> "Chains | None":
     return Chains(variant)
 
 
-def _further(variant: "Variant", premises: "Premises | None", chains: "Chains | None") -> "Further":
+def _further(variant: "Variant", premises: "Asking | None", chains: "Chains | None") -> "Further":
     """What is asked of the verdicts; faults are kept of the charts as they are."""
     from checker.commands.further import Further, noticing
 
     further = Further(noticing=None if variant.name else noticing(variant.model))
     if premises is not None:
-        further = replace(further, cases=premises)
+        further = replace(further, heard=premises.heard, cases=premises)
     return further if chains is None else replace(further, chains=chains.standings)
 
 
 def _premises(
     variant: "Variant", engine: str, limits: Limits, jobs: int | None, quiet: bool, keep: bool
-) -> "Premises":
+) -> "Asking":
     """Asks whether the cases occur that proofs speak of, and keeps the runs if wanted."""
-    from checker.commands.premises import LONG, PATIENCE, cases, record, recordable
+    from checker.commands.premises import Asking, recordable
     from checker.model.kept_runs import file_of, read
 
-    model, systems = variant.model, variant.systems()
+    model = variant.model
     if keep:
         recordable(model, variant.name)
-
-    known = read(file_of(model))
-
-    def asked(found: "Sequence[Compared]") -> "Mapping[str, Case]":
-        told = cases(found, systems, known, engine, limits, jobs, quiet, LONG if keep else PATIENCE)
-        if keep:
-            record(told, model)
-        return told
-
-    return asked
+    return Asking(model, variant.systems(), read(file_of(model)), engine, limits, jobs, quiet, keep)
 
 
 def _selection(ids: tuple[str, ...], about: tuple[str, ...], full: bool) -> str:

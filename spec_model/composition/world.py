@@ -84,8 +84,8 @@ def value(of: Var, number: int | float) -> Const:
 def world(there: There, free: Collection[Var] = (), any_part: Collection[str] = ()) -> list[Action]:
     """What reaches the boards in this step, by what has failed, but for what is ``free`` to be anything.
 
-    Of several alike the faults named in ``any_part`` strike any, the others always the first.  What the user does, and where the
-    rover heads, is apart.
+    Of several alike the faults named in ``any_part`` strike any, the others always the first.  What the user
+    does, and where the rover heads, is apart.
     """
 
     def arrives(fault: str, late: Var) -> Expr:

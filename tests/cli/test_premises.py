@@ -104,6 +104,29 @@ def test_a_run_that_shows_its_case_no_more_is_searched_anew(
     capsys.readouterr()
 
 
+def test_a_run_on_record_is_gone_through_once_when_its_proof_is_heard_of(
+    hall: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    from checker.commands import premises
+
+    checked(hall, "--record-premises")
+    again, told, order = premises._again, premises.cases, list[str]()
+
+    def noted(wanted: dict[str, Property], *rest: Any) -> Any:
+        order.extend(wanted)
+        return again(wanted, *rest)
+
+    def at_the_end(*rest: Any) -> Any:
+        order.append("end")
+        return told(*rest)
+
+    monkeypatch.setattr(premises, "_again", noted)
+    monkeypatch.setattr(premises, "cases", at_the_end)
+    assert checked(hall, "FULL") == Exit.AS_EXPECTED
+    assert order == ["FULL", "end"]
+    capsys.readouterr()
+
+
 def test_runs_of_others_stay(hall: Path, capsys: pytest.CaptureFixture[str]) -> None:
     kept = hall.with_name("premises.json")
     checked(hall, "--record-premises")

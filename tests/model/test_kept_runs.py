@@ -67,6 +67,7 @@ def test_a_file_with_something_else_is_told(tmp_path: Path, written: str, said: 
     assert said in str(error.value)
 
 
+@pytest.mark.long
 def test_every_proof_about_a_case_has_a_run_that_shows_it() -> None:
     """What has none makes `check` search: record it anew, or restate a property that speaks of nothing."""
     model = rover()
