@@ -25,7 +25,7 @@ INTRODUCTION = (
 )
 
 ACROSS = (
-    "Across the link, in milliseconds, at all phases. Below each statement stands what it rests on; that "
+    "In milliseconds, at all phases. Below each statement stands what it rests on; that "
     "these say what it takes for granted, and that the frame carries it, is checked formula by formula."
 )
 
@@ -60,59 +60,114 @@ def _anchor(promise: Promise) -> str:
 
 
 def _promise(promise: Promise, words: Words, repaired: Repaired, pages: Collection[str]) -> Iterator[str]:
-    yield from (f"## {promise.title}", "", f"> {promise.sentence} [{promise.source}]", "")
-    yield from ("Required, as the document has it:", "")
+    """The promise on one screen; the tables below it open with a click."""
+    check(promise)
+    yield from (
+        f"## {promise.title}",
+        "",
+        f"> {promise.sentence} [{promise.source}]",
+        "",
+        "| | |",
+        "|---|---|",
+    )
+    for name, cell in _summary(promise, words, pages):
+        yield f"| {name} | {cell} |"
+    yield from _folded("Required, as the document has it", _required(promise, words, pages))
+    yield from _folded("What holds", _holds(promise, words))
+    yield from _folded("With a repair", _with_repairs(promise, repaired))
+    yield from _folded("Across the link", _across(promise, words))
+
+
+def _folded(title: str, lines: Iterator[str]) -> Iterator[str]:
+    if inside := list(lines):
+        yield from ("", f"<details><summary>{title}</summary>", "", *inside, "", "</details>")
+
+
+def _summary(promise: Promise, words: Words, pages: Collection[str]) -> Iterator[tuple[str, str]]:
+    """Bounds, what is proved and how, what breaks it, what repairs that."""
+    broken = [id for id in promise.required if expected(id).verdict == "violated"]
+    kept = [id for id in promise.required if id not in broken]
+    mended = {name: [id for id in broken if id in repair.fixes] for name, repair in repairs().items()}
+    left = [id for id in broken if not any(id in ids for ids in mended.values())]
+    direct = (f"{p.id} on {_about(p)}{'' if p.id in words else ' *'}" for p in promise.holds)
+    chains = (
+        f"{c.across} ← {', '.join(id for id in c.properties if id != c.across)}" for c in promise.chains
+    )
+    yield "required", promise.bound
+    yield "true", promise.true_bound
+    yield "kept as required", ", ".join(kept)
+    yield "what breaks it", ", ".join(_link(id, pages) for id in broken)
+    yield "what repairs it", "; ".join(f"{_repair(n)}: {', '.join(ids)}" for n, ids in mended.items() if ids)
+    yield "no repair", ", ".join(_link(id, pages) for id in left)
+    yield "proved directly", ", ".join(direct)
+    yield "proved by a chain", "; ".join(dict.fromkeys(chains))
+
+
+def _link(id: str, pages: Collection[str]) -> str:
+    return f"[{id}](findings/{id}.md)" if id in pages else id
+
+
+def _required(promise: Promise, words: Words, pages: Collection[str]) -> Iterator[str]:
     yield from (
         "| property | verdict | what it says | what breaks it | what repairs it |",
         "|---|---|---|---|---|",
     )
     for id in promise.required:
         prop = catalogue()[id]
-        name = f"[{id}](findings/{id}.md)" if id in pages else id
         why = expected(id).because if expected(id).verdict != "proved" else ""
-        cells = (name, _word(prop, words), prop.text, why, _repaired_by(id))
+        cells = (_link(id, pages), _word(prop, words), prop.text, why, _repaired_by(id))
         yield f"| {' | '.join(map(_cell, cells))} |"
-    yield from ("", "What holds:", "", "| property | verdict | about | what it says |", "|---|---|---|---|")
+
+
+def _holds(promise: Promise, words: Words) -> Iterator[str]:
+    yield from ("| property | verdict | about | what it says |", "|---|---|---|---|")
     for prop in promise.holds:
         yield f"| {' | '.join(map(_cell, (prop.id, _word(prop, words), _about(prop), prop.text)))} |"
-    yield from _with_repairs(promise, repaired)
+
+
+def _across(promise: Promise, words: Words) -> Iterator[str]:
+    """The chains; those that prove one statement of several causes are told once."""
     if promise.chains:
-        check(promise)
-        yield from ("", ACROSS, "")
-        for chain in promise.chains:
-            yield from _chain(chain, words)
+        yield from (ACROSS, "")
+    for across in dict.fromkeys(chain.across for chain in promise.chains):
+        yield from _chain([chain for chain in promise.chains if chain.across == across], words)
 
 
-def _chain(chain: Chain, words: Words) -> Iterator[str]:
+def _chain(chains: Sequence[Chain], words: Words) -> Iterator[str]:
     """What is proved of the tasks between the boards, and below it what proves its contracts."""
-    across = catalogue()[chain.across]
+    across = catalogue()[chains[0].across]
     system = systems()[across.on]
 
-    def said(id: str) -> str:
+    def said(id: str, under: str) -> str:
         prop = catalogue()[id]
-        repair = repairs().get(chain.under)
+        repair = repairs().get(under)
         with_it = repair is not None and id in repair.fixes
-        word = f"proved with {_repair(chain.under)}" if with_it else _word(prop, words)
+        word = f"proved with {_repair(under)}" if with_it else _word(prop, words)
         return f"{id} ({word}, {_about(prop)}): {prop.text}"
 
-    yield f"- {said(across.id)}"
-    if chain.first:
-        yield f"  - its premise from {said(chain.first)}"
-    for contract in CONTRACTS.get(system.name, ()):
-        yield f"  - {contract.name} from {said(chain.by[contract.name])}"
-    sent, received = (text(chain.stands[wire.name]) for wire in WIRES[system.name])
-    yield f"  - the frame carries `{sent}`, which arrives as `{received}`"
-    if chain.last:
-        yield f"  - its conclusion from {said(chain.last)}"
-    granted = [NO_LOSS, *([] if chain.assuming is TRUE else [f"{text(chain.assuming)}."])]
-    yield f"  - taken for granted: {' '.join(granted)}"
-    lost = [
-        f"{_repair(name)} ({', '.join(ids)})"
-        for name, repair in repairs().items()
-        if (ids := [id for id in chain.properties if id in repair.gives_up])
-    ]
-    if lost:
-        yield f"  - it no longer holds with a repair that gives up a link: {', '.join(lost)}"
+    def below(chain: Chain) -> Iterator[tuple[int, str]]:
+        """The lines of one chain, each with its place."""
+        if chain.first:
+            yield 0, f"its premise from {said(chain.first, chain.under)}"
+        for contract in CONTRACTS.get(system.name, ()):
+            yield 1, f"{contract.name} from {said(chain.by[contract.name], chain.under)}"
+        sent, received = (text(chain.stands[wire.name]) for wire in WIRES[system.name])
+        yield 2, f"the frame carries `{sent}`, which arrives as `{received}`"
+        if chain.last:
+            yield 3, f"its conclusion from {said(chain.last, chain.under)}"
+        granted = [NO_LOSS, *([] if chain.assuming is TRUE else [f"{text(chain.assuming)}."])]
+        yield 4, f"taken for granted: {' '.join(granted)}"
+        lost = [
+            f"{_repair(name)} ({', '.join(ids)})"
+            for name, repair in repairs().items()
+            if (ids := [id for id in chain.properties if id in repair.gives_up])
+        ]
+        if lost:
+            yield 5, f"it no longer holds with a repair that gives up a link: {', '.join(lost)}"
+
+    yield f"- {said(across.id, chains[0].under)}"
+    lines = dict.fromkeys(line for chain in chains for line in below(chain))
+    yield from (f"  - {line}" for _, line in sorted(lines, key=lambda pair: pair[0]))
 
 
 def _with_repairs(promise: Promise, repaired: Repaired) -> Iterator[str]:
@@ -125,7 +180,6 @@ def _with_repairs(promise: Promise, repaired: Repaired) -> Iterator[str]:
         if id in repair.fixes
     ]
     if rows:
-        yield from ("", "With a repair:", "")
         yield from ("| repair | property | verdict | about | what then holds |", "|---|---|---|---|---|")
         yield from (f"| {' | '.join(map(_cell, row))} |" for row in rows)
 
