@@ -10,7 +10,8 @@ from pathlib import Path
 import pytest
 
 from checker.commands.check import Compared, line, results, summary
-from checker.commands.findings import Guide, about_cases, read_on
+from checker.commands.findings import Guide, about_cases, about_faults, read_on
+from checker.commands.further import Further, noticing
 from checker.commands.premises import cases
 from checker.commands.reporting import differences, pages
 from checker.commands.wrapping import plain
@@ -33,13 +34,18 @@ def test_verdicts_are_as_on_record_and_the_committed_reports_show_them(
     affordable = [prop for prop in catalogue().values() if not prop.costly]
     decided = [Compared(r, expected(r.property.id)) for r in results(affordable, systems(), AUTO, Limits())]
     told = cases(decided, systems(), read(file_of(rover())), AUTO, Limits())
-    verdicts = [replace(c, case=told.get(c.result.property.id), strict=True) for c in decided]
+    further = Further(noticing=noticing(rover()))
+    verdicts = [
+        replace(c, case=told.get(c.result.property.id), noticed=further.noticed(c), strict=True)
+        for c in decided
+    ]
     assert len(verdicts) == len(affordable)
     assert [line(c) for c in verdicts if not c.as_expected] == []
     guide = Guide(gravest=rover().by_gravity, causes="reports/README.md")
     summary(verdicts, guide)
     said = capsys.readouterr().out.splitlines()
-    ending = [*said, *about_cases(verdicts), *read_on(verdicts, systems(), guide)]
+    cases_and_faults = [*about_cases(verdicts), *about_faults(verdicts)]
+    ending = [*said, *cases_and_faults, *read_on(verdicts, systems(), guide)]
     shown, end = sample()
     assert [s for s in shown if s not in {line(c) for c in verdicts}] == []
     assert end == [re.sub(r": \S*rovercheck ", ": .venv/bin/rovercheck ", plain(text)) for text in ending]

@@ -111,7 +111,7 @@ def about_cases(found: Sequence["Compared"]) -> Iterator[str]:
 
 def about_faults(found: Sequence["Compared"]) -> Iterator[str]:
     """Which proofs notice no fault that is known."""
-    idle = [one.result.property.id for one in found if one.idle]
+    idle = sorted(one.result.property.id for one in found if one.idle)
     if idle:
         more = f" and {len(idle) - SHOWN} more" if len(idle) > SHOWN else ""
         yield f"Proved, and no fault of the charts is known that it notices: {', '.join(idle[:SHOWN])}{more}."
