@@ -29,7 +29,7 @@ FAR = (1, -1, 1 << 30, -(1 << 30))
 """By how many cells inputs are changed in a simulation: to the next value that matters, to the last one."""
 LARGE = 200_000
 """Nodes of a circuit, times ticks, from which on a run is not unrolled if there is another way."""
-WIDE = 16_000
+WIDE = 12_000
 """Nodes of a circuit for which there is no use in trying that way."""
 
 
