@@ -21,7 +21,7 @@ from checker.partition import Partition
 from checker.runs.replay import ReplayError
 from checker.verdict import Run
 
-NODES = 1 << 21
+NODES = 1 << 22
 """Nodes of decision diagrams at a time."""
 GRANTED = 1 << 21
 """Nodes that may be made before the first tick is looked at: a circuit that takes more is too large."""
