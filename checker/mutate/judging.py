@@ -260,6 +260,7 @@ def _compared(case: Case, hunt: _Hunt, limits: Limits, progress: Progress) -> Ju
     asked, left = hunt.asked, len(hunt.open)
 
     def equivalent(why: str) -> Judged:
+        why += f"; {original.name} has fewer runs" if case.original.under else ""
         return hunt.gone or Judged(Fate.EQUIVALENT, why=why, asked=asked, open=left)
 
     seen = observable(case.original, case.named, case.abroad)

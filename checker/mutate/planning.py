@@ -177,11 +177,17 @@ def homes(
 ) -> dict[str, list[str]]:
     """For each system the parts that are made faulty in it: each in the smallest of ``among`` that has it.
 
-    Only the ``wanted`` parts, if these are named.
+    A system with fewer runs is the last choice, for what changes nothing in it may change other runs; so is
+    one whose steps differ in length, for most properties are about others.  Only the ``wanted`` parts, if
+    these are named.
     """
-    sizes = {name: len(list(parts(systems[name].components))) for name in among}
+
+    def liking(name: str) -> tuple[bool, bool, int]:
+        system = systems[name]
+        return system.under, system.elapsed is not None, len(list(parts(system.components)))
+
     home: dict[str, str] = {}
-    for name in sorted(sizes, key=lambda n: sizes[n]):
+    for name in sorted(among, key=liking):
         for part in parts(systems[name].components):
             if wanted is None or part.name in wanted:
                 home.setdefault(part.name, name)

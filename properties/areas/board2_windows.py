@@ -11,6 +11,7 @@ from fractions import Fraction
 from properties.document.sources import IMU, SUP
 from properties.forms import Property, always, holds_after
 from spec_model.board2.coherence import (
+    SUM,
     differs,
     hit,
     imu_gap,
@@ -30,6 +31,7 @@ from spec_model.lang.words import absolute, bit, held, maximum, minimum, once, p
 from spec_model.signals.board2_supervisor import gz_dps, is_motion_consistent, wheel_speed_rpm
 
 EXACT, LONG, SHORT = "coherence", "coherence_long", "coherence_short"
+ANY, COMPARED = "coherence_any_sums", "coherence_comparison"
 STEPPED = once(const(True))
 """A step was made: true in every step, and before the first one false."""
 SEEN = previous(STEPPED)
@@ -45,13 +47,17 @@ def _steps(update: Var, gap: Var) -> Expr:
     return ite(update & SEEN & (previous(gap) < 4), previous(gap) + 1, 0)
 
 
-def _summed(id: str, what: str, total: Var, most: Expr, by: tuple[Expr, Var, Var], ends: Var) -> Property:
+def _grown(total: Expr, most: Expr, by: tuple[Expr, Var, Var]) -> Expr:
+    """What a sum is with this step, before the end of its window clears it."""
     rate, update, gap = by
-    grown = minimum(maximum(previous(total) + rate * _steps(update, gap) * STEP, -most), most)
+    return minimum(maximum(total + rate * _steps(update, gap) * STEP, -most), most)
+
+
+def _summed(id: str, what: str, total: Var, most: Expr, by: tuple[Expr, Var, Var], ends: Var) -> Property:
     return always(
         id, f"The rotation by {what} grows by rate times time since the last stamp, up to {most}; its end "
         "clears it.",
-        that=total == ite(ends, 0, grown),
+        that=total == ite(ends, 0, _grown(previous(total), most, by)),
         covers=["B1-IN-03"], on=EXACT,
     )  # fmt: skip
 
@@ -60,16 +66,58 @@ def _rpm_s(most: int) -> Expr:
     return const(most, "rpm·s")
 
 
+MOST = {
+    imu_short.name: const(400, "°"),
+    imu_long.name: const(6200, "°"),
+    odo_short.name: _rpm_s(800),
+    odo_long.name: _rpm_s(4000),
+}
+"""What a sum grows to at most."""
+
 PB2_28h, PB2_28i, PB2_28j, PB2_28k = (
     _summed(f"PB2-28{letter}", what, total, most, by, ends)
     for letter, what, total, most, by, ends in (
-        ("h", "the IMU in a short window", imu_short, const(400, "°"), BY_IMU, short_ends),
-        ("i", "the IMU in a long window", imu_long, const(6200, "°"), BY_IMU, long_ends),
-        ("j", "the wheels in a short window", odo_short, _rpm_s(800), BY_WHEELS, short_ends),
-        ("k", "the wheels in a long window", odo_long, _rpm_s(4000), BY_WHEELS, long_ends),
+        ("h", "the IMU in a short window", imu_short, MOST[imu_short.name], BY_IMU, short_ends),
+        ("i", "the IMU in a long window", imu_long, MOST[imu_long.name], BY_IMU, long_ends),
+        ("j", "the wheels in a short window", odo_short, MOST[odo_short.name], BY_WHEELS, short_ends),
+        ("k", "the wheels in a long window", odo_long, MOST[odo_long.name], BY_WHEELS, long_ends),
     )
 )  # fmt: skip
 
+DEGREES_PER_RPM_S = const(Fraction("0.83") * Fraction("0.14") * 180 / 60 / Fraction("0.38") / 2, "°/rpm/s")
+"""Degrees turned for 1 rpm·s of difference of two wheels on either side: wheels of 0.14 m, 0.38 m apart, of
+which 0.83 is turned.
+"""
+
+
+def _differing(imu: Expr, odo: Expr) -> Expr:
+    return absolute(imu - odo * DEGREES_PER_RPM_S)
+
+
+PB2_79a = always(
+    "PB2-79a", "A short window is a hit if the IMU has turned by 1° or more, and the wheels by 1° less or "
+    "more.",
+    that=hit == (absolute(imu_short) >= 1) & (_differing(imu_short, odo_short) >= 1),
+    covers=["B1-IN-03"], on=COMPARED,
+)  # fmt: skip
+PB2_79b = always(
+    "PB2-79b", "A long window differs if the IMU has turned by 5° less or more than the wheels.",
+    that=differs == (_differing(imu_long, odo_long) >= 5), covers=["B1-IN-03"], on=COMPARED,
+)  # fmt: skip
+PB2_79c, PB2_79d, PB2_79e, PB2_79f = (
+    always(
+        f"PB2-79{letter}", f"Whatever {what} has summed up, the next stamp adds rate times time, up to "
+        f"{MOST[total.name]}.",
+        that=total == ite(ends, 0, _grown(SUM[total.name], MOST[total.name], by)),
+        covers=["B1-IN-03"], on=ANY,
+    )
+    for letter, what, total, by, ends in (
+        ("c", "the IMU in a short window", imu_short, BY_IMU, short_ends),
+        ("d", "the IMU in a long window", imu_long, BY_IMU, long_ends),
+        ("e", "the wheels in a short window", odo_short, BY_WHEELS, short_ends),
+        ("f", "the wheels in a long window", odo_long, BY_WHEELS, long_ends),
+    )
+)  # fmt: skip
 
 PB2_78 = always(
     "PB2-78", "The latest result on record is that of the short window that ends in this step.",

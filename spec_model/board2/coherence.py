@@ -159,6 +159,27 @@ stamps = Block(
 COHERENCE = (accumulate, short_windows, long_windows, result, clear, stamps)
 """F-COH2 as a whole, in order."""
 
+SUM = {
+    total.name: var(f"{total.name}_before", total.domain, doc=f"{total.doc}, before the step", hidden=True)
+    for total in (imu_short, imu_long, odo_short, odo_long)
+}
+"""What has been summed up when a step begins, if that is anything."""
+
+
+def _any_sums(*further: Action) -> Block:
+    return Block(
+        "AnySums",
+        [*(assign(total, SUM[total.name]) for total in (imu_short, imu_long, odo_short, odo_long)), *further],
+        text="Anything has been summed up before.",
+    )
+
+
+FROM_ANY_SUMS = (_any_sums(), *COHERENCE)
+"""Over-approximation: any sums before each step."""
+
+COMPARISON_ALONE = (_any_sums(assign(started, False)), accumulate)
+"""Any sums before each step, to which nothing is added: as in the initial step, nothing came before."""
+
 LONG_ALONE = (long_windows, result, stamps)
 """Over-approximation: any rotation in any long window, any result of the short ones."""
 

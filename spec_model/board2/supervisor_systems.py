@@ -145,6 +145,23 @@ coherence_exact = in_order(
     ],
 )
 
+coherence_any_sums = in_order(
+    "coherence_any_sums",
+    *coherence.FROM_ANY_SUMS,
+    text="The coherence with any sums before each step.",
+    notes=[GRID, FEW_VALUES, "What was summed up before is free in every step."],
+    over=True,
+    concrete="coherence",
+)
+
+coherence_comparison = in_order(
+    "coherence_comparison",
+    *coherence.COMPARISON_ALONE,
+    text="How any sums compare in steps that add nothing to them.",
+    notes=["The sums are free in every step, and no datum comes."],
+    under=True,
+)
+
 coherence_long = in_order(
     "coherence_long",
     *coherence.LONG_ALONE,
@@ -345,6 +362,8 @@ SYSTEMS: tuple[System, ...] = (
     coherence_short,
     coherence_blocked,
     coherence_spinning,
+    coherence_any_sums,
+    coherence_comparison,
     actuation,
     sonar_task,
     joystick_task,

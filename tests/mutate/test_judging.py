@@ -166,6 +166,13 @@ def test_a_part_is_made_faulty_in_its_smallest_system() -> None:
     assert homes({"lamps": lamps, "small": small}, ["lamps"]) == {"lamps": ["Lamp", "Alarm"]}
 
 
+def test_a_part_is_made_faulty_where_most_runs_are() -> None:
+    """What changes nothing in fewer runs is not equivalent."""
+    fewer = in_order("fewer", lamps.charts[0], under=True)
+    given = {"fewer": fewer, "lamps": lamps}
+    assert homes(given, given) == {"fewer": [], "lamps": ["Lamp", "Alarm"]}
+
+
 def test_runs_of_the_original_settle_only_what_a_search_finds_too() -> None:
     """What a known run still reaches has the verdict of the original."""
     results = decide(Task(as_it_is(lamps), PROPERTIES), {"lamps": lamps}, "auto", Limits(), quiet)
