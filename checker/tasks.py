@@ -1,9 +1,10 @@
 """What is searched together: properties of one system whose monitors have few values between them."""
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from math import prod
 
+from checker.portfolio.shape import driven
 from properties.forms import Property, Unbounded
 from properties.reduce import Question, reduce, without_step
 from spec_model.lang.errors import ModelError, did_you_mean
@@ -53,12 +54,16 @@ def tasks(properties: Sequence[Property], systems: Mapping[str, System]) -> Iter
 
 
 def _together(question: Question) -> list[list[Property]]:
-    """Properties to search together: not too many, whose monitors have few values between them."""
+    """Properties to search together: not too many, whose monitors have few values between them.
+
+    Of a driven system any: what monitors remember then follows from the few things that were chosen.
+    """
     values = {v.name: len(v.domain) for v in question.system.variables}
+    few = math.inf if driven(question.system) else FEW
     bins: list[tuple[set[str], list[Property]]] = []
-    for goal in sorted(question.goals, key=lambda g: prod(values[n] for n in g.memory)):
+    for goal in sorted(question.goals, key=lambda g: math.prod(values[n] for n in g.memory)):
         for memory, members in bins:
-            fits = goal.memory <= memory or prod(values[n] for n in memory | goal.memory) <= FEW
+            fits = goal.memory <= memory or math.prod(values[n] for n in memory | goal.memory) <= few
             if fits and len(members) < MOST:
                 memory |= goal.memory
                 members.append(goal.property)

@@ -1,11 +1,12 @@
 """What a question looks like: the few facts about it that choose the order of the engines."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from checker.portfolio.question import Hint, Question
 from checker.slice import sliced
 from spec_model.lang.chart import Chart, Path
+from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 
 WIDE, VAST = 200, 800
@@ -55,12 +56,20 @@ class Shape:
         return self.kind in ("narrow", "broad")
 
 
+def driven(system: TransitionSystem) -> bool:
+    """Whether a system has wide valuations, and few successors of each."""
+    return _bits(system.variables) > WIDE and _bits(system.inputs) <= FEW
+
+
+def _bits(variables: Iterable[Var]) -> int:
+    return sum((len(v.domain) - 1).bit_length() for v in variables)
+
+
 def shape(question: Question) -> Shape:
     """The shape of a question."""
     part = sliced(question.system, question.goals)
     bits = {v.name: (len(v.domain) - 1).bit_length() for v in part.variables}
-    free = sum((len(v.domain) - 1).bit_length() for v in part.inputs)
-    return Shape(sum(bits.values()), question.hint, _at_once(question.system, bits), free)
+    return Shape(sum(bits.values()), question.hint, _at_once(question.system, bits), _bits(part.inputs))
 
 
 def _at_once(system: TransitionSystem, bits: Mapping[str, int]) -> int:
