@@ -1,12 +1,14 @@
 """From a closed set of valuations to its decision diagram, bottom-up, level by level."""
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from itertools import islice
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.certify.diagram import TRUE, Diagram, Node, size
+from checker.certify.diagram import TRUE, Diagram, Node
 from checker.closed import ClosedSet, Place
 
 Codes = NDArray[np.signedinteger[Any]]
@@ -24,7 +26,7 @@ def diagram(closed: ClosedSet) -> Diagram:
     found = (
         reduced([closed.places[i] for i in order], [codes[i] for i in order]) for order in _orders(codes)
     )
-    return min(found, key=size)
+    return min(found, key=lambda one: one.size).diagram
 
 
 def _orders(codes: Sequence[Codes]) -> Iterator[list[int]]:
@@ -48,19 +50,60 @@ def _codes(place: Place, words: Words) -> Codes:
     return column.astype(np.int16 if place.bits < 16 else np.int32 if place.bits < 32 else np.int64)
 
 
-def reduced(places: Sequence[Place], codes: Sequence[Codes]) -> Diagram:
+@dataclass(frozen=True)
+class Nodes:
+    """The nodes of one variable: the ends of their edges and where these lead, node after node.
+
+    ``sizes`` are the numbers of edges of each node.
+    """
+
+    level: int
+    sizes: Codes
+    low: Codes
+    high: Codes
+    to: Codes
+
+    def __iter__(self) -> Iterator[Node]:
+        edges = zip(self.low.tolist(), self.high.tolist(), self.to.tolist(), strict=True)
+        return (Node(self.level, tuple(islice(edges, size))) for size in self.sizes.tolist())
+
+
+@dataclass(frozen=True)
+class Reduced:
+    """A diagram as columns: from them it is made in a moment, and compared with others before that."""
+
+    places: tuple[Place, ...]
+    nodes: tuple[Nodes, ...]
+    root: int
+
+    @property
+    def size(self) -> int:
+        """The number of nodes and edges."""
+        return sum(len(n.sizes) + len(n.to) for n in self.nodes)
+
+    @property
+    def diagram(self) -> Diagram:
+        """The diagram."""
+        nodes = tuple(node for some in self.nodes for node in some)
+        return Diagram(tuple(p.var.name for p in self.places), nodes, self.root)
+
+
+def reduced(places: Sequence[Place], codes: Sequence[Codes]) -> Reduced:
     """The diagram of distinct rows, one column of codes for each variable, in this order."""
     order = np.lexsort(codes[::-1])
     columns = [column[order] for column in codes]
     changed = _first_difference(columns)
     child = np.zeros(len(order), dtype=np.int64)
-    nodes: list[Node] = []
+    made: list[Nodes] = []
+    known = 0
     for level in reversed(range(len(places))):
         starts = np.flatnonzero(changed < level)
-        child = _level(places[level], level, columns[level], child, starts, nodes)
+        child, nodes = _level(places[level], level, columns[level], child, starts, known)
+        made.append(nodes)
+        known += len(nodes.sizes)
         columns = [column[starts] for column in columns[:level]]
         changed = changed[starts]
-    return Diagram(tuple(p.var.name for p in places), tuple(nodes), int(child[0]))
+    return Reduced(tuple(places), tuple(made), int(child[0]))
 
 
 def _first_difference(columns: Sequence[Codes]) -> NDArray[np.int32]:
@@ -73,32 +116,39 @@ def _first_difference(columns: Sequence[Codes]) -> NDArray[np.int32]:
     return changed
 
 
-def _level(place: Place, level: int, values: Codes, child: Codes, starts: Codes, nodes: list[Node]) -> Codes:
-    """The node of each group of rows that begins at ``starts``; new ones are appended.
+def _level(
+    place: Place, level: int, values: Codes, child: Codes, starts: Codes, known: int
+) -> tuple[Codes, Nodes]:
+    """The node of each group of rows that begins at ``starts``, and the nodes that are new.
 
-    Groups with the same values and children share a node.
+    Groups with the same values and children share a node; none is needed where every value leads to the same
+    one.
     """
     sizes = np.diff(starts, append=len(values))
     group = _alike(values, child, starts, sizes)
     _, firsts, numbers = np.unique(group, return_index=True, return_inverse=True)
-    made = [
-        _node(place, level, values[s : s + n], child[s : s + n], nodes)
-        for s, n in zip(starts[firsts].tolist(), sizes[firsts].tolist(), strict=True)
-    ]
-    return np.array(made, dtype=np.int64)[numbers]
+    rows, begins = _rows(starts[firsts], sizes[firsts])
+    sizes = sizes[firsts]
+    low = values[rows].astype(np.int64) * place.stride + place.low
+    to = child[rows]
+    one_child = np.minimum.reduceat(to, begins) == np.maximum.reduceat(to, begins)
+    needed = ~(one_child & (sizes == len(place.var.domain)))
+    first = np.ones(len(low), dtype=np.bool_)
+    first[1:] = (np.diff(low) != 1) | (np.diff(to) != 0)
+    first[begins] = True
+    edges = np.flatnonzero(first)
+    ends = np.append(edges[1:], len(low)) - 1
+    owner = np.repeat(np.arange(len(sizes)), sizes)[edges]
+    kept = needed[owner]
+    made = np.where(needed, known + np.cumsum(needed), to[begins])
+    count = np.bincount(owner, minlength=len(sizes))[needed]
+    return made[numbers], Nodes(level, count, low[edges][kept], low[ends][kept], to[edges][kept])
 
 
-def _node(place: Place, level: int, values: Codes, child: Codes, nodes: list[Node]) -> int:
-    """The number of the node with these edges; none is needed where every value leads to the same one."""
-    domain = place.var.domain
-    low = values.astype(np.int64) * place.stride + place.low
-    ends = np.flatnonzero((np.diff(low) != 1) | (np.diff(child) != 0))
-    first, last = np.r_[0, ends + 1], np.r_[ends, len(low) - 1]
-    if len(low) == len(domain) and (child == child[0]).all():
-        return int(child[0])
-    edges = zip(low[first].tolist(), low[last].tolist(), child[first].tolist(), strict=True)
-    nodes.append(Node(level, tuple(edges)))
-    return len(nodes)
+def _rows(starts: Codes, sizes: Codes) -> tuple[Codes, Codes]:
+    """The rows of groups, one after the other, and where each group begins among them."""
+    begins = np.cumsum(sizes) - sizes
+    return np.arange(int(sizes.sum())) + np.repeat(starts - begins, sizes), begins
 
 
 def _alike(values: Codes, child: Codes, starts: Codes, sizes: Codes) -> Codes:
@@ -118,7 +168,7 @@ def _confirmed(values: Codes, child: Codes, starts: Codes, sizes: Codes, model: 
     """Whether each group holds the same as its model, which is the position of another group."""
     if not np.array_equal(sizes, sizes[model]):
         return False
-    rows = np.arange(len(values)) + np.repeat(starts[model] - starts, sizes)
+    rows, _ = _rows(starts[model], sizes)
     return bool(np.array_equal(values, values[rows]) and np.array_equal(child, child[rows]))
 
 

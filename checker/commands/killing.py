@@ -80,7 +80,7 @@ def _found(
     orders, names = [], list(asked)
     for name in names:
         system = model.systems[name]
-        runs = tuple(k.run for k in premises.values() if k.system in (name, system.concrete))
+        runs = {id: k.run for id, k in premises.items() if k.system in (name, system.concrete)}
         kept = {p.id: Kill(known[p.id].mutant, known[p.id].run) for p in asked[name] if p.id in known}
         orders.append(Order((system, tuple(asked[name]), kept, runs, limits.seconds or 60.0), name))
     pool = Pool(jobs or cores(), _Killing, (), limits.memory + SLACK)
@@ -106,12 +106,13 @@ class _Killing:
         system: System,
         properties: tuple[Property, ...],
         kept: Mapping[str, Kill],
-        runs: tuple[Run, ...],
+        premises: Mapping[str, Run],
         seconds: float,
     ) -> None:
         good = still(system, properties, kept)
         send(good)
-        for found in kills(system, [p for p in properties if p.id not in good], runs, seconds):
+        left = [p for p in properties if p.id not in good]
+        for found in kills(system, left, list(premises.values()), seconds, premises):
             send(found)
 
 

@@ -1,21 +1,24 @@
 """For each property a fault that it notices: by runs on record, by random runs, then by a search."""
 
+import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from time import monotonic
+from types import MappingProxyType
 
 from checker.decide import decide
 from checker.engine import AUTO, Limits, quiet
 from checker.lowered import lowered
 from checker.mutate.asked import as_it_is, changed
 from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.tries import random_runs, spread, tried
+from checker.mutate.tries import RandomRuns, spread, tried
 from checker.runs.known import reached, run_of
 from checker.tasks import tasks
 from checker.verdict import Run, Violated
-from properties.forms import Property
+from properties.forms import Property, formulas
 from spec_model.lang.errors import ModelError
 from spec_model.lang.system import System
+from spec_model.lang.walk import variables
 
 SEARCHES = (
     ("bmc", Limits(depth=6, seconds=2.0)),
@@ -24,6 +27,7 @@ SEARCHES = (
 )
 """Engines, with what each may spend on a fault, as another fault may be noticed sooner.  ``bmc`` proves
 nothing, which is not asked; what takes long runs is left to all of them."""
+WORD = re.compile(r"\w+")
 DEAD = "dead"
 """The operator that takes a whole part away: tried first, a property that notices it needs the part."""
 
@@ -50,15 +54,21 @@ def still(system: System, properties: Sequence[Property], known: Mapping[str, Ki
 
 
 def kills(
-    system: System, properties: Sequence[Property], known: Sequence[Run], seconds: float
+    system: System,
+    properties: Sequence[Property],
+    known: Sequence[Run],
+    seconds: float,
+    premises: Mapping[str, Run] = MappingProxyType({}),
 ) -> Iterator[dict[str, Kill]]:
     """For properties that hold on the system, by id, a mutant on which they do not; as they are found.
 
-    Runs are tried for ``seconds`` at most, and then a run is searched for as long.  Nothing is said of the
+    Runs are tried for ``seconds`` at most, then for as long others that are near one of ``premises``, which
+    shows the case that a property speaks of, and then a run is searched for as long.  Nothing is said of the
     others: ``seconds`` may have been too few.
     """
     original = as_it_is(system)
-    runs = [*tried(known), *random_runs(original)]
+    drawn = RandomRuns(original)
+    runs = [*tried(known), *drawn.from_the_start()]
     left = {p.id: p for p in properties}
     deadline = monotonic() + seconds
     for mutant in spread(mutants(original)):
@@ -68,7 +78,24 @@ def kills(
         if found:
             left = {id: prop for id, prop in left.items() if id not in found}
             yield {id: Kill(mutant.id, run) for id, run in found.items()}
+    deadline = monotonic() + seconds
+    for one in [left[id] for id in premises if id in left]:
+        near = list(drawn.around(premises[one.id]))
+        for mutant in alike(mutants(original), one):
+            if one.id not in left or monotonic() > deadline:
+                break
+            found = noticed(mutant, [one], near)
+            if found:
+                left.pop(one.id)
+                yield {id: Kill(mutant.id, run) for id, run in found.items()}
     yield from searched(original, list(left.values()), seconds)
+
+
+def alike(made: Sequence[Mutant], prop: Property) -> list[Mutant]:
+    """The mutants first that are about what a property speaks of."""
+    spoken = {name.rpartition(".")[2] for name in variables(*formulas(prop.form))}
+    words = {m.id: spoken & set(WORD.findall(f"{m.id} {m.text}")) for m in made}
+    return sorted(made, key=lambda m: len(words[m.id]), reverse=True)
 
 
 def searched(original: System, properties: Sequence[Property], seconds: float) -> Iterator[dict[str, Kill]]:

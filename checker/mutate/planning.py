@@ -7,7 +7,7 @@ from functools import cached_property
 from checker.mutate.asked import Cone, as_it_is, concerned, cones
 from checker.mutate.judging import Case, Fate, Judged
 from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.tries import ROUNDS, random_runs, tried
+from checker.mutate.tries import ROUNDS, RandomRuns, tried
 from checker.result import Result
 from checker.runs.known import run_of
 from checker.verdict import Proved, Run, Unknown
@@ -115,7 +115,7 @@ class Plan:
         """Runs on record of a system, and random runs."""
         name = original.name
         if name not in self._tries:
-            self._tries[name] = (*tried(self.premises.get(name, ())), *random_runs(original))
+            self._tries[name] = (*tried(self.premises.get(name, ())), *RandomRuns(original).from_the_start())
         return self._tries[name]
 
     def _case(self, mutant: Mutant, name: str, sure: bool) -> Case:

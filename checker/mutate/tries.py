@@ -1,14 +1,22 @@
 """What is tried on mutants before anything is searched, and in which order."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from checker.lowered import lowered
 from checker.verdict import Run
+from spec_model.lang.evaluate import step
 from spec_model.lang.system import System
+
+if TYPE_CHECKING:
+    from checker.encode.simulate import Trail
 
 COUNT, TICKS = 10, 300
 """Random runs of a system, and how long they are: longer than most timers."""
+NEARBY, SOON = 6, 30
+"""Random runs that leave a run on record together, and for how long they go on."""
+BACK = (1, 4)
+"""Ticks before the end of a run on record at which random ones leave it."""
 LONGEST = 1_000
 """Ticks of a run on record that is still tried on every mutant."""
 ON = 60
@@ -19,24 +27,57 @@ ROUNDS = (16, 4, 1)
 One = TypeVar("One")
 
 
-def random_runs(system: System) -> tuple[Run, ...]:
+class RandomRuns:
     """Runs of a system whose inputs are drawn at random and held for a while, always the same ones."""
-    from checker.encode.cone import as_written, cone, straying  # by numpy and Z3, which take a while to load
-    from checker.encode.simulate import Simulator
-    from checker.encode.symbolic import transition
-    from checker.encode.unrolling import Outside
 
-    whole = lowered(system)
-    stepped, names = transition(whole), [v.name for v in whole.variables]
-    escapes = straying(stepped, as_written(whole, names))
-    part = cone(stepped, [*names, *escapes])
-    outside = Outside(whole, part)
-    if not outside.possible:
-        return ()
-    simulator = Simulator(part, tuple(escapes.values()), lanes=COUNT)
-    trail = simulator.run(simulator.start(), TICKS)
-    frozen = [v.name for v in part.frozen]
-    return tuple(outside.complete(trail.extract(TICKS, lane, frozen)) for lane in range(COUNT))
+    def __init__(self, system: System) -> None:
+        from checker.encode.cone import as_written, cone, straying  # with numpy and Z3, slow to load
+        from checker.encode.symbolic import transition
+        from checker.encode.unrolling import Outside
+
+        self._whole = lowered(system)
+        stepped, names = transition(self._whole), [v.name for v in self._whole.variables]
+        escapes = straying(stepped, as_written(self._whole, names))
+        self._part = cone(stepped, [*names, *escapes])
+        self._never = tuple(escapes.values())
+        self._outside = Outside(self._whole, self._part)
+
+    def from_the_start(self) -> tuple[Run, ...]:
+        """``COUNT`` runs; none of a system that has none."""
+        from checker.encode.simulate import Simulator
+
+        if not self._outside.possible:
+            return ()
+        simulator = Simulator(self._part, self._never, lanes=COUNT)
+        return self._taken(simulator.run(simulator.start(), TICKS), TICKS, COUNT)
+
+    def around(self, run: Run) -> Iterator[Run]:
+        """Runs that leave the given one a few ticks before its end: more of what it leads to.
+
+        Each goes on for ``SOON`` ticks, with inputs that change often.
+        """
+        from checker.encode.simulate import Simulator
+
+        if not self._outside.possible:
+            return
+        simulator = Simulator(self._part, self._never, lanes=NEARBY, hold=(1, 2, 5))
+        for back in BACK:
+            kept = run.inputs[: max(0, len(run) - back)]
+            trail = simulator.run(simulator.everywhere(self._after(run, kept)), SOON)
+            for other in self._taken(trail, SOON, NEARBY):
+                yield Run(run.frozen, kept + other.inputs)
+
+    def _after(self, run: Run, inputs: Sequence[Mapping[str, int]]) -> Mapping[str, int]:
+        of = self._whole.inputs
+        at: Mapping[str, int] = {**{v.name: v.init for v in of + self._whole.frozen}, **self._whole.init}
+        at = {**at, **run.frozen}
+        for tick in inputs:
+            at = step(self._whole, at, {v.name: tick.get(v.name, v.init) for v in of})
+        return at
+
+    def _taken(self, trail: "Trail", ticks: int, lanes: int) -> tuple[Run, ...]:
+        frozen = [v.name for v in self._part.frozen]
+        return tuple(self._outside.complete(trail.extract(ticks, lane, frozen)) for lane in range(lanes))
 
 
 def tried(known: Sequence[Run]) -> Iterator[Run]:
@@ -52,4 +93,4 @@ def spread(found: Sequence[One]) -> Iterator[One]:
     return (found[number] for number in numbers)
 
 
-__all__ = ["ON", "ROUNDS", "random_runs", "spread", "tried"]
+__all__ = ["ON", "ROUNDS", "RandomRuns", "spread", "tried"]

@@ -19,7 +19,7 @@ from checker.model.rover import rover
 from checker.mutate.asked import as_it_is, changed
 from checker.mutate.killing import kills, noticed, searched, still
 from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.tries import COUNT, ON, TICKS, random_runs, spread, tried
+from checker.mutate.tries import BACK, COUNT, ON, TICKS, RandomRuns, spread, tried
 from checker.runs.known import reached
 from checker.verdict import Run
 from properties.coverage import matrix
@@ -144,11 +144,15 @@ def test_every_mutant_is_tried_once() -> None:
 @pytest.mark.parametrize("name", ["relay", "references", "handover_fine", "links"])
 def test_random_runs_are_runs_of_the_system(name: str) -> None:
     """Every step is admissible, and they are the same ones each time."""
-    system, runs = lowered(systems()[name]), random_runs(systems()[name])
-    assert runs == random_runs(systems()[name])
+    system, drawn = lowered(systems()[name]), RandomRuns(systems()[name])
+    runs = drawn.from_the_start()
+    assert runs == RandomRuns(systems()[name]).from_the_start()
     assert len(runs) == COUNT
     assert any(len(run) == TICKS for run in runs)
-    for one in runs:
+    around = list(drawn.around(runs[0]))
+    assert all(one.inputs[: TICKS - max(BACK)] == runs[0].inputs[: TICKS - max(BACK)] for one in around)
+    assert len(set(map(repr, around))) > 1
+    for one in (*runs, *around):
         at = {**system.init, **one.frozen}
         for inputs in one.inputs:
             assert admissible(system, at, inputs)
