@@ -25,9 +25,9 @@ from spec_model.lang.walk import variables
 
 MOST = 20_000_000_000
 """Numbers that are computed at most: about a minute."""
-CALLS = 5_000_000
+CALLS = 20_000_000
 """Columns that are computed at most."""
-ROWS = 1 << 16
+ROWS = 1 << 14
 """Valuations in a column."""
 
 Column = NDArray[np.int64]
@@ -54,26 +54,27 @@ def swept(asked: Question, diagram: Diagram) -> Accepted | Rejected | TooMuch:
         initial |= dict(zip((v.name for v in asked.tick.frozen), frozen, strict=True))
         if initial not in diagram:
             return Rejected("initiation", told(asked.state, initial))
+    formulas = Formulas(asked.tick.inputs, asked.tick.assume, asked.tick.next)
     member = partial(contained, diagram.root, levels(diagram, domains))
     for at in unfolded(diagram.root, levels(diagram, domains)):
-        broken = _broken(asked, member, at)
+        broken = _broken(asked, formulas, member, at)
         if broken is not None:
             return broken
     return Accepted(f"{size:,} valuations and {choices:,} vectors of inputs tried")
 
 
-def _broken(asked: Question, member: Member, at: Columns) -> Rejected | None:
+def _broken(asked: Question, formulas: "Formulas", member: Member, at: Columns) -> Rejected | None:
     """What is wrong with the ticks from some valuations."""
     names = [v.name for v in asked.tick.inputs]
+    rows = len(next(iter(at.values())))
+    of_state = formulas.of_state(at)
     for inputs in product(*(v.domain.values for v in asked.tick.inputs)):
-        given = dict(zip(names, (np.array(i) for i in inputs), strict=True))
-        known: dict[int, Column] = {}
-        here = {**at, **given}
-        rows = len(next(iter(at.values())))
+        here = {**at, **dict(zip(names, (np.array(i) for i in inputs), strict=True))}
+        assumed, after = formulas(here, of_state)
         allowed = np.ones(rows, dtype=bool)
-        for part in asked.tick.assume:
-            allowed &= column(part, here, known) != 0
-        after = {n: np.broadcast_to(column(e, here, known), rows) for n, e in asked.tick.next.items()}
+        for part in assumed:
+            allowed &= part != 0
+        after = {n: np.broadcast_to(c, rows) for n, c in after.items()}
         wrong = _wrong(asked, member, {**at, **after})
         for obligation, bad in wrong.items():
             found = np.flatnonzero(allowed & bad)
@@ -189,12 +190,46 @@ def _next(edges: Column, numbers: Column, values: Column) -> Column:
 # --- formulas ------------------------------------------------------------------------------------
 
 
-def column(expr: Expr, at: Columns, known: dict[int, Column]) -> Column:
-    """The raw values of a formula in every row; ``known`` remembers those of its parts, by ``id``."""
-    for node in postorder(expr):
-        if id(node) not in known:
-            known[id(node)] = _node(node, at, known)
-    return known[id(expr)]
+class Formulas:
+    """The assumption and the next values as columns.
+
+    What no input changes is computed once for all vectors of inputs.
+    """
+
+    def __init__(self, inputs: Sequence[Var], assume: Sequence[Expr], following: Mapping[str, Expr]) -> None:
+        self._assume, self._next = assume, following
+        names, moved = {v.name for v in inputs}, set[int]()
+        nodes = list(postorder(*assume, *following.values()))
+        for node in nodes:
+            of_input = isinstance(node, Var) and node.name in names
+            if of_input or any(id(inner) in moved for inner in _inside_of(node)):
+                moved.add(id(node))
+        self._still = [node for node in nodes if id(node) not in moved]
+        self._moved = [node for node in nodes if id(node) in moved]
+
+    def of_state(self, at: Columns) -> dict[int, Column]:
+        """The columns of all that depends on no input, by ``id``."""
+        return _columns(self._still, at, {})
+
+    def __call__(self, at: Columns, known: Mapping[int, Column]) -> tuple[list[Column], dict[str, Column]]:
+        """The conjuncts of the assumption, and the next values; ``known`` is what ``of_state`` gives."""
+        found = _columns(self._moved, at, dict(known))
+        return [found[id(e)] for e in self._assume], {n: found[id(e)] for n, e in self._next.items()}
+
+
+def _columns(nodes: Sequence[Expr], at: Columns, known: dict[int, Column]) -> dict[int, Column]:
+    for node in nodes:
+        known[id(node)] = _node(node, at, known)
+    return known
+
+
+def _inside_of(node: Expr) -> Sequence[Expr]:
+    match node:
+        case Named(_, body):
+            return (body,)
+        case Apply(_, args, _):
+            return args
+    return ()
 
 
 def _node(node: Expr, at: Columns, known: Mapping[int, Column]) -> Column:
