@@ -2,9 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import Any
 
-from checker.certify.diagram import Diagram, Node
+import numpy as np
+from numpy.typing import NDArray
+
+from checker.certify.diagram import Column, Diagram, Node, Nodes, levels
 from checker.certify.invariant import Conjuncts, Invariant, conjuncts
 from checker.certify.question import Question, question
 from checker.certify.reduction import diagram
@@ -16,6 +20,7 @@ from checker.diagram import Diagram as Bits
 from checker.diagram import formula
 from checker.slice import sliced
 from checker.verdict import Answer, Evidence, Exhausted, Inductive, Unreachable
+from spec_model.lang.domain import Domain
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables
@@ -159,13 +164,13 @@ def certificate(found: Any) -> Certificate:
             _text(found["engine"]),
             {name: _number(number) for name, number in found["found"].items()},
         )
-    except (KeyError, TypeError, ValueError, AttributeError, IndexError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError, IndexError, OverflowError) as error:
         raise Malformed(f"{type(error).__name__} {error} in the certificate") from error
 
 
 def _read(found: Any) -> Invariant:
     if "nodes" in found:
-        nodes = tuple(_node(_numbers(n)) for n in found["nodes"])
+        nodes = Nodes.of(_node(_numbers(n)) for n in found["nodes"])
         return Diagram(_strings(found["variables"]), nodes, _number(found["root"]))
     if not isinstance(found["simple"], bool):
         raise Malformed("simple must be true or false")
@@ -217,16 +222,32 @@ def _diagram(found: Diagram, asked: Question) -> None:
     domains = {v.name: v.domain for v in asked.state}
     if not set(found.variables) <= domains.keys() or len(set(found.variables)) < len(found.variables):
         raise Malformed("the diagram asks for a variable twice, or for one that is not in the question")
-    level = [len(found.variables)]
-    for number, node in enumerate(found.nodes, 1):
-        if not 0 <= node.variable < len(found.variables):
-            raise Malformed(f"node {number} asks for variable {node.variable}, which does not exist")
-        domain, last = domains[found.variables[node.variable]], None
-        for low, high, to in node.edges:
-            orderly = domain.low <= low <= high <= domain.high and (last is None or last < low)
-            if not (orderly and 0 <= to < number and level[to] > node.variable):
-                raise Malformed(f"node {number} has an edge {low}..{high} to {to} that cannot be")
-            last = high
-        level.append(node.variable)
-    if not 0 <= found.root <= len(found.nodes):
+    nodes = found.nodes
+    known = (nodes.variable >= 0) & (nodes.variable < len(found.variables))
+    if not known.all():
+        at = int(np.flatnonzero(~known)[0])
+        raise Malformed(f"node {at + 1} asks for variable {nodes.variable[at]}, which does not exist")
+    if len(nodes.to) and not (fine := _orderly(found, domains)).all():
+        low, high, to, owner = (c[np.flatnonzero(~fine)[0]] for c in _edges(nodes))
+        raise Malformed(f"node {owner + 1} has an edge {low}..{high} to {to} that cannot be")
+    if not 0 <= found.root <= len(nodes):
         raise Malformed(f"there is no node {found.root} to begin with")
+
+
+def _edges(nodes: Nodes) -> tuple[Column, ...]:
+    return nodes.low, nodes.high, nodes.to, nodes.owner
+
+
+def _orderly(found: Diagram, domains: Mapping[str, Domain]) -> NDArray[np.bool_]:
+    """Which edges have values of the domain, more than the edge before, and lead to a node after theirs."""
+    low, high, to, owner = _edges(found.nodes)
+    asking = found.nodes.variable[owner]
+    least, most = (
+        np.array([end(domains[name]) for name in found.variables])[asking]
+        for end in (attrgetter("low"), attrgetter("high"))
+    )
+    before = (to >= 0) & (to <= owner)
+    after = levels(found)[np.where(before, to, 0)] > asking
+    ascending = np.ones(len(low), dtype=np.bool_)
+    ascending[1:] = (owner[1:] != owner[:-1]) | (low[1:] > high[:-1])
+    return (least <= low) & (low <= high) & (high <= most) & before & after & ascending

@@ -8,15 +8,21 @@ path, and two nodes with the same edges are one: the diagram of a set in an orde
 """
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import islice
 from math import prod
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import NDArray
 
 from spec_model.lang.domain import Domain
 
 TRUE = 0
 """The number of the node at which a path of the set ends."""
 
+Column = NDArray[Any]
 Edge = tuple[int, int, int]
 """Lowest value, highest value, number of the node it leads to."""
 
@@ -29,6 +35,59 @@ class Node:
     edges: tuple[Edge, ...]
 
 
+@dataclass(frozen=True, eq=False)
+class Nodes(Sequence[Node]):
+    """Nodes as columns, for there may be millions: number i is at place i - 1.
+
+    ``variable`` has a place for each node, ``owner`` (the place of the node), ``low``, ``high`` and ``to``
+    one for each edge, node after node.
+    """
+
+    variable: Column
+    owner: Column
+    low: Column
+    high: Column
+    to: Column
+
+    @classmethod
+    def of(cls, nodes: Iterable[Node]) -> "Nodes":
+        """The same nodes.  Raises ``OverflowError`` for a number of more than 64 bits."""
+        if isinstance(nodes, Nodes):
+            return nodes
+        nodes = tuple(nodes)
+        edges = np.array([edge for node in nodes for edge in node.edges], dtype=np.int64).reshape(-1, 3)
+        owner = np.repeat(np.arange(len(nodes)), [len(node.edges) for node in nodes])
+        return cls(np.array([n.variable for n in nodes], dtype=np.int64), owner, *edges.T)
+
+    @overload
+    def __getitem__(self, at: int) -> Node: ...
+    @overload
+    def __getitem__(self, at: slice) -> tuple[Node, ...]: ...
+    def __getitem__(self, at: int | slice) -> Node | tuple[Node, ...]:
+        if isinstance(at, slice):
+            return tuple(self)[at]
+        first, last = np.searchsorted(self.owner, at), np.searchsorted(self.owner, at, "right")
+        columns = (column[first:last].tolist() for column in (self.low, self.high, self.to))
+        return Node(int(self.variable[at]), tuple(zip(*columns, strict=True)))
+
+    def __len__(self) -> int:
+        return len(self.variable)
+
+    def __iter__(self) -> Iterator[Node]:
+        edges = zip(self.low.tolist(), self.high.tolist(), self.to.tolist(), strict=True)
+        sizes = np.bincount(self.owner, minlength=len(self)).tolist()
+        return (Node(v, tuple(islice(edges, n))) for v, n in zip(self.variable.tolist(), sizes, strict=True))
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Nodes) and all(map(np.array_equal, self._columns, other._columns))
+
+    __hash__ = None  # type: ignore[assignment]
+
+    @property
+    def _columns(self) -> tuple[Column, ...]:
+        return self.variable, self.owner, self.low, self.high, self.to
+
+
 @dataclass(frozen=True)
 class Diagram:
     """A set of valuations of ``variables``, asked in this order.
@@ -38,7 +97,7 @@ class Diagram:
     """
 
     variables: tuple[str, ...]
-    nodes: tuple[Node, ...]
+    nodes: Nodes
     root: int
 
     def __contains__(self, valuation: Mapping[str, int]) -> bool:
@@ -56,11 +115,41 @@ class Diagram:
 
 def size(diagram: Diagram) -> int:
     """The number of nodes and edges."""
-    return len(diagram.nodes) + sum(len(node.edges) for node in diagram.nodes)
+    return len(diagram.nodes) + len(diagram.nodes.to)
 
 
 def count(diagram: Diagram, domains: Sequence[Domain]) -> int:
     """How many valuations belong to the set, the variables having these domains."""
+    nodes, sizes = diagram.nodes, [len(domain) for domain in domains]
+    level = levels(diagram)
+    total = np.ones(len(nodes) + 1)
+    by_variable = np.argsort(nodes.variable[nodes.owner], kind="stable")
+    ends = np.searchsorted(nodes.variable[nodes.owner][by_variable], np.arange(len(sizes) + 1))
+    for position in reversed(range(len(sizes))):
+        edges = by_variable[ends[position] : ends[position + 1]]
+        values = np.array(domains[position].values)
+        first = np.searchsorted(values, nodes.low[edges])
+        within = np.searchsorted(values, nodes.high[edges], "right") - first
+        skipped = np.cumprod([1.0, *sizes[position + 1 :]])[level[nodes.to[edges]] - position - 1]
+        found = np.bincount(nodes.owner[edges], within * total[nodes.to[edges]] * skipped, len(nodes))
+        own = nodes.variable == position
+        total[1:][own] = found[own]
+    if total.max() < EXACT:
+        return int(total[diagram.root]) * prod(sizes[: level[diagram.root]])
+    return counted(diagram, domains)
+
+
+EXACT = 2.0**53
+"""Whole numbers below this are exact as floating-point numbers."""
+
+
+def levels(diagram: Diagram) -> Column:
+    """The position of the variable that each node asks, by number; after all others for the end."""
+    return np.concatenate([[len(diagram.variables)], diagram.nodes.variable])
+
+
+def counted(diagram: Diagram, domains: Sequence[Domain]) -> int:
+    """The same with numbers of any size."""
     sizes = [len(domain) for domain in domains]
     total, level = [1], [len(domains)]
     for node in diagram.nodes:

@@ -2,13 +2,12 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from itertools import islice
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.certify.diagram import TRUE, Diagram, Node
+from checker.certify.diagram import TRUE, Diagram, Nodes
 from checker.closed import ClosedSet, Place
 
 Codes = NDArray[np.signedinteger[Any]]
@@ -21,7 +20,7 @@ LARGE = 1 << 20
 def diagram(closed: ClosedSet) -> Diagram:
     """The diagram of the set in that one of a few orders of its variables in which it is smallest."""
     if not closed.places:  # the goals depend on inputs alone
-        return Diagram((), (), TRUE)
+        return Diagram((), Nodes.of(()), TRUE)
     codes = [_codes(place, closed.words) for place in closed.places]
     found = (
         reduced([closed.places[i] for i in order], [codes[i] for i in order]) for order in _orders(codes)
@@ -51,40 +50,40 @@ def _codes(place: Place, words: Words) -> Codes:
 
 
 @dataclass(frozen=True)
-class Nodes:
+class Level:
     """The nodes of one variable: the ends of their edges and where these lead, node after node.
 
     ``sizes`` are the numbers of edges of each node.
     """
 
-    level: int
+    position: int
     sizes: Codes
     low: Codes
     high: Codes
     to: Codes
 
-    def __iter__(self) -> Iterator[Node]:
-        edges = zip(self.low.tolist(), self.high.tolist(), self.to.tolist(), strict=True)
-        return (Node(self.level, tuple(islice(edges, size))) for size in self.sizes.tolist())
-
 
 @dataclass(frozen=True)
 class Reduced:
-    """A diagram as columns: from them it is made in a moment, and compared with others before that."""
+    """The levels of a diagram, the last variable first."""
 
     places: tuple[Place, ...]
-    nodes: tuple[Nodes, ...]
+    levels: tuple[Level, ...]
     root: int
 
     @property
     def size(self) -> int:
         """The number of nodes and edges."""
-        return sum(len(n.sizes) + len(n.to) for n in self.nodes)
+        return sum(len(level.sizes) + len(level.to) for level in self.levels)
 
     @property
     def diagram(self) -> Diagram:
         """The diagram."""
-        nodes = tuple(node for some in self.nodes for node in some)
+        sizes = np.concatenate([level.sizes for level in self.levels])
+        variable = np.repeat([n.position for n in self.levels], [len(n.sizes) for n in self.levels])
+        owner = np.repeat(np.arange(len(sizes)), sizes)
+        edges = (np.concatenate(c) for c in zip(*((n.low, n.high, n.to) for n in self.levels), strict=True))
+        nodes = Nodes(variable, owner, *edges)
         return Diagram(tuple(p.var.name for p in self.places), nodes, self.root)
 
 
@@ -94,7 +93,7 @@ def reduced(places: Sequence[Place], codes: Sequence[Codes]) -> Reduced:
     columns = [column[order] for column in codes]
     changed = _first_difference(columns)
     child = np.zeros(len(order), dtype=np.int64)
-    made: list[Nodes] = []
+    made: list[Level] = []
     known = 0
     for level in reversed(range(len(places))):
         starts = np.flatnonzero(changed < level)
@@ -118,7 +117,7 @@ def _first_difference(columns: Sequence[Codes]) -> NDArray[np.int32]:
 
 def _level(
     place: Place, level: int, values: Codes, child: Codes, starts: Codes, known: int
-) -> tuple[Codes, Nodes]:
+) -> tuple[Codes, Level]:
     """The node of each group of rows that begins at ``starts``, and the nodes that are new.
 
     Groups with the same values and children share a node; none is needed where every value leads to the same
@@ -142,7 +141,7 @@ def _level(
     kept = needed[owner]
     made = np.where(needed, known + np.cumsum(needed), to[begins])
     count = np.bincount(owner, minlength=len(sizes))[needed]
-    return made[numbers], Nodes(level, count, low[edges][kept], low[ends][kept], to[edges][kept])
+    return made[numbers], Level(level, count, low[edges][kept], low[ends][kept], to[edges][kept])
 
 
 def _rows(starts: Codes, sizes: Codes) -> tuple[Codes, Codes]:

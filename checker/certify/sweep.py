@@ -4,9 +4,8 @@ The formulas of a tick are evaluated on columns of numbers.  Neither the printin
 is trusted, nor anything of the engine: the set is unfolded from its diagram.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
 from itertools import product
 from math import prod
 from typing import Any
@@ -14,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.certify.diagram import TRUE, Diagram, count
+from checker.certify.diagram import Diagram, count
 from checker.certify.outcome import Accepted, Rejected, TooMuch, told
 from checker.certify.question import Question
 from checker.encode.intervals import intervals, postorder
@@ -29,6 +28,8 @@ CALLS = 20_000_000
 """Columns that are computed at most."""
 ROWS = 1 << 14
 """Valuations in a column."""
+FIRST_BITS, BITS = 63, 32
+"""Bits of the first word of a row, and of the others, beside which the number of all before has room."""
 
 Column = NDArray[np.int64]
 Columns = Mapping[str, Column]
@@ -55,9 +56,10 @@ def swept(asked: Question, diagram: Diagram) -> Accepted | Rejected | TooMuch:
         if initial not in diagram:
             return Rejected("initiation", told(asked.state, initial))
     formulas = Formulas(asked.tick.inputs, asked.tick.assume, asked.tick.next)
-    member = partial(contained, diagram.root, levels(diagram, domains))
-    for at in unfolded(diagram.root, levels(diagram, domains)):
-        broken = _broken(asked, formulas, member, at)
+    rows = Rows([domains[n] for n in diagram.variables], diagram.variables)
+    rows.keep(unfolded(diagram.root, levels(diagram, domains)))
+    for at in rows:
+        broken = _broken(asked, formulas, rows.contain, at)
         if broken is not None:
             return broken
     return Accepted(f"{size:,} valuations and {choices:,} vectors of inputs tried")
@@ -121,12 +123,12 @@ class Level:
 
 def levels(diagram: Diagram, domains: Mapping[str, Domain]) -> list[Level]:
     """The levels of a diagram, from the first variable to the last."""
-    edges: list[list[tuple[int, int, int, int]]] = [[] for _ in diagram.variables]
-    for number, node in enumerate(diagram.nodes, 1):
-        edges[node.variable] += ((number, *edge) for edge in node.edges)
+    nodes = diagram.nodes
+    edges = np.stack([nodes.owner + 1, nodes.low, nodes.high, nodes.to], axis=1)
+    asking = nodes.variable[nodes.owner]
     return [
-        _level(name, np.array(rows, dtype=np.int64).reshape(len(rows), 4), domains[name])
-        for name, rows in zip(diagram.variables, edges, strict=True)
+        _level(name, edges[asking == position], domains[name])
+        for position, name in enumerate(diagram.variables)
     ]
 
 
@@ -165,26 +167,64 @@ def _unfolded(numbers: Column, asked: Sequence[Level], done: tuple[Column, ...])
 _NONE: Column = np.zeros((1, 3), dtype=np.int64)
 
 
-def contained(root: int, asked: Sequence[Level], at: Columns) -> NDArray[np.bool_]:
-    """Which rows belong to the set."""
-    numbers = np.full(len(next(iter(at.values()))), root)
-    for level in asked:
-        asking = np.flatnonzero(np.isin(numbers, level.edges[:, 0]))
-        numbers[asking] = _next(level.edges, numbers[asking], at[level.name][asking])
-    return np.asarray(numbers == TRUE)
+class Rows:
+    """Valuations packed into words, among which others are looked up.
 
+    The code of a value is its place in the domain.  Each variable has its bits in one of the words; those
+    after the first are looked up together with the number of all words before.
+    """
 
-def _next(edges: Column, numbers: Column, values: Column) -> Column:
-    """Where the edges of each row's node lead with its value; -1 for nowhere.  Edges are in order."""
-    if not len(numbers):
-        return numbers
-    least = min(int(edges[:, 1].min()), int(values.min(initial=0)))
-    span = max(int(edges[:, 2].max()), int(values.max(initial=0))) - least + 1
-    keys = edges[:, 0] * span + edges[:, 1] - least
-    found = np.searchsorted(keys, numbers * span + values - least, "right") - 1
-    edge = edges[np.maximum(found, 0)]
-    hit = (found >= 0) & (edge[:, 0] == numbers) & (edge[:, 1] <= values) & (values <= edge[:, 2])
-    return np.where(hit, edge[:, 3], -1)
+    def __init__(self, domains: Sequence[Domain], names: Sequence[str]) -> None:
+        self._columns = [
+            (name, np.array(d.values, dtype=np.int64)) for name, d in zip(names, domains, strict=True)
+        ]
+        self._at: list[tuple[int, int]] = []
+        word, used = 0, 0
+        for _, values in self._columns:
+            bits = (len(values) - 1).bit_length()
+            if used + bits > (BITS if word else FIRST_BITS):
+                word, used = word + 1, 0
+            self._at.append((word, used))
+            used += bits
+        self._words: Column = np.zeros((word + 1, 0), dtype=np.int64)
+        self._known: list[Column] = []
+
+    def keep(self, found: Iterable[Columns]) -> None:
+        """Remember these."""
+        self._words = np.concatenate([self._packed(at)[0] for at in found], axis=1)
+        self._known = []
+        number: Column = np.zeros(self._words.shape[1], dtype=np.int64)
+        for word in self._words:
+            known, number = np.unique(number << BITS | word, return_inverse=True)
+            self._known.append(known)
+
+    def __iter__(self) -> Iterator[Columns]:
+        for first in range(0, self._words.shape[1], ROWS):
+            words = self._words[:, first : first + ROWS]
+            yield {
+                name: values[words[word] >> shift & (1 << (len(values) - 1).bit_length()) - 1]
+                for (name, values), (word, shift) in zip(self._columns, self._at, strict=True)
+            }
+
+    def contain(self, at: Columns) -> NDArray[np.bool_]:
+        """Which rows are among these."""
+        words, found = self._packed(at)
+        number: Column = np.zeros(len(found), dtype=np.int64)
+        for known, word in zip(self._known, words, strict=True):
+            wanted = number << BITS | word
+            number = np.minimum(np.searchsorted(known, wanted), len(known) - 1)
+            found &= known[number] == wanted
+        return found
+
+    def _packed(self, at: Columns) -> tuple[Column, NDArray[np.bool_]]:
+        """The words of some rows, and which of them have values of the domains only."""
+        rows = len(at[self._columns[0][0]])
+        words, within = np.zeros((self._at[-1][0] + 1, rows), dtype=np.int64), np.ones(rows, dtype=np.bool_)
+        for (name, values), (word, shift) in zip(self._columns, self._at, strict=True):
+            code = np.minimum(np.searchsorted(values, at[name]), len(values) - 1)
+            within &= values[code] == at[name]
+            words[word] |= code << shift
+        return words, within
 
 
 # --- formulas ------------------------------------------------------------------------------------

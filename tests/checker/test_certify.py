@@ -9,7 +9,7 @@ from hypothesis.strategies import DataObject
 
 from checker.certify.certificate import Certificate, certificate, certificates, document
 from checker.certify.check import check
-from checker.certify.diagram import Diagram, Node
+from checker.certify.diagram import Diagram, Node, Nodes
 from checker.certify.outcome import Accepted, Rejected
 from checker.certify.reduction import diagram
 from checker.closed import ClosedSet
@@ -141,7 +141,7 @@ def test_a_changed_diagram_is_accepted_only_if_it_is_inductive(
         case "lengthen":
             edges[which] = low, high + 1, to
     nodes = (*found.nodes[:at], Node(found.nodes[at].variable, tuple(edges)), *found.nodes[at + 1 :])
-    forged = replace(one, invariant=replace(found, nodes=nodes))
+    forged = replace(one, invariant=replace(found, nodes=Nodes.of(nodes)))
     outcome = check(forged, system, BOTH)
     try:
         really = inductive(forged, system)

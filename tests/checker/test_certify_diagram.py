@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
 from checker.certify import reduction
-from checker.certify.diagram import Diagram, count, members
+from checker.certify.diagram import Diagram, Nodes, count, members
 from checker.closed import ClosedSet, Place
 from spec_model.lang.expr import Var
 from tests.certifying import closed_set
@@ -88,6 +88,6 @@ def test_a_large_set_of_few_shapes_is_a_small_diagram() -> None:
     count_ = Var("count", DOMAINS[3], 0)
     rows = np.arange(4**9, dtype=np.uint64).reshape(-1, 1)
     places = tuple(Place(Var(f"x{i}", count_.domain, 0), 0, 2 * i, 2, 1, 0) for i in range(9))
-    assert reduction.diagram(ClosedSet(places, rows)).nodes == ()
+    assert reduction.diagram(ClosedSet(places, rows)).nodes == Nodes.of(())
     odd = reduction.diagram(ClosedSet(places, rows[rows[:, 0] % 4 == 3]))
     assert len(odd.nodes) == 1

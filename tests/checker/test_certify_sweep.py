@@ -9,16 +9,17 @@ from hypothesis import strategies as st
 from hypothesis.strategies import DataObject
 
 import checker.certify.check as checking
-from checker.certify import enumeration
+from checker.certify import diagram as diagrams
+from checker.certify import enumeration, sweep
 from checker.certify.certificate import Certificate
 from checker.certify.check import check
 from checker.certify.diagram import TRUE as END
-from checker.certify.diagram import Diagram, Node
+from checker.certify.diagram import Diagram, Node, Nodes
 from checker.certify.enumeration import enumerated
 from checker.certify.outcome import Accepted, Rejected, TooMuch
 from checker.certify.question import question
 from checker.certify.reduction import diagram
-from checker.certify.sweep import OPERATORS, Formulas, contained, levels, swept, unfolded
+from checker.certify.sweep import OPERATORS, Formulas, Rows, levels, swept, unfolded
 from checker.certify.tick import executed
 from spec_model.lang.evaluate import step
 from spec_model.lang.expr import Var
@@ -44,7 +45,7 @@ def test_sweeping_and_enumerating_agree(
         node = found.nodes[at]
         edges = [(low, high, data.draw(st.sampled_from([to, END]))) for low, high, to in node.edges]
         nodes = (*found.nodes[:at], Node(node.variable, tuple(edges)), *found.nodes[at + 1 :])
-        found = replace(found, nodes=nodes)
+        found = replace(found, nodes=Nodes.of(nodes))
     asked = question(executed(system), one.claims, one.kept, one.about)
     slow, fast = enumerated(system, asked, found), swept(asked, found)
     assume(not isinstance(slow, TooMuch) and not isinstance(fast, TooMuch))
@@ -65,19 +66,41 @@ def test_columns_mean_what_the_reference_means(system: TransitionSystem, data: D
         assert np.broadcast_to(found, 3).tolist() == expected
 
 
-@given(sets(), st.data())
-def test_unfolding_a_diagram_gives_its_set(
-    drawn: tuple[tuple[Var, ...], set[tuple[int, ...]]], data: DataObject
-) -> None:
-    variables, rows = drawn
+Valuations = set[tuple[int, ...]]
+
+
+def of(variables: tuple[Var, ...], rows: Valuations) -> Diagram:
     names = [v.name for v in variables]
-    found = diagram(closed_set(variables, [dict(zip(names, r, strict=True)) for r in rows]))
-    asked = levels(found, {v.name: v.domain for v in variables})
-    parts = [np.stack([part[n] for n in names], axis=1) for part in unfolded(found.root, asked)]
-    assert sorted(map(tuple, np.concatenate(parts).tolist())) == sorted(rows)
+    return diagram(closed_set(variables, [dict(zip(names, r, strict=True)) for r in rows]))
+
+
+@given(sets(), st.booleans())
+def test_unfolding_a_diagram_gives_its_set(drawn: tuple[tuple[Var, ...], Valuations], narrow: bool) -> None:
+    """Also in words of few bits, so that rows are looked up word by word."""
+    variables, rows = drawn
+    names, found = [v.name for v in variables], of(variables, rows)
+    domains = {v.name: v.domain for v in variables}
     others = list(vectors(variables))
-    columns_ = {n: np.array([at[n] for at in others]) for n in names}
-    assert contained(found.root, asked, columns_).tolist() == [tuple(at.values()) in rows for at in others]
+    columns = {n: np.array([at[n] for at in others]) for n in names}
+    beyond = {names[0]: np.array([variables[0].domain.high + 1])}
+    with pytest.MonkeyPatch.context() as patch:
+        if narrow:
+            patch.setattr(sweep, "FIRST_BITS", 8)
+            patch.setattr(sweep, "BITS", 8)
+        kept = Rows([domains[n] for n in found.variables], found.variables)
+        kept.keep(unfolded(found.root, levels(found, domains)))
+        parts = [np.stack([part[n] for n in names], axis=1) for part in kept]
+        assert sorted(map(tuple, np.concatenate(parts).tolist())) == sorted(rows)
+        assert kept.contain(columns).tolist() == [tuple(at.values()) in rows for at in others]
+        assert kept.contain({n: c[:1] for n, c in columns.items()} | beyond).tolist() == [False]
+
+
+@given(sets())
+def test_valuations_are_counted_alike_in_either_way(drawn: tuple[tuple[Var, ...], Valuations]) -> None:
+    variables, rows = drawn
+    found, domains = of(variables, rows), {v.name: v.domain for v in variables}
+    asked = [domains[name] for name in found.variables]
+    assert diagrams.count(found, asked) == diagrams.counted(found, asked) == len(rows)
 
 
 def test_every_operator_is_evaluated_on_columns() -> None:
@@ -91,7 +114,7 @@ def test_a_large_diagram_is_swept() -> None:
         patch.setattr(checking, "LARGE", 0)
         patch.setattr(enumeration, "MOST", 0)
         assert check(one, system, BOTH) == Accepted("4 valuations and 1 vectors of inputs tried")
-        lost = replace(one, invariant=Diagram(("count",), (Node(0, ((0, 2, 0),)),), 1))
+        lost = replace(one, invariant=Diagram(("count",), Nodes.of([Node(0, ((0, 2, 0),))]), 1))
         outcome = check(lost, system, BOTH)
         assert isinstance(outcome, Rejected) and outcome.obligation == "consecution"
         assert outcome.shown == "count = 2; after 1 ticks count = 3, bad = false"
