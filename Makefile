@@ -44,7 +44,7 @@ docs: $(STAMP)
 	@NO_MKDOCS_2_WARNING=1 $(RUN) -m mkdocs build --strict --quiet
 
 check-full: $(STAMP)
-	@$(RUN) -m checker check --strict --full --certify --memory 3 $(ARGS)
+	@$(RUN) -m checker check --strict --full --certify $(ARGS)
 
 check-repairs: $(STAMP)
 	@worst=0; for repair in $$($(RUN) -c 'from spec_model.repairs import proposals; print(*proposals())'); do \

@@ -56,7 +56,7 @@ def tasks(properties: Sequence[Property], systems: Mapping[str, System]) -> Iter
 def _together(question: Question) -> list[list[Property]]:
     """Properties to search together: not too many, whose monitors have few values between them.
 
-    Of a driven system any: what monitors remember then follows from the few things that were chosen.
+    Of a driven system any: what monitors remember follows from what was chosen as well.
     """
     values = {v.name: len(v.domain) for v in question.system.variables}
     few = math.inf if driven(question.system) else FEW

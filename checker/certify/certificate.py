@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.certify.diagram import Column, Diagram, Node, Nodes, levels
+from checker.certify.diagram import Column, Diagram, Node, Nodes, positions
 from checker.certify.invariant import Conjuncts, Invariant, conjuncts
 from checker.certify.question import Question, question
 from checker.certify.reduction import diagram
@@ -247,7 +247,7 @@ def _orderly(found: Diagram, domains: Mapping[str, Domain]) -> NDArray[np.bool_]
         for end in (attrgetter("low"), attrgetter("high"))
     )
     before = (to >= 0) & (to <= owner)
-    after = levels(found)[np.where(before, to, 0)] > asking
+    after = positions(found)[np.where(before, to, 0)] > asking
     ascending = np.ones(len(low), dtype=np.bool_)
     ascending[1:] = (owner[1:] != owner[:-1]) | (low[1:] > high[:-1])
     return (least <= low) & (low <= high) & (high <= most) & before & after & ascending

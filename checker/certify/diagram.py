@@ -121,7 +121,7 @@ def size(diagram: Diagram) -> int:
 def count(diagram: Diagram, domains: Sequence[Domain]) -> int:
     """How many valuations belong to the set, the variables having these domains."""
     nodes, sizes = diagram.nodes, [len(domain) for domain in domains]
-    level = levels(diagram)
+    level = positions(diagram)
     total = np.ones(len(nodes) + 1)
     by_variable = np.argsort(nodes.variable[nodes.owner], kind="stable")
     ends = np.searchsorted(nodes.variable[nodes.owner][by_variable], np.arange(len(sizes) + 1))
@@ -143,7 +143,7 @@ EXACT = 2.0**53
 """Whole numbers below this are exact as floating-point numbers."""
 
 
-def levels(diagram: Diagram) -> Column:
+def positions(diagram: Diagram) -> Column:
     """The position of the variable that each node asks, by number; after all others for the end."""
     return np.concatenate([[len(diagram.variables)], diagram.nodes.variable])
 

@@ -14,7 +14,7 @@ Codes = NDArray[np.signedinteger[Any]]
 Words = NDArray[np.uint64]
 
 LARGE = 1 << 20
-"""Valuations from which on fewer orders are tried."""
+"""Valuations from which on one order is tried."""
 
 
 def diagram(closed: ClosedSet) -> Diagram:
@@ -31,15 +31,15 @@ def diagram(closed: ClosedSet) -> Diagram:
 def _orders(codes: Sequence[Codes]) -> Iterator[list[int]]:
     """As declared, those with many values first, those with few values first, and backwards.
 
-    For a large set two of them must do.
+    For a large set the first must do.
     """
     everyone = list(range(len(codes)))
     values = [int(column.max(initial=0)) for column in codes]
     few_first = sorted(everyone, key=lambda i: values[i])
     many_first = sorted(everyone, key=lambda i: -values[i])
     yield everyone
-    yield many_first
     if len(codes[0]) <= LARGE:
+        yield many_first
         yield few_first
         yield everyone[::-1]
 

@@ -4,7 +4,7 @@ The formulas of a tick are evaluated on columns of numbers.  Neither the printin
 is trusted, nor anything of the engine: the set is unfolded from its diagram.
 """
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import prod
@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.certify.diagram import Diagram, count
+from checker.certify.diagram import Diagram, count, positions
 from checker.certify.outcome import Accepted, Rejected, TooMuch, told
 from checker.certify.question import Question
 from checker.encode.intervals import intervals, postorder
@@ -28,6 +28,8 @@ CALLS = 20_000_000
 """Columns that are computed at most."""
 ROWS = 1 << 14
 """Valuations in a column."""
+TOGETHER = 1 << 20
+"""Valuations that are unfolded together."""
 FIRST_BITS, BITS = 63, 32
 """Bits of the first word of a row, and of the others, beside which the number of all before has room."""
 
@@ -56,8 +58,7 @@ def swept(asked: Question, diagram: Diagram) -> Accepted | Rejected | TooMuch:
         if initial not in diagram:
             return Rejected("initiation", told(asked.state, initial))
     formulas = Formulas(asked.tick.inputs, asked.tick.assume, asked.tick.next)
-    rows = Rows([domains[n] for n in diagram.variables], diagram.variables)
-    rows.keep(unfolded(diagram.root, levels(diagram, domains)))
+    rows = Rows(diagram, domains)
     for at in rows:
         broken = _broken(asked, formulas, rows.contain, at)
         if broken is not None:
@@ -108,76 +109,16 @@ def _inside(domain: Domain, values: Column) -> NDArray[np.bool_]:
 # --- the set -------------------------------------------------------------------------------------
 
 
-@dataclass(frozen=True)
-class Level:
-    """What a diagram asks of one variable, as tables sorted by node.
-
-    ``edges`` has rows of node, low, high, to; ``pairs`` of node, value, to; ``values`` are the domain.
-    """
-
-    name: str
-    edges: Column
-    pairs: Column
-    values: Column
-
-
-def levels(diagram: Diagram, domains: Mapping[str, Domain]) -> list[Level]:
-    """The levels of a diagram, from the first variable to the last."""
-    nodes = diagram.nodes
-    edges = np.stack([nodes.owner + 1, nodes.low, nodes.high, nodes.to], axis=1)
-    asking = nodes.variable[nodes.owner]
-    return [
-        _level(name, edges[asking == position], domains[name])
-        for position, name in enumerate(diagram.variables)
-    ]
-
-
-def _level(name: str, edges: Column, domain: Domain) -> Level:
-    sizes = edges[:, 2] - edges[:, 1] + 1
-    edge = np.repeat(np.arange(len(edges)), sizes)
-    values = edges[edge, 1] + np.arange(len(edge)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
-    pairs = np.stack([edges[edge, 0], values, edges[edge, 3]], axis=1)
-    return Level(name, edges, pairs[_inside(domain, values)], np.array(domain.values, dtype=np.int64))
-
-
-def unfolded(root: int, asked: Sequence[Level]) -> Iterator[Columns]:
-    """The valuations of the set, some of them at a time."""
-    yield from _unfolded(np.array([root]), asked, ())
-
-
-def _unfolded(numbers: Column, asked: Sequence[Level], done: tuple[Column, ...]) -> Iterator[Columns]:
-    """Those that begin with the rows of ``done``, each at the node that ``numbers`` says."""
-    if len(done) == len(asked):
-        yield dict(zip((level.name for level in asked), done, strict=True))
-        return
-    level = asked[len(done)]
-    first, last = (np.searchsorted(level.pairs[:, 0], numbers, side) for side in ("left", "right"))
-    free = ~np.isin(numbers, level.edges[:, 0])
-    sizes = np.where(free, len(level.values), last - first)
-    for part in np.array_split(np.arange(len(numbers)), int(sizes.sum()) // ROWS + 1):
-        rows = np.repeat(part, sizes[part])
-        if len(rows):
-            within = np.arange(len(rows)) - np.repeat(np.cumsum(sizes[part]) - sizes[part], sizes[part])
-            pairs = level.pairs[np.where(free[rows], 0, first[rows] + within)] if len(level.pairs) else _NONE
-            values = np.where(free[rows], level.values[np.where(free[rows], within, 0)], pairs[:, 1])
-            following = np.where(free[rows], numbers[rows], pairs[:, 2])
-            yield from _unfolded(following, asked, (*(c[rows] for c in done), values))
-
-
-_NONE: Column = np.zeros((1, 3), dtype=np.int64)
-
-
 class Rows:
-    """Valuations packed into words, among which others are looked up.
+    """The valuations of a diagram packed into words, among which others are looked up.
 
     The code of a value is its place in the domain.  Each variable has its bits in one of the words; those
     after the first are looked up together with the number of all words before.
     """
 
-    def __init__(self, domains: Sequence[Domain], names: Sequence[str]) -> None:
-        self._columns = [
-            (name, np.array(d.values, dtype=np.int64)) for name, d in zip(names, domains, strict=True)
-        ]
+    def __init__(self, diagram: Diagram, domains: Mapping[str, Domain]) -> None:
+        values_of = (np.array(domains[name].values, dtype=np.int64) for name in diagram.variables)
+        self._columns = list(zip(diagram.variables, values_of, strict=True))
         self._at: list[tuple[int, int]] = []
         word, used = 0, 0
         for _, values in self._columns:
@@ -186,19 +127,17 @@ class Rows:
                 word, used = word + 1, 0
             self._at.append((word, used))
             used += bits
-        self._words: Column = np.zeros((word + 1, 0), dtype=np.int64)
+        edges = self._edges(diagram)
+        root = np.array([diagram.root]), np.zeros((word + 1, 1), dtype=np.int64)
+        self._words: Column = np.concatenate(list(self._unfolded(edges, 0, *root)), axis=1)
         self._known: list[Column] = []
-
-    def keep(self, found: Iterable[Columns]) -> None:
-        """Remember these."""
-        self._words = np.concatenate([self._packed(at)[0] for at in found], axis=1)
-        self._known = []
         number: Column = np.zeros(self._words.shape[1], dtype=np.int64)
-        for word in self._words:
-            known, number = np.unique(number << BITS | word, return_inverse=True)
+        for column in self._words:
+            known, number = np.unique(number << BITS | column, return_inverse=True)
             self._known.append(known)
 
     def __iter__(self) -> Iterator[Columns]:
+        """The valuations, some of them at a time."""
         for first in range(0, self._words.shape[1], ROWS):
             words = self._words[:, first : first + ROWS]
             yield {
@@ -208,23 +147,72 @@ class Rows:
 
     def contain(self, at: Columns) -> NDArray[np.bool_]:
         """Which rows are among these."""
-        words, found = self._packed(at)
-        number: Column = np.zeros(len(found), dtype=np.int64)
-        for known, word in zip(self._known, words, strict=True):
-            wanted = number << BITS | word
+        rows = len(at[self._columns[0][0]])
+        words, found = np.zeros((len(self._known), rows), dtype=np.int64), np.ones(rows, dtype=np.bool_)
+        for (name, values), (word, shift) in zip(self._columns, self._at, strict=True):
+            code = _code(values, at[name])
+            found &= values[code] == at[name]
+            words[word] |= code << shift
+        number: Column = np.zeros(rows, dtype=np.int64)
+        for known, column in zip(self._known, words, strict=True):
+            wanted = number << BITS | column
             number = np.minimum(np.searchsorted(known, wanted), len(known) - 1)
             found &= known[number] == wanted
         return found
 
-    def _packed(self, at: Columns) -> tuple[Column, NDArray[np.bool_]]:
-        """The words of some rows, and which of them have values of the domains only."""
-        rows = len(at[self._columns[0][0]])
-        words, within = np.zeros((self._at[-1][0] + 1, rows), dtype=np.int64), np.ones(rows, dtype=np.bool_)
-        for (name, values), (word, shift) in zip(self._columns, self._at, strict=True):
-            code = np.minimum(np.searchsorted(values, at[name]), len(values) - 1)
-            within &= values[code] == at[name]
-            words[word] |= code << shift
-        return words, within
+    def _edges(self, diagram: Diagram) -> "Edges":
+        nodes = diagram.nodes
+        sizes = nodes.high - nodes.low + 1
+        edge = np.repeat(np.arange(len(sizes)), sizes)
+        value = nodes.low[edge] + np.arange(len(edge)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+        code, own = np.zeros(len(edge), dtype=np.int64), np.zeros(len(edge), dtype=np.bool_)
+        asking = nodes.variable[nodes.owner][edge]
+        for position, (_, values) in enumerate(self._columns):
+            here = np.flatnonzero(asking == position)
+            code[here] = _code(values, value[here])
+            own[here] = values[code[here]] == value[here]
+        owner = nodes.owner[edge][own] + 1
+        ends = np.searchsorted(owner, np.arange(len(nodes) + 2))
+        return Edges(positions(diagram), ends[:-1], ends[1:], code[own], nodes.to[edge][own])
+
+    def _unfolded(self, edges: "Edges", position: int, numbers: Column, words: Column) -> Iterator[Column]:
+        """The words that go on from those given, each at the node that ``numbers`` says."""
+        if position == len(self._columns):
+            yield words
+            return
+        (_, values), (word, shift) = self._columns[position], self._at[position]
+        free = edges.position[numbers] != position
+        sizes = np.where(free, len(values), edges.last[numbers] - edges.first[numbers])
+        for part in np.array_split(np.arange(len(numbers)), int(sizes.sum()) // TOGETHER + 1):
+            rows = np.repeat(part, sizes[part])
+            if len(rows):
+                within = np.arange(len(rows)) - np.repeat(np.cumsum(sizes[part]) - sizes[part], sizes[part])
+                code, following = within, numbers[rows]
+                asking = np.flatnonzero(~free[rows])
+                taken = edges.first[following[asking]] + within[asking]
+                code[asking], following[asking] = edges.code[taken], edges.to[taken]
+                longer = words[:, rows]
+                longer[word] |= code << shift
+                yield from self._unfolded(edges, position + 1, following, longer)
+
+
+@dataclass(frozen=True)
+class Edges:
+    """The edges of a diagram value by value: from ``first`` to before ``last`` those of a node, by number.
+
+    ``position`` is that of the variable that a node asks; ``code`` and ``to`` belong to an edge.
+    """
+
+    position: Column
+    first: Column
+    last: Column
+    code: Column
+    to: Column
+
+
+def _code(values: Column, found: Column) -> Column:
+    """The place of each value in a domain, or any place of one that is not in there."""
+    return np.minimum(np.searchsorted(values, found), len(values) - 1)
 
 
 # --- formulas ------------------------------------------------------------------------------------

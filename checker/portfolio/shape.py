@@ -57,8 +57,8 @@ class Shape:
 
 
 def driven(system: TransitionSystem) -> bool:
-    """Whether a system has wide valuations, and few successors of each."""
-    return _bits(system.variables) > WIDE and _bits(system.inputs) <= FEW
+    """Whether little is chosen in each tick, so that most of a valuation follows from what was chosen."""
+    return _bits(system.inputs) <= (FEW if _bits(system.variables) > WIDE else 1)
 
 
 def _bits(variables: Iterable[Var]) -> int:

@@ -19,7 +19,7 @@ from checker.certify.enumeration import enumerated
 from checker.certify.outcome import Accepted, Rejected, TooMuch
 from checker.certify.question import question
 from checker.certify.reduction import diagram
-from checker.certify.sweep import OPERATORS, Formulas, Rows, levels, swept, unfolded
+from checker.certify.sweep import OPERATORS, Formulas, Rows, swept
 from checker.certify.tick import executed
 from spec_model.lang.evaluate import step
 from spec_model.lang.expr import Var
@@ -87,8 +87,7 @@ def test_unfolding_a_diagram_gives_its_set(drawn: tuple[tuple[Var, ...], Valuati
         if narrow:
             patch.setattr(sweep, "FIRST_BITS", 8)
             patch.setattr(sweep, "BITS", 8)
-        kept = Rows([domains[n] for n in found.variables], found.variables)
-        kept.keep(unfolded(found.root, levels(found, domains)))
+        kept = Rows(found, domains)
         parts = [np.stack([part[n] for n in names], axis=1) for part in kept]
         assert sorted(map(tuple, np.concatenate(parts).tolist())) == sorted(rows)
         assert kept.contain(columns).tolist() == [tuple(at.values()) in rows for at in others]
