@@ -160,7 +160,7 @@ COHERENCE = (accumulate, short_windows, long_windows, result, clear, stamps)
 """F-COH2 as a whole, in order."""
 
 SUM = {
-    total.name: var(f"{total.name}_before", total.domain, doc=f"{total.doc}, before the step", hidden=True)
+    total.name: var(f"before_{total.name}", total.domain, doc=f"{total.doc}, before the step", hidden=True)
     for total in (imu_short, imu_long, odo_short, odo_long)
 }
 """What has been summed up when a step begins, if that is anything."""
