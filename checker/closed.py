@@ -1,5 +1,6 @@
 """A closed set of valuations: what an exhausted search visited, and no tick leads out of."""
 
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -32,3 +33,33 @@ class ClosedSet:
 
     def __len__(self) -> int:
         return len(self.words)
+
+
+def union(
+    sets: Sequence[ClosedSet], variables: Sequence[Var], more: Iterable[Mapping[str, int]]
+) -> ClosedSet:
+    """All valuations of some sets, and ``more`` of them, in places of one layout.
+
+    Each of the sets has a place for each of the ``variables``, whose domains may be wider than there.
+    """
+    further = list(more)
+    words, places = [np.empty(0, dtype=np.uint64)], list[Place]()
+    used = 64
+    for var in variables:
+        column = np.concatenate([*(_column(one, var.name) for one in sets), [v[var.name] for v in further]])
+        column = column.astype(np.int64)
+        low = int(column.min(initial=var.init))
+        bits = (int(column.max(initial=var.init)) - low).bit_length()
+        if used + bits > 64:
+            words.append(np.zeros(len(column), dtype=np.uint64))
+            used = 0
+        words[-1] |= (column - low).astype(np.uint64) << np.uint64(used)
+        places.append(Place(var, len(words) - 2, used, bits, 1, low))
+        used += bits
+    return ClosedSet(tuple(places), np.unique(np.stack(words[1:], axis=1), axis=0))
+
+
+def _column(closed: ClosedSet, name: str) -> NDArray[np.int64]:
+    place = next(p for p in closed.places if p.var.name == name)
+    code = closed.words[:, place.word] >> np.uint64(place.shift) & np.uint64((1 << place.bits) - 1)
+    return code.astype(np.int64) * place.stride + place.low

@@ -6,13 +6,18 @@ from time import process_time
 
 import pytest
 from hypothesis import given
+from hypothesis.strategies import booleans
 
+from checker.certify.certificate import certificates
+from checker.certify.check import Effort, check
+from checker.certify.outcome import Accepted
 from checker.encode import values as known_values
 from checker.encode.native import OutsideDomain, layout
 from checker.encode.values import Values, ends, possible, values
 from checker.engine import Limits, quiet
 from checker.engines import explicit
 from checker.engines.explicit import answers as explicit_answers
+from checker.engines.explicit import cases as explicit_cases
 from checker.engines.explicit.cases import cases, joined
 from checker.slice import sliced
 from checker.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
@@ -71,6 +76,21 @@ def test_and_so_they_do_case_by_case(system: TransitionSystem) -> None:
     several = replace(system, frozen=(*system.frozen, which), step=(body,))
     asked = goals(system)
     agrees(several, asked, naive.search(several, asked))
+
+
+@examples(12)
+@given(transition_systems(), booleans())
+def test_what_is_proved_case_by_case_has_a_certificate(system: TransitionSystem, without: bool) -> None:
+    """Also of values with which no tick is possible."""
+    which = var("which", WHICH)
+    assume = system.assume & (which != "RIGHT") if without else system.assume
+    several, asked = replace(system, frozen=(*system.frozen, which), assume=assume), goals(system)
+    found = explicit.check(several, asked, Limits(), quiet)
+    made = certificates(several, asked, found, "explicit")
+    for one in made:
+        assert isinstance(check(one, several, Effort()), Accepted)
+    proved = {name for name, answer in found.items() if isinstance(answer, Unreachable)}
+    assert proved == {name for one in made for name in one.claims}
 
 
 def agrees(system: TransitionSystem, asked: tuple[Var, ...], judge: naive.Searched) -> None:
@@ -171,7 +191,8 @@ counting = replace(
 """Never over; only one case has more than a few valuations."""
 
 
-def test_a_case_says_which_limit_it_met_and_gives_its_memory_back() -> None:
+def test_a_case_says_which_limit_it_met_and_gives_its_memory_back(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(explicit_cases, "KEPT", 600)
     [answer] = explicit.check(counting, [over], Limits(), quiet).values()
     assert isinstance(answer, Unreachable) and isinstance(answer.because, Exhausted)
     assert answer.because.closed is None and answer.because.states > 600
@@ -228,4 +249,4 @@ NONE = Unreachable(Exhausted(10, 20, 5, ("level",)))
     ],
 )
 def test_what_cases_say_together(answers: tuple[Answer, ...], expected: Answer) -> None:
-    assert joined([{"goal": answer} for answer in answers]) == {"goal": expected}
+    assert joined(system(), [{"goal": answer} for answer in answers]) == {"goal": expected}

@@ -105,7 +105,7 @@ def _by_cases(
         answers, after = _searched(one(system), one(part), goals, told, spent)
         found.append({name: about(case, answer) for name, answer in answers.items()})
         spent = Spent(after.transitions, spent.bytes)
-    return joined(found), spent
+    return joined(part, found), spent
 
 
 def _wide(part: TransitionSystem) -> bool:

@@ -1,12 +1,15 @@
 """A search case by case: once for each value of a frozen enumeration, so that memory holds one of them.
 
-The valuations of a case are given up with it: what is proved so has no certificate.
+The valuations of a case are given up with it where there are many: what is proved so has no certificate.
 """
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
+from itertools import product
+from math import prod
 
+from checker.closed import ClosedSet, union
 from checker.encode.values import possible
 from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable
 from spec_model.lang.domain import Enum
@@ -15,6 +18,9 @@ from spec_model.lang.system import TransitionSystem
 
 Case = Callable[[TransitionSystem], TransitionSystem]
 """What leaves one case of a system, or of a slice of it."""
+
+KEPT = 1 << 21
+"""Valuations of all cases that are kept for a certificate: more could not be checked."""
 
 
 def cases(system: TransitionSystem, part: TransitionSystem) -> Iterator[tuple[str, Case]]:
@@ -38,21 +44,24 @@ def _only(chosen: Var, raw: int, system: TransitionSystem) -> TransitionSystem:
 
 
 def about(case: str, answer: Answer) -> Answer:
-    """The answer of a case, without the valuations that would keep the memory of it."""
+    """The answer of a case, without the valuations if these would keep much memory."""
     match answer:
         case Open(reason, depth):
             return Open(f"{case}: {reason}", depth)
-        case Unreachable(Exhausted() as because):
+        case Unreachable(Exhausted(closed=closed) as because) if closed is not None and len(closed) > KEPT:
             return Unreachable(replace(because, closed=None))
     return answer
 
 
-def joined(found: Sequence[Mapping[str, Answer]]) -> dict[str, Answer]:
-    """What the cases together say of each goal."""
-    return {name: _joined([answers[name] for answers in found]) for name in found[0]}
+def joined(part: TransitionSystem, found: Sequence[Mapping[str, Answer]]) -> dict[str, Answer]:
+    """What the cases of a slice together say of each goal."""
+    kept: dict[tuple[int, ...], ClosedSet | None] = {}
+    return {name: _joined(part, [answers[name] for answers in found], kept) for name in found[0]}
 
 
-def _joined(answers: Sequence[Answer]) -> Answer:
+def _joined(
+    part: TransitionSystem, answers: Sequence[Answer], kept: dict[tuple[int, ...], ClosedSet | None]
+) -> Answer:
     reached = [a for a in answers if isinstance(a, Reached)]
     left = [a for a in answers if isinstance(a, Open)]
     if reached:
@@ -62,6 +71,9 @@ def _joined(answers: Sequence[Answer]) -> Answer:
         return min(left, key=lambda a: a.depth)
     done = [a.because for a in answers if isinstance(a, Unreachable)]
     exhausted = [e for e in done if isinstance(e, Exhausted)]
+    memory = tuple(0 if e.closed is None else e.closed.words.ctypes.data for e in exhausted)
+    if memory not in kept:
+        kept[memory] = _union(part, [e.closed for e in exhausted])
     return Unreachable(
         Exhausted(
             sum(e.states for e in exhausted),
@@ -69,5 +81,21 @@ def _joined(answers: Sequence[Answer]) -> Answer:
             max(e.depth for e in exhausted),
             exhausted[0].variables,
             exhausted[0].skipped,
+            kept[memory],
         )
     )
+
+
+def _union(part: TransitionSystem, found: Sequence[ClosedSet | None]) -> ClosedSet | None:
+    """The valuations of all cases, also of those in which no tick is possible: there they are initial."""
+    sets = [one for one in found if one is not None]
+    frozen = prod(len(v.domain) for v in part.frozen)
+    if len(sets) < len(found) or sum(map(len, sets)) + frozen > KEPT:
+        return None
+    names = [v.name for v in part.frozen]
+    started = {v.name: v.init for v in part.variables}
+    initial = (
+        started | dict(zip(names, values, strict=True))
+        for values in product(*(v.domain.values for v in part.frozen))
+    )
+    return union(sets, (*part.frozen, *part.variables), initial)
