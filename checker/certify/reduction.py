@@ -90,18 +90,16 @@ class Reduced:
 def reduced(places: Sequence[Place], codes: Sequence[Codes]) -> Reduced:
     """The diagram of distinct rows, one column of codes for each variable, in this order."""
     order = np.lexsort(codes[::-1])
-    columns = [column[order] for column in codes]
-    changed = _first_difference(columns)
+    changed = _first_difference([column[order] for column in codes])
     child = np.zeros(len(order), dtype=np.int64)
     made: list[Level] = []
     known = 0
     for level in reversed(range(len(places))):
         starts = np.flatnonzero(changed < level)
-        child, nodes = _level(places[level], level, columns[level], child, starts, known)
+        child, nodes = _level(places[level], level, codes[level][order], child, starts, known)
         made.append(nodes)
         known += len(nodes.sizes)
-        columns = [column[starts] for column in columns[:level]]
-        changed = changed[starts]
+        order, changed = order[starts], changed[starts]
     return Reduced(tuple(places), tuple(made), int(child[0]))
 
 

@@ -28,8 +28,6 @@ CALLS = 20_000_000
 """Columns that are computed at most."""
 ROWS = 1 << 14
 """Valuations in a column."""
-TOGETHER = 1 << 20
-"""Valuations that are unfolded together."""
 FIRST_BITS, BITS = 63, 32
 """Bits of the first word of a row, and of the others, beside which the number of all before has room."""
 
@@ -58,7 +56,10 @@ def swept(asked: Question, diagram: Diagram) -> Accepted | Rejected | TooMuch:
         if initial not in diagram:
             return Rejected("initiation", told(asked.state, initial))
     formulas = Formulas(asked.tick.inputs, asked.tick.assume, asked.tick.next)
-    rows = Rows(diagram, domains)
+    try:
+        rows = Rows(diagram, domains, size)
+    except DeadEnd:
+        return TooMuch("the diagram has paths that lead to no valuation")
     for at in rows:
         broken = _broken(asked, formulas, rows.contain, at)
         if broken is not None:
@@ -109,14 +110,20 @@ def _inside(domain: Domain, values: Column) -> NDArray[np.bool_]:
 # --- the set -------------------------------------------------------------------------------------
 
 
+class DeadEnd(Exception):
+    """A diagram has more paths than valuations."""
+
+
 class Rows:
     """The valuations of a diagram packed into words, among which others are looked up.
 
     The code of a value is its place in the domain.  Each variable has its bits in one of the words; those
-    after the first are looked up together with the number of all words before.
+    after the first are looked up together with the number of all words before.  Raises ``DeadEnd`` where
+    there are more than ``size`` paths, which only a diagram has that was made by hand.
     """
 
-    def __init__(self, diagram: Diagram, domains: Mapping[str, Domain]) -> None:
+    def __init__(self, diagram: Diagram, domains: Mapping[str, Domain], size: int) -> None:
+        self._size = size
         values_of = (np.array(domains[name].values, dtype=np.int64) for name in diagram.variables)
         self._columns = list(zip(diagram.variables, values_of, strict=True))
         self._at: list[tuple[int, int]] = []
@@ -127,9 +134,7 @@ class Rows:
                 word, used = word + 1, 0
             self._at.append((word, used))
             used += bits
-        edges = self._edges(diagram)
-        root = np.array([diagram.root]), np.zeros((word + 1, 1), dtype=np.int64)
-        self._words: Column = np.concatenate(list(self._unfolded(edges, 0, *root)), axis=1)
+        self._words: Column = np.stack(self._unfolded(self._edges(diagram), diagram.root))
         self._known: list[Column] = []
         number: Column = np.zeros(self._words.shape[1], dtype=np.int64)
         for column in self._words:
@@ -175,25 +180,25 @@ class Rows:
         ends = np.searchsorted(owner, np.arange(len(nodes) + 2))
         return Edges(positions(diagram), ends[:-1], ends[1:], code[own], nodes.to[edge][own])
 
-    def _unfolded(self, edges: "Edges", position: int, numbers: Column, words: Column) -> Iterator[Column]:
-        """The words that go on from those given, each at the node that ``numbers`` says."""
-        if position == len(self._columns):
-            yield words
-            return
-        (_, values), (word, shift) = self._columns[position], self._at[position]
-        free = edges.position[numbers] != position
-        sizes = np.where(free, len(values), edges.last[numbers] - edges.first[numbers])
-        for part in np.array_split(np.arange(len(numbers)), int(sizes.sum()) // TOGETHER + 1):
-            rows = np.repeat(part, sizes[part])
-            if len(rows):
-                within = np.arange(len(rows)) - np.repeat(np.cumsum(sizes[part]) - sizes[part], sizes[part])
-                code, following = within, numbers[rows]
-                asking = np.flatnonzero(~free[rows])
-                taken = edges.first[following[asking]] + within[asking]
-                code[asking], following[asking] = edges.code[taken], edges.to[taken]
-                longer = words[:, rows]
-                longer[word] |= code << shift
-                yield from self._unfolded(edges, position + 1, following, longer)
+    def _unfolded(self, edges: "Edges", root: int) -> list[Column]:
+        """The words of all paths of a diagram, variable by variable."""
+        done: list[Column] = []
+        number, last, origin = np.array([root]), np.zeros(1, dtype=np.int64), np.zeros(1, dtype=np.int64)
+        for position, ((_, values), (word, shift)) in enumerate(zip(self._columns, self._at, strict=True)):
+            if word > len(done):
+                done = [*(column[origin] for column in done), last]
+                last, origin = np.zeros_like(number), np.arange(len(number))
+            free = edges.position[number] != position
+            sizes = np.where(free, len(values), edges.last[number] - edges.first[number])
+            if sizes.sum() > self._size:
+                raise DeadEnd
+            rows = np.repeat(np.arange(len(number)), sizes)
+            code = np.arange(len(rows)) - np.repeat(np.cumsum(sizes) - sizes, sizes)
+            number, asking = number[rows], np.flatnonzero(~free[rows])
+            taken = edges.first[number[asking]] + code[asking]
+            code[asking], number[asking] = edges.code[taken], edges.to[taken]
+            last, origin = last[rows] | code << shift, origin[rows]
+        return [*(column[origin] for column in done), last]
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,7 @@ from checker.certify.reduction import diagram
 from checker.certify.sweep import OPERATORS, Formulas, Rows, swept
 from checker.certify.tick import executed
 from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Var
+from spec_model.lang.expr import Var, flag
 from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from tests.certifying import BACK, BOTH, COUNT, certified, closed_set, counting, many, proofs
@@ -87,7 +87,7 @@ def test_unfolding_a_diagram_gives_its_set(drawn: tuple[tuple[Var, ...], Valuati
         if narrow:
             patch.setattr(sweep, "FIRST_BITS", 8)
             patch.setattr(sweep, "BITS", 8)
-        kept = Rows(found, domains)
+        kept = Rows(found, domains, len(rows))
         parts = [np.stack([part[n] for n in names], axis=1) for part in kept]
         assert sorted(map(tuple, np.concatenate(parts).tolist())) == sorted(rows)
         assert kept.contain(columns).tolist() == [tuple(at.values()) in rows for at in others]
@@ -100,6 +100,17 @@ def test_valuations_are_counted_alike_in_either_way(drawn: tuple[tuple[Var, ...]
     found, domains = of(variables, rows), {v.name: v.domain for v in variables}
     asked = [domains[name] for name in found.variables]
     assert diagrams.count(found, asked) == diagrams.counted(found, asked) == len(rows)
+
+
+def test_paths_that_lead_to_no_valuation_are_not_followed() -> None:
+    """A million million of them."""
+    variables = [*(flag(f"x{i}") for i in range(40)), flag("last")]
+    nodes = [Node(40, ()), *(Node(40 - i, ((0, 1, i),)) for i in range(1, 41))]
+    found = Diagram(tuple(v.name for v in variables), Nodes.of(nodes), 41)
+    domains = {v.name: v.domain for v in variables}
+    assert diagrams.count(found, list(domains.values())) == 0
+    with pytest.raises(sweep.DeadEnd):
+        Rows(found, domains, 1)
 
 
 def test_every_operator_is_evaluated_on_columns() -> None:
