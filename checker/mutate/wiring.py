@@ -1,4 +1,5 @@
-"""Faults between the parts of a system: dead parts, dead wires, other initial values, another order."""
+"""Faults between the parts of a system: dead parts, parts that execute always, dead wires, other initial
+values, another order."""
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -36,6 +37,7 @@ def wiring_faults(system: System, only: Collection[str] | None = None) -> Iterat
         return only is None or part.name in only
 
     yield from _dead_parts(system, wanted)
+    yield from _always_enabled(system, wanted)
     yield from _dead_wires(system, wanted)
     yield from _initial_values(system, wanted)
     yield from _orders(system, wanted)
@@ -63,11 +65,42 @@ def _with(
     found: list[Component] = []
     for component in components:
         if isinstance(component, Enabled):
-            inside = _with(component.components, name, change)
-            found.append(Enabled(component.by, *inside, name=component.name, place=component.place))
+            found.append(_around(component, _with(component.components, name, change)))
         else:
             found.append(change(component) if component.name == name else component)
     return tuple(found)
+
+
+def _around(enabled: Enabled, inside: Sequence[Component]) -> Enabled:
+    """The same subsystem with other components."""
+    return Enabled(enabled.by, *inside, name=enabled.name, place=enabled.place)
+
+
+def _always_enabled(system: System, wanted: Wanted) -> Iterator[Wrong]:
+    for part, by, changed in _outside(system.components):
+        if wanted(part):
+            kind = "chart" if isinstance(part, Chart) else "block"
+            text = f"the {kind} {part.name} executes in every step, not only with `{by}`"
+            always = replace(system, components=changed)
+            yield Wrong(f"{part.name}/{kind}", "enabled", text, part.place, (part.name,), always)
+
+
+def _outside(
+    components: Sequence[Component],
+) -> Iterator[tuple[Chart | Block, Expr, tuple[Component, ...]]]:
+    """Each part of an enabled subsystem taken out of it, which is a board only where it has a name."""
+    for number, component in enumerate(components):
+        if isinstance(component, Enabled):
+            before, after, own = components[:number], components[number + 1 :], component.components
+            for at, part in enumerate(own):
+                if not isinstance(part, Enabled) and not component.name:
+                    split: list[Component] = [
+                        _around(component, inside) for inside in (own[:at], own[at + 1 :]) if inside
+                    ]
+                    split.insert(at > 0, part)
+                    yield part, component.by, (*before, *split, *after)
+            for part, by, inside in _outside(own):
+                yield part, by, (*before, _around(component, inside), *after)
 
 
 def _dead_wires(system: System, wanted: Wanted) -> Iterator[Wrong]:
@@ -177,8 +210,7 @@ def _exchanged(
         before, after = components[:number], components[number + 1 :]
         if isinstance(component, Enabled):
             for one, two, inside in _exchanged(component.components):
-                again = Enabled(component.by, *inside, name=component.name, place=component.place)
-                yield one, two, (*before, again, *after)
+                yield one, two, (*before, _around(component, inside), *after)
         elif after and not isinstance(after[0], Enabled):
             yield component, after[0], (*before, after[0], component, *after[1:])
 

@@ -6,7 +6,7 @@ from checker.mutate.formulas import slips
 from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.product import same
 from spec_model.lang.action import assign
-from spec_model.lang.chart import Block, Chart, State, to
+from spec_model.lang.chart import Block, Chart, Enabled, State, to
 from spec_model.lang.domain import integer
 from spec_model.lang.edit import in_system
 from spec_model.lang.errors import ModelError
@@ -64,6 +64,22 @@ def test_ids_are_distinct_and_name_places() -> None:
     assert len(ALL) == len(mutants(lamps)) > 60
     places = [m.place for m in ALL.values()]
     assert all(isinstance(p, Place) and p.path == "tests/mutate/lamp.py" for p in places)
+
+
+def test_a_part_of_an_enabled_subsystem_may_execute_always() -> None:
+    """Also one between others, and in a subsystem within another; a board is no such subsystem."""
+    names = [flag(name) for name in "abcd"]
+    a, b, c, d = (Block(v.name.upper(), [assign(v, ~v)]) for v in names)
+    system = in_order("nested", Enabled(press, Enabled(press, a, b, c), name="Board 1"), Enabled(press, d))
+    found = {m.id: m for m in mutants(system) if m.operator == "enabled"}
+    assert list(found) == ["A/block/enabled", "B/block/enabled", "C/block/enabled", "D/block/enabled"]
+    assert found["B/block/enabled"].text == "the block B executes in every step, not only with `press`"
+    taken_out = lower(
+        in_order("b", Enabled(press, Enabled(press, a), b, Enabled(press, c)), Enabled(press, d))
+    )
+    assert same(lower(found["B/block/enabled"].system), taken_out)
+    always = lower(in_order("d", Enabled(press, Enabled(press, a, b, c)), d))
+    assert same(lower(found["D/block/enabled"].system), always)
 
 
 def test_every_mutant_has_the_variables_of_the_original() -> None:
