@@ -77,30 +77,38 @@ def _around(enabled: Enabled, inside: Sequence[Component]) -> Enabled:
 
 
 def _always_enabled(system: System, wanted: Wanted) -> Iterator[Wrong]:
-    for part, by, changed in _outside(system.components):
+    for part, changed in _outside(system.components):
         if wanted(part):
             kind = "chart" if isinstance(part, Chart) else "block"
-            text = f"the {kind} {part.name} executes in every step, not only with `{by}`"
+            text = f"the {kind} {part.name} executes in every step, enabled or not"
             always = replace(system, components=changed)
             yield Wrong(f"{part.name}/{kind}", "enabled", text, part.place, (part.name,), always)
 
 
-def _outside(
-    components: Sequence[Component],
-) -> Iterator[tuple[Chart | Block, Expr, tuple[Component, ...]]]:
-    """Each part of an enabled subsystem taken out of it, which is a board only where it has a name."""
+def _outside(components: Sequence[Component]) -> Iterator[tuple[Chart | Block, tuple[Component, ...]]]:
+    """Each part of an enabled subsystem taken out of it, but not out of its board, which has a name."""
     for number, component in enumerate(components):
-        if isinstance(component, Enabled):
-            before, after, own = components[:number], components[number + 1 :], component.components
-            for at, part in enumerate(own):
-                if not isinstance(part, Enabled) and not component.name:
-                    split: list[Component] = [
-                        _around(component, inside) for inside in (own[:at], own[at + 1 :]) if inside
-                    ]
-                    split.insert(at > 0, part)
-                    yield part, component.by, (*before, *split, *after)
-            for part, by, inside in _outside(own):
-                yield part, by, (*before, _around(component, inside), *after)
+        before, after = components[:number], components[number + 1 :]
+        if isinstance(component, Enabled) and component.name:
+            for part, inside in _outside(component.components):
+                yield part, (*before, _around(component, inside), *after)
+        elif isinstance(component, Enabled):
+            for earlier, part, later in _divided(component):
+                yield part, (*before, *earlier, part, *later, *after)
+
+
+Components = tuple[Component, ...]
+
+
+def _divided(enabled: Enabled) -> Iterator[tuple[Components, Chart | Block, Components]]:
+    """Each part of a subsystem, with what is left of the subsystem before and after it."""
+    inside = enabled.components
+    for at, one in enumerate(inside):
+        found = _divided(one) if isinstance(one, Enabled) else [((), one, ())]
+        for earlier, part, later in found:
+            around = (*inside[:at], *earlier), (*later, *inside[at + 1 :])
+            left, right = ((_around(enabled, rest),) if rest else () for rest in around)
+            yield left, part, right
 
 
 def _dead_wires(system: System, wanted: Wanted) -> Iterator[Wrong]:

@@ -68,18 +68,18 @@ def test_ids_are_distinct_and_name_places() -> None:
 
 def test_a_part_of_an_enabled_subsystem_may_execute_always() -> None:
     """Also one between others, and in a subsystem within another; a board is no such subsystem."""
-    names = [flag(name) for name in "abcd"]
-    a, b, c, d = (Block(v.name.upper(), [assign(v, ~v)]) for v in names)
-    system = in_order("nested", Enabled(press, Enabled(press, a, b, c), name="Board 1"), Enabled(press, d))
+    a, b, c, d = (Block(name.upper(), [assign(v := flag(name), ~v)]) for name in "abcd")
+    on, running = flag("on"), flag("running")
+    inside = Enabled(running, a, b, c)
+    system = in_order("nested", Enabled(press, Enabled(on, inside), name="Board 1"), Enabled(on, d))
     found = {m.id: m for m in mutants(system) if m.operator == "enabled"}
-    assert list(found) == ["A/block/enabled", "B/block/enabled", "C/block/enabled", "D/block/enabled"]
-    assert found["B/block/enabled"].text == "the block B executes in every step, not only with `press`"
-    taken_out = lower(
-        in_order("b", Enabled(press, Enabled(press, a), b, Enabled(press, c)), Enabled(press, d))
-    )
-    assert same(lower(found["B/block/enabled"].system), taken_out)
-    always = lower(in_order("d", Enabled(press, Enabled(press, a, b, c)), d))
-    assert same(lower(found["D/block/enabled"].system), always)
+    assert list(found) == [f"{name}/block/enabled" for name in "ABCD"]
+    assert found["B/block/enabled"].text == "the block B executes in every step, enabled or not"
+    around = Enabled(on, Enabled(running, a)), b, Enabled(on, Enabled(running, c))
+    taken_out = in_order("b", Enabled(press, *around), Enabled(on, d))
+    assert same(lower(found["B/block/enabled"].system), lower(taken_out))
+    always = in_order("d", Enabled(press, Enabled(on, inside)), d)
+    assert same(lower(found["D/block/enabled"].system), lower(always))
 
 
 def test_every_mutant_has_the_variables_of_the_original() -> None:
