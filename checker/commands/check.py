@@ -49,7 +49,8 @@ class Compared:
     """A result beside the verdict on record; ``variant`` says how the charts differ from those specified.
 
     ``case``: whether the case occurs that a proof speaks of, ``noticed``: whether a fault is known that it
-    notices, each if that was asked.  With ``strict``, a proof of a case that never occurs is not enough.
+    notices, each if that was asked.  With ``strict``, a proof of a case that never occurs is not enough, nor
+    one that notices no known fault.
     """
 
     result: Result
@@ -98,6 +99,8 @@ class Compared:
             return Exit.INTERNAL
         if self.strict and self.case is not None and not self.case.occurs:
             return Exit.CHANGED if self.empty else Exit.INCONCLUSIVE
+        if self.strict and self.idle and not self.variant:
+            return Exit.INCONCLUSIVE
         if self.as_expected or (self.variant and isinstance(self.verdict, Proved)):
             return Exit.AS_EXPECTED
         return Exit.INCONCLUSIVE if isinstance(self.verdict, Unknown) else Exit.CHANGED
@@ -184,7 +187,7 @@ def check(
 
     ``guide`` is what helps to read on.  ``deliver`` is called once at the end, however that comes.  With
     ``quiet``, only what is not as expected is printed.  What is asked ``further`` is asked of all that was
-    found; ``strict`` makes a proof of a case that never occurs an error.
+    found; ``strict`` makes a proof an error that speaks of a case that never occurs, or notices no fault.
     """
     if not properties:
         err.print("Nothing to check: the selection holds no property.")
@@ -240,7 +243,7 @@ def check(
             out.print(wrapped(text, 4), markup=False)
     elif strict:
         wrong = [c for c in found if c.code is not Exit.AS_EXPECTED]
-        for text in about_cases(wrong):
+        for text in (*about_cases(wrong), *about_faults(wrong)):
             out.print(wrapped(text, 4), markup=False)
     deliver(found, len(properties), _alarmed(faults))
     return Exit.INTERNAL if faults else worst(found)

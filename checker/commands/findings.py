@@ -112,6 +112,10 @@ def about_cases(found: Sequence["Compared"]) -> Iterator[str]:
 def about_faults(found: Sequence["Compared"]) -> Iterator[str]:
     """Which proofs notice no fault that is known."""
     idle = sorted(one.result.property.id for one in found if one.idle)
+    noticing = sum(one.noticed is True for one in found)
+    if noticing and not idle and found[0].strict:
+        notice = counted(noticing, "proof notices", "proofs notice")
+        yield f"{notice} a fault that was put into the charts."
     if idle:
         more = f" and {len(idle) - SHOWN} more" if len(idle) > SHOWN else ""
         yield f"Proved, and no fault of the charts is known that it notices: {', '.join(idle[:SHOWN])}{more}."

@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 @click.option(
     "--strict",
     is_flag=True,
-    help="A proof of a case that never occurs, or may never, is an error.",
+    help="A proof of a case that never occurs, or may never, or that notices no known fault, is an error.",
 )
 @click.option("--no-premises", is_flag=True, help="Do not ask whether the cases occur that proofs speak of.")
 @click.option(

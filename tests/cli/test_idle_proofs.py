@@ -41,6 +41,17 @@ def test_a_proof_that_notices_no_fault_is_told(hall: Path, capsys: pytest.Captur
     assert "no fault of the charts is known" not in capsys.readouterr().out
 
 
+def test_strict_makes_it_an_error(hall: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    recorded(hall)
+    assert checked(hall, "FULL", "IDLE", "--strict") == Exit.INCONCLUSIVE
+    assert checked(hall, "FULL", "--strict") == Exit.AS_EXPECTED
+    assert "1 proof notices a fault that was put into the charts." in capsys.readouterr().out
+    assert checked(hall, "FULL", "IDLE", "--strict", "--quiet") == Exit.INCONCLUSIVE
+    assert "no fault of the charts is known that it notices: IDLE." in capsys.readouterr().out
+    hall.with_name("baseline.toml").write_text('[IDLE]\nno_fault = "A tautology."\n', encoding="utf-8")
+    assert checked(hall, "FULL", "IDLE", "--strict") == Exit.AS_EXPECTED
+
+
 def test_json_says_of_each_proof_whether_it_notices_a_fault(
     hall: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
