@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 from checker.commands.check import Compared, line, results, summary
+from checker.commands.codes import Exit
 from checker.commands.findings import Guide, about_cases, about_faults, read_on
 from checker.commands.further import Further, noticing
 from checker.commands.premises import cases
@@ -40,7 +41,7 @@ def test_verdicts_are_as_on_record_and_the_committed_reports_show_them(
         for c in decided
     ]
     assert len(verdicts) == len(affordable)
-    assert [line(c) for c in verdicts if not c.as_expected] == []
+    assert [line(c) for c in verdicts if c.code is not Exit.AS_EXPECTED] == []
     guide = Guide(gravest=rover().by_gravity, causes="reports/README.md")
     summary(verdicts, guide)
     said = capsys.readouterr().out.splitlines()
