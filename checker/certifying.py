@@ -13,6 +13,7 @@ from checker.certify.record import rests_on_answers
 from checker.decide import Task, decide
 from checker.engine import Limits, Progress, Stage
 from checker.result import Result
+from checker.verdict import Exhausted, Unknown, Verdict
 from spec_model.lang.system import System, TransitionSystem
 
 
@@ -78,4 +79,13 @@ def _outcome(first: Result, again: Result, reader: Reader) -> Outcome:
         hows = {o.how: None for o in reader.outcomes.values() if isinstance(o, Accepted)}
         return Accepted("; ".join(hows))
     undecided = [o for o in reader.outcomes.values() if isinstance(o, Undecided)]
-    return undecided[0] if undecided else Undecided(f"{first.verdict.engine} gave no certificate")
+    return undecided[0] if undecided else Undecided(_lacking(first.verdict, again.verdict, reader))
+
+
+def _lacking(first: Verdict, again: Verdict, reader: Reader) -> str:
+    """Why no certificate was checked."""
+    if reader.certificates and isinstance(again, Unknown):
+        return again.reason
+    if not isinstance(first, Unknown) and isinstance(first.because, Exhausted):
+        return f"{first.engine} kept no closed set of {first.because.how}"
+    return f"{first.engine} gave no certificate"

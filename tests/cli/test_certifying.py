@@ -9,10 +9,18 @@ import pytest
 
 from checker.certify.file import read
 from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
+from checker.certify.record import Recorder
+from checker.certifying import Certifying
 from checker.cli import run
 from checker.commands.codes import Exit
+from checker.decide import decide
+from checker.engine import Limits, quiet
+from checker.portfolio.question import Told
 from checker.result import Result
 from checker.searches import searches as honest
+from checker.tasks import tasks
+from properties.catalogue import catalogue
+from spec_model.rover import systems
 
 
 def test_every_proof_is_certified_and_written(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -31,6 +39,30 @@ def test_a_verdict_tells_that_it_is_certified(capfd: pytest.CaptureFixture[str])
     assert run(["check", "PB1-11", "--certify"]) == Exit.AS_EXPECTED
     shown = " ".join(capfd.readouterr().out.split())
     assert "of relay, certified" in shown and "1 proof certified." in shown
+
+
+def test_a_verdict_tells_why_it_is_not(capfd: pytest.CaptureFixture[str]) -> None:
+    asked = ["check", "PB1-11", "--engine", "explicit", "--timers", "skip", "--certify"]
+    assert run(asked) == Exit.AS_EXPECTED
+    shown = " ".join(capfd.readouterr().out.split())
+    assert "not certified: explicit kept no closed set of all" in shown and "(quiet ticks skipped)" in shown
+
+
+def test_certifying_within_little_memory(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It was said that the engine had given no certificate."""
+
+    def no_room(*_: object) -> Outcome:
+        raise MemoryError
+
+    monkeypatch.setattr("checker.certifying.check", no_room)
+    [task] = tasks([catalogue()["PB1-11"]], systems())
+    recorder = Recorder()
+    told = Told(answered=recorder.answered)
+    found = list(decide(task, systems(), "explicit", Limits(), quiet, told))
+    outcome = Certifying(again=True).outcomes(task, systems(), Limits(), found, recorder.made, quiet)[
+        "PB1-11"
+    ]
+    assert outcome == Undecided("the memory limit is reached")
 
 
 @pytest.mark.parametrize(
