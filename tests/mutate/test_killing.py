@@ -51,6 +51,13 @@ def test_every_kill_on_record_is_one() -> None:
             assert not reached(system, [prop], [kept[id].run])
 
 
+def test_what_is_excused_notices_nothing() -> None:
+    model = rover()
+    kept = read(file_of(model, KILLS), KILLS)
+    excused = [id for id in model.properties if model.expected(id).no_fault]
+    assert excused and [id for id in excused if id in kept] == []
+
+
 def test_a_requirement_is_covered_by_a_property_that_notices_something() -> None:
     model = rover()
     known = noticing(model)
