@@ -75,6 +75,7 @@ ORDERS: Mapping[str, tuple[Turn, ...]] = MappingProxyType(
         "narrow": (CHECKS, *_LONG),
         "broad": (_FEW, _SOON, CHECKS, *_LONG),
         "driven": (
+            Turn("explicit", transitions=64_000_000, share=0.4),
             Turn("explicit", share=0.8),
             Turn("bmc", depth=32, share=0.3),
             *_PROOFS,

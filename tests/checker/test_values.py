@@ -200,6 +200,17 @@ def test_a_case_says_which_limit_it_met_and_gives_its_memory_back(monkeypatch: p
     assert isinstance(few, Open) and "which = " in few.reason and "the limit of 100 transitions" in few.reason
 
 
+def test_a_large_case_leaves_transitions_to_the_others() -> None:
+    """A run of the last case was not found where the first one took all that there were."""
+    seen = flag("seen")
+    wanted = replace(
+        counting, step=(*counting.step, assign(seen, spare == 7)), variables=(*counting.variables, seen)
+    )
+    [answer] = explicit.check(wanted, [seen], Limits(transitions=300), quiet).values()
+    assert isinstance(answer, Reached) and len(answer.run) == 1 and answer.shortest
+    assert answer.run.frozen["which"] == 1
+
+
 def test_when_time_is_over_no_other_case_is_begun() -> None:
     [late] = explicit.check(counting, [over], Limits(seconds=0), quiet).values()
     assert isinstance(late, Open) and "the time limit of 0 s is reached before which = LEFT" in late.reason

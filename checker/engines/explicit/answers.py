@@ -91,21 +91,30 @@ class _Within:
 def _by_cases(
     system: TransitionSystem, goals: Sequence[Var], within: _Within, spent: Spent
 ) -> tuple[Mapping[str, Answer], Spent]:
-    """An answer for each goal, and what is spent after it; a wide system is searched case by case."""
+    """An answer for each goal, and what is spent after it; a wide system is searched case by case.
+
+    A limit of transitions is shared by the cases, so that the largest does not keep the others from a run.
+    """
     part = sliced(system, goals)
     several = list(cases(system, part)) if _wide(part) else []
     if len(several) < 2:
         return _searched(system, part, goals, within, spent)
     found: list[Mapping[str, Answer]] = []
-    for case, one in several:
+    for number, (case, one) in enumerate(several):
         if reached := within.over(spent):
             found.append({g.name: Open(f"{reached} is reached before {case}", 0) for g in goals})
             continue
         told = replace(within, progress=partial(_said, within.progress, case))
-        answers, after = _searched(one(system), one(part), goals, told, spent)
+        before = _shared(within.limits.transitions, spent, len(several) - number)
+        answers, after = _searched(one(system), one(part), goals, told, before)
         found.append({name: about(case, answer) for name, answer in answers.items()})
-        spent = Spent(after.transitions, spent.bytes)
+        spent = replace(spent, transitions=spent.transitions + after.transitions - before.transitions)
     return joined(part, found), spent
+
+
+def _shared(most: int | None, spent: Spent, cases: int) -> Spent:
+    """What counts as spent for a case, so that each of some cases may spend as much as this one."""
+    return spent if most is None else replace(spent, transitions=most - (most - spent.transitions) // cases)
 
 
 def _wide(part: TransitionSystem) -> bool:
