@@ -51,6 +51,10 @@ that counts whatever other runs do has ended the other turns before that was kno
 _FEW = Turn("explicit", memory=32 * MB, transitions=32_000_000, share=0.3)
 """A second at most: of a broad question it is not known before whether it has few valuations."""
 
+_SHARED = Turn("explicit", transitions=64_000_000, share=0.4)
+"""Half a minute that the cases of a scene share: where one has a short run, the largest need not be searched
+to its end; where none has, this is lost on what takes longer."""
+
 _SOON = Turn("kinduction", seconds=60, share=0.2)
 """A broad question with more valuations than that is mostly proved in one to four seconds, or not at all."""
 
@@ -75,7 +79,7 @@ ORDERS: Mapping[str, tuple[Turn, ...]] = MappingProxyType(
         "narrow": (CHECKS, *_LONG),
         "broad": (_FEW, _SOON, CHECKS, *_LONG),
         "driven": (
-            Turn("explicit", transitions=64_000_000, share=0.4),
+            _SHARED,
             Turn("explicit", share=0.8),
             Turn("bmc", depth=32, share=0.3),
             *_PROOFS,
