@@ -4,10 +4,13 @@ The formulas of a tick are evaluated on columns of numbers.  Neither the printin
 is trusted, nor anything of the engine: the set is unfolded from its diagram.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from itertools import product
+from functools import reduce
+from itertools import accumulate, product
 from math import prod
+from operator import mul
 from typing import Any
 
 import numpy as np
@@ -17,13 +20,13 @@ from checker.certify.diagram import Diagram, count, positions
 from checker.certify.outcome import Accepted, Rejected, TooMuch, told
 from checker.certify.question import Question
 from checker.encode.intervals import intervals, postorder
-from spec_model.lang.domain import Domain
+from spec_model.lang.domain import Bool, Domain
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from spec_model.lang.operators import Op
 from spec_model.lang.walk import variables
 
-MOST = 20_000_000_000
-"""Numbers that are computed at most: about a minute."""
+MOST = 60_000_000_000
+"""Numbers that are computed at most: one or two minutes."""
 CALLS = 20_000_000
 """Columns that are computed at most."""
 ROWS = 1 << 14
@@ -31,7 +34,7 @@ ROWS = 1 << 14
 FIRST_BITS, BITS = 63, 32
 """Bits of the first word of a row, and of the others, beside which the number of all before has room."""
 
-Column = NDArray[np.int64]
+Column = NDArray[Any]
 Columns = Mapping[str, Column]
 Member = Callable[[Columns], NDArray[np.bool_]]
 
@@ -45,8 +48,9 @@ def swept(asked: Question, diagram: Diagram) -> Accepted | Rejected | TooMuch:
     if variables(*roots).keys() & domains.keys() - set(diagram.variables):
         return TooMuch("a tick reads a variable that the diagram does not ask for")
     size = count(diagram, [domains[n] for n in diagram.variables])
-    choices, nodes = prod(len(v.domain) for v in asked.tick.inputs), len(list(postorder(*roots)))
-    if size * choices * nodes > MOST or choices * nodes * (size // ROWS + 1) > CALLS:
+    choices = prod(len(v.domain) for v in asked.tick.inputs)
+    formulas = Formulas(asked.tick.inputs, asked.tick.assume, asked.tick.next)
+    if size * formulas.work > MOST or (size // ROWS + 1) * formulas.work > CALLS:
         return TooMuch(f"{size:,} valuations and {choices:,} vectors of inputs are too many to try")
     if any(max(-i.low, i.high) >= 1 << 62 for i in intervals(*roots).values()):
         return TooMuch("a formula needs more than 63 bits")
@@ -55,7 +59,6 @@ def swept(asked: Question, diagram: Diagram) -> Accepted | Rejected | TooMuch:
         initial |= dict(zip((v.name for v in asked.tick.frozen), frozen, strict=True))
         if initial not in diagram:
             return Rejected("initiation", told(asked.state, initial))
-    formulas = Formulas(asked.tick.inputs, asked.tick.assume, asked.tick.next)
     try:
         rows = Rows(diagram, domains, size)
     except DeadEnd:
@@ -69,16 +72,9 @@ def swept(asked: Question, diagram: Diagram) -> Accepted | Rejected | TooMuch:
 
 def _broken(asked: Question, formulas: "Formulas", member: Member, at: Columns) -> Rejected | None:
     """What is wrong with the ticks from some valuations."""
-    names = [v.name for v in asked.tick.inputs]
     rows = len(next(iter(at.values())))
-    of_state = formulas.of_state(at)
-    for inputs in product(*(v.domain.values for v in asked.tick.inputs)):
-        here = {**at, **dict(zip(names, (np.array(i) for i in inputs), strict=True))}
-        assumed, after = formulas(here, of_state)
-        allowed = np.ones(rows, dtype=bool)
-        for part in assumed:
-            allowed &= part != 0
-        after = {n: np.broadcast_to(c, rows) for n, c in after.items()}
+    for here, allowed, following in formulas.each(at):
+        after = {n: np.broadcast_to(c, rows) for n, c in following.items()}
         wrong = _wrong(asked, member, {**at, **after})
         for obligation, bad in wrong.items():
             found = np.flatnonzero(allowed & bad)
@@ -217,6 +213,8 @@ class Edges:
 
 def _code(values: Column, found: Column) -> Column:
     """The place of each value in a domain, or any place of one that is not in there."""
+    if values[-1] - values[0] == len(values) - 1:
+        return np.asarray(np.clip(found - values[0], 0, len(values) - 1))
     return np.minimum(np.searchsorted(values, found), len(values) - 1)
 
 
@@ -224,36 +222,63 @@ def _code(values: Column, found: Column) -> Column:
 
 
 class Formulas:
-    """The assumption and the next values as columns.
+    """The assumption and the next values as columns, input by input.
 
-    What no input changes is computed once for all vectors of inputs.
+    What depends on the first inputs alone is computed once for all values of the others; the inputs that
+    most depends on come first.
     """
 
     def __init__(self, inputs: Sequence[Var], assume: Sequence[Expr], following: Mapping[str, Expr]) -> None:
-        self._assume, self._next = assume, following
-        names, moved = {v.name for v in inputs}, set[int]()
+        self._next = following
+        names, read = {v.name for v in inputs}, dict[int, frozenset[str]]()
         nodes = list(postorder(*assume, *following.values()))
         for node in nodes:
-            of_input = isinstance(node, Var) and node.name in names
-            if of_input or any(id(inner) in moved for inner in _inside_of(node)):
-                moved.add(id(node))
-        self._still = [node for node in nodes if id(node) not in moved]
-        self._moved = [node for node in nodes if id(node) in moved]
+            own = {node.name} & names if isinstance(node, Var) else set[str]()
+            read[id(node)] = frozenset(own).union(*(read[id(inner)] for inner in _inside_of(node)))
+        readers = Counter(name for node in nodes for name in read[id(node)])
+        self._inputs = sorted(inputs, key=lambda v: -readers[v.name])
+        level = {v.name: position for position, v in enumerate(self._inputs, 1)}
+        self._nodes: list[list[Expr]] = [[] for _ in range(len(inputs) + 1)]
+        self._assumed: list[list[Expr]] = [[] for _ in range(len(inputs) + 1)]
+        for found, wanted in ((self._nodes, nodes), (self._assumed, assume)):
+            for one in wanted:
+                found[max((level[name] for name in read[id(one)]), default=0)].append(one)
 
-    def of_state(self, at: Columns) -> dict[int, Column]:
-        """The columns of all that depends on no input, by ``id``."""
-        return _columns(self._still, at, {})
+    @property
+    def work(self) -> int:
+        """How many formulas are evaluated for all inputs of one valuation."""
+        choices = accumulate((len(v.domain) for v in self._inputs), mul, initial=1)
+        return sum(len(own) * times for own, times in zip(self._nodes, choices, strict=True))
 
-    def __call__(self, at: Columns, known: Mapping[int, Column]) -> tuple[list[Column], dict[str, Column]]:
-        """The conjuncts of the assumption, and the next values; ``known`` is what ``of_state`` gives."""
-        found = _columns(self._moved, at, dict(known))
-        return [found[id(e)] for e in self._assume], {n: found[id(e)] for n, e in self._next.items()}
+    def each(self, at: Columns) -> Iterator[tuple[Columns, NDArray[np.bool_], Columns]]:
+        """Each vector of inputs beside the valuations, where it is allowed, and the next values.
+
+        One that the assumption allows nowhere is left out.
+        """
+        return self._each(0, at, {}, np.ones(len(next(iter(at.values()))), dtype=np.bool_))
+
+    def _each(
+        self, level: int, at: Columns, known: Mapping[int, Column], allowed: NDArray[np.bool_]
+    ) -> Iterator[tuple[Columns, NDArray[np.bool_], Columns]]:
+        found = columns(self._nodes[level], at, known)
+        for part in self._assumed[level]:
+            allowed = allowed & found[id(part)]
+        if not allowed.any():
+            return
+        if level == len(self._inputs):
+            yield at, allowed, {n: found[id(e)] for n, e in self._next.items()}
+            return
+        var = self._inputs[level]
+        for value in var.domain.values:
+            yield from self._each(level + 1, {**at, var.name: np.array(value)}, found, allowed)
 
 
-def _columns(nodes: Sequence[Expr], at: Columns, known: dict[int, Column]) -> dict[int, Column]:
+def columns(nodes: Iterable[Expr], at: Columns, known: Mapping[int, Column]) -> dict[int, Column]:
+    """What is ``known``, and the values of more formulas, by ``id``; those inside of one come before it."""
+    found = dict(known)
     for node in nodes:
-        known[id(node)] = _node(node, at, known)
-    return known
+        found[id(node)] = _node(node, at, found)
+    return found
 
 
 def _inside_of(node: Expr) -> Sequence[Expr]:
@@ -266,33 +291,31 @@ def _inside_of(node: Expr) -> Sequence[Expr]:
 
 
 def _node(node: Expr, at: Columns, known: Mapping[int, Column]) -> Column:
+    """The column of a formula: truth values for one that is true or false, else 64 bits."""
+    kind = np.bool_ if isinstance(node.sort, Bool) else np.int64
     match node:
         case Const(value, _):
-            return np.array(value, dtype=np.int64)
+            return np.array(value, dtype=kind)
         case Var(name):
-            return at[name]
+            return at[name].astype(kind, copy=False)
         case Named(_, body):
             return known[id(body)]
         case Apply(op, args, _):
-            return np.asarray(_MEANING[op](*(known[id(a)] for a in args)), dtype=np.int64)
+            return np.asarray(_MEANING[op](*(known[id(a)] for a in args)), dtype=kind)
     raise AssertionError(f"{node} speaks of the past")
 
 
-def _all(*args: Column) -> NDArray[Any]:
-    result = np.asarray(args[0] != 0)
-    for other in args[1:]:
-        result = result & (other != 0)
-    return result
-
-
-def _chosen(condition: Column, then: Column, otherwise: Column) -> NDArray[Any]:
-    return np.where(condition != 0, then, otherwise)
+def _chosen(condition: Column, then: Column, otherwise: Column) -> Column:
+    """One of two; where all rows choose alike, as most do, without copying it."""
+    if condition.all():
+        return then
+    return np.where(condition, then, otherwise) if condition.any() else otherwise
 
 
 _MEANING: dict[Op, Callable[..., NDArray[Any]]] = {
-    Op.NOT: lambda a: 1 - a,
-    Op.AND: _all,
-    Op.OR: lambda *args: 1 - _all(*(1 - a for a in args)).astype(np.int64),
+    Op.NOT: np.logical_not,
+    Op.AND: lambda *args: reduce(np.logical_and, args),
+    Op.OR: lambda *args: reduce(np.logical_or, args),
     Op.ITE: _chosen,
     Op.EQ: lambda a, b: a == b,
     Op.NE: lambda a, b: a != b,

@@ -19,8 +19,9 @@ from checker.certify.enumeration import enumerated
 from checker.certify.outcome import Accepted, Rejected, TooMuch
 from checker.certify.question import question
 from checker.certify.reduction import diagram
-from checker.certify.sweep import OPERATORS, Formulas, Rows, swept
+from checker.certify.sweep import OPERATORS, Rows, columns, swept
 from checker.certify.tick import executed
+from checker.encode.intervals import postorder
 from spec_model.lang.evaluate import step
 from spec_model.lang.expr import Var, flag
 from spec_model.lang.operators import Op
@@ -59,9 +60,9 @@ def test_columns_mean_what_the_reference_means(system: TransitionSystem, data: D
     outside = (*system.variables, *system.inputs, *system.frozen)
     rows = [{v.name: data.draw(st.sampled_from(list(v.domain.values))) for v in outside} for _ in range(3)]
     at = {v.name: np.array([row[v.name] for row in rows]) for v in outside}
-    formulas = Formulas(system.inputs, (), executed(system).next)
-    _, after = formulas(at, formulas.of_state(at))
-    for name, found in after.items():
+    after = executed(system).next
+    known = columns(postorder(*after.values()), at, {})
+    for name, found in ((name, known[id(one)]) for name, one in after.items()):
         expected = [step(system, row, {v.name: row[v.name] for v in system.inputs})[name] for row in rows]
         assert np.broadcast_to(found, 3).tolist() == expected
 
