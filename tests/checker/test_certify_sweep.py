@@ -12,14 +12,14 @@ import checker.certify.check as checking
 from checker.certify import diagram as diagrams
 from checker.certify import enumeration, sweep
 from checker.certify.certificate import Certificate
-from checker.certify.check import check
+from checker.certify.check import By, check
 from checker.certify.diagram import TRUE as END
 from checker.certify.diagram import Diagram, Node, Nodes
 from checker.certify.enumeration import enumerated
-from checker.certify.outcome import Accepted, Rejected, TooMuch
+from checker.certify.outcome import Accepted, Rejected, TooMuch, Undecided
 from checker.certify.question import question
 from checker.certify.reduction import diagram
-from checker.certify.sweep import OPERATORS, Rows, columns, swept
+from checker.certify.sweep import OPERATORS, Formulas, Rows, columns, swept
 from checker.certify.tick import executed
 from checker.encode.intervals import postorder
 from spec_model.lang.evaluate import step
@@ -129,3 +129,31 @@ def test_a_large_diagram_is_swept() -> None:
         outcome = check(lost, system, BOTH)
         assert isinstance(outcome, Rejected) and outcome.obligation == "consecution"
         assert outcome.shown == "count = 2; after 1 ticks count = 3, bad = false"
+
+
+def test_no_solver_is_asked_about_a_large_diagram_that_is_too_much_to_try() -> None:
+    """It would take its whole time; who wants that asks it alone."""
+    system, bad = counting((BACK,), COUNT)
+    (one,) = certified(system, [bad])
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(checking, "LARGE", 0)
+        patch.setattr(enumeration, "MOST", 0)
+        patch.setattr(sweep, "MOST", 0)
+        too_many = "4 valuations and 1 vectors of inputs are too many to try"
+        assert check(one, system, BOTH) == Undecided(too_many)
+        assert isinstance(check(one, system, replace(BOTH, by=By.SOLVER)), Accepted)
+
+
+def test_work_is_counted_as_often_as_it_is_done() -> None:
+    """What reads one input of two is evaluated for each of its values, what reads both for all pairs."""
+    often, rarely, held = flag("often"), flag("rarely"), flag("held")
+    both, first = often & rarely, ~often
+    formulas = Formulas((rarely, often), (), {"both": both, "first": first, "held": held})
+    assert formulas.work == 1 + 2 * 2 + 4 * 2  # held; often, first; rarely, both
+
+
+def test_inputs_that_the_assumption_rules_out_are_not_tried() -> None:
+    a, b = flag("a"), flag("b")
+    formulas = Formulas((a, b), (a | b, ~b), {"next": a})
+    tried = [(int(at["a"]), int(at["b"])) for at, _, _ in formulas.each({"x": np.zeros(1, dtype=np.int64)})]
+    assert tried == [(1, 0)]
