@@ -87,5 +87,6 @@ def _lacking(first: Verdict, again: Verdict, reader: Reader) -> str:
     if reader.certificates and isinstance(again, Unknown):
         return again.reason
     if not isinstance(first, Unknown) and isinstance(first.because, Exhausted):
-        return f"{first.engine} kept no closed set of {first.because.how}"
+        too_many = "" if first.because.skipped else ", which are too many"
+        return f"{first.engine} wrote no certificate of {first.because.how}{too_many}"
     return f"{first.engine} gave no certificate"

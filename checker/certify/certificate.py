@@ -25,6 +25,9 @@ from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables
 
+MOST = 1 << 31
+"""Values (valuations times variables) of a closed set of which a diagram is made: some 6 GiB."""
+
 
 @dataclass(frozen=True)
 class Certificate:
@@ -50,13 +53,15 @@ def certificates(
     """A certificate for each invariant in the answers, for the goals that it excludes.
 
     Call it where the answers were found, so that a large closed set stays where it is.  An answer without
-    an invariant (an exhausted search that kept no closed set) gives none.
+    an invariant (an exhausted search that kept no closed set) gives none, nor does one with more than
+    ``MOST`` values.  Raises ``MemoryError``.
     """
     claims: dict[object, tuple[Evidence, list[str]]] = {}
     for goal in goals:
         match answers.get(goal.name):
-            case Unreachable(Exhausted(skipped=False, closed=closed) as because) if closed is not None:
-                claims.setdefault(_memory(closed), (because, []))[1].append(goal.name)
+            case Unreachable(Exhausted(skipped=False, closed=ClosedSet() as closed) as because):
+                if len(closed) * len(closed.places) <= MOST:
+                    claims.setdefault(_memory(closed), (because, []))[1].append(goal.name)
             case Unreachable(Exhausted(skipped=False, diagram=shape)) if shape is not None:
                 claims.setdefault(id(shape), (_formula(shape, system), []))[1].append(goal.name)
             case Unreachable(Inductive() as because):

@@ -1,6 +1,7 @@
 """Collecting certificates while properties are decided."""
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -22,7 +23,10 @@ class Asked(Protocol):
 
 @dataclass
 class Recorder:
-    """Hears answers where they are found, and makes certificates of them at once."""
+    """Hears answers where they are found, and makes certificates of them at once.
+
+    What there is no memory to make one of has none; the answer stands.
+    """
 
     made: list[Certificate] = field(default_factory=list)
 
@@ -30,7 +34,8 @@ class Recorder:
         """Answers to a question, each with the name of the engine that gave it."""
         for engine in sorted({by for _, by in found.values()}):
             own = {name: answer for name, (answer, by) in found.items() if by == engine}
-            self.made += certificates(asked.system, asked.goals, own, engine)
+            with suppress(MemoryError):
+                self.made += certificates(asked.system, asked.goals, own, engine)
 
 
 def rests_on_answers(verdict: Verdict) -> bool:

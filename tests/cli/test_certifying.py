@@ -45,7 +45,31 @@ def test_a_verdict_tells_why_it_is_not(capfd: pytest.CaptureFixture[str]) -> Non
     asked = ["check", "PB1-11", "--engine", "explicit", "--timers", "skip", "--certify"]
     assert run(asked) == Exit.AS_EXPECTED
     shown = " ".join(capfd.readouterr().out.split())
-    assert "not certified: explicit kept no closed set of all" in shown and "(quiet ticks skipped)" in shown
+    assert "not certified: explicit wrote no certificate of all" in shown and "(quiet ticks skipped)" in shown
+
+
+@pytest.mark.parametrize("known", [True, False])
+def test_a_proof_stands_that_is_too_large_for_a_certificate(
+    known: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two promises ended as unknown when diagrams were made of their 20 to 40 million valuations."""
+
+    def no_room(*_: object) -> None:
+        raise MemoryError
+
+    if known:
+        monkeypatch.setattr("checker.certify.certificate.MOST", 1)
+    else:
+        monkeypatch.setattr("checker.certify.certificate.diagram", no_room)
+    [task] = tasks([catalogue()["PB1-11"]], systems())
+    recorder = Recorder()
+    told = Told(answered=recorder.answered)
+    found = list(decide(task, systems(), "explicit", Limits(), quiet, told))
+    [result] = found
+    assert result.verdict.word == "proved" and recorder.made == []
+    outcomes = Certifying(again=True).outcomes(task, systems(), Limits(), found, recorder.made, quiet)
+    assert isinstance(outcome := outcomes["PB1-11"], Undecided)
+    assert "explicit wrote no certificate of all" in outcome.reason and "too many" in outcome.reason
 
 
 def test_certifying_within_little_memory(monkeypatch: pytest.MonkeyPatch) -> None:
