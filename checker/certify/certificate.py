@@ -26,7 +26,7 @@ from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables
 
 MOST = 1 << 31
-"""Values (valuations times variables) of a closed set of which a diagram is made: some 6 GiB."""
+"""Values (valuations times variables) of a closed set of which a diagram is made: 4 GiB of 16 bits each."""
 
 
 @dataclass(frozen=True)

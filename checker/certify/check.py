@@ -21,7 +21,7 @@ from spec_model.lang.system import TransitionSystem
 LARGE = 100_000
 """Nodes and edges of a diagram above which all valuations are tried.
 
-A solver would take its whole time and not decide; it is asked only where nothing else is.
+On those of the steered scenes a solver spent its whole time in vain: it is asked only if it alone is.
 """
 
 

@@ -26,7 +26,7 @@ from spec_model.lang.operators import Op
 from spec_model.lang.walk import variables
 
 MOST = 60_000_000_000
-"""Numbers that are computed at most: one or two minutes."""
+"""Numbers that are computed at most: three or four minutes."""
 CALLS = 20_000_000
 """Columns that are computed at most."""
 ROWS = 1 << 14
