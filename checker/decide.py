@@ -4,6 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from time import monotonic
 
+from checker.encode.written import Tree, readable
 from checker.engine import ALL, AUTO, Engine, Limits, Progress, Stage, Timers
 from checker.faults import Failed, attempted
 from checker.freely import freely
@@ -19,7 +20,7 @@ from checker.tasks import Task, tasks
 from checker.verdict import Open, Reached, Unknown
 from properties.forms import Property, Unbounded
 from properties.reduce import reduce
-from spec_model.lang.expr import Var
+from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import System, TransitionSystem
 
 
@@ -44,7 +45,7 @@ def decide(
     deadline = limits.deadline() if deadline is None else deadline
     progress(Stage(f"lowering {task.system.name}"))
     check_starts(lowered(task.system))
-    asking = Asking(engine, limits, told or Told(progress), deadline)
+    asking = Asking(engine, limits, told or Told(progress), deadline, task.recorded)
     for prop in task.properties:
         if isinstance(prop.form, Unbounded):
             yield _unbounded(prop, systems, asking)
@@ -53,31 +54,41 @@ def decide(
         done, left = freely(task.system, left, asking)
         yield from done
     if left:
-        yield from _exactly(Task(task.system, tuple(left)), systems, asking)
+        yield from _exactly(Task(task.system, tuple(left), task.recorded), systems, asking)
 
 
 @dataclass(frozen=True)
 class Asking:
-    """Asks what the user chose: an engine, within limits until the deadline, telling those who listen."""
+    """Asks what the user chose: an engine, within limits until the deadline, telling those who listen.
+
+    Engines in turn try what is ``recorded`` first, as far as it speaks of what the system still has.
+    """
 
     engine: str | Engine
     limits: Limits
     told: Told
     deadline: float | None = None
+    recorded: Sequence[Tree] | None = None
 
     def __call__(self, system: TransitionSystem, goals: Sequence[Var], hint: Hint = Hint.NONE) -> Answers:
         """An answer for each goal and for each check of the system."""
         engine = AUTO if hint is Hint.CONCRETE and self.engine != ALL else self.engine
-        question = Asked(system, tuple(goals), hint)
+        question = Asked(system, tuple(goals), hint, self._candidates(system))
         return self._late(question) or answers(question, engine, self._left(system), self.told)
 
     def as_found(self, system: TransitionSystem, goals: Sequence[Var]) -> Iterator[Answers]:
         """The same, each as soon as it is known."""
-        question = Asked(system, tuple(goals))
+        question = Asked(system, tuple(goals), candidates=self._candidates(system))
         if late := self._late(question):
             yield late
         else:
             yield from as_found(question, self.engine, self._left(system), self.told)
+
+    def _candidates(self, system: TransitionSystem) -> tuple[Expr, ...] | None:
+        if self.recorded is None:
+            return None
+        known = {v.name: v for v in (*system.frozen, *system.variables)}
+        return tuple(readable(self.recorded, known))
 
     def _left(self, system: TransitionSystem) -> Limits:
         self.told.progress(Stage(f"slicing {system.name}"))

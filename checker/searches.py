@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from checker.cache.places import VARIABLE, chosen
 from checker.cache.telling import Refused, Taken, listening
 from checker.certify.outcome import Outcome, Undecided
+from checker.encode.written import Tree
 from checker.engine import Engine, Limits, Stage
 from checker.faults import Fault, described, is_fault, tell
 from checker.faults import listening as attending
@@ -106,7 +107,7 @@ def searches(
     """
     needed = _needed(todo, systems)
     pool = Pool(jobs or cores(), _Deciding, (needed, engine, limits, certifying), limits.memory + SLACK)
-    orders = [Order((task.system.name, task.properties), task.system.name) for task in todo]
+    orders = [Order((task.system.name, task.properties, task.recorded), task.system.name) for task in todo]
     waiting = certifying is not None and certifying.again
     returns = [_Returns(task, waiting, limits.seconds) for task in todo]
     gates = {name: _Gate(sum(t.system.name == name for t in todo)) for name in needed}
@@ -188,7 +189,8 @@ class _Returns:
             return None
         self._left = {p.id: p for p in self.task.properties if p.id not in self._told}
         self._anew, self._held = True, {}
-        return Order((self.task.system.name, self.task.properties, True), self.task.system.name)
+        asked = self.task.system.name, self.task.properties, self.task.recorded, True
+        return Order(asked, self.task.system.name)
 
     def heard(self, event: Event) -> Iterator[Heard | _Stays]:
         """What an event brings.  Raises the error that is one."""
@@ -298,14 +300,21 @@ class _Deciding:
         self._limits = limits
         self._certifying = certifying
 
-    def __call__(self, send: Send, name: str, properties: tuple[Property, ...], anew: bool = False) -> None:
+    def __call__(
+        self,
+        send: Send,
+        name: str,
+        properties: tuple[Property, ...],
+        recorded: tuple[Tree, ...] | None = None,
+        anew: bool = False,
+    ) -> None:
         from checker.certify.file import Unwritable
         from checker.portfolio import Disagreement
         from checker.runs.replay import ReplayError
 
         try:
             with listening(send, anew=anew), attending(send):
-                self._search(send, Task(self._systems[name], properties))
+                self._search(send, Task(self._systems[name], properties, recorded))
         except (ModelError, ReplayError) as error:
             send(next(kind for kind in (ModelError, ReplayError) if isinstance(error, kind))(str(error)))
         except (Disagreement, Unwritable) as error:

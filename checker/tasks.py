@@ -4,6 +4,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from checker.encode.written import Tree
 from checker.portfolio.shape import driven
 from properties.forms import Property, Unbounded
 from properties.reduce import Question, reduce, without_step
@@ -18,10 +19,15 @@ MOST = 16
 
 @dataclass(frozen=True)
 class Task:
-    """Properties of one system that are searched together."""
+    """Properties of one system that are searched together.
+
+    ``recorded`` are the conjuncts of proofs on record, as ``checker.encode.written`` writes formulas; None
+    if there is no such proof.
+    """
 
     system: System
     properties: tuple[Property, ...]
+    recorded: tuple[Tree, ...] | None = None
 
     @property
     def title(self) -> str:

@@ -22,13 +22,15 @@ from checker.commands.further import NOTHING_FURTHER, Further
 from checker.commands.output import err, out, wrapped
 from checker.commands.progress import Watch
 from checker.commands.wrapping import plain
+from checker.encode.written import Tree
 from checker.engine import Limits
 from checker.faults import Fault, heard, listening, tell
+from checker.model.kept_invariants import Recorded
 from checker.printable import json_text
 from checker.render.story import repeating
 from checker.result import Result
 from checker.searches import Doing, Over, Warned, searches
-from checker.tasks import tasks
+from checker.tasks import Task, tasks
 from checker.trace import Trace, counted_ticks
 from checker.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
 from properties.catalogue import Expected, expected
@@ -39,6 +41,7 @@ if TYPE_CHECKING:
     from checker.certifying import Certifying
     from checker.commands.premises import Case
 
+NONE_RECORDED: Recorded = {}
 EVIDENCE = 33
 """The column in which the evidence of a verdict begins."""
 SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
@@ -120,15 +123,17 @@ def results(
     jobs: int | None = None,
     certifying: "Certifying | None" = None,
     quiet: bool = False,
+    recorded: Recorded = NONE_RECORDED,
 ) -> Generator[Result, None, None]:
     """Decide the properties, several searches at a time; results come as they are found.
 
-    With ``quiet``, nothing is said meanwhile.
+    With ``quiet``, nothing is said meanwhile.  Invariants that are ``recorded`` are tried first.
 
     On Ctrl-C the searches under way are ended and ``KeyboardInterrupt`` is raised.
     """
     # The largest first, so that no long search is left for the end; those of one system together.
-    todo = sorted(tasks(properties, systems), key=lambda t: (-t.size, t.system.name, t.title))
+    asked = (replace(task, recorded=_on_record(task, recorded)) for task in tasks(properties, systems))
+    todo = sorted(asked, key=lambda t: (-t.size, t.system.name, t.title))
     heard = searches(todo, systems, engine, limits, jobs, certifying)
     with Watch(err, len(todo), quiet) as watch, closing(heard):
         for one in heard:
@@ -142,6 +147,12 @@ def results(
                 case Result():
                     system = systems.get(one.system, systems[one.property.on])
                     yield replace(one, in_part=_in_part(one, system), limited_to=_limited_to(one, system))
+
+
+def _on_record(task: Task, recorded: Recorded) -> tuple[Tree, ...] | None:
+    """The conjuncts of all proofs on record of the properties of a task; None if there is none."""
+    known = [recorded[p.id] for p in task.properties if p.id in recorded]
+    return tuple(tree for trees in known for tree in trees) if known else None
 
 
 def _in_part(result: Result, system: System) -> bool:
@@ -182,6 +193,7 @@ def check(
     quiet: bool = False,
     further: Further = NOTHING_FURTHER,
     strict: bool = False,
+    recorded: Recorded = NONE_RECORDED,
 ) -> Exit:
     """Print every verdict with its evidence and what the baseline says of it.
 
@@ -198,13 +210,16 @@ def check(
     try:
         with (
             listening(faults.append),
-            closing(results(properties, systems, engine, limits, jobs, certifying, quiet)) as coming,
+            closing(
+                results(properties, systems, engine, limits, jobs, certifying, quiet, recorded)
+            ) as coming,
         ):
             for result in coming:
                 found.append(Compared(result, expect(result.property.id), variant))
                 if not as_json and not (quiet and found[-1].code is Exit.AS_EXPECTED):
                     out.print(wrapped(line(found[-1]), EVIDENCE), markup=False)
                 further.heard(found[-1])
+        further.keep(found)
         cases, chains = further.cases(found), further.chains(found)
         found = [
             replace(c, case=cases.get(c.result.property.id), noticed=further.noticed(c), strict=strict)

@@ -23,6 +23,10 @@ def _no_cases(_: Sequence["Compared"]) -> Mapping[str, "Case"]:
     return {}
 
 
+def _nothing_kept(_: Sequence["Compared"]) -> None:
+    """No proof is put on record."""
+
+
 def _no_chains(_: Sequence["Compared"]) -> Sequence["Standing"]:
     return ()
 
@@ -33,13 +37,15 @@ class Further:
 
     ``heard`` is told each result while others are searched for.  ``cases`` says of each proof that speaks of
     a case, by id, whether the case occurs, ``chains`` what becomes of chains of properties.  ``noticing`` are
-    the properties that notice a fault which is on record; None where none are kept.
+    the properties that notice a fault which is on record; None where none are kept.  ``keep`` puts proofs on
+    record.
     """
 
     heard: Callable[["Compared"], None] = _unheard
     cases: Callable[[Sequence["Compared"]], Mapping[str, "Case"]] = _no_cases
     chains: Callable[[Sequence["Compared"]], Sequence["Standing"]] = _no_chains
     noticing: Collection[str] | None = None
+    keep: Callable[[Sequence["Compared"]], None] = _nothing_kept
 
     def noticed(self, one: "Compared") -> bool | None:
         """Whether a fault is known that a proof notices; None of what no fault is looked for."""

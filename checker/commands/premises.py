@@ -10,7 +10,7 @@ from checker.commands.output import write
 from checker.commands.wrapping import whole
 from checker.engine import Limits
 from checker.model import Model
-from checker.model.kept_runs import Kept, file_of, read, text
+from checker.model.kept_runs import INVARIANTS, PREMISES, Kept, file_of, read, text
 from checker.result import Result
 from checker.runs.known import reached, run_of
 from checker.trace import counted_ticks
@@ -103,13 +103,14 @@ def record(known: Mapping[str, Case], model: Model) -> None:
     write(text({**others, **new}), file)
 
 
-def recordable(model: Model, variant: str) -> None:
-    """Raises ``UsageError`` where no runs can be kept, before anything is searched."""
+def recordable(model: Model, variant: str, kind: str = PREMISES) -> None:
+    """Raises ``UsageError`` where none of that kind can be kept, before anything is searched."""
     if variant:
+        what = "invariants" if kind == INVARIANTS else "runs"
         raise UsageError(
-            f"--record-premises keeps runs of the charts as they are, not {variant}. Leave one of them out."
+            f"--record-{kind} keeps {what} of the charts as they are, not {variant}. Leave one of them out."
         )
-    file = file_of(model)
+    file = file_of(model, kind)
     if not file.parent.is_dir() or file.is_dir():
         raise UsageError(f"Cannot write {whole(file)}: it is no file in a folder that exists.")
 

@@ -102,6 +102,22 @@ def _is(expr: Expr, value: int) -> bool:
     return isinstance(expr, Const) and expr.value == value
 
 
+def with_values(terms: Terms, values: Mapping[str, int], formula: Expr) -> Expr:
+    """A formula of any table as one of this table, with values in place of some variables."""
+    done: dict[int, Expr] = {}
+    for node in postorder(formula):
+        match node:
+            case Var(name) if name in values:
+                done[id(node)] = terms.const(values[name], node.sort)
+            case Var():
+                done[id(node)] = terms.var(node)
+            case Const(value, sort):
+                done[id(node)] = terms.const(value, sort)
+            case Apply(op, args, sort):
+                done[id(node)] = terms.apply(op, [done[id(a)] for a in args], sort)
+    return done[id(formula)]
+
+
 class _Folder:
     """Replaces variables by constants in formulas of a table."""
 

@@ -1,20 +1,27 @@
 """Runs kept beside the verdicts on record: they show cases that occur, and faults that are noticed."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from checker.model import Model, shown
 from checker.model.records import baseline_of
 from checker.verdict import Run
 from spec_model.lang.errors import ModelError
 
+T = TypeVar("T")
 SCHEMA = "rovercheck/{}/1"
 PREMISES, KILLS = "premises", "kills"
 """What runs are kept for: cases that occur, and mutants that a property kills."""
-RECORD = {PREMISES: "rovercheck check --record-premises", KILLS: "rovercheck mutate --record-kills"}
+INVARIANTS = "invariants"
+"""What is kept of proofs (``checker.model.kept_invariants``)."""
+RECORD = {
+    PREMISES: "rovercheck check --record-premises",
+    KILLS: "rovercheck mutate --record-kills",
+    INVARIANTS: "rovercheck check --record-invariants",
+}
 ROVER = Path(__file__).parents[2] / "properties"
 MOST_TICKS = 1_000_000
 """Ticks that a file may hold, all runs together: more would be no use and might not fit in memory."""
@@ -30,7 +37,7 @@ class Kept:
 
 
 def file_of(model: Model, kind: str = PREMISES) -> Path:
-    """Where the runs are: ``premises.json`` beside the baseline, or ``NAME.premises.json``."""
+    """Where they are: ``premises.json`` beside the baseline, or ``NAME.premises.json``."""
     if model.path is None:
         return ROVER / f"{kind}.json"
     table = baseline_of(model.path)
@@ -42,29 +49,45 @@ def read(file: Path, kind: str = PREMISES) -> dict[str, Kept]:
 
     Raises ``ModelError`` for a file that holds something else.
     """
+
+    def runs(rows: Any) -> dict[str, Kept]:
+        left, found = MOST_TICKS, dict[str, Kept]()
+        for id, row in rows.items():
+            found[id] = _kept(row, left)
+            left -= len(found[id].run)
+        return found
+
+    return contents(file, kind, "runs", runs)
+
+
+def contents(file: Path, kind: str, what: str, made: Callable[[Any], dict[str, T]]) -> dict[str, T]:
+    """What is made of all rows of a file that is kept, by the id of their property; nothing if there is none.
+
+    Raises ``ModelError`` for a file that holds something else.
+    """
     if not file.exists():
         return {}
     try:
         whole = json.loads(file.read_text(encoding="utf-8"))
         if whole["schema"] != SCHEMA.format(kind):
             raise ValueError(f"its schema is {whole['schema']!r}, not {SCHEMA.format(kind)!r}")
-        left, found = MOST_TICKS, dict[str, Kept]()
-        for id, row in whole["runs"].items():
-            found[id] = _kept(row, left)
-            left -= len(found[id].run)
+        return made(whole[what])
     except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError) as error:
         why = f"{type(error).__name__}: {error}" if isinstance(error, KeyError) else str(error)
         again = f"Remove it, and `{RECORD[kind]}` writes it anew."
-        raise ModelError(f"{shown(file)} holds no runs: {why}. {again}") from error
-    return found
+        raise ModelError(f"{shown(file)} holds no {what}: {why}. {again}") from error
 
 
 def text(runs: Mapping[str, Kept], kind: str = PREMISES) -> str:
     """The runs as JSON, one a line; of a tick the inputs that differ from the one before."""
-    lines = (
-        f"  {json.dumps(id)}: {json.dumps(_row(runs[id]), separators=(',', ':'))}" for id in sorted(runs)
-    )
-    return f'{{"schema": {json.dumps(SCHEMA.format(kind))}, "runs": {{\n' + ",\n".join(lines) + "\n}}\n"
+    return lines(kind, "runs", {id: _row(kept) for id, kept in runs.items()})
+
+
+def lines(kind: str, what: str, rows: Mapping[str, object]) -> str:
+    """Rows to keep as JSON, one a line."""
+    ordered = (f"  {json.dumps(id)}: {json.dumps(rows[id], separators=(',', ':'))}" for id in sorted(rows))
+    schema = json.dumps(SCHEMA.format(kind))
+    return f'{{"schema": {schema}, {json.dumps(what)}: {{\n' + ",\n".join(ordered) + "\n}}\n"
 
 
 def _row(kept: Kept) -> dict[str, object]:
@@ -99,4 +122,4 @@ def _numbers(values: Mapping[str, Any]) -> dict[str, int]:
     return {name: int(value) for name, value in values.items()}
 
 
-__all__ = ["KILLS", "PREMISES", "Kept", "file_of", "read", "text"]
+__all__ = ["INVARIANTS", "KILLS", "PREMISES", "Kept", "contents", "file_of", "lines", "read", "text"]

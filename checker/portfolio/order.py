@@ -48,6 +48,9 @@ CHECKS = Turn("explicit", memory=128 * MB, transitions=250_000_000, share=0.5)
 """The turn in which it is asked at last whether a model of few valuations leaves a domain at all, where a run
 that counts whatever other runs do has ended the other turns before that was known."""
 
+RECORDED = Turn("kinduction", seconds=120, share=0.3)
+"""Before any search: what a proof on record still shows is shown in seconds."""
+
 _FEW = Turn("explicit", memory=32 * MB, transitions=32_000_000, share=0.3)
 """A second at most: of a broad question it is not known before whether it has few valuations."""
 

@@ -7,7 +7,7 @@ from enum import StrEnum
 from checker.engine import Progress, quiet
 from checker.trace import counted_ticks
 from checker.verdict import Answer, Evidence, Exhausted, Open, Reached, Unreachable
-from spec_model.lang.expr import Var
+from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem
 
 Found = Mapping[str, tuple[Answer, str]]
@@ -36,11 +36,16 @@ class Hint(StrEnum):
 
 @dataclass(frozen=True)
 class Question:
-    """Is any of the ``wanted`` goals ever true after a tick, and does the model leave a domain?"""
+    """Is any of the ``wanted`` goals ever true after a tick, and does the model leave a domain?
+
+    ``candidates`` are formulas that may be an invariant, from a proof on record: of the same charts, or of
+    charts before they were changed.  None: no proof is on record.
+    """
 
     system: TransitionSystem
     wanted: tuple[Var, ...]
     hint: Hint = Hint.NONE
+    candidates: tuple[Expr, ...] | None = None
 
     @property
     def checks(self) -> tuple[Var, ...]:

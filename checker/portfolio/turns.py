@@ -7,8 +7,9 @@ from time import monotonic
 from checker.engine import Engine, Limits, Stage, engines
 from checker.faults import Failed, attempted
 from checker.portfolio.disagreement import contradict, said
-from checker.portfolio.order import CHECKS, ORDERS, Turn
+from checker.portfolio.order import CHECKS, ORDERS, RECORDED, Turn
 from checker.portfolio.question import Found, Question, Told
+from checker.portfolio.recorded import Recorded
 from checker.portfolio.shape import shape
 from checker.runs.domains import stray
 from checker.verdict import Answer, Open, Reached, Run
@@ -27,6 +28,10 @@ def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
     """
     known, deadline = engines(), limits.deadline()
     found: Found = {}
+    if question.candidates is not None:
+        recorded = Recorded(question.candidates)
+        found = _turn(recorded, RECORDED, question, question.goals, found, limits, deadline, told)
+        yield found
     for turn in ORDERS[shape(question).kind]:
         goals = [g for g in question.open(found) if _worth(found.get(g.name))]
         if not goals or (found and _over(question, found, limits, deadline)):

@@ -33,6 +33,11 @@ if TYPE_CHECKING:
 @click.option(
     "--record-premises", is_flag=True, help="Search longer for these cases, and keep runs that show them."
 )
+@click.option(
+    "--record-invariants",
+    is_flag=True,
+    help="Keep the invariants of proofs: the next check tries them first.",
+)
 @click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
 @click.option("--quiet", "-q", is_flag=True, help="Only what is not as expected, and no progress.")
 @click.option(
@@ -84,6 +89,7 @@ def check(
     strict: bool,
     no_premises: bool,
     record_premises: bool,
+    record_invariants: bool,
     as_json: bool,
     quiet: bool,
     jobs: int | None,
@@ -113,6 +119,7 @@ def check(
         from checker.commands.findings import Guide, causes
         from checker.commands.select import pick_engine, pick_properties
         from checker.commands.variant import pick_variant
+        from checker.model.kept_invariants import read as recorded
 
         variant = pick_variant(chosen, repair, dropped, model)
         properties = pick_properties(ids, about, variant.properties(), full, variant.unchanged())
@@ -142,6 +149,15 @@ def check(
             reports = Reports(systems, junit, sarif, annotations or "", variant.name, again, as_json)
             reports.possible()
             deliver = reports.write
+        further = _further(
+            variant,
+            None if no_premises else _premises(variant, asked, limits, jobs, quiet, record_premises),
+            chains,
+        )
+        if record_invariants:
+            from checker.commands.recording import Recording
+
+            further = replace(further, keep=Recording(variant.model, variant.name))
         return run(
             properties,
             systems,
@@ -155,12 +171,9 @@ def check(
             Guide(variant.options, _selection(ids, about, full), variant.model.by_gravity, causes(variant)),
             deliver,
             quiet,
-            _further(
-                variant,
-                None if no_premises else _premises(variant, asked, limits, jobs, quiet, record_premises),
-                chains,
-            ),
+            further,
             strict,
+            recorded(variant.model),
         )
 
 

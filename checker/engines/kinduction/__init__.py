@@ -16,7 +16,7 @@ from checker.isolate import Send, Stopped, messages
 from checker.verdict import Answer, Open, Reached, Unreachable
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
-    from spec_model.lang.expr import Var
+    from spec_model.lang.expr import Expr, Var
     from spec_model.lang.system import TransitionSystem
 
 NAME = "kinduction"
@@ -24,13 +24,22 @@ SUMMARY = "proofs by k-induction with invariants that are found by simulation an
 
 
 def check(
-    system: "TransitionSystem", goals: Sequence["Var"], limits: Limits, progress: Progress
+    system: "TransitionSystem",
+    goals: Sequence["Var"],
+    limits: Limits,
+    progress: Progress,
+    candidates: Sequence["Expr"] | None = None,
 ) -> Mapping[str, Answer]:
     """``Unreachable`` with an inductive invariant, ``Reached`` by a run (``shortest`` only where it is known
-    to be), or ``Open`` with the ticks that were searched exhaustively and the reason."""
+    to be), or ``Open`` with the ticks that were searched exhaustively and the reason.
+
+    With ``candidates``, such as the conjuncts of an earlier proof, no invariant is searched for: those of
+    them are taken that are inductive.
+    """
     names = tuple(g.name for g in goals)
     state = _Answers(names)
-    job = (replace(system, source=None), names, limits.depth)
+    given = None if candidates is None else tuple(candidates)
+    job = (replace(system, source=None), names, limits.depth, given)
     reason = "the search ended without a word"
     try:
         with closing(messages(_work, *job, seconds=limits.seconds, memory=limits.memory)) as events:
@@ -71,9 +80,16 @@ class _Answers:
         return text + (f", {len(self.found)} decided" if self.found else "")
 
 
-def _work(send: Send, system: "TransitionSystem", goals: tuple[str, ...], depth: int | None) -> None:
+def _work(
+    send: Send,
+    system: "TransitionSystem",
+    goals: tuple[str, ...],
+    depth: int | None,
+    candidates: "tuple[Expr, ...] | None",
+) -> None:
     """In the child: Z3 is loaded here only."""
-    from checker.engines.kinduction.search import search
+    from checker.engines.kinduction.search import search, with_given
 
-    for event in search(system, goals, depth):
+    events = search(system, goals, depth) if candidates is None else with_given(system, goals, candidates)
+    for event in events:
         send(event)

@@ -6,6 +6,7 @@ that one answer of the solver strikes out many candidates (Flanagan and Leino, F
 """
 
 from collections.abc import Iterable, Sequence
+from functools import cached_property
 
 import numpy as np
 import z3
@@ -32,9 +33,13 @@ class Consecution:
         self._ticks = Ticks(scope, PATIENCE)
         self._ticks.tick()
         self._after = Encoder(self._ticks.valuation(1))
-        self._simulator = Simulator(scope.part, scope.escapes, lanes=_LANES, seed=1)
+        self._scope = scope
         self._known: dict[str, Expr] = {}
         self._struck: list[tuple[Reading, Term]] = []
+
+    @cached_property
+    def _simulator(self) -> Simulator:
+        return Simulator(self._scope.part, self._scope.escapes, lanes=_LANES, seed=1)
 
     @property
     def known(self) -> list[Expr]:

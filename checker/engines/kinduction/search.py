@@ -7,11 +7,12 @@ is attacked from its counterexamples to induction: each suggests clauses that ex
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from checker.encode.cone import as_written, by_cone, cone, constants, folded, straying
+from checker.encode.cone import as_written, by_cone, cone, constants, folded, straying, with_values
 from checker.encode.simulate import Simulator, Trail
 from checker.encode.symbolic import transition
 from checker.encode.unrolling import Outside, Unrolling, literal, satisfiable
 from checker.engines.kinduction.events import Bound, Closed, Doing, Event, Found, Stuck
+from checker.engines.kinduction.given import Given
 from checker.engines.kinduction.hunt import Hunt
 from checker.engines.kinduction.induction import WINDOW, Step, induction
 from checker.engines.kinduction.ticks import GaveUp, Scope, excluded
@@ -39,6 +40,11 @@ def search(system: TransitionSystem, goals: Sequence[str], depth: int | None) ->
         yield from Group(model, names, depth).decide()
 
 
+def with_given(system: TransitionSystem, goals: Sequence[str], candidates: Sequence[Expr]) -> Iterator[Event]:
+    """Events about all goals together, with those of the candidates that are inductive as the invariant."""
+    yield from Group(Model(system), goals, WINDOW).decide_with(candidates)
+
+
 class Model:
     """A system's tick as functions, as written and with the variables that never change folded away."""
 
@@ -47,6 +53,12 @@ class Model:
         self.plain = transition(system)
         self.fixed = constants(self.plain)
         self.folded = folded(self.plain, self.fixed)
+
+    def as_folded(self, formulas: Iterable[Expr]) -> list[Expr]:
+        """Formulas over the variables that do change, without those that are then true."""
+        terms = self.plain.terms
+        made = (with_values(terms, self.fixed, formula) for formula in formulas)
+        return [formula for formula in made if formula is not terms.true]
 
     def unchanging(self, among: Iterable[Var]) -> tuple[Expr, ...]:
         """The conjuncts that folding relied on, about some variables."""
@@ -62,7 +74,7 @@ class Group:
     """Goals that are decided together: those still open, and the ticks they are not reached in."""
 
     def __init__(self, model: Model, goals: Sequence[str], depth: int | None) -> None:
-        self._most = depth
+        self._model, self._most = model, depth
         self.open = list(goals)
         self.deep = 0
         near = as_written(model.system, goals)
@@ -86,6 +98,21 @@ class Group:
                 if not self.open:
                     return
             yield Stuck(tuple(self.open), self._reason)
+        except GaveUp as gave_up:
+            yield Stuck(tuple(self.open), f"Z3 took more steps than one query may ({gave_up})")
+
+    def decide_with(self, candidates: Sequence[Expr]) -> Iterator[Event]:
+        """Events until every goal is closed, found or stuck."""
+        if not self._outside.possible:
+            yield from (Closed(goal, Inductive(self._unchanging)) for goal in self.open)
+            return
+        try:
+            given = Given(self._scope, self._model.as_folded(candidates))
+            yield from self._attempts(given, 1)
+            if self.open:
+                yield from self._first_ticks()
+                yield from self._attempts(given, self.deep)
+            yield Stuck(tuple(self.open), "the given candidates make no invariant that excludes it")
         except GaveUp as gave_up:
             yield Stuck(tuple(self.open), f"Z3 took more steps than one query may ({gave_up})")
 
@@ -162,7 +189,7 @@ class Group:
         yield Doing("k-induction along simple paths")
         yield from self._attempts(hunt, self.deep, simple=True)
 
-    def _attempts(self, hunt: Hunt, window: int, *, simple: bool = False) -> Iterator[Event]:
+    def _attempts(self, hunt: Hunt | Given, window: int, *, simple: bool = False) -> Iterator[Event]:
         """Try to close each goal with the invariant so far; the hunt is told what stands in the way.
 
         ``simple``: along paths whose valuations, of all that the goals depend on as written, differ; whoever

@@ -1,0 +1,40 @@
+"""``rovercheck check --record-invariants``: proofs put on record, to be shown again without a search."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from checker.commands.check import Compared
+from checker.commands.output import counted, err, write
+from checker.commands.premises import recordable
+from checker.model import Model
+from checker.model.kept_invariants import read, row, text
+from checker.model.kept_runs import INVARIANTS, file_of
+from checker.verdict import Inductive, Unknown
+
+
+@dataclass(frozen=True)
+class Recording:
+    """Keeps the invariants of what was asked; those of other properties stay as they are.
+
+    Raises ``UsageError`` where none can be kept, before anything is searched.
+    """
+
+    model: Model
+    variant: str
+
+    def __post_init__(self) -> None:
+        recordable(self.model, self.variant, INVARIANTS)
+
+    def __call__(self, found: Sequence[Compared]) -> None:
+        """Keep them.  Raises ``UsageError`` where the file cannot be written."""
+        asked = {one.result.property.id for one in found}
+        before = read(self.model)
+        kept = {id: trees for id, trees in before.items() if id in self.model.properties and id not in asked}
+        new = {
+            one.result.property.id: trees
+            for one in found
+            if not isinstance(one.verdict, Unknown) and isinstance(one.verdict.because, Inductive)
+            if (trees := row(one.verdict.because)) is not None
+        }
+        write(text({**kept, **new}), file_of(self.model, INVARIANTS))
+        err.print(f"{counted(len(new), 'invariant is', 'invariants are')} on record of what was asked.")
