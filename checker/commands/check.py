@@ -123,16 +123,16 @@ def results(
     jobs: int | None = None,
     certifying: "Certifying | None" = None,
     quiet: bool = False,
-    recorded: Recorded = NONE_RECORDED,
+    invariants: Recorded = NONE_RECORDED,
 ) -> Generator[Result, None, None]:
     """Decide the properties, several searches at a time; results come as they are found.
 
-    With ``quiet``, nothing is said meanwhile.  Invariants that are ``recorded`` are tried first.
+    With ``quiet``, nothing is said meanwhile.  The ``invariants`` on record are tried first.
 
     On Ctrl-C the searches under way are ended and ``KeyboardInterrupt`` is raised.
     """
     # The largest first, so that no long search is left for the end; those of one system together.
-    asked = (replace(task, recorded=_on_record(task, recorded)) for task in tasks(properties, systems))
+    asked = (replace(task, recorded=_on_record(task, invariants)) for task in tasks(properties, systems))
     todo = sorted(asked, key=lambda t: (-t.size, t.system.name, t.title))
     heard = searches(todo, systems, engine, limits, jobs, certifying)
     with Watch(err, len(todo), quiet) as watch, closing(heard):
@@ -149,9 +149,9 @@ def results(
                     yield replace(one, in_part=_in_part(one, system), limited_to=_limited_to(one, system))
 
 
-def _on_record(task: Task, recorded: Recorded) -> tuple[Tree, ...] | None:
+def _on_record(task: Task, invariants: Recorded) -> tuple[Tree, ...] | None:
     """The conjuncts of all proofs on record of the properties of a task; None if there is none."""
-    known = [recorded[p.id] for p in task.properties if p.id in recorded]
+    known = [invariants[p.id] for p in task.properties if p.id in invariants]
     return tuple(tree for trees in known for tree in trees) if known else None
 
 
@@ -193,7 +193,7 @@ def check(
     quiet: bool = False,
     further: Further = NOTHING_FURTHER,
     strict: bool = False,
-    recorded: Recorded = NONE_RECORDED,
+    invariants: Recorded = NONE_RECORDED,
 ) -> Exit:
     """Print every verdict with its evidence and what the baseline says of it.
 
@@ -211,7 +211,7 @@ def check(
         with (
             listening(faults.append),
             closing(
-                results(properties, systems, engine, limits, jobs, certifying, quiet, recorded)
+                results(properties, systems, engine, limits, jobs, certifying, quiet, invariants)
             ) as coming,
         ):
             for result in coming:

@@ -17,6 +17,7 @@ from checker.commands.select import pick
 from checker.commands.tables import listed
 from checker.engine import AUTO, Limits
 from checker.model import Model
+from checker.model.kept_invariants import Recorded, invariants_of
 from checker.model.kept_runs import file_of, read
 from checker.mutate.asked import as_it_is
 from checker.mutate.judging import Fate, Judged
@@ -129,7 +130,8 @@ def _judged(
     own = [p for p in properties if p.on in set(at.values())]
     recorded = {p.id: _recorded(model, p.id) for p in properties}
     plan = Plan(model.systems, properties, recorded, premises=_premises(model))
-    _decide(plan, own, limits, wanted.jobs)
+    invariants = invariants_of(model)
+    _decide(plan, own, limits, wanted.jobs, invariants)
     found.undecided += [p.id for p in own if p.id not in plan.proved]
     first = [plan.own(mutant, name) for name, mutant in todo]
     unkilled: dict[str, Judged] = {}
@@ -148,7 +150,7 @@ def _judged(
         if len(again) >= WORTH_RUNS:
             asked = {p.id: p for one in again for case in one.cases for p in case.properties}
             with_runs = [p for p in asked.values() if p.id not in plan.proved and _has_run(plan, p)]
-            _decide(plan, with_runs, limits, wanted.jobs)
+            _decide(plan, with_runs, limits, wanted.jobs, invariants)
         for told in _told(plan, again, limits, wanted.jobs, unkilled):
             unkilled.pop(told.mutant.id)
             found.told.append((at[told.mutant.id], told.mutant, told.judged))
@@ -183,10 +185,12 @@ def _recorded(model: Model, id: str) -> bool | None:
     return None if verdict == "unknown" else verdict == "proved"
 
 
-def _decide(plan: Plan, asked: Sequence[Property], limits: Limits, jobs: int | None) -> None:
+def _decide(
+    plan: Plan, asked: Sequence[Property], limits: Limits, jobs: int | None, invariants: Recorded
+) -> None:
     """Let the plan know the verdicts on the originals, in which every run counts."""
     own = {name: as_it_is(plan.systems[name]) for name in {p.on for p in asked}}
-    for result in results(asked, own, AUTO, limits, jobs):
+    for result in results(asked, own, AUTO, limits, jobs, invariants=invariants):
         plan.learn(result)
 
 

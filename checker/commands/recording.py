@@ -7,7 +7,7 @@ from checker.commands.check import Compared
 from checker.commands.output import counted, err, write
 from checker.commands.premises import recordable
 from checker.model import Model
-from checker.model.kept_invariants import read, row, text
+from checker.model.kept_invariants import invariants_of, row, text
 from checker.model.kept_runs import INVARIANTS, file_of
 from checker.verdict import Inductive, Unknown
 
@@ -28,7 +28,7 @@ class Recording:
     def __call__(self, found: Sequence[Compared]) -> None:
         """Keep them.  Raises ``UsageError`` where the file cannot be written."""
         asked = {one.result.property.id for one in found}
-        before = read(self.model)
+        before = invariants_of(self.model)
         kept = {id: trees for id, trees in before.items() if id in self.model.properties and id not in asked}
         new = {
             one.result.property.id: trees

@@ -8,6 +8,7 @@ from html import escape
 from checker.commands.check import Compared, evidence, results
 from checker.commands.variant import Variant
 from checker.engine import AUTO, Limits, Timers
+from checker.model.kept_invariants import invariants_of_rover
 from checker.render import renderers
 from checker.render.drawing.changes import changes
 from checker.result import Result
@@ -67,7 +68,10 @@ def _specified() -> Mapping[str, System]:
 def _decided(repair: Repair) -> Iterator[Result]:
     variant = Variant(repair.readings, repair)
     wanted = [prop for id in repair.fixes if not (prop := variant.properties()[id]).costly]
-    found = {r.property.id: r for r in results(wanted, variant.systems(), AUTO, LIMITS)}
+    found = {
+        r.property.id: r
+        for r in results(wanted, variant.systems(), AUTO, LIMITS, invariants=invariants_of_rover())
+    }
     yield from (found[prop.id] for prop in wanted)
 
 

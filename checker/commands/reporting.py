@@ -18,6 +18,7 @@ from checker.commands.wording import formally
 from checker.commands.wrapping import whole
 from checker.engine import AUTO, Limits
 from checker.explain.explained import unexplained
+from checker.model.kept_invariants import invariants_of_rover
 from checker.render import renderers
 from checker.render.trace_markdown import reasons_told
 from checker.trace import Trace
@@ -49,7 +50,8 @@ def reports(folder: Path, stale: bool) -> Exit:
     What forces the runs takes minutes to find: it is written, and not found again to see what is out of date.
     """
     affordable = [prop for prop in catalogue().values() if not prop.costly]
-    found = [Compared(r, expected(r.property.id)) for r in results(affordable, systems(), AUTO, Limits())]
+    decided = results(affordable, systems(), AUTO, Limits(), invariants=invariants_of_rover())
+    found = [Compared(r, expected(r.property.id)) for r in decided]
     made = pages(found if stale else with_reasons(found, systems()))
     different = list(differences(folder, made))
     if stale:

@@ -9,6 +9,7 @@ from checker.commands.further import noticing
 from checker.commands.output import out
 from checker.commands.tables import listed
 from checker.engine import AUTO, Limits
+from checker.model.kept_invariants import invariants_of
 from checker.model.load import load
 from checker.model.rover import rover
 from checker.printable import json_text
@@ -51,7 +52,9 @@ def requirements(decide: bool, as_json: bool, path: Path | None = None) -> Exit:
         return show(rows, {id: model.expected(id).verdict for id in stated}, ON_RECORD, as_json)
     found = [
         Compared(r, model.expected(r.property.id))
-        for r in results(list(stated.values()), model.systems, AUTO, Limits())
+        for r in results(
+            list(stated.values()), model.systems, AUTO, Limits(), invariants=invariants_of(model)
+        )
     ]
     code = show(rows, words(found), DECIDED, as_json)
     return code if code != Exit.AS_EXPECTED else worst(found)

@@ -23,6 +23,7 @@ from checker.commands.variant import Variant
 from checker.commands.wrapping import whole
 from checker.engine import AUTO, Limits
 from checker.model import Model
+from checker.model.kept_invariants import invariants_of
 from checker.model.kept_runs import file_of, read
 from checker.render.review import render
 from checker.render.review.model import Origin
@@ -80,7 +81,9 @@ def report(
     known = read(file_of(variant.model)) if asked.premises else {}
     found: list[Compared] = []
     try:
-        for result in results(properties, model.systems, engine, limits, jobs, certifying):
+        for result in results(
+            properties, model.systems, engine, limits, jobs, certifying, invariants=invariants_of(model)
+        ):
             found.append(Compared(result, variant.expected(result.property.id), variant.name))
         if asked.explain:
             found = with_reasons(found, model.systems)

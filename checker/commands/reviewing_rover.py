@@ -11,6 +11,7 @@ from checker.conform.cover.goals import Kind
 from checker.conform.cover.keep import kept_of
 from checker.conform.cover.watch import watched
 from checker.engine import AUTO
+from checker.model.kept_invariants import invariants_of_rover
 from checker.render.drawing.changes import changes
 from checker.render.review.model import Ambiguity, Covered, Edit, Remedy
 from checker.result import Result
@@ -53,7 +54,10 @@ def remedies(found: Sequence[Compared]) -> Iterator[Remedy]:
 def _decided(repair: Repair, violated: set[str]) -> Iterator[Result]:
     variant = Variant(repair.readings, repair)
     wanted = [variant.properties()[id] for id in repair.fixes if id in violated]
-    by_id = {r.property.id: r for r in results(wanted, variant.systems(), AUTO, LIMITS)}
+    by_id = {
+        r.property.id: r
+        for r in results(wanted, variant.systems(), AUTO, LIMITS, invariants=invariants_of_rover())
+    }
     yield from (by_id[prop.id] for prop in wanted)
 
 

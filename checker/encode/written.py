@@ -55,7 +55,10 @@ def formula(tree: Tree, variables: Mapping[str, Var]) -> Expr:
     Of a number, and of what is computed of numbers, the sort is that of a variable beside it: engines read
     raw numbers.  Raises ``Unreadable``, also where a variable does not exist or has got another sort.
     """
-    return _formula(tree, variables, Num())
+    try:
+        return _formula(tree, variables, Num())
+    except RecursionError:
+        raise Unreadable("it is nested too deeply") from None
 
 
 def readable(trees: Iterable[Tree], variables: Mapping[str, Var]) -> Iterator[Expr]:
@@ -83,9 +86,10 @@ def _formula(tree: Tree, variables: Mapping[str, Var], beside: Sort) -> Expr:
 
 
 def _applied(op: Op, trees: Sequence[Tree], variables: Mapping[str, Var], beside: Sort) -> Expr:
-    known = [_formula(t, variables, beside) for t in trees if not _number(t)]
-    sorts = [e.sort for e in known if not isinstance(e.sort, Bool)]
-    args = [_formula(t, variables, sorts[0] if sorts else beside) for t in trees]
+    known = [None if _number(t) else _formula(t, variables, beside) for t in trees]
+    sorts = [e.sort for e in known if e is not None and not isinstance(e.sort, Bool)]
+    near = sorts[0] if sorts else beside
+    args = [_formula(t, variables, near) if e is None else e for e, t in zip(known, trees, strict=True)]
     sort = _sort(op, args)
     if sort is None:
         raise Unreadable(f"{str([op.value, *trees])[:60]}: {op.value} does not take these arguments")

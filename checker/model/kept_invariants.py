@@ -5,11 +5,12 @@ now are dropped, and what the others do not show is searched for.
 """
 
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 from checker.encode.written import Tree, size, written
 from checker.model import Model
-from checker.model.kept_runs import INVARIANTS, contents, file_of, lines
+from checker.model.kept_runs import INVARIANTS, ROVER, contents, file_of, lines
 from checker.verdict import Inductive
 
 Recorded = Mapping[str, tuple[Tree, ...]]
@@ -19,12 +20,22 @@ MOST_NODES = 100_000
 """Operators, variables and numbers of the formulas of one proof that is kept."""
 
 
-def read(model: Model) -> Recorded:
-    """The invariants on record for a model, none if there is no file.
+def read(file: Path) -> Recorded:
+    """The invariants in a file, none if there is no file.
 
     Raises ``ModelError`` for a file that holds something else.
     """
-    return contents(file_of(model, INVARIANTS), INVARIANTS, INVARIANTS, _invariants)
+    return contents(file, INVARIANTS, INVARIANTS, _invariants)
+
+
+def invariants_of(model: Model) -> Recorded:
+    """The invariants on record for a model.  Raises ``ModelError`` as ``read`` does."""
+    return read(file_of(model, INVARIANTS))
+
+
+def invariants_of_rover() -> Recorded:
+    """The invariants on record for the rover.  Raises ``ModelError`` as ``read`` does."""
+    return read(ROVER / f"{INVARIANTS}.json")
 
 
 def text(recorded: Recorded) -> str:

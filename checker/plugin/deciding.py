@@ -12,6 +12,7 @@ from checker.commands.failing import alarm, told
 from checker.commands.select import pick_engine
 from checker.engine import Limits
 from checker.faults import Fault, listening
+from checker.model.kept_invariants import invariants_of
 
 if TYPE_CHECKING:
     from checker.plugin.item import PropertyItem
@@ -70,7 +71,9 @@ class Decider:
         faults: list[Fault] = []
         try:
             with listening(faults.append):
-                found = results(properties, model.systems, self.engine, self.limits, self.jobs, quiet=True)
+                asked = self.engine, self.limits, self.jobs
+                known = invariants_of(model)
+                found = results(properties, model.systems, *asked, quiet=True, invariants=known)
                 for one in found:  # no progress line: with `pytest -s` the line is one of pytest's
                     item = left.pop(one.property.id)
                     self._found[_key(item)] = Compared(one, model.expected(item.prop.id))

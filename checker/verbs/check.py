@@ -119,7 +119,7 @@ def check(
         from checker.commands.findings import Guide, causes
         from checker.commands.select import pick_engine, pick_properties
         from checker.commands.variant import pick_variant
-        from checker.model.kept_invariants import read as recorded
+        from checker.model.kept_invariants import invariants_of
 
         variant = pick_variant(chosen, repair, dropped, model)
         properties = pick_properties(ids, about, variant.properties(), full, variant.unchanged())
@@ -173,7 +173,7 @@ def check(
             quiet,
             further,
             strict,
-            recorded(variant.model),
+            invariants_of(variant.model),
         )
 
 
