@@ -2,7 +2,8 @@
 
 An engine module has a ``NAME``, a one-line ``SUMMARY`` and a function ``check`` with the signature
 of ``Engine.check``.  It never raises for a hard problem (it answers ``Open`` with the reason) and
-never guesses.  One that looks at some runs only says so with ``SAMPLES = True``.
+never guesses.  One that looks at some runs only says so with ``SAMPLES = True``; one that can show what an
+earlier proof says has a function ``show`` as well (``Prover``).
 """
 
 import importlib
@@ -11,11 +12,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 from time import monotonic
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 if TYPE_CHECKING:  # the command line reads this module for its options
     from checker.verdict import Answer
-    from spec_model.lang.expr import Var
+    from spec_model.lang.expr import Expr, Var
     from spec_model.lang.system import TransitionSystem
 
 ALL, AUTO = "all", "auto"
@@ -81,6 +82,23 @@ class Engine(Protocol):
         self, system: "TransitionSystem", goals: Sequence["Var"], limits: Limits, progress: Progress
     ) -> Mapping[str, "Answer"]:
         """An answer for each goal, by name.  Runs in ``Reached`` start before the first tick."""
+        ...
+
+
+@runtime_checkable
+class Prover(Engine, Protocol):
+    """An engine that can also show what an earlier proof says, if that still holds."""
+
+    def show(
+        self,
+        system: "TransitionSystem",
+        goals: Sequence["Var"],
+        limits: Limits,
+        progress: Progress,
+        candidates: "Sequence[Expr]",
+    ) -> Mapping[str, "Answer"]:
+        """An answer for each goal, by name: open where those of the candidates that are inductive are not
+        enough.  No other invariant is searched for."""
         ...
 
 

@@ -2,24 +2,23 @@
 
 from collections.abc import Mapping, Sequence
 
-from checker.engine import Limits, Progress
-from checker.engines import kinduction
+from checker.engine import Limits, Progress, Prover
 from checker.verdict import Answer
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem
 
 
 class Recorded:
-    """k-induction with the conjuncts of earlier proofs, as an engine: it looks for no others."""
+    """An engine that tries the conjuncts of earlier proofs and searches for nothing."""
 
-    NAME = kinduction.NAME
-    SUMMARY = "k-induction with the invariants on record"
+    SUMMARY = "the invariants on record"
 
-    def __init__(self, candidates: Sequence[Expr]) -> None:
-        self._candidates = candidates
+    def __init__(self, prover: Prover, candidates: Sequence[Expr]) -> None:
+        self.NAME = prover.NAME
+        self._prover, self._candidates = prover, candidates
 
     def check(
         self, system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
     ) -> Mapping[str, Answer]:
         """An answer for each goal, by name: open what the conjuncts do not exclude."""
-        return kinduction.check(system, goals, limits, progress, self._candidates)
+        return self._prover.show(system, goals, limits, progress, self._candidates)

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from time import monotonic
 
-from checker.engine import Engine, Limits, Stage, engines
+from checker.engine import Engine, Limits, Prover, Stage, engines
 from checker.faults import Failed, attempted
 from checker.portfolio.disagreement import contradict, said
 from checker.portfolio.order import CHECKS, ORDERS, RECORDED, Turn
@@ -28,8 +28,9 @@ def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
     """
     known, deadline = engines(), limits.deadline()
     found: Found = {}
-    if question.candidates is not None:
-        recorded = Recorded(question.candidates)
+    prover = known.get(RECORDED.engine)
+    if question.candidates is not None and isinstance(prover, Prover):
+        recorded = Recorded(prover, question.candidates)
         found = _turn(recorded, RECORDED, question, question.goals, found, limits, deadline, told)
         yield found
     for turn in ORDERS[shape(question).kind]:

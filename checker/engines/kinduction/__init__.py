@@ -24,22 +24,35 @@ SUMMARY = "proofs by k-induction with invariants that are found by simulation an
 
 
 def check(
+    system: "TransitionSystem", goals: Sequence["Var"], limits: Limits, progress: Progress
+) -> Mapping[str, Answer]:
+    """``Unreachable`` with an inductive invariant, ``Reached`` by a run (``shortest`` only where it is known
+    to be), or ``Open`` with the ticks that were searched exhaustively and the reason."""
+    return _answered(system, goals, limits, progress, None)
+
+
+def show(
     system: "TransitionSystem",
     goals: Sequence["Var"],
     limits: Limits,
     progress: Progress,
-    candidates: Sequence["Expr"] | None = None,
+    candidates: "Sequence[Expr]",
 ) -> Mapping[str, Answer]:
-    """``Unreachable`` with an inductive invariant, ``Reached`` by a run (``shortest`` only where it is known
-    to be), or ``Open`` with the ticks that were searched exhaustively and the reason.
+    """The same with those of the candidates that are inductive as the invariant: no other is searched for,
+    and only in the first few ticks a run."""
+    return _answered(system, goals, limits, progress, tuple(candidates))
 
-    With ``candidates``, such as the conjuncts of an earlier proof, no invariant is searched for: those of
-    them are taken that are inductive.
-    """
+
+def _answered(
+    system: "TransitionSystem",
+    goals: Sequence["Var"],
+    limits: Limits,
+    progress: Progress,
+    candidates: "tuple[Expr, ...] | None",
+) -> Mapping[str, Answer]:
     names = tuple(g.name for g in goals)
     state = _Answers(names)
-    given = None if candidates is None else tuple(candidates)
-    job = (replace(system, source=None), names, limits.depth, given)
+    job = (replace(system, source=None), names, limits.depth, candidates)
     reason = "the search ended without a word"
     try:
         with closing(messages(_work, *job, seconds=limits.seconds, memory=limits.memory)) as events:
