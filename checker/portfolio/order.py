@@ -58,8 +58,11 @@ _SHARED = Turn("explicit", transitions=64_000_000, share=0.4)
 """Half a minute that the cases of a scene share: where one has a short run, the largest need not be searched
 to its end; where none has, this is lost on what takes longer."""
 
-_SOON = Turn("kinduction", seconds=60, share=0.2)
-"""A broad question with more valuations than that is mostly proved in one to four seconds, or not at all."""
+SOON = Turn("kinduction", seconds=60, share=0.2)
+"""A broad question with more valuations than that is mostly proved in one to four seconds, or not at all.
+
+Not asked where a proof is on record: what that leaves open was not proved like this.
+"""
 
 _RUNS = Turn("simulation", share=0.2)
 """A second or two for runs that a person would think of; of no use where runs are short or loops."""
@@ -80,7 +83,7 @@ _LONG = (_RUNS, *_PROOFS, Turn("explicit", share=0.8), Turn("bmc"))
 ORDERS: Mapping[str, tuple[Turn, ...]] = MappingProxyType(
     {
         "narrow": (CHECKS, *_LONG),
-        "broad": (_FEW, _SOON, CHECKS, *_LONG),
+        "broad": (_FEW, SOON, CHECKS, *_LONG),
         "driven": (
             _SHARED,
             Turn("explicit", share=0.8),

@@ -7,7 +7,7 @@ from time import monotonic
 from checker.engine import Engine, Limits, Prover, Stage, engines
 from checker.faults import Failed, attempted
 from checker.portfolio.disagreement import contradict, said
-from checker.portfolio.order import CHECKS, ORDERS, RECORDED, Turn
+from checker.portfolio.order import CHECKS, ORDERS, RECORDED, SOON, Turn
 from checker.portfolio.question import Found, Question, Told
 from checker.portfolio.recorded import Recorded
 from checker.portfolio.shape import shape
@@ -28,12 +28,14 @@ def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
     """
     known, deadline = engines(), limits.deadline()
     found: Found = {}
+    turns: Sequence[Turn] = ORDERS[shape(question).kind]
     prover = known.get(RECORDED.engine)
     if question.candidates is not None and isinstance(prover, Prover):
         recorded = Recorded(prover, question.candidates)
         found = _turn(recorded, RECORDED, question, question.goals, found, limits, deadline, told)
+        turns = [turn for turn in turns if turn is not SOON]
         yield found
-    for turn in ORDERS[shape(question).kind]:
+    for turn in turns:
         goals = [g for g in question.open(found) if _worth(found.get(g.name))]
         if not goals or (found and _over(question, found, limits, deadline)):
             break

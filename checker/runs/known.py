@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 
 from checker.lowered import lowered
+from checker.runs.compiled import Compiled
 from checker.runs.domains import stayed
 from checker.trace import Trace
 from checker.verdict import Proved, Run, Verdict, Violated
@@ -36,11 +37,14 @@ def reaching(
     if not asked:
         return
     question, found = reduce(lowered(mutant), asked), set[str]()
+    goals = tuple(goal.var for goal in question.goals)
+    ids = {goal.var.name: goal.property.id for goal in question.goals}
+    compiled = Compiled(question.system, goals)
     for run in runs:
-        for id, ticks in _reached(question, run).items():
-            if id not in found:
-                found.add(id)
-                yield id, Run(run.frozen, run.inputs[:ticks])
+        for name, ticks in compiled.first(run.frozen, run.inputs).items():
+            if ids[name] not in found:
+                found.add(ids[name])
+                yield ids[name], Run(run.frozen, run.inputs[:ticks])
         if len(found) == len(asked):
             return
 
