@@ -9,13 +9,13 @@ from checker.decide import decide
 from checker.engine import AUTO, Limits, Progress
 from checker.lowered import lowered
 from checker.mutate.observing import Difference, difference, observable
-from checker.mutate.product import Product, at_the_fault, product, same
+from checker.mutate.product import Product, at_the_fault, described, product, same
 from checker.mutate.step_equality import equal_in_every_step
 from checker.portfolio import Question, Told, answers
 from checker.portfolio.question import stays
 from checker.result import Result, check_domains
 from checker.runs.domains import LeavesDomain
-from checker.runs.known import reaching, run_of
+from checker.runs.known import confirmed, reaching, run_of
 from checker.tasks import Task, tasks
 from checker.trace import Trace
 from checker.verdict import Open, Proved, Reached, Run, Unknown, Unreachable, Violated
@@ -27,6 +27,7 @@ from spec_model.lang.system import System
 DOMAINS, REFUSED = "(leaves a domain)", "(refused)"
 """Who kills a mutant that no property is needed for: the commands refuse such a model whatever is asked."""
 EQUAL_STEPS = "every tick takes every valuation to the same one"
+OVERWRITTEN = f"{EQUAL_STEPS}, and the first one overwrites what they begin with"
 """Why a mutant is equivalent that no search is needed for."""
 SHARE = 0.5
 """Of the time that is left, what one search may take at most while others wait."""
@@ -118,7 +119,9 @@ def judged(cases: Sequence[Case], limits: Limits, progress: Progress, before: Ju
         if killed is not None:
             return killed
         if before is None and equal_in_every_step(lowered(first.original), lowered(first.mutant)):
-            return Judged(Fate.EQUIVALENT, why=EQUAL_STEPS, asked=hunt.asked)
+            begun = [described(lowered(s).variables) for s in (first.original, first.mutant)]
+            why = EQUAL_STEPS if begun[0] == begun[1] else OVERWRITTEN
+            return Judged(Fate.EQUIVALENT, why=why, asked=hunt.asked)
         killed = hunt.killed()
         if killed is not None:
             return killed
@@ -177,6 +180,8 @@ class _Hunt:
             if case.settled(prop):
                 still.add(id)
             elif not isinstance(prop.form, Reachable) and self._confirmed(case, prop):
+                if not confirmed(case.mutant, prop, run):
+                    raise AssertionError(f"a run kills by {id} as compiled, and not by the reference")
                 asked, ticks = self.asked + len(still) + 1, len(run)
                 return Judged(Fate.KILLED, id, case.mutant.name, ticks, asked=asked, run=run)
         self.asked += len(still)

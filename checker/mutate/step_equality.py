@@ -5,7 +5,11 @@ which a search over the product has to count through, cost nothing.  It proves l
 two systems that differ only where no run leads are not equal in this sense.
 """
 
+from collections.abc import Sequence
+
+from checker.encode.cone import with_values
 from checker.encode.symbolic import transition
+from checker.encode.terms import Terms
 from checker.encode.unrolling import model_of
 from checker.mutate.product import described
 from spec_model.lang.expr import Expr, Var
@@ -17,25 +21,46 @@ PATIENCE = 3_000_000
 
 
 def equal_in_every_step(original: TransitionSystem, mutant: TransitionSystem) -> bool:
-    """Whether both begin alike, allow the same inputs, and take every valuation to the same one.
+    """Whether both allow the same inputs and take every valuation to the same one.
 
-    False also where the solver gives up.
+    Where they begin with other values, the first tick must overwrite them: it takes both beginnings to the
+    same valuation.  False also where the solver gives up.
     """
-    if described(original.variables) != described(mutant.variables):
-        return False
-    if described((*original.inputs, *original.frozen)) != described((*mutant.inputs, *mutant.frozen)):
+    if not _alike(original, mutant):
         return False
     one = transition(original)
     other = transition(mutant, one.terms)
     terms = one.terms
     allowed = terms.conjunction(one.assume), terms.conjunction(other.assume)
     pairs = [allowed, *((one.next[name], other.next[name]) for name in one.next)]
+    begins = _values(original), _values(mutant)
+    if not _equal(terms, original, pairs):
+        return False
+    if begins[0] == begins[1]:
+        return True
+    first = [tuple(with_values(terms, at, f) for at, f in zip(begins, pair, strict=True)) for pair in pairs]
+    return _equal(terms, original, first)
+
+
+def _alike(original: TransitionSystem, mutant: TransitionSystem) -> bool:
+    """Whether both have the same variables with the same domains, inputs and frozen variables included."""
+    domains = [{v.name: v.domain for v in (*s.variables, *s.inputs, *s.frozen)} for s in (original, mutant)]
+    begun = [described((*s.inputs, *s.frozen)) for s in (original, mutant)]
+    return domains[0] == domains[1] and begun[0] == begun[1]
+
+
+def _values(system: TransitionSystem) -> dict[str, int]:
+    return {v.name: v.init for v in system.variables}
+
+
+def _equal(terms: Terms, system: TransitionSystem, pairs: Sequence[tuple[Expr, ...]]) -> bool:
+    """Whether the formulas of each pair are equal where one of the first pair, the assumptions, is true."""
     unlike = [terms.negation(terms.equal(a, b)) for a, b in pairs if a is not b]
     if not unlike:
         return True
-    conditions = [terms.disjunction(allowed), terms.disjunction(unlike)]
+    conditions = [terms.disjunction(pairs[0]), terms.disjunction(unlike)]
     try:
-        return model_of(conditions, _named(original, conditions), PATIENCE) is None
+        return model_of(conditions, _named(system, conditions), PATIENCE) is None
     except ArithmeticError:
         return False
 

@@ -23,8 +23,9 @@ BRANCHES = 80
 """Branches inside each other; Python indents a hundred times."""
 
 _INFIX = {
-    Op.AND: " and ", Op.OR: " or ", Op.EQ: " == ", Op.NE: " != ", Op.LT: " < ", Op.LE: " <= ", Op.GT: " > ",
-    Op.GE: " >= ", Op.ADD: " + ", Op.SUB: " - ", Op.MUL: " * ", Op.SCALE: " * ", Op.DIV: " // ", Op.MOD: " % ",
+    Op.AND: " and ", Op.OR: " or ", Op.EQ: " == ", Op.NE: " != ",
+    Op.LT: " < ", Op.LE: " <= ", Op.GT: " > ", Op.GE: " >= ",
+    Op.ADD: " + ", Op.SUB: " - ", Op.MUL: " * ", Op.SCALE: " * ", Op.DIV: " // ", Op.MOD: " % ",
 }  # fmt: skip
 _CALLED = {Op.NOT: "not ", Op.NEG: "-", Op.ABS: "abs", Op.MIN: "min", Op.MAX: "max"}
 
@@ -48,7 +49,7 @@ class Compiled:
         self._kept = kept
         self._begins = {v.name: v.init for v in kept}
         self._given = tuple((v.name, v.init) for v in system.inputs)
-        self._ticks = _compiled(_Writer(system, kept, goals).lines())
+        self._ticks = _compiled(list(_Writer(system, kept, goals).lines()))
 
     def first(self, frozen: Mapping[str, int], inputs: Sequence[Mapping[str, int]]) -> dict[str, int]:
         """The goals that are true after some tick, by name, and the first such tick.
@@ -67,7 +68,7 @@ class Compiled:
 def _compiled(lines: Sequence[str]) -> Ticks:
     made: dict[str, Any] = {}
     try:
-        exec(compile("\n".join(lines), "<a step>", "exec"), made)  # noqa: S102 - what was written here
+        exec(compile("\n".join(lines), "<a step>", "exec"), made)
     except (SyntaxError, RecursionError, MemoryError) as error:
         raise TooDeep(str(error)) from error
     ticks: Ticks = made["ticks"]

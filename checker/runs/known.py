@@ -1,9 +1,9 @@
 """Runs that are known, tried on a mutant: what they reach needs no search."""
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from checker.lowered import lowered
-from checker.runs.compiled import Compiled
+from checker.runs.compiled import Compiled, TooDeep
 from checker.runs.domains import stayed
 from checker.trace import Trace
 from checker.verdict import Proved, Run, Verdict, Violated
@@ -32,21 +32,37 @@ def reached(mutant: System, properties: Sequence[Property], runs: Sequence[Run])
 def reaching(
     mutant: System, properties: Sequence[Property], runs: Iterable[Run]
 ) -> Iterator[tuple[str, Run]]:
-    """What ``reached`` says, each as soon as it is found; of properties about runs of any length nothing."""
+    """What ``reached`` says, each as soon as it is found; of properties about runs of any length nothing.
+
+    Runs are gone through as compiled Python; ``confirmed`` asks the reference semantics.
+    """
     asked = [p for p in properties if not isinstance(p.form, Unbounded)]
     if not asked:
         return
     question, found = reduce(lowered(mutant), asked), set[str]()
-    goals = tuple(goal.var for goal in question.goals)
-    ids = {goal.var.name: goal.property.id for goal in question.goals}
-    compiled = Compiled(question.system, goals)
+    first = _first(question)
     for run in runs:
-        for name, ticks in compiled.first(run.frozen, run.inputs).items():
-            if ids[name] not in found:
-                found.add(ids[name])
-                yield ids[name], Run(run.frozen, run.inputs[:ticks])
+        for id, ticks in first(run).items():
+            if id not in found:
+                found.add(id)
+                yield id, Run(run.frozen, run.inputs[:ticks])
         if len(found) == len(asked):
             return
+
+
+def confirmed(system: System, prop: Property, run: Run) -> bool:
+    """Whether the property is violated, or reached, after the run, by the reference semantics."""
+    return _reached(reduce(lowered(system), [prop]), run).get(prop.id) == len(run)
+
+
+def _first(question: Question) -> Callable[[Run], dict[str, int]]:
+    """What says of a run the properties whose goals it reaches, and after how many ticks."""
+    try:
+        compiled = Compiled(question.system, [goal.var for goal in question.goals])
+    except TooDeep:
+        return lambda run: _reached(question, run)
+    ids = {goal.var.name: goal.property.id for goal in question.goals}
+    return lambda run: {ids[n]: ticks for n, ticks in compiled.first(run.frozen, run.inputs).items()}
 
 
 def _reached(question: Question, run: Run) -> dict[str, int]:
@@ -70,4 +86,4 @@ def _reached(question: Question, run: Run) -> dict[str, int]:
     return found
 
 
-__all__ = ["reached", "reaching", "run_of"]
+__all__ = ["confirmed", "reached", "reaching", "run_of"]

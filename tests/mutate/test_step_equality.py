@@ -6,9 +6,10 @@ from hypothesis import given, settings
 
 from checker.engine import Limits, quiet
 from checker.lowered import lowered
-from checker.mutate.judging import EQUAL_STEPS, Case, Fate, judged
+from checker.mutate.judging import EQUAL_STEPS, OVERWRITTEN, Case, Fate, judged
 from checker.mutate.mutants import mutants
 from checker.mutate.step_equality import equal_in_every_step
+from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, State, to
 from spec_model.lang.domain import integer
 from spec_model.lang.errors import ModelError
@@ -18,7 +19,6 @@ from spec_model.lang.lower import lower
 from spec_model.lang.system import in_order
 from spec_model.lang.time import sec
 from spec_model.lang.words import after
-from tests.mutate.lamp import lamps
 from tests.strategies import frozen_values, input_blocks, systems
 
 level = var("level", integer(0, 3))
@@ -60,13 +60,28 @@ def test_timers_cost_nothing() -> None:
     assert (found.fate, found.why) == (Fate.EQUIVALENT, EQUAL_STEPS)
 
 
-@pytest.mark.parametrize("operator", ["initial", "limit-up", "guard-negated", "timer-up"])
+@pytest.mark.parametrize("operator", ["limit-up", "guard-negated", "timer-up"])
 def test_what_differs_in_some_step_is_not_equal(operator: str) -> None:
-    system = in_order("patient", patient) if operator != "initial" else lamps
+    system = in_order("patient", patient)
     wrong = [m for m in mutants(system) if m.operator == operator]
     assert wrong
     for mutant in wrong:
         assert not equal_in_every_step(lowered(system), lowered(mutant.system)), mutant.id
+
+
+def test_what_the_first_tick_overwrites_may_begin_otherwise() -> None:
+    """The entry of the default state assigns `shown`; `seen` keeps what it begins with until `level` is 3."""
+    shown, seen = flag("shown"), flag("seen")
+    dark = State("Dark", entry=[assign(shown, False)], transitions=[to("Lit", when=level > 2)])
+    lit = State("Lit", entry=[assign(shown, True), assign(seen, True)])
+    system = in_order("shown", Chart("Shown", [dark, lit], default="Dark"))
+    wrong = [m for m in mutants(system) if m.operator == "initial"]
+    found = {m.id: judged([Case(system, m.system, m.parts, (), {})], Limits(), quiet) for m in wrong}
+    assert {id: judged.fate for id, judged in found.items()} == {
+        "Shown/data/shown/initial": Fate.EQUIVALENT,
+        "Shown/data/seen/initial": Fate.SURVIVOR,
+    }
+    assert found["Shown/data/shown/initial"].why == OVERWRITTEN
 
 
 def test_inputs_that_only_one_of_them_allows_are_a_difference() -> None:

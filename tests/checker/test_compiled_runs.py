@@ -1,0 +1,90 @@
+"""Runs gone through as compiled Python: the same goals after the same ticks as by the reference semantics."""
+
+from collections.abc import Mapping, Sequence
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from checker.runs.compiled import Compiled, TooDeep
+from spec_model.lang.action import Assign, If
+from spec_model.lang.domain import integer
+from spec_model.lang.evaluate import admissible, step
+from spec_model.lang.expr import Expr, Var, flag, ite, var
+from spec_model.lang.system import TransitionSystem
+from tests.strategies_ts import goals, transition_systems
+from tests.toys import GOAL, filling, relay
+
+
+def plainly(
+    system: TransitionSystem,
+    wanted: Sequence[Var],
+    frozen: Mapping[str, int],
+    inputs: Sequence[dict[str, int]],
+) -> dict[str, int]:
+    found: dict[str, int] = {}
+    at: Mapping[str, int] = {**system.init, **frozen}
+    for number, tick in enumerate(inputs, start=1):
+        if not admissible(system, at, tick):
+            break
+        after = step(system, at, tick)
+        if any(after[check.name] for check, _ in system.checks):
+            break
+        for goal in wanted:
+            if after[goal.name]:
+                found.setdefault(goal.name, number)
+        at = {n: v for n, v in after.items() if n not in tick}
+    return found
+
+
+@settings(max_examples=80)
+@given(st.data())
+def test_the_same_goals_after_the_same_ticks(data: st.DataObject) -> None:
+    system = data.draw(transition_systems())
+
+    def values(variables: Sequence[Var]) -> dict[str, int]:
+        return {v.name: data.draw(st.sampled_from(list(v.domain.values))) for v in variables}
+
+    frozen, wanted = values(system.frozen), goals(system)
+    inputs = [values(system.inputs) for _ in range(data.draw(st.integers(0, 6)))]
+    assert Compiled(system, wanted).first(frozen, inputs) == plainly(system, wanted, frozen, inputs)
+
+
+def test_a_run_ends_where_inputs_are_not_allowed() -> None:
+    system = filling(2)
+    full = system.var("full")
+    held, refused = {"hold": 1, "noise": 5}, {"hold": 1, "noise": 3}
+    compiled = Compiled(system, [full])
+    assert compiled.first({}, [held, held]) == {"full": 2}
+    assert compiled.first({}, [held, refused, held]) == {}
+    assert compiled.first({}, [held, {"hold": 1, "noise": 4}, held]) == {}
+
+
+def test_what_a_run_does_not_say_is_as_it_begins() -> None:
+    assert Compiled(relay(), [relay().var("on")]).first({"nothing": 3}, [{}, {"critical": 1}]) == {"on": 2}
+
+
+def test_a_frozen_value_outside_its_domain_is_no_run() -> None:
+    phase = var("phase", integer(0, 3))
+    system = TransitionSystem("phased", (), (phase,), (GOAL,), (), (Assign(GOAL, phase >= 2),))
+    assert Compiled(system, [GOAL]).first({"phase": 2}, [{}]) == {"goal": 1}
+    assert Compiled(system, [GOAL]).first({"phase": 7}, [{}]) == {}
+
+
+def test_what_is_shared_and_nested_deeply_is_written_once() -> None:
+    count = var("count", integer(0, 1))
+    value: Expr = count
+    for _ in range(300):  # as a tree, more operators than there are atoms
+        value = ite(value == 1, value, 1 - value)
+    system = TransitionSystem("nested", (), (), (count, GOAL), (), (Assign(GOAL, value == 1),))
+    assert Compiled(system, [GOAL]).first({}, [{}]) == {"goal": 1}
+
+
+def test_branches_beyond_all_measure_are_told() -> None:
+    go = flag("go")
+    program: tuple[Assign | If, ...] = (Assign(GOAL, go),)
+    for _ in range(200):
+        program = (If(go, program),)
+    system = TransitionSystem("deep", (go,), (), (GOAL,), (), program)
+    with pytest.raises(TooDeep):
+        Compiled(system, [GOAL])
