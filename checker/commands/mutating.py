@@ -1,39 +1,26 @@
 """``rovercheck mutate``: faults put into a model, and what notices them."""
 
-from collections.abc import Collection, Generator, Mapping, Sequence
-from contextlib import closing
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 from random import Random
 
-from checker.commands.check import results
 from checker.commands.codes import Exit, UsageError
 from checker.commands.mutating_found import Found
 from checker.commands.mutating_json import document
+from checker.commands.mutating_judging import judge
 from checker.commands.mutating_places import sites
 from checker.commands.mutating_text import report
 from checker.commands.output import err, out, wrapped
-from checker.commands.progress import Watch
 from checker.commands.select import pick
 from checker.commands.tables import listed
-from checker.engine import AUTO, Limits
+from checker.engine import Limits
 from checker.model import Model
-from checker.model.kept_invariants import Recorded, invariants_of
-from checker.model.kept_runs import file_of, read
 from checker.mutate.asked import as_it_is
-from checker.mutate.judging import Fate, Judged
 from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.planning import Plan, Planned, homes, rounds
-from checker.mutate.running import Doing, Told, fates
+from checker.mutate.planning import homes
 from checker.printable import json_text
-from checker.verdict import Run
-from properties.forms import Property, Reachable, Unbounded
 from spec_model.lang.chart import parts
 from spec_model.lang.system import System
-
-UNKILLED = (Fate.SURVIVOR, Fate.NOTICED, Fate.UNKNOWN)
-"""What a mutant may be in its own system that properties of other systems may still kill."""
-WORTH_RUNS = 4
-"""Such mutants from which on the runs of other systems are searched once, to be tried on each of them."""
 
 
 @dataclass(frozen=True)
@@ -72,7 +59,7 @@ def mutate(model: Model, wanted: Wanted, limits: Limits, as_json: bool) -> Exit:
     found.chosen = len(todo)
     code = Exit.INTERRUPTED
     try:
-        _judged(model, properties, todo, wanted, limits, found)
+        judge(model, properties, todo, limits, wanted.jobs, wanted.alone, found)
         code = found.code
     except KeyboardInterrupt:
         err.print(f"Interrupted: {len(found.told)} of {found.chosen} mutants judged.")
@@ -115,105 +102,6 @@ def _chosen(
         for name, inside in at_home.items()
         for mutant in mutants(as_it_is(systems[name]), inside)
     ]
-
-
-def _judged(
-    model: Model,
-    properties: Sequence[Property],
-    todo: Sequence[tuple[str, Mutant]],
-    wanted: Wanted,
-    limits: Limits,
-    found: Found,
-) -> None:
-    """Judge the mutants, each first in its own system; what is found goes to ``found`` at once."""
-    at = {mutant.id: name for name, mutant in todo}
-    own = [p for p in properties if p.on in set(at.values())]
-    recorded = {p.id: _recorded(model, p.id) for p in properties}
-    plan = Plan(model.systems, properties, recorded, premises=_premises(model))
-    invariants = invariants_of(model)
-    _decide(plan, own, limits, wanted.jobs, invariants)
-    found.undecided += [p.id for p in own if p.id not in plan.proved]
-    first = [plan.own(mutant, name) for name, mutant in todo]
-    unkilled: dict[str, Judged] = {}
-    try:
-        for told in _told(plan, first, limits, wanted.jobs, {}):
-            if told.judged.fate in UNKILLED and not wanted.alone:
-                unkilled[told.mutant.id] = told.judged
-            else:
-                found.told.append((at[told.mutant.id], told.mutant, told.judged))
-        again = [plan.elsewhere(one.mutant, at[one.mutant.id]) for one in first if one.mutant.id in unkilled]
-        for one in again:
-            if not one.cases:
-                judged = unkilled.pop(one.mutant.id)
-                found.told.append((at[one.mutant.id], one.mutant, judged))
-        again = [one for one in again if one.cases]
-        if len(again) >= WORTH_RUNS:
-            asked = {p.id: p for one in again for case in one.cases for p in case.properties}
-            with_runs = [p for p in asked.values() if p.id not in plan.proved and _has_run(plan, p)]
-            _decide(plan, with_runs, limits, wanted.jobs, invariants)
-        for told in _told(plan, again, limits, wanted.jobs, unkilled):
-            unkilled.pop(told.mutant.id)
-            found.told.append((at[told.mutant.id], told.mutant, told.judged))
-    except KeyboardInterrupt:
-        left = {one.mutant.id: one.mutant for one in first}
-        why = "interrupted before other systems were looked at"
-        for id, judged in unkilled.items():
-            found.told.append((at[id], left[id], replace(judged, fate=Fate.UNKNOWN, why=judged.why or why)))
-        raise
-    finally:
-        order = {mutant.id: number for number, (_, mutant) in enumerate(todo)}
-        found.told.sort(key=lambda one: order[one[1].id])
-
-
-def _premises(model: Model) -> dict[str, list[Run]]:
-    """The runs on record that show cases of which properties speak, by system."""
-    found: dict[str, list[Run]] = {}
-    for kept in read(file_of(model)).values():
-        found.setdefault(kept.system, []).append(kept.run)
-    return found
-
-
-def _has_run(plan: Plan, prop: Property) -> bool:
-    """Whether the verdict on record rests on a finite run."""
-    if isinstance(prop.form, Unbounded):
-        return False
-    return plan.recorded[prop.id] is isinstance(prop.form, Reachable)
-
-
-def _recorded(model: Model, id: str) -> bool | None:
-    verdict = model.expected(id).verdict
-    return None if verdict == "unknown" else verdict == "proved"
-
-
-def _decide(
-    plan: Plan, asked: Sequence[Property], limits: Limits, jobs: int | None, invariants: Recorded
-) -> None:
-    """Let the plan know the verdicts on the originals, in which every run counts."""
-    own = {name: as_it_is(plan.systems[name]) for name in {p.on for p in asked}}
-    for result in results(asked, own, AUTO, limits, jobs, invariants=invariants):
-        plan.learn(result)
-
-
-def _told(
-    plan: Plan,
-    planned: Sequence[Planned],
-    limits: Limits,
-    jobs: int | None,
-    before: Mapping[str, Judged],
-) -> Generator[Told, None, None]:
-    """The fates of mutants, round by round, while it is said what is being done."""
-    with Watch(err, len(planned)) as watch:
-        for some in rounds(planned):
-            heard = fates([plan.with_runs(one) for one in some], limits, jobs, before)
-            with closing(heard):
-                for one in heard:
-                    match one:
-                        case Doing(mutant, line):
-                            watch.say(mutant.id, line)
-                        case Told():
-                            watch.finished(one.mutant.id)
-                            plan.kills(one.judged)
-                            yield one
 
 
 __all__ = ["Found", "Wanted", "mutate"]

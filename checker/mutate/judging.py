@@ -29,6 +29,8 @@ DOMAINS, REFUSED = "(leaves a domain)", "(refused)"
 EQUAL_STEPS = "every tick takes every valuation to the same one"
 OVERWRITTEN = f"{EQUAL_STEPS}, and the first one overwrites what they begin with"
 """Why a mutant is equivalent that no search is needed for."""
+NOT_SEARCHED = "no run that is known kills it"
+"""Why a mutant is unknown of which nothing was searched."""
 SHARE = 0.5
 """Of the time that is left, what one search may take at most while others wait."""
 
@@ -95,10 +97,18 @@ class Case:
         return self.proved[prop.id] is isinstance(prop.form, Reachable)
 
 
-def judged(cases: Sequence[Case], limits: Limits, progress: Progress, before: Judged | None = None) -> Judged:
+def judged(
+    cases: Sequence[Case],
+    limits: Limits,
+    progress: Progress,
+    before: Judged | None = None,
+    *,
+    search: bool = True,
+) -> Judged:
     """The fate of a mutant; the first case is the system in which it is compared with the original.
 
-    With ``before``, what became of it in another system, it is not compared again.
+    With ``before``, what became of it in another system, it is not compared again.  Without ``search`` it is
+    unknown where no run that is known and no single query decides it.
 
     Raises ``ReplayError`` and ``Disagreement``, which are bugs of ours.
     """
@@ -122,6 +132,8 @@ def judged(cases: Sequence[Case], limits: Limits, progress: Progress, before: Ju
             begun = [described(lowered(s).variables) for s in (first.original, first.mutant)]
             why = EQUAL_STEPS if begun[0] == begun[1] else OVERWRITTEN
             return Judged(Fate.EQUIVALENT, why=why, asked=hunt.asked)
+        if not search:
+            return before or Judged(Fate.UNKNOWN, why=NOT_SEARCHED, asked=hunt.asked)
         killed = hunt.killed()
         if killed is not None:
             return killed

@@ -4,6 +4,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+from checker.lowered import lowered
 from checker.mutate.asked import Cone, as_it_is, concerned, cones
 from checker.mutate.judging import Case, Fate, Judged
 from checker.mutate.mutants import Mutant, mutants
@@ -19,6 +20,8 @@ from spec_model.lang.walk import variables
 PROVERS = ("kinduction", "pdr")
 """Engines that also look for short runs as they look for a proof: what they proved of the original, they are
 asked about a mutant at once."""
+SMALL = 200
+"""Bits of the valuations of a system in which runs are tried early: lowering a larger one takes longer."""
 KILLERS = 3
 """Runs kept of each property that kills mutants of a system."""
 
@@ -38,7 +41,7 @@ class Plan:
     ``recorded`` tells of a property whether it is proved, as far as that is on record, None if it is neither
     proved nor violated; ``proved`` and ``runs`` hold what was found out of the originals, ``killers`` the
     runs that kill mutants of a system, by property, ``engines`` what proved a property of the original, and
-    ``premises`` runs of a system that show cases of which properties speak.
+    ``on_record`` runs of a system that are tried on every mutant.
     """
 
     systems: Mapping[str, System]
@@ -48,7 +51,7 @@ class Plan:
     runs: dict[str, Run] = field(default_factory=dict)
     killers: dict[str, dict[str, list[Run]]] = field(default_factory=dict)
     engines: dict[str, str] = field(default_factory=dict)
-    premises: Mapping[str, Sequence[Run]] = field(default_factory=dict)
+    on_record: Mapping[str, Sequence[Run]] = field(default_factory=dict)
     _tries: dict[str, tuple[Run, ...]] = field(default_factory=dict)
     _cones: dict[str, list[Cone]] = field(default_factory=dict)
     _read_abroad: dict[str, frozenset[str]] = field(default_factory=dict)
@@ -74,6 +77,29 @@ class Plan:
         """The mutant of the system of that name, in this system."""
         return Planned(mutant, (self._case(mutant, name, sure=True),))
 
+    def nearby(self) -> list[str]:
+        """The small systems with properties, the smallest first."""
+        bits = {name: self._bits(name) for name in self.systems if self._stated(name)}
+        return sorted((name for name in bits if bits[name] <= SMALL), key=lambda name: bits[name])
+
+    def tried_in(self, name: str, mutant: Mutant, home: str) -> Planned | None:
+        """The same fault in another system, whose verdicts on record are taken for granted until something
+        kills; None if the system has it not, or is its home."""
+        if name == home or not self._has(name, mutant.parts):
+            return None
+        same = self._made(name, mutant.part).get(mutant.id)
+        if same is None or same.text != mutant.text:
+            return None
+        known = {p.id: self.proved.get(p.id, self.recorded[p.id]) for p in self._stated(name)}
+        proved = {id: is_so for id, is_so in known.items() if is_so is not None}
+        properties = tuple(p for p in self._stated(name) if p.id in proved)
+        original = as_it_is(self.systems[name])
+        return Planned(mutant, (Case(original, same.system, same.parts, properties, proved),))
+
+    def _bits(self, name: str) -> int:
+        written = lowered(self.systems[name]).variables
+        return sum((len(v.domain) - 1).bit_length() for v in written)
+
     def elsewhere(self, mutant: Mutant, name: str) -> Planned:
         """The same fault in all other systems with the part, those with the smallest cones first."""
         found: list[tuple[int, Case]] = []
@@ -88,14 +114,14 @@ class Plan:
                     found.append((first, case))
         return Planned(mutant, tuple(case for _, case in sorted(found, key=lambda pair: pair[0])))
 
-    def with_runs(self, planned: Planned) -> Planned:
-        """The same with the runs that are known by now."""
+    def with_runs(self, planned: Planned, drawn: bool = True) -> Planned:
+        """The same with the runs that are known by now, also with runs ``drawn`` at random."""
         cases = (
             replace(
                 c,
                 runs=self._runs(c.properties),
                 killers=self._killers(c.original.name),
-                tries=self._tried(c.original),
+                tries=self._tried(c.original) if drawn else self._listed(c.original.name),
                 engines=self._engines(c.properties),
             )
             for c in planned.cases
@@ -115,8 +141,11 @@ class Plan:
         """Runs on record of a system, and random runs."""
         name = original.name
         if name not in self._tries:
-            self._tries[name] = (*tried(self.premises.get(name, ())), *RandomRuns(original).from_the_start())
+            self._tries[name] = (*self._listed(name), *RandomRuns(original).from_the_start())
         return self._tries[name]
+
+    def _listed(self, name: str) -> tuple[Run, ...]:
+        return tuple(tried(self.on_record.get(name, ())))
 
     def _case(self, mutant: Mutant, name: str, sure: bool) -> Case:
         original = as_it_is(self.systems[name])

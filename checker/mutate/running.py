@@ -37,13 +37,16 @@ def fates(
     limits: Limits,
     jobs: int | None = None,
     before: Mapping[str, Judged] | None = None,
+    search: bool = True,
 ) -> Generator[Doing | Told, None, None]:
     """The fate of each mutant as it is found; the time of ``limits`` is for each of them.
+
+    Without ``search`` it is unknown where no run that is known and no single query decides it.
 
     A child that dies, or does not stop in time, makes its mutant unknown, with the reason.  Raises
     ``ReplayError`` and ``Disagreement``, which are bugs of ours.  Closing the generator ends all children.
     """
-    pool = Pool(jobs or cores(), _Judging, (limits,), limits.memory + SLACK)
+    pool = Pool(jobs or cores(), _Judging, (limits, search), limits.memory + SLACK)
     known = before or {}
     orders = [
         Order((one.mutant.id, one.cases, known.get(one.mutant.id)), one.cases[0].mutant.name)
@@ -78,8 +81,8 @@ def _ended(event: Event, limits: Limits, before: Judged | None) -> Judged:
 class _Judging:
     """Judges one mutant after the other, in a child."""
 
-    def __init__(self, limits: Limits) -> None:
-        self._limits = limits
+    def __init__(self, limits: Limits, search: bool) -> None:
+        self._limits, self._search = limits, search
 
     def __call__(self, send: Send, id: str, cases: tuple[Case, ...], before: Judged | None) -> None:
         from checker.mutate.judging import judged
@@ -89,7 +92,7 @@ class _Judging:
         send(Granted(self._limits.seconds))
         try:
             with listening(send, anew=False), attending(send):
-                send(judged(cases, self._limits, send, before))
+                send(judged(cases, self._limits, send, before, search=self._search))
         except ReplayError as error:
             send(ReplayError(f"{id}: {error}"))
         except Disagreement as error:
