@@ -22,7 +22,7 @@ from properties.forms import Property, Reachable, Unbounded
 
 UNKILLED = (Fate.SURVIVOR, Fate.NOTICED, Fate.UNKNOWN)
 """What a mutant may be in its own system that properties of other systems may still kill."""
-WORTH_RUNS = 4
+WORTH_RUNS = 40
 """Such mutants from which on the runs of other systems are searched once, to be tried on each of them."""
 OPEN = Judged(Fate.UNKNOWN, why=NOT_SEARCHED)
 
