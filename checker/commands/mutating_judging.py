@@ -135,7 +135,7 @@ class _Judging:
             if len(again) >= WORTH_RUNS:
                 asked = {p.id: p for one in again for case in one.cases for p in case.properties}
                 self.decide([p for p in asked.values() if p.id not in self._asked and self._has_run(p)])
-            for told in self._told(again, unkilled):
+            for told in self._told(again, unkilled, drawn=False):
                 unkilled.pop(told.mutant.id)
                 self._keep(told.mutant, told.judged)
         except KeyboardInterrupt:
