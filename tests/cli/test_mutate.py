@@ -10,7 +10,7 @@ from jsonschema import Draft202012Validator
 
 import checker
 from checker.cli import run
-from checker.commands import mutating
+from checker.commands import mutating_judging
 from checker.commands.codes import Exit
 from checker.mutate.running import Told, fates
 from tests.cli.test_widths import at_terminal, too_long
@@ -74,6 +74,46 @@ def test_what_only_mends_a_finding_at_home_may_be_killed_elsewhere(
     assert {m["fate"] for m in json.loads(capsys.readouterr().out)["mutants"]} == fates
 
 
+def on_record(file: Path, inputs: list[dict[str, int]]) -> None:
+    """A run of `echoing` that a property killed some mutant with."""
+    blocks = [[1, tick] for tick in inputs]
+    row = {"system": "echoing", "mutant": "Echo/block/dead", "frozen": {}, "blocks": blocks}
+    text = json.dumps({"schema": "rovercheck/kills/1", "runs": {"Q": row}})
+    file.with_name("kills.json").write_text(text, encoding="utf-8")
+
+
+def test_a_run_on_record_of_another_system_kills_before_anything_is_searched(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    searched = list[str]()
+
+    def noted(planned: Any, limits: Any, jobs: Any, before: Any, search: bool) -> Any:
+        searched.extend(one.mutant.id for one in planned if search)
+        return fates(planned, limits, jobs, before, search)
+
+    monkeypatch.setattr(mutating_judging, "fates", noted)
+    file = tmp_path / "echo_model.py"
+    file.write_text(WEAK.replace("THAT", "~out | go") + NOTICED_AT_HOME, encoding="utf-8")
+    on_record(file, [{"go": 1}, {"go": 0}])
+    assert run(["mutate", "--model", str(file), "--part", "Copy", "--quiet", "--json"]) is Exit.AS_EXPECTED
+    found = json.loads(capsys.readouterr().out)["mutants"]
+    assert {(m["fate"], m["killer"]) for m in found} == {("killed", "P"), ("killed", "Q")}
+    assert searched == []
+
+
+def test_what_the_original_breaks_as_well_kills_nothing(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """On record Q is proved, which it is not: what is on record is found out before it counts."""
+    file = tmp_path / "echo_model.py"
+    wrong = NOTICED_AT_HOME.replace("(echo & go) | (~echo & ~go)", "~echo")
+    file.write_text(WEAK.replace("THAT", "go | ~go") + wrong, encoding="utf-8")
+    on_record(file, [{"go": 0}])
+    run(["mutate", "--model", str(file), "--part", "Copy", "--quiet", "--json"])
+    found = json.loads(capsys.readouterr().out)["mutants"]
+    assert "killed" not in {m["fate"] for m in found}
+
+
 def test_the_document_holds_every_mutant(capsys: pytest.CaptureFixture[str]) -> None:
     code = run([*LAMP, "--json", "--sample", "12", "--seed", "3"])
     document = json.loads(capsys.readouterr().out)
@@ -100,7 +140,7 @@ def test_an_interruption_keeps_what_was_found(
         yield from [one for one in fates(*args) if isinstance(one, Told)][:1]
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(mutating, "fates", interrupted)
+    monkeypatch.setattr(mutating_judging, "fates", interrupted)
     assert run([*model(tmp_path, "(out & go) | (~out & ~go)"), "--json"]) is Exit.INTERRUPTED
     said = capsys.readouterr()
     document = json.loads(said.out)
