@@ -38,8 +38,8 @@ def show(
     progress: Progress,
     candidates: "Sequence[Expr]",
 ) -> Mapping[str, Answer]:
-    """The same with those of the candidates that are inductive as the invariant: no other is searched for,
-    and only in the first few ticks a run."""
+    """``Unreachable`` where those of the candidates that are inductive exclude a goal, otherwise ``Open``:
+    neither another invariant nor a run is searched for."""
     return _answered(system, goals, limits, progress, tuple(candidates))
 
 

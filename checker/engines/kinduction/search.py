@@ -41,7 +41,10 @@ def search(system: TransitionSystem, goals: Sequence[str], depth: int | None) ->
 
 
 def with_given(system: TransitionSystem, goals: Sequence[str], candidates: Sequence[Expr]) -> Iterator[Event]:
-    """Events about all goals together, with those of the candidates that are inductive as the invariant."""
+    """Events about all goals together, with those of the candidates that are inductive as the invariant.
+
+    No run is told: other engines find shorter and plainer ones.
+    """
     yield from Group(Model(system), goals, WINDOW).decide_with(candidates)
 
 
@@ -102,7 +105,7 @@ class Group:
             yield Stuck(tuple(self.open), f"Z3 took more steps than one query may ({gave_up})")
 
     def decide_with(self, candidates: Sequence[Expr]) -> Iterator[Event]:
-        """Events until every goal is closed, found or stuck."""
+        """Events until every goal is closed or stuck."""
         if not self._outside.possible:
             yield from (Closed(goal, Inductive(self._unchanging)) for goal in self.open)
             return
@@ -110,7 +113,8 @@ class Group:
             given = Given(self._scope, self._model.as_folded(candidates))
             yield from self._attempts(given, 1)
             if self.open:
-                yield from self._first_ticks()
+                for event in self._first_ticks():
+                    yield Stuck((event.goal,), "a run reaches it") if isinstance(event, Found) else event
                 yield from self._attempts(given, self.deep)
             yield Stuck(tuple(self.open), "the given candidates make no invariant that excludes it")
         except GaveUp as gave_up:
