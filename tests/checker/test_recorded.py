@@ -9,11 +9,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from checker.encode.written import Tree, Unreadable, formula, readable, size, written
-from checker.engine import AUTO, Limits
+from checker.engine import AUTO, Engine, Limits
 from checker.engines.kinduction.events import Closed, Event, Found, Stuck
 from checker.engines.kinduction.search import search, with_given
-from checker.portfolio import Question, Told, answers
-from checker.portfolio.order import ORDERS
+from checker.portfolio import Question, Told, answers, turns
+from checker.portfolio.order import ORDERS, SOON
+from checker.portfolio.recorded import Recorded
 from checker.verdict import Answer, Inductive, Open, Reached, Unreachable
 from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import evaluate
@@ -181,6 +182,28 @@ def test_a_value_that_leaves_its_domain_is_not_talked_away() -> None:
     count = system.var("count")
     answered = found(list(with_given(system, [GOAL.name], [count <= 2, count <= 3])))
     assert isinstance(answered[GOAL.name], Open)
+
+
+def test_a_run_is_left_to_engines_that_find_plainer_ones() -> None:
+    answer = found(list(with_given(counter(4, top=30), [GOAL.name], [])))[GOAL.name]
+    assert isinstance(answer, Open) and answer.reason == "a run reaches it"
+
+
+def test_what_a_record_leaves_open_is_enumerated_next(monkeypatch: pytest.MonkeyPatch) -> None:
+    """It was not proved with the rest: k-induction is not asked to prove a broad question once more."""
+    order, asked_by = list[str](), turns.asked
+
+    def noted(engine: Engine, *rest: Any) -> dict[str, tuple[Answer, str]]:
+        order.append(engine.SUMMARY if isinstance(engine, Recorded) else engine.NAME)
+        return asked_by(engine, *rest)
+
+    monkeypatch.setattr(turns, "asked", noted)
+    monkeypatch.setattr("checker.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, (SOON, ORDERS["narrow"][0])))
+    assert isinstance(asked(relay(), ()), Unreachable)
+    assert order == [Recorded.SUMMARY, "explicit"]
+    order.clear()
+    assert isinstance(asked(relay(), None), Unreachable)
+    assert order[0] == SOON.engine
 
 
 def test_a_chosen_engine_is_not_helped() -> None:
