@@ -199,10 +199,10 @@ def test_what_a_record_leaves_open_is_enumerated_next(monkeypatch: pytest.Monkey
 
     monkeypatch.setattr(turns, "asked", noted)
     monkeypatch.setattr("checker.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, (SOON, ORDERS["narrow"][0])))
-    assert isinstance(asked(relay(), ()), Unreachable)
+    assert isinstance(asked(relay(20), ()), Unreachable)
     assert order == [Recorded.SUMMARY, "explicit"]
     order.clear()
-    assert isinstance(asked(relay(), None), Unreachable)
+    assert isinstance(asked(relay(20), None), Unreachable)
     assert order[0] == SOON.engine
 
 
