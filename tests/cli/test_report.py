@@ -120,7 +120,7 @@ def test_nothing_selected_is_nothing_to_report_on(tmp_path: Path) -> None:
 def test_after_an_interruption_nothing_is_written(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def interrupted(*_: object) -> list[Result]:
+    def interrupted(*_: object, **__: object) -> list[Result]:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(reviewing, "results", interrupted)

@@ -167,7 +167,7 @@ def test_a_model_without_meaning_is_one_error(project: pytest.Pytester, text: st
 def test_an_error_is_one_message(
     project: pytest.Pytester, monkeypatch: pytest.MonkeyPatch, error: Exception, message: str
 ) -> None:
-    def results(*_: object, quiet: bool) -> NoReturn:
+    def results(*_: object, **__: object) -> NoReturn:
         raise error
 
     monkeypatch.setattr(deciding, "results", results)

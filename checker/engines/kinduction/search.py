@@ -58,10 +58,10 @@ class Model:
         self.folded = folded(self.plain, self.fixed)
 
     def as_folded(self, formulas: Iterable[Expr]) -> list[Expr]:
-        """Formulas over the variables that do change, without those that are then true."""
+        """Formulas over the variables that do change, each once, without those that are then true."""
         terms = self.plain.terms
         made = (with_values(terms, self.fixed, formula) for formula in formulas)
-        return [formula for formula in made if formula is not terms.true]
+        return list({id(formula): formula for formula in made if formula is not terms.true}.values())
 
     def unchanging(self, among: Iterable[Var]) -> tuple[Expr, ...]:
         """The conjuncts that folding relied on, about some variables."""
