@@ -4,7 +4,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from time import monotonic
 
-from checker.encode.written import Tree, readable
 from checker.engine import ALL, AUTO, Engine, Limits, Progress, Stage, Timers
 from checker.faults import Failed, attempted
 from checker.freely import freely
@@ -18,6 +17,7 @@ from checker.runs.reproduce import not_reproducible, reproduced
 from checker.starting import check_starts
 from checker.tasks import Task, tasks
 from checker.verdict import Open, Reached, Unknown
+from checker.written import Tree, readable
 from properties.forms import Property, Unbounded
 from properties.reduce import reduce
 from spec_model.lang.expr import Expr, Var

@@ -10,7 +10,6 @@ from typing import TYPE_CHECKING
 from checker.cache.places import VARIABLE, chosen
 from checker.cache.telling import Refused, Taken, listening
 from checker.certify.outcome import Outcome, Undecided
-from checker.encode.written import Tree
 from checker.engine import Engine, Limits, Stage
 from checker.faults import Fault, described, is_fault, tell
 from checker.faults import listening as attending
@@ -20,6 +19,7 @@ from checker.pool import Event, Granted, Order, Pool
 from checker.result import Result
 from checker.tasks import Task
 from checker.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
+from checker.written import Tree
 from properties.forms import Property
 from spec_model.lang.errors import ModelError
 from spec_model.lang.system import System

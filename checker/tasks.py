@@ -4,8 +4,8 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.encode.written import Tree
 from checker.portfolio.shape import driven
+from checker.written import Tree
 from properties.forms import Property, Unbounded
 from properties.reduce import Question, reduce, without_step
 from spec_model.lang.errors import ModelError, did_you_mean
@@ -21,7 +21,7 @@ MOST = 16
 class Task:
     """Properties of one system that are searched together.
 
-    ``recorded`` are the conjuncts of proofs on record, as ``checker.encode.written`` writes formulas; None
+    ``recorded`` are the conjuncts of proofs on record, as ``checker.written`` writes formulas; None
     if there is no such proof.
     """
 

@@ -17,6 +17,7 @@ from checker.commands.premises import cases
 from checker.commands.reporting import differences, pages
 from checker.commands.wrapping import plain
 from checker.engine import AUTO, Limits
+from checker.model.kept_invariants import invariants_of_rover
 from checker.model.kept_runs import file_of, read
 from checker.model.rover import rover
 from properties.catalogue import catalogue, expected
@@ -33,7 +34,8 @@ def test_verdicts_are_as_on_record_and_the_committed_reports_show_them(
 ) -> None:
     # One test, so that the properties are decided once however many processes run the suite.
     affordable = [prop for prop in catalogue().values() if not prop.costly]
-    decided = [Compared(r, expected(r.property.id)) for r in results(affordable, systems(), AUTO, Limits())]
+    found = results(affordable, systems(), AUTO, Limits(), invariants=invariants_of_rover())
+    decided = [Compared(r, expected(r.property.id)) for r in found]
     told = cases(decided, systems(), read(file_of(rover())), AUTO, Limits())
     further = Further(noticing=noticing(rover()))
     verdicts = [

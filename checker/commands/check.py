@@ -22,7 +22,6 @@ from checker.commands.further import NOTHING_FURTHER, Further
 from checker.commands.output import err, out, wrapped
 from checker.commands.progress import Watch
 from checker.commands.wrapping import plain
-from checker.encode.written import Tree
 from checker.engine import Limits
 from checker.faults import Fault, heard, listening, tell
 from checker.model.kept_invariants import Recorded
@@ -33,6 +32,7 @@ from checker.searches import Doing, Over, Warned, searches
 from checker.tasks import Task, tasks
 from checker.trace import Trace, counted_ticks
 from checker.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
+from checker.written import Tree
 from properties.catalogue import Expected, expected
 from properties.forms import Property, Reachable
 from spec_model.lang.system import System

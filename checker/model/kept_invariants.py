@@ -8,13 +8,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from checker.encode.written import Tree, size, written
 from checker.model import Model
 from checker.model.kept_runs import INVARIANTS, ROVER, contents, file_of, lines
 from checker.verdict import Inductive
+from checker.written import Tree, size, written
 
 Recorded = Mapping[str, tuple[Tree, ...]]
-"""By the id of a property the conjuncts of its proof, as ``checker.encode.written`` writes formulas."""
+"""By the id of a property the conjuncts of its proof, as ``checker.written`` writes formulas."""
 
 MOST_NODES = 100_000
 """Operators, variables and numbers of the formulas of one proof that is kept."""

@@ -3,7 +3,6 @@
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
 from checker.lowered import lowered
-from checker.runs.compiled import Compiled, TooDeep
 from checker.runs.domains import stayed
 from checker.trace import Trace
 from checker.verdict import Proved, Run, Verdict, Violated
@@ -57,6 +56,8 @@ def confirmed(system: System, prop: Property, run: Run) -> bool:
 
 def _first(question: Question) -> Callable[[Run], dict[str, int]]:
     """What says of a run the properties whose goals it reaches, and after how many ticks."""
+    from checker.runs.compiled import Compiled, TooDeep  # not before there is a run to go through
+
     try:
         compiled = Compiled(question.system, [goal.var for goal in question.goals])
     except TooDeep:

@@ -140,7 +140,7 @@ def test_what_was_said_before_a_crash_is_searched_again_and_must_be_so(folder: P
     told = [_Decided("one-a", proved, "one"), Taken("key"), _Decided("one-b", proved, "one")]
     assert [len(list(back.heard(Event(0, message)))) for message in told] == [1, 0, 1]
     order = back.again()
-    assert order is not None and order.args == ("one", task.properties, True)
+    assert order is not None and order.args == ("one", task.properties, task.recorded, True)
     assert not list(back.heard(Event(0, _Decided("one-a", proved, "one"))))
     assert not list(back.heard(Event(0, _Decided("one-a", run, "one"))))
     with pytest.raises(AssertionError, match="with code compiled anew it is violated"):

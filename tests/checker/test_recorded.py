@@ -8,7 +8,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.encode.written import Tree, Unreadable, formula, readable, size, written
 from checker.engine import AUTO, Engine, Limits
 from checker.engines.kinduction.events import Closed, Event, Found, Stuck
 from checker.engines.kinduction.search import search, with_given
@@ -16,6 +15,7 @@ from checker.portfolio import Question, Told, answers, turns
 from checker.portfolio.order import ORDERS, SOON
 from checker.portfolio.recorded import Recorded
 from checker.verdict import Answer, Inductive, Open, Reached, Unreachable
+from checker.written import Tree, Unreadable, formula, readable, size, written
 from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Expr, Var, flag, var

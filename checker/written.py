@@ -6,7 +6,6 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from checker.encode.intervals import postorder
 from spec_model.lang.domain import Bool, Num, Sort
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from spec_model.lang.operators import COMPARISONS, Op
@@ -43,6 +42,8 @@ def written(expr: Expr) -> Tree:
 
 def size(expr: Expr) -> int:
     """Operators, variables and numbers of the formula as it is written: shared parts count each time."""
+    from checker.encode.intervals import postorder  # not loaded by those that only pass formulas on
+
     sizes: dict[int, int] = {}
     for node in postorder(expr):
         sizes[id(node)] = 1 + sum(sizes[id(child)] for child in children(node))
