@@ -43,23 +43,23 @@ def judge(
     at = {mutant.id: name for name, mutant in todo}
     recorded = {p.id: _on_record(model, p.id) for p in properties}
     plan = Plan(model.systems, properties, recorded, on_record=_runs(model))
-    judging = _Judging(plan, at, limits, jobs, found, invariants_of(model))
+    stages = _Stages(plan, at, limits, jobs, found, invariants_of(model))
     own = [p for p in properties if p.on in set(at.values())]
-    judging.decide(own)
+    stages.decide(own)
     found.undecided += [p.id for p in own if p.id not in plan.proved]
     try:
-        left = judging.by_runs([mutant for _, mutant in todo])
+        left = stages.by_runs([mutant for _, mutant in todo])
         if not alone:
-            left = judging.by_runs_nearby(left)
-        unkilled = judging.at_home(left, alone)
-        judging.elsewhere([mutant for mutant in left if mutant.id in unkilled], unkilled)
+            left = stages.by_runs_nearby(left)
+        unkilled = stages.at_home(left, alone)
+        stages.elsewhere([mutant for mutant in left if mutant.id in unkilled], unkilled)
     finally:
         order = {mutant.id: number for number, (_, mutant) in enumerate(todo)}
         found.told.sort(key=lambda one: order[one[1].id])
 
 
 @dataclass
-class _Judging:
+class _Stages:
     """Stages of judging mutants, each with the system that it is at home in by its id (``at``)."""
 
     plan: Plan

@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from checker.commands.check import Compared
-from checker.commands.output import counted, err, write
+from checker.commands.output import counted, err, wrapped, write
 from checker.commands.premises import recordable
 from checker.model import Model
-from checker.model.kept_invariants import invariants_of, row, text
+from checker.model.kept_invariants import MOST_NODES, invariants_of, row, text
 from checker.model.kept_runs import INVARIANTS, file_of
 from checker.verdict import Inductive, Unknown
 
@@ -30,11 +30,14 @@ class Recording:
         asked = {one.result.property.id for one in found}
         before = invariants_of(self.model)
         kept = {id: trees for id, trees in before.items() if id in self.model.properties and id not in asked}
-        new = {
-            one.result.property.id: trees
+        rows = {
+            one.result.property.id: row(one.verdict.because)
             for one in found
             if not isinstance(one.verdict, Unknown) and isinstance(one.verdict.because, Inductive)
-            if (trees := row(one.verdict.because)) is not None
         }
+        new = {id: trees for id, trees in rows.items() if trees is not None}
         write(text({**kept, **new}), file_of(self.model, INVARIANTS))
         err.print(f"{counted(len(new), 'invariant is', 'invariants are')} on record of what was asked.")
+        if large := sorted(rows.keys() - new.keys()):
+            more = f"of more than {MOST_NODES:,} operators and operands"
+            err.print(wrapped(f"Formulas {more} are not kept: those of {', '.join(large)}.", 0), markup=False)

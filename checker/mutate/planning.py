@@ -4,13 +4,13 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from checker.lowered import lowered
 from checker.mutate.asked import Cone, as_it_is, concerned, cones
 from checker.mutate.judging import Case, Fate, Judged
 from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.tries import ROUNDS, RandomRuns, tried
 from checker.result import Result
 from checker.runs.known import run_of
+from checker.tasks import Task
 from checker.verdict import Proved, Run, Unknown
 from properties.forms import Property, formulas
 from spec_model.lang.chart import parts
@@ -21,7 +21,7 @@ PROVERS = ("kinduction", "pdr")
 """Engines that also look for short runs as they look for a proof: what they proved of the original, they are
 asked about a mutant at once."""
 SMALL = 200
-"""Bits of the valuations of a system in which runs are tried early: lowering a larger one takes longer."""
+"""Bits (``Task.size``) of a system in which runs are tried early: lowering a larger one takes longer."""
 KILLERS = 3
 """Runs kept of each property that kills mutants of a system."""
 
@@ -79,7 +79,7 @@ class Plan:
 
     def nearby(self) -> list[str]:
         """The small systems with properties, the smallest first."""
-        bits = {name: self._bits(name) for name in self.systems if self._stated(name)}
+        bits = {name: Task(of, ()).size for name, of in self.systems.items() if self._stated(name)}
         return sorted((name for name in bits if bits[name] <= SMALL), key=lambda name: bits[name])
 
     def tried_in(self, name: str, mutant: Mutant, home: str) -> Planned | None:
@@ -95,10 +95,6 @@ class Plan:
         properties = tuple(p for p in self._stated(name) if p.id in proved)
         original = as_it_is(self.systems[name])
         return Planned(mutant, (Case(original, same.system, same.parts, properties, proved),))
-
-    def _bits(self, name: str) -> int:
-        written = lowered(self.systems[name]).variables
-        return sum((len(v.domain) - 1).bit_length() for v in written)
 
     def elsewhere(self, mutant: Mutant, name: str) -> Planned:
         """The same fault in all other systems with the part, those with the smallest cones first."""

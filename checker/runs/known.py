@@ -24,8 +24,12 @@ def reached(mutant: System, properties: Sequence[Property], runs: Sequence[Run])
     """Of the properties that some of the runs violate, or reach, on the mutant: the run up to there, by id.
 
     A run is tried only while there is something left to be found.  Nothing is said of the other properties.
+    What is found is confirmed by the reference semantics.
     """
-    return dict(reaching(mutant, properties, runs))
+    found, by_id = dict(reaching(mutant, properties, runs)), {p.id: p for p in properties}
+    for id, run in found.items():
+        confirm(mutant, by_id[id], run)
+    return found
 
 
 def reaching(
@@ -33,7 +37,7 @@ def reaching(
 ) -> Iterator[tuple[str, Run]]:
     """What ``reached`` says, each as soon as it is found; of properties about runs of any length nothing.
 
-    Runs are gone through as compiled Python; ``confirmed`` asks the reference semantics.
+    Runs are gone through as compiled Python; ``confirm`` asks the reference semantics.
     """
     asked = [p for p in properties if not isinstance(p.form, Unbounded)]
     if not asked:
@@ -49,9 +53,11 @@ def reaching(
             return
 
 
-def confirmed(system: System, prop: Property, run: Run) -> bool:
-    """Whether the property is violated, or reached, after the run, by the reference semantics."""
-    return _reached(reduce(lowered(system), [prop]), run).get(prop.id) == len(run)
+def confirm(system: System, prop: Property, run: Run) -> None:
+    """Raises ``AssertionError``, a bug of ours, unless the property is violated, or reached, after the run by
+    the reference semantics, and not before."""
+    if _reached(reduce(lowered(system), [prop]), run).get(prop.id) != len(run):
+        raise AssertionError(f"{prop.id}: a run of {len(run)} ticks reaches it only as compiled")
 
 
 def _first(question: Question) -> Callable[[Run], dict[str, int]]:
@@ -87,4 +93,4 @@ def _reached(question: Question, run: Run) -> dict[str, int]:
     return found
 
 
-__all__ = ["confirmed", "reached", "reaching", "run_of"]
+__all__ = ["confirm", "reached", "reaching", "run_of"]

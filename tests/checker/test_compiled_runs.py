@@ -7,11 +7,14 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from checker.runs.compiled import Compiled, TooDeep
+from checker.runs.known import reached
+from checker.verdict import Run
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import admissible, step
 from spec_model.lang.expr import Expr, Var, flag, ite, var
 from spec_model.lang.system import TransitionSystem
+from tests.mutate.lamp import LIT, lamps
 from tests.strategies_ts import goals, transition_systems
 from tests.toys import GOAL, filling, relay
 
@@ -88,3 +91,9 @@ def test_branches_beyond_all_measure_are_told() -> None:
     system = TransitionSystem("deep", (go,), (), (GOAL,), (), program)
     with pytest.raises(TooDeep):
         Compiled(system, [GOAL])
+
+
+def test_what_only_compiled_code_finds_is_a_bug_of_ours(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("checker.runs.known._first", lambda _: lambda run: {"LIT": 1})
+    with pytest.raises(AssertionError, match="LIT: a run of 1 ticks reaches it only as compiled"):
+        reached(lamps, [LIT], [Run({}, ({"press": 0, "level": 0},))])

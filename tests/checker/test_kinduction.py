@@ -1,6 +1,6 @@
 """k-induction proves what a naive search does not reach, with invariants that plain enumeration confirms."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import pytest
@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from benchmarks.roverlite import roverlite
 from checker.engine import Limits, engines, quiet
 from checker.engines import kinduction
-from checker.engines.kinduction.events import Bound, Closed, Doing, Found, Stuck
+from checker.engines.kinduction.events import Bound, Closed, Doing, Event, Found, Stuck
 from checker.engines.kinduction.hunt import Hunt
 from checker.engines.kinduction.search import search
 from checker.verdict import Answer, Inductive, Open, Reached, Unreachable
@@ -28,9 +28,14 @@ def searched(
     system: TransitionSystem, wanted: Sequence[Var], depth: int | None = None
 ) -> Mapping[str, Answer]:
     """The answers of a search in this process."""
+    return answered(search(system, [g.name for g in wanted], depth), wanted)
+
+
+def answered(events: Iterable[Event], wanted: Sequence[Var]) -> Mapping[str, Answer]:
+    """What events come to."""
     found: dict[str, Answer] = {}
     deep = {g.name: 0 for g in wanted}
-    for event in search(system, list(deep), depth):
+    for event in events:
         match event:
             case Found(goal, run, shortest):
                 found[goal] = Reached(run, shortest)

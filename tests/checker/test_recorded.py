@@ -9,8 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from checker.engine import AUTO, Engine, Limits
-from checker.engines.kinduction.events import Closed, Event, Found, Stuck
-from checker.engines.kinduction.search import search, with_given
+from checker.engines.kinduction.search import with_given
 from checker.portfolio import Question, Told, answers, turns
 from checker.portfolio.order import ORDERS, SOON
 from checker.portfolio.recorded import Recorded
@@ -20,7 +19,7 @@ from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Expr, Var, flag, var
 from spec_model.lang.system import TransitionSystem
-from tests import naive
+from tests.checker.test_kinduction import agrees, answered, searched
 from tests.inductive import problems
 from tests.strategies_ts import booleans, goals, transition_systems
 from tests.toys import GOAL, counter, overflowing, relay
@@ -106,29 +105,11 @@ def test_nesting_beyond_all_measure_is_not_read() -> None:
 # --- tried as invariants -------------------------------------------------------------------------
 
 
-def found(events: Sequence[Event]) -> dict[str, Answer]:
-    answered: dict[str, Answer] = {}
-    for event in events:
-        match event:
-            case Found(goal, run, shortest):
-                answered[goal] = Reached(run, shortest)
-            case Closed(goal, because):
-                answered[goal] = Unreachable(because)
-            case Stuck(names, reason):
-                answered |= {name: Open(reason, 0) for name in names}
-    return answered
-
-
-def agrees(system: TransitionSystem, answered: Mapping[str, Answer]) -> None:
-    reached = naive.search(system, goals(system) or (GOAL,)).reached
-    for name, answer in answered.items():
-        match answer:
-            case Reached(run, shortest):
-                assert naive.replay(system, run)[-1][name] == 1
-                assert shortest and len(run) == reached[name]
-            case Unreachable(Inductive() as because):
-                assert name not in reached
-                assert problems(system, system.var(name), because) == []
+def shown(
+    system: TransitionSystem, wanted: Sequence[Var], candidates: Sequence[Expr]
+) -> Mapping[str, Answer]:
+    """The answers with candidates, in this process."""
+    return answered(with_given(system, [g.name for g in wanted], candidates), wanted)
 
 
 @settings(max_examples=60)
@@ -136,22 +117,18 @@ def agrees(system: TransitionSystem, answered: Mapping[str, Answer]) -> None:
 def test_whatever_is_on_record_nothing_wrong_is_shown(data: st.DataObject) -> None:
     system = data.draw(transition_systems())
     condition = st.composite(booleans)(tuple(spoken(system).values()), 3)
-    names = [g.name for g in goals(system)]
     tried = [formula(through_json(c), spoken(system)) for c in data.draw(st.lists(condition, max_size=4))]
-    answered = found(list(with_given(system, names, tried)))
-    assert answered.keys() == set(names)
-    agrees(system, answered)
+    agrees(system, goals(system), shown(system, goals(system), tried))
 
 
 @settings(max_examples=40)
 @given(transition_systems())
 def test_what_was_proved_once_is_shown_again(system: TransitionSystem) -> None:
-    names = [g.name for g in goals(system)]
-    first = found(list(search(system, names, None)))
+    first = searched(system, goals(system))
     proofs = {n: a.because for n, a in first.items() if isinstance(a, Unreachable)}
     trees = [through_json(c) for because in proofs.values() for c in getattr(because, "conjuncts", ())]
-    again = found(list(with_given(system, names, list(readable(trees, spoken(system))))))
-    agrees(system, again)
+    again = shown(system, goals(system), list(readable(trees, spoken(system))))
+    agrees(system, goals(system), again)
     simple = {n for n, because in proofs.items() if isinstance(because, Inductive) and because.simple}
     assert proofs.keys() - simple <= {n for n, a in again.items() if isinstance(a, Unreachable)}
 
@@ -165,9 +142,9 @@ def test_what_a_record_shows_is_not_searched_for(monkeypatch: pytest.MonkeyPatch
     system = relay()
     hold, since, on = (system.var(name) for name in ("hold", "since", "on"))
     monkeypatch.setattr("checker.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, ()))
-    shown = asked(system, (~on | (hold == since),))
-    assert isinstance(shown, Unreachable) and isinstance(shown.because, Inductive)
-    assert problems(system, GOAL, shown.because) == []
+    answer = asked(system, (~on | (hold == since),))
+    assert isinstance(answer, Unreachable) and isinstance(answer.because, Inductive)
+    assert problems(system, GOAL, answer.because) == []
 
 
 @pytest.mark.parametrize("candidates", [(), (LAMP,), (flag("on"),)])
@@ -180,12 +157,11 @@ def test_what_a_record_does_not_show_is_searched_for(candidates: tuple[Expr, ...
 def test_a_value_that_leaves_its_domain_is_not_talked_away() -> None:
     system = overflowing(3)
     count = system.var("count")
-    answered = found(list(with_given(system, [GOAL.name], [count <= 2, count <= 3])))
-    assert isinstance(answered[GOAL.name], Open)
+    assert isinstance(shown(system, [GOAL], [count <= 2, count <= 3])[GOAL.name], Open)
 
 
 def test_a_run_is_left_to_engines_that_find_plainer_ones() -> None:
-    answer = found(list(with_given(counter(4, top=30), [GOAL.name], [])))[GOAL.name]
+    answer = shown(counter(4, top=30), [GOAL], [])[GOAL.name]
     assert isinstance(answer, Open) and answer.reason == "a run reaches it"
 
 

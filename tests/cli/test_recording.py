@@ -95,6 +95,16 @@ def test_a_record_that_is_out_of_date_or_wrong_changes_no_verdict(
     assert "3 demands: 2 proved, 1 violated." in capsys.readouterr().out
 
 
+def test_formulas_that_are_too_large_to_keep_are_told(
+    model: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr("checker.model.kept_invariants.MOST_NODES", 0)
+    assert recorded(model) == Exit.AS_EXPECTED
+    assert "LAST" not in kept(model)
+    said = " ".join(capsys.readouterr().err.split())
+    assert "are not kept: those of" in said and "LAST" in said
+
+
 @pytest.mark.parametrize(
     ("written", "said"),
     [

@@ -103,6 +103,15 @@ class Consecution:
         return self._simulator.run(start, _TICKS, reading.inputs[0]).samples()
 
 
+def of_given(scope: Scope, candidates: Sequence[Expr]) -> Consecution:
+    """The greatest inductive subset of the candidates that speak of the scope only.  Raises ``GaveUp``."""
+    spoken = {v.name for v in (*scope.part.frozen, *scope.part.variables)}
+    inside = [c for c in candidates if variables(c).keys() <= spoken]
+    found = Consecution(scope)
+    found.grow(initially(scope, inside))
+    return found
+
+
 def unbroken(conditions: Sequence[Expr], at: Columns) -> list[Expr]:
     """The conditions that hold in all the valuations."""
     truth = Vectorised(conditions)(at)

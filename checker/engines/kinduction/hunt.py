@@ -29,27 +29,18 @@ _BRANCHES = 6
 class Hunt:
     """An inductive invariant that grows, and the counterexamples still to be answered.
 
-    ``answered`` counts those to which clauses were tried.
+    ``invariant`` is what is known so far; ``answered`` counts those to which clauses were tried.
     """
 
     def __init__(self, scope: Scope, trail: Trail) -> None:
         self._scope, self._trail = scope, trail
         self._candidates = Candidates(scope.part, trail.samples(EVERY))
-        self._consecution = Consecution(scope)
+        self.invariant = Consecution(scope)
         self._random = np.random.default_rng(0)
         self.answered = 0
         self._tried: list[Expr] = []
         self._queue: list[Cube] = []
         self._asked: list[Cube] = []
-
-    @property
-    def known(self) -> list[Expr]:
-        """The invariant so far."""
-        return self._consecution.known
-
-    def support(self, needed: Iterable[Expr]) -> list[Expr]:
-        """The conjuncts that make the needed ones inductive, themselves included."""
-        return self._consecution.support(needed)
 
     def note(self, cube: Cube) -> None:
         """A goal is reached from this cube: exclude it."""
@@ -84,18 +75,18 @@ class Hunt:
         made = (self._candidates.excluding(cube, self._random) for _ in range(_CLAUSES))
         fresh += {id(c): c for c in made if c is not None}.values()
         gained = self._grow(fresh)
-        self._queue += self._consecution.cubes(_BRANCHES)
+        self._queue += self.invariant.cubes(_BRANCHES)
         return gained
 
     def _grow(self, fresh: Iterable[Expr]) -> bool:
-        old = {id(c) for c in (*self._tried, *self.known)}
+        old = {id(c) for c in (*self._tried, *self.invariant.known)}
         new = [c for c in fresh if id(c) not in old]
         for block in self._trail.blocks():
             new = unbroken(new, block)
         candidates = self._tried + initially(self._scope, new)
-        taken = {id(c) for c in self._consecution.grow(candidates)}
+        taken = {id(c) for c in self.invariant.grow(candidates)}
         self._tried = [c for c in candidates if id(c) not in taken]
         return bool(taken)
 
     def _said(self, what: str) -> str:
-        return f"{what}, {len(self.known)} invariants"
+        return f"{what}, {len(self.invariant.known)} invariants"

@@ -4,15 +4,16 @@ Goals with the same cone of influence share simulation and invariants.  What the
 is attacked from its counterexamples to induction: each suggests clauses that exclude it.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from checker.encode.cone import as_written, by_cone, cone, constants, folded, straying, with_values
+from checker.encode.invariants import Cube
 from checker.encode.simulate import Simulator, Trail
 from checker.encode.symbolic import transition
 from checker.encode.unrolling import Outside, Unrolling, literal, satisfiable
 from checker.engines.kinduction.events import Bound, Closed, Doing, Event, Found, Stuck
-from checker.engines.kinduction.given import Given
+from checker.engines.kinduction.houdini import Consecution, of_given
 from checker.engines.kinduction.hunt import Hunt
 from checker.engines.kinduction.induction import WINDOW, Step, induction
 from checker.engines.kinduction.ticks import GaveUp, Scope, excluded
@@ -28,6 +29,10 @@ PLAIN = 3_000_000
 """Steps of Z3 that one query without invariants may take, a second or two."""
 HELPED = 30_000_000
 """Steps of Z3 that one with invariants may take."""
+
+
+def _unheard(_: Cube) -> None:
+    """Nothing is made of what stands in the way of a proof."""
 
 
 def search(system: TransitionSystem, goals: Sequence[str], depth: int | None) -> Iterator[Event]:
@@ -110,12 +115,12 @@ class Group:
             yield from (Closed(goal, Inductive(self._unchanging)) for goal in self.open)
             return
         try:
-            given = Given(self._scope, self._model.as_folded(candidates))
-            yield from self._attempts(given, 1)
+            invariant = of_given(self._scope, self._model.as_folded(candidates))
+            yield from self._attempts(invariant, 1)
             if self.open:
                 for event in self._first_ticks():
                     yield Stuck((event.goal,), "a run reaches it") if isinstance(event, Found) else event
-                yield from self._attempts(given, self.deep)
+                yield from self._attempts(invariant, self.deep)
             yield Stuck(tuple(self.open), "the given candidates make no invariant that excludes it")
         except GaveUp as gave_up:
             yield Stuck(tuple(self.open), f"Z3 took more steps than one query may ({gave_up})")
@@ -186,27 +191,34 @@ class Group:
         hunt = Hunt(self._scope, trail)
         for text in hunt.phases():
             yield Doing(text)
-            yield from self._attempts(hunt, min(WINDOW, self.deep))
+            yield from self._attempts(hunt.invariant, min(WINDOW, self.deep), hunt.note)
             if not self.open:
                 return
         self._reason += f", {hunt.answered} counterexamples to induction answered"
         yield Doing("k-induction along simple paths")
-        yield from self._attempts(hunt, self.deep, simple=True)
+        yield from self._attempts(hunt.invariant, self.deep, simple=True)
 
-    def _attempts(self, hunt: Hunt | Given, window: int, *, simple: bool = False) -> Iterator[Event]:
-        """Try to close each goal with the invariant so far; the hunt is told what stands in the way.
+    def _attempts(
+        self,
+        invariant: Consecution,
+        window: int,
+        note: Callable[[Cube], None] = _unheard,
+        *,
+        simple: bool = False,
+    ) -> Iterator[Event]:
+        """Try to close each goal with the invariant so far; ``note`` is told what stands in the way.
 
         ``simple``: along paths whose valuations, of all that the goals depend on as written, differ; whoever
         checks the proof does not know what was simplified away.
         """
         scope = self._whole if simple else self._scope
-        safe = excluded(scope, hunt.known, HELPED)
+        safe = excluded(scope, invariant.known, HELPED)
         if safe is None:
             self._reason = f"no invariant was found that keeps {', '.join(self._names)} in the domain"
             return
         for goal in list(self.open):
-            step = induction(scope, goal, hunt.known, window, HELPED, simple=simple)
+            step = induction(scope, goal, invariant.known, window, HELPED, simple=simple)
             if isinstance(step, Step):
-                yield self._closed(goal, step, hunt.support((*step.conjuncts, *safe)))
+                yield self._closed(goal, step, invariant.support((*step.conjuncts, *safe)))
             else:
-                hunt.note(step)
+                note(step)
