@@ -10,12 +10,15 @@ from checker.commands.mutating_json import document
 from checker.commands.mutating_judging import judge
 from checker.commands.mutating_places import sites
 from checker.commands.mutating_text import report
-from checker.commands.output import err, out, wrapped
+from checker.commands.output import counted, err, out, wrapped, write
+from checker.commands.premises import recordable
 from checker.commands.select import pick
 from checker.commands.tables import listed
 from checker.engine import Limits
 from checker.model import Model
+from checker.model.kept_runs import MUTANTS, Kept, file_of, read, text
 from checker.mutate.asked import as_it_is
+from checker.mutate.judging import Fate
 from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.planning import homes
 from checker.printable import json_text
@@ -28,7 +31,8 @@ class Wanted:
     """What the command line asks for.
 
     ``named`` are systems, ``parts`` charts and blocks; without any, all are meant.  ``alone``: only
-    properties about the named systems count; ``by_place``: also which properties constrain each place.
+    properties about the named systems count; ``by_place``: also which properties constrain each place;
+    ``record``: the runs that searches find are kept.
     """
 
     named: tuple[str, ...]
@@ -38,19 +42,23 @@ class Wanted:
     alone: bool = False
     by_place: bool = False
     jobs: int | None = None
+    record: bool = False
 
 
 def mutate(model: Model, wanted: Wanted, limits: Limits, as_json: bool) -> Exit:
     """Judge the mutants of a model, and tell what becomes of each.
 
-    Raises ``UsageError`` for an unknown system, ``ModelError`` where the model has no meaning.
+    Raises ``UsageError`` for an unknown system, or where what is found cannot be kept, ``ModelError`` where
+    the model has no meaning.
     """
+    if wanted.record:
+        recordable(model, "", MUTANTS)
     properties = [p for p in model.stated().values() if not p.costly]
     at_home = _homes(model, wanted, {p.on for p in properties})
     if not any(p.on in at_home for p in properties):
         err.print("Nothing to check: no property is about what was selected.")
         return Exit.NOTHING
-    todo = _chosen(model.systems, at_home, wanted)
+    made = todo = _chosen(model.systems, at_home, wanted)
     named = wanted.named if wanted.named and not wanted.parts else tuple(at_home)
     found = Found(named, len(todo), seed=None if wanted.sample is None else wanted.seed)
     if wanted.sample is not None and wanted.sample < len(todo):
@@ -63,6 +71,8 @@ def mutate(model: Model, wanted: Wanted, limits: Limits, as_json: bool) -> Exit:
         code = found.code
     except KeyboardInterrupt:
         err.print(f"Interrupted: {len(found.told)} of {found.chosen} mutants judged.")
+    if wanted.record:
+        _record(model, found, {mutant.id for _, mutant in made})
     if as_json:
         print(json_text(document(found, code), ascii=True))
     else:
@@ -73,6 +83,28 @@ def mutate(model: Model, wanted: Wanted, limits: Limits, as_json: bool) -> Exit:
         for text, indent in report(found):
             out.print(wrapped(text, indent), markup=False)
     return code
+
+
+def _record(model: Model, found: Found, made: Collection[str]) -> None:
+    """Keep the runs by which searches killed mutants.
+
+    What is on record stays, but for mutants that no run kills, and those of the same parts that are not
+    ``made`` any more.
+    """
+    place, parts_of = file_of(model, MUTANTS), {id.partition("/")[0] for id in made}
+    rows = {
+        mutant.id: Kept(judged.on, judged.run)
+        for _, mutant, judged in found.told
+        if judged.fate is Fate.KILLED and judged.run is not None and mutant.id in found.searched
+    }
+    alive = {mutant.id for _, mutant, judged in found.told if judged.fate not in (Fate.KILLED, Fate.UNKNOWN)}
+    known = {
+        id: row
+        for id, row in read(place, MUTANTS).items()
+        if id not in alive and (id in made or id.partition("/")[0] not in parts_of)
+    }
+    write(text({**known, **rows}, MUTANTS), place)
+    err.print(f"{counted(len(rows), 'run is', 'runs are')} on record that searches found now.")
 
 
 def _homes(model: Model, wanted: Wanted, stated: Collection[str]) -> dict[str, list[str]]:

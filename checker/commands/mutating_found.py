@@ -20,6 +20,8 @@ class Found:
     seed: int | None = None
     undecided: list[str] = field(default_factory=list)
     told: list[One] = field(default_factory=list)
+    searched: set[str] = field(default_factory=set)
+    """Mutants of ``told``, by id, that were not judged before something was searched."""
 
     def of(self, *fates: Fate) -> list[One]:
         """Those with one of some fates."""

@@ -11,7 +11,7 @@ from checker.commands.progress import Watch
 from checker.engine import AUTO, Limits
 from checker.model import Model
 from checker.model.kept_invariants import Recorded, invariants_of
-from checker.model.kept_runs import KILLS, PREMISES, file_of, read
+from checker.model.kept_runs import KILLS, MUTANTS, PREMISES, Kept, file_of, read
 from checker.mutate.asked import as_it_is
 from checker.mutate.judging import DOMAINS, NOT_SEARCHED, REFUSED, Fate, Judged
 from checker.mutate.mutants import Mutant
@@ -42,7 +42,8 @@ def judge(
     """
     at = {mutant.id: name for name, mutant in todo}
     recorded = {p.id: _on_record(model, p.id) for p in properties}
-    plan = Plan(model.systems, properties, recorded, on_record=_runs(model))
+    known = [read(file_of(model, kind), kind) for kind in (PREMISES, KILLS, MUTANTS)]
+    plan = Plan(model.systems, properties, recorded, on_record=_runs(known))
     stages = _Stages(plan, at, limits, jobs, found, invariants_of(model))
     own = [p for p in properties if p.on in set(at.values())]
     stages.decide(own)
@@ -50,7 +51,7 @@ def judge(
     try:
         left = stages.by_runs([mutant for _, mutant in todo])
         if not alone:
-            left = stages.by_runs_nearby(left)
+            left = stages.by_runs_nearby(left, {id: kept.system for id, kept in known[-1].items()})
         unkilled = stages.at_home(left, alone)
         stages.elsewhere([mutant for mutant in left if mutant.id in unkilled], unkilled)
     finally:
@@ -88,14 +89,17 @@ class _Stages:
                 self._keep(told.mutant, told.judged)
         return left
 
-    def by_runs_nearby(self, todo: Sequence[Mutant]) -> list[Mutant]:
-        """The same in other small systems, one after the other; the mutants that are left.
+    def by_runs_nearby(self, todo: Sequence[Mutant], where: Mapping[str, str]) -> list[Mutant]:
+        """The same in other small systems, one after the other, and of mutants that were killed once in those
+        ``where`` they were; the mutants that are left.
 
         What kills counts once it is found out that the original has it.
         """
         left = {mutant.id: mutant for mutant in todo}
-        for name in self.plan.nearby():
-            planned = [one for m in left.values() if (one := self.plan.tried_in(name, m, self.at[m.id]))]
+        small = self.plan.nearby()
+        for name in (*small, *sorted(set(where.values()) & self.plan.systems.keys() - set(small))):
+            here = [m for id, m in left.items() if name in small or where.get(id) == name]
+            planned = [one for m in here if (one := self.plan.tried_in(name, m, self.at[m.id]))]
             told = list(self._told(planned, dict.fromkeys(left, OPEN), search=False, drawn=False))
             kills = {one.mutant.id: one.judged for one in told if one.judged.fate is Fate.KILLED}
             self._find_out({judged.killer for judged in kills.values()})
@@ -118,7 +122,7 @@ class _Stages:
                 if told.judged.fate in UNKILLED and not alone:
                     unkilled[told.mutant.id] = told.judged
                 else:
-                    self._keep(told.mutant, told.judged)
+                    self._keep(told.mutant, told.judged, searched=True)
         except KeyboardInterrupt:
             self._interrupted(todo, unkilled)
             raise
@@ -137,7 +141,7 @@ class _Stages:
                 self.decide([p for p in asked.values() if p.id not in self._asked and self._has_run(p)])
             for told in self._told(again, unkilled, drawn=False):
                 unkilled.pop(told.mutant.id)
-                self._keep(told.mutant, told.judged)
+                self._keep(told.mutant, told.judged, searched=True)
         except KeyboardInterrupt:
             self._interrupted(todo, unkilled)
             raise
@@ -149,8 +153,10 @@ class _Stages:
                 judged = unkilled[mutant.id]
                 self._keep(mutant, replace(judged, fate=Fate.UNKNOWN, why=judged.why or why))
 
-    def _keep(self, mutant: Mutant, judged: Judged) -> None:
+    def _keep(self, mutant: Mutant, judged: Judged, searched: bool = False) -> None:
         self.found.told.append((self.at[mutant.id], mutant, judged))
+        if searched:
+            self.found.searched.add(mutant.id)
 
     def _has_run(self, prop: Property) -> bool:
         """Whether the verdict on record rests on a finite run."""
@@ -182,13 +188,12 @@ class _Stages:
                                 yield one
 
 
-def _runs(model: Model) -> dict[str, list[Run]]:
-    """The runs on record, by system: those that show cases, and those that kill mutants."""
-    found: dict[str, list[Run]] = {}
-    for kind in (PREMISES, KILLS):
-        for kept in read(file_of(model, kind), kind).values():
-            found.setdefault(kept.system, []).append(kept.run)
-    return found
+def _runs(known: Sequence[Mapping[str, Kept]]) -> dict[str, list[Run]]:
+    """The runs on record, by system, each once."""
+    found: dict[str, dict[str, Run]] = {}
+    for kept in (one for rows in known for one in rows.values()):
+        found.setdefault(kept.system, {}).setdefault(repr(kept.run), kept.run)
+    return {name: list(runs.values()) for name, runs in found.items()}
 
 
 def _on_record(model: Model, id: str) -> bool | None:

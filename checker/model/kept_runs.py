@@ -13,13 +13,14 @@ from spec_model.lang.errors import ModelError
 
 T = TypeVar("T")
 SCHEMA = "rovercheck/{}/1"
-PREMISES, KILLS = "premises", "kills"
-"""What runs are kept for: cases that occur, and mutants that a property kills."""
+PREMISES, KILLS, MUTANTS = "premises", "kills", "mutants"
+"""What runs are kept for: cases that occur, a mutant that a property kills, mutants killed by a search."""
 INVARIANTS = "invariants"
 """What is kept of proofs (``checker.model.kept_invariants``)."""
 RECORD = {
     PREMISES: "rovercheck check --record-premises",
     KILLS: "rovercheck mutate --record-kills",
+    MUTANTS: "rovercheck mutate --record-mutants",
     INVARIANTS: "rovercheck check --record-invariants",
 }
 ROVER = Path(__file__).parents[2] / "properties"
@@ -45,7 +46,7 @@ def file_of(model: Model, kind: str = PREMISES) -> Path:
 
 
 def read(file: Path, kind: str = PREMISES) -> dict[str, Kept]:
-    """The runs in a file by the id of their property, none if there is no file.
+    """The runs in a file by the id of their property or mutant, none if there is no file.
 
     Raises ``ModelError`` for a file that holds something else.
     """
@@ -61,7 +62,7 @@ def read(file: Path, kind: str = PREMISES) -> dict[str, Kept]:
 
 
 def contents(file: Path, kind: str, what: str, made: Callable[[Any], dict[str, T]]) -> dict[str, T]:
-    """What is made of all rows of a file that is kept, by the id of their property; nothing if there is none.
+    """What is made of all rows of a file that is kept, by their id; nothing if there is none.
 
     Raises ``ModelError`` for a file that holds something else.
     """
@@ -122,4 +123,15 @@ def _numbers(values: Mapping[str, Any]) -> dict[str, int]:
     return {name: int(value) for name, value in values.items()}
 
 
-__all__ = ["INVARIANTS", "KILLS", "PREMISES", "Kept", "contents", "file_of", "lines", "read", "text"]
+__all__ = [
+    "INVARIANTS",
+    "KILLS",
+    "MUTANTS",
+    "PREMISES",
+    "Kept",
+    "contents",
+    "file_of",
+    "lines",
+    "read",
+    "text",
+]

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
 from checker.mutate.charts import block_faults, chart_faults
-from checker.mutate.wiring import kept, wiring_faults
+from checker.mutate.wiring import Wrong, kept, wiring_faults
 from spec_model.lang.chart import Block, Chart, parts
 from spec_model.lang.edit import in_system
 from spec_model.lang.place import Place
@@ -64,8 +64,12 @@ def _unnumbered(system: System, only: Collection[str] | None) -> Iterator[Mutant
             id, made = f"{part.name}/{f.site}/{f.operator}", _made(system, part, f.part)
             yield Mutant(id, f.operator, f.text, f.place, (part.name,), f.meant, make=made)
     for wrong in wiring_faults(system, only):
-        id, made = f"{wrong.site}/{wrong.operator}", partial(kept, system, wrong.system)
+        id, made = f"{wrong.site}/{wrong.operator}", partial(_kept, system, wrong)
         yield Mutant(id, wrong.operator, wrong.text, wrong.place, wrong.concerned, make=made)
+
+
+def _kept(system: System, wrong: Wrong) -> System:
+    return kept(system, wrong.make())
 
 
 def _made(system: System, old: Chart | Block, new: Chart | Block) -> Callable[[], System]:

@@ -3,6 +3,7 @@ values, another order."""
 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 from checker.lowered import lowered
 from checker.slice import sliced
@@ -17,14 +18,14 @@ from spec_model.lang.system import Assumption, System, TransitionSystem
 
 @dataclass(frozen=True)
 class Wrong:
-    """A system with a fault between parts: where, by which operator, in words, and the parts concerned."""
+    """A fault between parts: where, by which operator, in words, the parts concerned, and what makes it."""
 
     site: str
     operator: str
     text: str
     place: Place | None
     concerned: tuple[str, ...]
-    system: System
+    make: Callable[[], System]
 
 
 Wanted = Callable[[Chart | Block], bool]
@@ -53,7 +54,9 @@ def written_by(part: Chart | Block) -> dict[str, Var]:
 def _dead_parts(system: System, wanted: Wanted) -> Iterator[Wrong]:
     for part in filter(wanted, parts(system.components)):
         kind = "chart" if isinstance(part, Chart) else "block"
-        dead = replace(system, components=_with(system.components, part.name, lambda p: Enabled(FALSE, p)))
+        dead = partial(
+            replace, system, components=_with(system.components, part.name, lambda p: Enabled(FALSE, p))
+        )
         text = f"the {kind} {part.name} never executes and writes nothing"
         yield Wrong(f"{part.name}/{kind}", "dead", text, part.place, (part.name,), dead)
 
@@ -81,7 +84,7 @@ def _always_enabled(system: System, wanted: Wanted) -> Iterator[Wrong]:
         if wanted(part):
             kind = "chart" if isinstance(part, Chart) else "block"
             text = f"the {kind} {part.name} executes in every step, enabled or not"
-            always = replace(system, components=changed)
+            always = partial(replace, system, components=changed)
             yield Wrong(f"{part.name}/{kind}", "enabled", text, part.place, (part.name,), always)
 
 
@@ -124,7 +127,7 @@ def _dead_wires(system: System, wanted: Wanted) -> Iterator[Wrong]:
                 return in_block(part, dead) if isinstance(part, Block) else in_expressions(part, dead)
 
             text = f"{reader.name} always reads {v.domain.show(v.init)} as {name}, which {writers[0]} writes"
-            changed = in_system(system, reader.name, cut)
+            changed = partial(in_system, system, reader.name, cut)
             yield Wrong(
                 f"{reader.name}/wire/{name}", "dead-wire", text, reader.place, (reader.name,), changed
             )
@@ -144,7 +147,7 @@ def _initial_values(system: System, wanted: Wanted) -> Iterator[Wrong]:
             continue
         concerned = tuple(p.name for p in everything if name in p.written or name in p.read)
         text = f"{name} begins as {v.domain.show(begins)}, not as {v.domain.show(v.init)}"
-        changed = _renewed(system, replace(v, init=begins))
+        changed = partial(_renewed, system, replace(v, init=begins))
         site = f"{first[name].name}/data/{name}"
         yield Wrong(site, "initial", text, first[name].place, concerned, changed)
 
@@ -207,7 +210,7 @@ def _orders(system: System, wanted: Wanted) -> Iterator[Wrong]:
             both = (one.name, two.name)
             yield Wrong(
                 f"{one.name}/order/{two.name}", "order", text, one.place, both,
-                replace(system, components=changed),
+                partial(replace, system, components=changed),
             )  # fmt: skip
 
 

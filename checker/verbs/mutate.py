@@ -33,6 +33,11 @@ from checker.engine import LOADED, Limits
 @click.option(
     "--record-kills", is_flag=True, help="Only find a fault that each property notices, and keep it."
 )
+@click.option(
+    "--record-mutants",
+    is_flag=True,
+    help="Keep the runs that searches find, by which the next time needs none.",
+)
 @click.option("--by-place", is_flag=True, help="Also which properties constrain each arrow, action and wire.")
 @click.option("--json", "as_json", is_flag=True, help="Every mutant as JSON (checker/schemas/mutate-1.json).")
 @modelling
@@ -47,6 +52,7 @@ def mutate(
     sample: int | None,
     seed: int,
     record_kills: bool,
+    record_mutants: bool,
     by_place: bool,
     as_json: bool,
     model: Path | None,
@@ -67,6 +73,6 @@ def mutate(
 
             limits = Limits(None, timeout, int(memory * 2**30))
             return recorded(pick_variant((), None, (), model).model, limits, jobs, about)
-        wanted = Wanted(about, part, sample, seed, alone, by_place, jobs)
+        wanted = Wanted(about, part, sample, seed, alone, by_place, jobs, record_mutants)
         limits = Limits(None, timeout, int(memory * 2**30))
         return run(pick_variant((), None, (), model).model, wanted, limits, as_json)
