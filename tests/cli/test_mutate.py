@@ -12,6 +12,7 @@ import checker
 from checker.cli import run
 from checker.commands import mutating_judging
 from checker.commands.codes import Exit
+from checker.mutate import planning
 from checker.mutate.running import Told, fates
 from tests.cli.test_widths import at_terminal, too_long
 from tests.mutate import lamp
@@ -82,16 +83,22 @@ def on_record(file: Path, inputs: list[dict[str, int]]) -> None:
     file.with_name("kills.json").write_text(text, encoding="utf-8")
 
 
-def test_a_run_on_record_of_another_system_kills_before_anything_is_searched(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
-) -> None:
-    searched = list[str]()
+@pytest.fixture
+def searched(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """The mutants, by id, of which something was searched."""
+    found = list[str]()
 
     def noted(planned: Any, limits: Any, jobs: Any, before: Any, search: bool) -> Any:
-        searched.extend(one.mutant.id for one in planned if search)
+        found.extend(one.mutant.id for one in planned if search)
         return fates(planned, limits, jobs, before, search)
 
     monkeypatch.setattr(mutating_judging, "fates", noted)
+    return found
+
+
+def test_a_run_on_record_of_another_system_kills_before_anything_is_searched(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], searched: list[str]
+) -> None:
     file = tmp_path / "echo_model.py"
     file.write_text(WEAK.replace("THAT", "~out | go") + NOTICED_AT_HOME, encoding="utf-8")
     on_record(file, [{"go": 1}, {"go": 0}])
@@ -99,6 +106,81 @@ def test_a_run_on_record_of_another_system_kills_before_anything_is_searched(
     found = json.loads(capsys.readouterr().out)["mutants"]
     assert {(m["fate"], m["killer"]) for m in found} == {("killed", "P"), ("killed", "Q")}
     assert searched == []
+
+
+RARE = """
+from properties.forms import always
+from spec_model.lang.action import assign
+from spec_model.lang.chart import Block
+from spec_model.lang.domain import integer
+from spec_model.lang.expr import flag, ite, var
+from spec_model.lang.system import in_order
+
+code, out = var("code", integer(0, 99)), flag("out")
+right = var("right", integer(0, 5))
+next_one = (code == 10 * right + 7) & (right < 5)
+do = [assign(right, ite(next_one, right + 1, 0)), assign(out, right == 5)]
+locked = in_order("locked", Block("Lock", do))
+REQUIREMENTS = {"R": "It opens."}
+P = always("P", "The last number opens it.", that=THAT, covers=["R"], on=locked)
+"""
+OPENS = "~out | (code == 47)"
+OPENED = """
+echo = flag("echo")
+opened = in_order("opened", *locked.components, Block("Echo", [assign(echo, out)]))
+Q = always("Q", "It is echoed.", that=~echo | (code == 47), covers=["R"], on=opened)
+"""
+
+
+@pytest.mark.parametrize(("text", "on"), [(OPENS, "locked"), ("out | ~out", "opened")])
+def test_what_a_search_has_killed_once_needs_none_again(
+    text: str, on: str, tmp_path: Path, capsys: pytest.CaptureFixture[str],
+    monkeypatch: pytest.MonkeyPatch, searched: list[str],
+) -> None:  # fmt: skip
+    """Also where it was killed in a system too large to try every mutant in."""
+    monkeypatch.setattr(planning, "SMALL", 0)
+    file = tmp_path / "lock_model.py"
+    file.write_text(RARE.replace("THAT", text) + OPENED, encoding="utf-8")
+    command = ["mutate", "--model", str(file), "--part", "Lock", "--record-mutants", "--json"]
+    assert run(command) is Exit.CHANGED
+    first, needed = json.loads(capsys.readouterr().out)["mutants"], set(searched)
+    kept = json.loads((tmp_path / "mutants.json").read_text(encoding="utf-8"))
+    assert kept["runs"] and kept["runs"].keys() <= needed
+    assert {row["system"] for row in kept["runs"].values()} == {on}
+    searched.clear()
+    assert run(command) is Exit.CHANGED
+    said = capsys.readouterr()
+    again = json.loads(said.out)["mutants"]
+    assert not kept["runs"].keys() & set(searched) and "0 runs are on record that searches found now." in " ".join(said.err.split())
+    assert [(m["id"], m["killer"]) for m in again] == [(m["id"], m["killer"]) for m in first]
+    assert json.loads((tmp_path / "mutants.json").read_text(encoding="utf-8")) == kept
+
+
+def test_runs_of_mutants_that_are_gone_are_dropped(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "lock_model.py"
+    file.write_text(RARE.replace("THAT", OPENS), encoding="utf-8")
+    row = {"system": "locked", "frozen": {}, "blocks": [[1, {"code": 1}]]}
+    rows = {"Lock/block/gone": row, "Door/block/dead": row}
+    on_file = {"schema": "rovercheck/mutants/1", "runs": rows}
+    (tmp_path / "mutants.json").write_text(json.dumps(on_file), encoding="utf-8")
+    command = ["mutate", "--model", str(file), "--quiet", "--record-mutants"]
+    assert run(command) is Exit.CHANGED
+    kept = json.loads((tmp_path / "mutants.json").read_text(encoding="utf-8"))["runs"]
+    assert "Lock/block/gone" not in kept and "Door/block/dead" in kept
+
+
+def test_a_file_of_mutants_that_holds_something_else_stays_as_it_is(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    file = tmp_path / "lock_model.py"
+    file.write_text(RARE.replace("THAT", OPENS), encoding="utf-8")
+    (tmp_path / "mutants.json").write_text("[]", encoding="utf-8")
+    assert run(["mutate", "--model", str(file), "--record-mutants"]) is Exit.USAGE
+    said = " ".join(capsys.readouterr().err.split())
+    assert "mutants.json holds no runs" in said and "`rovercheck mutate --record-mutants` writes it" in said
+    assert (tmp_path / "mutants.json").read_text(encoding="utf-8") == "[]"
 
 
 def test_what_the_original_breaks_as_well_kills_nothing(
