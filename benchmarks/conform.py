@@ -13,14 +13,14 @@ from statistics import median
 from tempfile import TemporaryDirectory
 from time import process_time
 
-from checker.conform.logs.behaviour import Follow
-from checker.conform.logs.choosing import choose
-from checker.conform.logs.cones import cones
-from checker.conform.logs.log import Block, Layout, open_log
-from checker.conform.logs.mapping import Map
-from checker.conform.logs.monitors import Monitors
-from checker.conform.logs.sight import Eyes
-from checker.conform.logs.signals import Vocabulary
+from checker.logs.behaviour import Follow
+from checker.logs.choosing import choose
+from checker.logs.cones import cones
+from checker.logs.log import Block, Layout, open_log
+from checker.logs.mapping import Map
+from checker.logs.monitors import Monitors
+from checker.logs.sight import Eyes
+from checker.logs.signals import Vocabulary
 from properties.catalogue import catalogue
 from spec_model.abstraction import boards
 from spec_model.lang.system import TICK_MS

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from checker.certify.certificate import certificates
 from checker.certify.check import Effort, check
 from checker.certify.outcome import Accepted, Rejected
-from checker.verdict import Answer, Open, Reached, Run, Unreachable
+from checker.results.verdict import Answer, Open, Reached, Run, Unreachable
 from spec_model.lang.evaluate import admissible, step
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem

@@ -25,9 +25,9 @@ from time import process_time
 from benchmarks.roverlite import roverlite
 from checker import cache
 from checker.encode.native import NativeSearch, Task, layout
-from checker.engine import Limits, quiet
+from checker.engines import Limits, quiet
 from checker.engines.explicit.levels import Found, Search
-from checker.slice import sliced
+from checker.system.slice import sliced
 from properties.catalogue import catalogue
 from properties.reduce import reduce
 from spec_model.lang.expr import Var

@@ -154,11 +154,11 @@ def staged(path: Path) -> None:
     """
     from checker.encode.native import Level, NativeSearch, Task, layout
     from checker.encode.symbolic import transition
-    from checker.garbage import collect_seldom
-    from checker.isolate import DEEP
     from checker.model.load import load
-    from checker.partition import partitions
-    from checker.slice import sliced
+    from checker.process.garbage import collect_seldom
+    from checker.process.isolate import DEEP
+    from checker.system.partition import partitions
+    from checker.system.slice import sliced
     from properties.reduce import reduce
     from spec_model.lang.interpret import Interpreter
     from spec_model.lang.lower import lower

@@ -1,4 +1,4 @@
-"""Every engine on every search of the rover: the measurements behind ``checker.portfolio.order``.
+"""Every engine on every search of the rover: the measurements behind ``checker.verify.portfolio.order``.
 
     python -m benchmarks.portfolio [--seconds 20] [--jobs 2] [--system NAME]... [ID...]
 
@@ -12,15 +12,15 @@ import resource
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.engine import Limits, engines
-from checker.isolate import Send
-from checker.lowered import lowered
-from checker.pool import Granted, Order, Pool
-from checker.portfolio import Question, Told, answers
-from checker.portfolio.question import conclusive
-from checker.portfolio.shape import shape
-from checker.tasks import Task, tasks
-from checker.verdict import Open
+from checker.engines import Limits, engines
+from checker.process.isolate import Send
+from checker.process.pool import Granted, Order, Pool
+from checker.results.verdict import Open
+from checker.system.lowered import lowered
+from checker.verify.portfolio import Question, Told, answers
+from checker.verify.portfolio.question import conclusive
+from checker.verify.portfolio.shape import shape
+from checker.verify.tasks import Task, tasks
 from properties.catalogue import catalogue
 from properties.forms import Property, Unbounded
 from properties.reduce import reduce

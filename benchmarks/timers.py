@@ -13,9 +13,8 @@ from dataclasses import dataclass, replace
 from statistics import median
 from time import process_time
 
-from checker.engine import Limits, Timers, quiet
-from checker.engines import explicit
-from checker.verdict import Answer, Exhausted, Open, Unreachable
+from checker.engines import Limits, Timers, explicit, quiet
+from checker.results.verdict import Answer, Exhausted, Open, Unreachable
 from properties.catalogue import catalogue
 from properties.reduce import reduce
 from spec_model.lang.expiry import free_timers

@@ -1,4 +1,4 @@
-"""The command line: the verbs in ``checker.verbs``, and the one place where errors become exit codes."""
+"""The command line: the verbs in ``checker.commands``, and the one place where errors become exit codes."""
 
 import gc
 import importlib
@@ -11,13 +11,13 @@ from pathlib import Path
 
 import click
 
-from checker import verbs
-from checker.commands.codes import Exit, UsageError
-from checker.commands.completing import completed
-from checker.commands.failing import alarm, no_room, told
-from checker.commands.helping import helped
-from checker.faults import Fault, listening
-from checker.garbage import collect_seldom
+from checker import commands
+from checker.commands.shared.codes import Exit, UsageError
+from checker.commands.shared.completing import completed
+from checker.commands.shared.failure import alarm, no_room, told
+from checker.commands.shared.help_examples import helped
+from checker.process.faults import Fault, listening
+from checker.process.garbage import collect_seldom
 from spec_model.lang.errors import ModelError, did_you_mean
 
 CODES = (
@@ -53,9 +53,9 @@ def app() -> None:
 
 
 def _found() -> Iterator[click.Command]:
-    """The verbs: every command of a module in the folder ``verbs``."""
-    for entry in pkgutil.iter_modules(verbs.__path__):
-        module = importlib.import_module(f"{verbs.__name__}.{entry.name}")
+    """The verbs: every command of a module in the folder ``commands``."""
+    for entry in pkgutil.iter_modules(commands.__path__):
+        module = importlib.import_module(f"{commands.__name__}.{entry.name}")
         yield from (thing for thing in vars(module).values() if isinstance(thing, click.Command))
 
 
@@ -109,11 +109,11 @@ def _run(arguments: list[str]) -> Exit:
 
 def _internal(error: Exception, arguments: list[str]) -> str:
     """What is said of a fault of ours; what shows that an engine is wrong is kept."""
-    from checker.portfolio import Disagreement
+    from checker.verify.portfolio import Disagreement
 
     if not isinstance(error, Disagreement):
         return told(error)
-    from checker.commands.disagreeing import again, bundle
+    from checker.commands.shared.disagreement import again, bundle
 
     try:
         kept = f"All of it is in {bundle(error, again(error, arguments), Path())}; please report it."
@@ -123,7 +123,7 @@ def _internal(error: Exception, arguments: list[str]) -> str:
 
 
 def _say(message: str, code: Exit) -> Exit:
-    from checker.commands.output import err
+    from checker.commands.shared.output import err
 
     with suppress(OSError):  # the code says it too
         err.print(message, markup=False)

@@ -13,7 +13,7 @@ import pytest
 from rovercheck import own
 
 if TYPE_CHECKING:
-    from checker.plugin.collect import Models
+    from checker.pytest_plugin.collect import Models
 
 PATTERNS = ("*_model.py", "model_*.py")
 WHOLE = "rovercheck_whole"
@@ -41,7 +41,7 @@ def pytest_configure(config: pytest.Config) -> None:
     if not named and not anywhere:
         return
     with own():
-        from checker.plugin.collect import models_of
+        from checker.pytest_plugin.collect import models_of
 
         config.stash[_models] = models_of(config, named, PATTERNS if anywhere else ())
 

@@ -7,9 +7,9 @@ from typing import Any
 
 from checker.certify.file import Origin, write
 from checker.certify.record import Recorder, certified
-from checker.decide import Task, decide
-from checker.engine import Limits, quiet
-from checker.portfolio import Told as Listeners
+from checker.engines import Limits, quiet
+from checker.verify.decide import Task, decide
+from checker.verify.portfolio import Told as Listeners
 from properties.catalogue import under
 from spec_model.rover import systems
 from tests.certifying import Naive

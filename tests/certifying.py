@@ -18,10 +18,10 @@ from checker.certify.diagram import Diagram
 from checker.certify.invariant import Conjuncts
 from checker.certify.question import question
 from checker.certify.tick import executed
-from checker.closed import ClosedSet, Place
-from checker.engine import Limits, Progress
-from checker.slice import sliced
-from checker.verdict import Answer, Exhausted, Inductive, Open, Unreachable
+from checker.engines import Limits, Progress
+from checker.results.closed import ClosedSet, Place
+from checker.results.verdict import Answer, Exhausted, Inductive, Open, Unreachable
+from checker.system.slice import sliced
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import integer
 from spec_model.lang.expr import Expr, Var, const, flag, ite, var
@@ -83,7 +83,7 @@ def certified(system: TransitionSystem, goals: Sequence[Var]) -> list[Certificat
 
 
 def inline(work: Callable[..., None], *args: Any, seconds: float | None = None) -> Iterator[Any]:
-    """``checker.isolate.messages`` without a child, for many small questions."""
+    """``checker.process.isolate.messages`` without a child, for many small questions."""
     sent: list[Any] = []
     work(sent.append, *args)
     yield from sent

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from checker.certify import solver
-from checker.engine import engines
+from checker.engines import engines
 from checker.engines.localisation import orders
 from checker.engines.simulation import batches
-from checker.isolate import End, Stopped
+from checker.process.isolate import End, Stopped
 from tests.certifying import inline
 
 LIMIT = "the time limit of 2.5 s is reached"
@@ -32,12 +32,12 @@ def cut_off(monkeypatch: pytest.MonkeyPatch, engine: ModuleType, *events: object
 
 
 def here(work: Any, *args: Any, seconds: float | None, memory: int | None) -> Iterator[Any]:
-    """``checker.isolate.messages`` in this process."""
+    """``checker.process.isolate.messages`` in this process."""
     return inline(work, *args)
 
 
 class ChildHere:
-    """``checker.isolate.Child`` in this process: orders are carried out when they are given."""
+    """``checker.process.isolate.Child`` in this process: orders are carried out when they are given."""
 
     def __init__(self, tell: Callable[[object], None], make: Any, *args: object, memory: int | None) -> None:
         self._tell, self._do = tell, make(*args)

@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
-from checker.slice import sliced
-from checker.verdict import Inductive
+from checker.results.verdict import Inductive
+from checker.system.slice import sliced
 from spec_model.lang.evaluate import admissible, evaluate, step
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem

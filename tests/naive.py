@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import product
 
-from checker.verdict import Run
+from checker.results.verdict import Run
 from spec_model.lang.evaluate import admissible, step
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem

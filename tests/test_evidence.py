@@ -9,14 +9,14 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.check import Compared, line, results, summary
-from checker.commands.codes import Exit
-from checker.commands.findings import Guide, about_cases, about_faults, read_on
-from checker.commands.further import Further, noticing
-from checker.commands.premises import cases
-from checker.commands.reporting import differences, pages
-from checker.commands.wrapping import plain
-from checker.engine import AUTO, Limits
+from checker.commands.check.findings import Guide, about_cases, about_faults, read_on
+from checker.commands.check.further import Further, noticing
+from checker.commands.check.premises import cases
+from checker.commands.check.run import Compared, line, results, summary
+from checker.commands.reports.run import differences, pages
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.wrapping import plain
+from checker.engines import AUTO, Limits
 from checker.model.kept_invariants import invariants_of_rover
 from checker.model.kept_runs import file_of, read
 from checker.model.rover import rover

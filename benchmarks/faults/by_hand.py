@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from benchmarks.faults.inside import IMPLEMENTATIONS
-from checker.conform.adapters.python_calls import Instance
+from checker.adapters.python_calls import Instance
 from spec_model.abstraction import Board, boards
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block, Chart

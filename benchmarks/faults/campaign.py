@@ -16,10 +16,10 @@ from benchmarks.faults.recorded import Found, Run, prepared
 from benchmarks.faults.worker import Answer, Runs, examine_all, loads
 from benchmarks.measure import ROOT
 from checker.cache import opened, sealed, secret
-from checker.conform.cross.check import recorded_suite
+from checker.compare.check import recorded_suite
 
 BOARDS = ("board1", "board2")
-READ = ("supervisor", "spec_model", "checker/conform")
+READ = ("supervisor", "spec_model", "checker/adapters", "checker/compare")
 """What the answers depend on."""
 LOOK = 20
 """Runs of a board on which a judged mutant is tried all the same: the judgement might be wrong."""

@@ -5,11 +5,11 @@ from typing import cast
 
 from benchmarks.faults.by_hand import Fault
 from benchmarks.faults.recorded import supervisor
-from checker.conform.adapters.python_calls import Instance
-from checker.conform.cross import effort, known_runs
-from checker.conform.cross.search import Search
-from checker.conform.cross.strategy import ENVIRONMENTS
-from checker.conform.implementation import Implementation, Value, Values
+from checker.adapters.implementation import Implementation, Value, Values
+from checker.adapters.python_calls import Instance
+from checker.compare import effort, known_runs
+from checker.compare.search import Search
+from checker.compare.strategy import ENVIRONMENTS
 
 
 @dataclass(frozen=True)

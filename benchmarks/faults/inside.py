@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 
-from checker.conform.adapters.python_calls import Instance
+from checker.adapters.python_calls import Instance
 from supervisor.board1 import Board1, Board1Inputs, Board1Outputs
 from supervisor.board2.board import Board2
 from supervisor.board2.signals import Board2Inputs, Board2Outputs

@@ -10,10 +10,10 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, get_type_hints
 
-from checker.conform.adapters import firmware
-from checker.conform.adapters.records import builder, reader
-from checker.conform.cross.beside import differs
-from checker.conform.implementation import Values
+from checker.adapters import firmware
+from checker.adapters.implementation import Values
+from checker.adapters.records import builder, reader
+from checker.compare.beside import differs
 
 CLASSES = {"board1": ("supervisor.board1.board", "Board1"), "board2": ("supervisor.board2.board", "Board2")}
 PowerUp = type[Any]

@@ -11,7 +11,7 @@ from multiprocessing.connection import Connection
 from benchmarks.faults.mutate import Mutant
 from benchmarks.faults.package import modules, replaced
 from benchmarks.faults.recorded import Found, Run, search
-from checker.conform.adapters.launch import end_with_parent
+from checker.adapters.launch import end_with_parent
 
 MEMORY = 6 << 30
 START, STEP = 20.0, 0.002

@@ -15,11 +15,11 @@ from checker.certify.reduction import diagram
 from checker.certify.terms import TRUTH, Malformed, definitions
 from checker.certify.tick import conjuncts as parts
 from checker.certify.tick import executed
-from checker.closed import ClosedSet
-from checker.diagram import Diagram as Bits
-from checker.diagram import formula
-from checker.slice import sliced
-from checker.verdict import Answer, Evidence, Exhausted, Inductive, Unreachable
+from checker.results.closed import ClosedSet
+from checker.results.diagram import Diagram as Bits
+from checker.results.diagram import formula
+from checker.results.verdict import Answer, Evidence, Exhausted, Inductive, Unreachable
+from checker.system.slice import sliced
 from spec_model.lang.domain import Domain
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem

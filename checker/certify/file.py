@@ -11,7 +11,7 @@ from typing import Any
 
 from checker.certify.certificate import Certificate, certificate, document
 from checker.certify.terms import Malformed
-from checker.files import replaced
+from checker.io.files import replaced
 
 SCHEMA = "rovercheck/certificate/1"
 LARGE = 1 << 17

@@ -7,7 +7,7 @@ from typing import Union
 from checker.certify.diagram import Diagram, Node
 from checker.certify.question import Question
 from checker.certify.smtlib import Printer, among, define, joined, own, quoted
-from checker.verdict import Inductive
+from checker.results.verdict import Inductive
 from spec_model.lang.expr import Var
 
 
@@ -15,7 +15,8 @@ from spec_model.lang.expr import Var
 class Conjuncts:
     """Formulas that all hold: definitions in SMT-LIB, and the symbols of those that are conjuncts.
 
-    They speak of the valuation after 0 ticks.  ``ticks`` and ``simple`` as in ``checker.verdict.Inductive``.
+    They speak of the valuation after 0 ticks.  ``ticks`` and ``simple`` are those of
+    ``checker.results.verdict.Inductive``.
     """
 
     definitions: tuple[str, ...]

@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from checker.certify.certificate import Certificate
 from checker.certify.diagram import Diagram
 from checker.certify.outcome import Accepted, Outcome
-from checker.engine import Limits, Progress
-from checker.verdict import Answer, Exhausted, Inductive, Open, Unreachable
+from checker.engines import Limits, Progress
+from checker.results.verdict import Answer, Exhausted, Inductive, Open, Unreachable
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 

@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 from checker.certify.certificate import Certificate, certificates
-from checker.verdict import Answer, Exhausted, Inductive, Proved, Verdict, Violated
+from checker.results.verdict import Answer, Exhausted, Inductive, Proved, Verdict, Violated
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 
 
 class Asked(Protocol):
-    """A question to an engine (``checker.portfolio.Question``)."""
+    """A question to an engine (``checker.verify.portfolio.Question``)."""
 
     @property
     def system(self) -> TransitionSystem: ...

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from checker.certify.diagram import TRUE, Diagram, Nodes
-from checker.closed import ClosedSet, Place
+from checker.results.closed import ClosedSet, Place
 
 Codes = NDArray[np.signedinteger[Any]]
 Words = NDArray[np.uint64]

@@ -8,7 +8,7 @@ import re
 from collections.abc import Callable, Mapping, Sequence
 
 from checker.certify.terms import TRUTH, Sort
-from checker.encode.intervals import Interval, interval, postorder
+from checker.system.intervals import Interval, interval, postorder
 from spec_model.lang.domain import Bool, Domain
 from spec_model.lang.domain import Sort as Kind
 from spec_model.lang.errors import ModelError

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from checker.certify.obligations import Obligation
 from checker.certify.terms import Malformed
-from checker.isolate import Send, Stopped, messages
+from checker.process.isolate import Send, Stopped, messages
 
 if TYPE_CHECKING:
     import bitwuzla

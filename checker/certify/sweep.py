@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from checker.certify.diagram import Diagram, count, positions
 from checker.certify.outcome import Accepted, Rejected, TooMuch, told
 from checker.certify.question import Question
-from checker.encode.intervals import intervals, postorder
+from checker.system.intervals import intervals, postorder
 from spec_model.lang.domain import Bool, Domain
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from spec_model.lang.operators import Op

@@ -7,7 +7,7 @@ alike are one node, so that formulas stay as long as the program.
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.encode.intervals import postorder
+from checker.system.intervals import postorder
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var

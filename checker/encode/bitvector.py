@@ -9,7 +9,7 @@ from typing import Any
 
 import z3
 
-from checker.encode.intervals import Interval, interval, postorder
+from checker.system.intervals import Interval, interval, postorder
 from spec_model.lang.domain import Bool, Domain, Sort
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from spec_model.lang.operators import Op

@@ -7,10 +7,10 @@ conjuncts does not restrict the rest, provided it can be satisfied at all, which
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from checker.encode.intervals import Interval, postorder
 from checker.encode.symbolic import Transition
 from checker.encode.terms import Terms
-from checker.slice import sliced
+from checker.system.intervals import Interval, postorder
+from checker.system.slice import sliced
 from spec_model.lang.expr import Apply, Const, Expr, Var
 from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem

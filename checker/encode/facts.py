@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from checker.encode.intervals import Interval
+from checker.system.intervals import Interval
 from spec_model.lang.expr import Apply, Const, Expr
 from spec_model.lang.operators import Op
 

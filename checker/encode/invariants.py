@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from checker.encode.cone import Slice
-from checker.encode.intervals import postorder
 from checker.encode.simulate import Column, Columns, Vectorised, column
 from checker.encode.terms import Terms
+from checker.system.intervals import postorder
 from spec_model.lang.domain import Bool, Enum, Num
 from spec_model.lang.expr import Apply, Const, Expr, Var
 from spec_model.lang.operators import Op

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Union
 
-from checker.slice import names
+from checker.system.slice import names
 from spec_model.lang.action import Assign
 from spec_model.lang.expr import Expr, Var
 

@@ -29,8 +29,8 @@ from checker.encode.path_statements import (
     weight,
 )
 from checker.encode.sinking import sunk
-from checker.partition import Partition, conjuncts, expressions, partitions
-from checker.slice import names
+from checker.system.partition import Partition, conjuncts, expressions, partitions
+from checker.system.slice import names
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.domain import Bool, Domain, Num
 from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Named, Var, flag

@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from checker.encode.cone import Slice
-from checker.encode.intervals import Interval, intervals, postorder
-from checker.verdict import Run
+from checker.results.verdict import Run
+from checker.system.intervals import Interval, intervals, postorder
 from spec_model.lang.domain import Bool, Domain
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from spec_model.lang.operators import Op

@@ -6,8 +6,8 @@ store that valuation first, and then ask of it which goals are reached.
 
 from collections.abc import Iterator
 
-from checker.partition import expressions
-from checker.slice import Names, live_before, names
+from checker.system.partition import expressions
+from checker.system.slice import Names, live_before, names
 from spec_model.lang.action import Assign, If
 from spec_model.lang.system import Program, Statement
 

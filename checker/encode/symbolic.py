@@ -9,8 +9,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from checker.encode.facts import Facts
-from checker.encode.intervals import postorder
 from checker.encode.terms import Terms, is_apply
+from checker.system.intervals import postorder
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from typing import TypeGuard
 
 from checker.encode.facts import Facts
-from checker.encode.intervals import Interval, interval, transfer
+from checker.system.intervals import Interval, interval, transfer
 from spec_model.lang.domain import Bool, Sort
 from spec_model.lang.evaluate import operate
 from spec_model.lang.expr import Apply, Const, Expr, Var

@@ -13,7 +13,7 @@ import z3
 from checker.encode.bitvector import Encoder, Term, member, symbol, value, width
 from checker.encode.bitvector import literal as constant
 from checker.encode.cone import Slice
-from checker.verdict import Run
+from checker.results.verdict import Run
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem
 

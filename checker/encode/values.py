@@ -8,7 +8,7 @@ from collections.abc import Iterable, Mapping, MutableMapping, Sequence
 from itertools import count, product
 from math import prod
 
-from checker.encode.intervals import Interval, postorder, transfer
+from checker.system.intervals import Interval, postorder, transfer
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.domain import Domain
 from spec_model.lang.evaluate import operate

@@ -12,14 +12,14 @@ from functools import cache
 from checker.encode.bits import Bit, Circuit
 from checker.encode.bits.inputs import InputCut
 from checker.encode.bits.order import orders
-from checker.engine import Progress
+from checker.engines import Progress
 from checker.engines.bdd.relation import relation
 from checker.engines.bdd.space import DDMemoryError, Function, Overdrawn, Space, Store, meets
 from checker.explain.unrolled import Over, Place, never
 from checker.explain.widening import widest
-from checker.partition import Partition
-from checker.runs.replay import ReplayError
-from checker.verdict import Run
+from checker.results.verdict import Run
+from checker.system.partition import Partition
+from checker.verify.runs.replay import ReplayError
 
 NODES = 1 << 22
 """Nodes of decision diagrams at a time."""

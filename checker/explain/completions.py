@@ -8,10 +8,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from random import Random
 
 from checker.explain.needed import Forcing
-from checker.partition import partitions
-from checker.runs.replay import ReplayError, followed
-from checker.slice import sliced
-from checker.verdict import Run
+from checker.results.verdict import Run
+from checker.system.partition import partitions
+from checker.system.slice import sliced
+from checker.verify.runs.replay import ReplayError, followed
 from spec_model.lang.evaluate import admissible, step
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem

@@ -2,13 +2,13 @@
 
 from dataclasses import replace
 
-from checker.engine import Progress, quiet
+from checker.engines import Progress, quiet
 from checker.explain.completions import check
 from checker.explain.needed import forcing
 from checker.explain.unrolled import Over, never
-from checker.lowered import lowered
-from checker.trace import Trace
-from checker.verdict import Run
+from checker.results.trace import Trace
+from checker.results.verdict import Run
+from checker.system.lowered import lowered
 from properties.forms import Property
 from properties.reduce import reduce
 from spec_model.lang.system import System

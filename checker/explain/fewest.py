@@ -17,8 +17,8 @@ from pysat.solvers import Minisat22
 from checker.encode.bits import Circuit
 from checker.encode.bits.simulate import Simulation, Values
 from checker.explain.unrolled import CONFLICTS, LANES, Over, Place, Unrolled
-from checker.partition import Partition
-from checker.verdict import Run
+from checker.results.verdict import Run
+from checker.system.partition import Partition
 
 ROUNDS = 256
 """Correction sets after which a smaller set is no longer looked for."""

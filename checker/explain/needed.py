@@ -12,16 +12,16 @@ from dataclasses import dataclass
 from functools import partial
 
 from checker.encode.bits import Circuit, circuit
-from checker.engine import Progress, quiet
+from checker.engines import Progress, quiet
 from checker.explain.backwards import TooLarge, backwards
 from checker.explain.fewest import fewest, indispensable, simulated
 from checker.explain.unrolled import Over, Place, Unrolled, never
 from checker.explain.widening import widened
-from checker.partition import Partition, partitions
-from checker.runs.replay import ReplayError
-from checker.slice import sliced
-from checker.trace import Needed
-from checker.verdict import Run
+from checker.results.trace import Needed
+from checker.results.verdict import Run
+from checker.system.partition import Partition, partitions
+from checker.system.slice import sliced
+from checker.verify.runs.replay import ReplayError
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 

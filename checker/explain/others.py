@@ -8,21 +8,21 @@ like anything else.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from checker.conform.cover.goals import Goal as Arrow
-from checker.conform.cover.goals import Kind, Watched
-from checker.conform.cover.watch import watched
-from checker.decide import Asking
-from checker.engine import Limits, Progress, quiet
-from checker.isolate import Send, Stopped, messages
-from checker.lowered import lowered
-from checker.portfolio import Hint, Told
-from checker.portfolio.question import light
-from checker.result import check_domains
-from checker.runs.calm import calmed
-from checker.runs.replay import followed, replay
-from checker.searches import SLACK
-from checker.trace import Trace, counted_ticks
-from checker.verdict import Answer, Open, Reached, Run, Unreachable
+from checker.engines import Limits, Progress, quiet
+from checker.process.isolate import Send, Stopped, messages
+from checker.results.trace import Trace, counted_ticks
+from checker.results.verdict import Answer, Open, Reached, Run, Unreachable
+from checker.system.lowered import lowered
+from checker.testgen.goals import Goal as Arrow
+from checker.testgen.goals import Kind, Watched
+from checker.testgen.watch import watched
+from checker.verify.decide import Asking
+from checker.verify.portfolio import Hint, Told
+from checker.verify.portfolio.question import light
+from checker.verify.result import check_domains
+from checker.verify.runs.calm import calmed
+from checker.verify.runs.replay import followed, replay
+from checker.verify.searches import SLACK
 from properties.forms import Property
 from properties.reduce import Question, reduce
 from spec_model.lang.action import Assign

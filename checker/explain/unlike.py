@@ -8,13 +8,13 @@ they are.
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
-from checker.engine import Limits, Progress, quiet
+from checker.engines import Limits, Progress, quiet
 from checker.explain.others import NoMore, answered
-from checker.lowered import lowered
-from checker.runs.calm import calmed
-from checker.runs.replay import replay
-from checker.trace import Trace
-from checker.verdict import Open, Reached, Unreachable
+from checker.results.trace import Trace
+from checker.results.verdict import Open, Reached, Unreachable
+from checker.system.lowered import lowered
+from checker.verify.runs.calm import calmed
+from checker.verify.runs.replay import replay
 from properties.forms import Property
 from properties.reduce import Question, reduce
 from spec_model.lang.action import Assign

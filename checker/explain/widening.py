@@ -8,7 +8,7 @@ cases, to any other of these.
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 
 from checker.explain.unrolled import Over, Place, Unrolled
-from checker.partition import Partition
+from checker.system.partition import Partition
 from spec_model.lang.domain import Num
 
 FEW = 24

@@ -6,10 +6,10 @@ Aina Niemetz, Mathias Preiner, Clifford Wolf, Armin Biere: BTOR2, BtorMC and Boo
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.encode.intervals import Interval, interval, postorder
 from checker.export.machine import Machine, machine, meaning
 from checker.export.names import one_line, symbols
 from checker.export.problem import Problem
+from checker.system.intervals import Interval, interval, postorder
 from spec_model.lang.domain import Bool, Sort
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from spec_model.lang.operators import Op

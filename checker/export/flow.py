@@ -6,7 +6,7 @@ enough to choose machine types.
 
 from dataclasses import dataclass
 
-from checker.encode.intervals import Interval, interval, postorder
+from checker.system.intervals import Interval, interval, postorder
 from spec_model.lang.domain import Bool
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Expr, Var

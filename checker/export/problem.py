@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 
 from checker.export.names import one_line
-from checker.liveness.loops import hunt
+from checker.verify.liveness.loops import hunt
 from properties.forms import LeadsTo, Property, Recoverable, Settles
 from properties.reduce import reduce
 from spec_model.lang.errors import ModelError
@@ -51,8 +51,8 @@ def problem(system: TransitionSystem, prop: Property, about: Sequence[str] = ())
     """The property as a question of reachability on the lowered system.
 
     A property about infinite runs becomes the question whether a loop closes that breaks it
-    (``checker.liveness.lasso``).  Raises ``ModelError`` for a ``Recoverable``, which is no such question,
-    and for a property that does not fit the system.
+    (``checker.verify.liveness.lasso``).  Raises ``ModelError`` for a ``Recoverable``, which is no such
+    question, and for a property that does not fit the system.
     """
     if isinstance(prop.form, Recoverable):
         raise ModelError(

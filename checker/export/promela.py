@@ -11,7 +11,7 @@ from checker.export.machine import meaning
 from checker.export.names import identifiers, one_line
 from checker.export.problem import Problem
 from checker.export.statements import Text
-from checker.slice import sliced
+from checker.system.slice import sliced
 from spec_model.lang.domain import Bool
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem

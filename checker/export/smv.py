@@ -6,10 +6,10 @@ Roberto Cavada et al.: The nuXmv Symbolic Model Checker, CAV 2014.
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
-from checker.encode.intervals import intervals, postorder
 from checker.export.machine import Machine, machine, meaning
 from checker.export.names import identifiers, one_line
 from checker.export.problem import Problem
+from checker.system.intervals import intervals, postorder
 from spec_model.lang.domain import Bool
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from spec_model.lang.operators import Op

@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import count
 
-from checker.encode.intervals import Interval, postorder
 from checker.export.flow import INT, Flow, Reach
+from checker.system.intervals import Interval, postorder
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var

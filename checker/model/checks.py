@@ -7,10 +7,10 @@ from pathlib import Path
 from pickle import PicklingError, Unpickler
 from typing import Any
 
-from checker.isolate import pickled
 from checker.model import shown
 from checker.model.texts import text_faults
-from checker.slice import check_way_back
+from checker.process.isolate import pickled
+from checker.system.slice import check_way_back
 from properties.forms import Property, formulas
 from properties.reduce import reduce, without_step
 from spec_model.lang.chart import Chart, parts

@@ -10,11 +10,11 @@ from typing import Any
 
 from checker.model import Model
 from checker.model.kept_runs import INVARIANTS, ROVER, contents, file_of, lines
-from checker.verdict import Inductive
-from checker.written import Tree, size, written
+from checker.results.verdict import Inductive
+from checker.system.formula_json import Tree, size, written
 
 Recorded = Mapping[str, tuple[Tree, ...]]
-"""By the id of a property the conjuncts of its proof, as ``checker.written`` writes formulas."""
+"""By the id of a property the conjuncts of its proof, as ``checker.system.formula_json`` writes formulas."""
 
 MOST_NODES = 100_000
 """Operators, variables and numbers of the formulas of one proof that is kept."""

@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 from checker.model import Model, shown
 from checker.model.records import baseline_of
-from checker.verdict import Run
+from checker.results.verdict import Run
 from spec_model.lang.errors import ModelError
 
 T = TypeVar("T")

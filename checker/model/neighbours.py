@@ -17,7 +17,7 @@ from itertools import count
 from pathlib import Path
 from types import CodeType, ModuleType
 
-from checker.printable import PrintableStream
+from checker.io.printable import PrintableStream
 
 OURS = frozenset({"checker", "properties", "spec_model", "supervisor"})
 _numbers = count(1)

@@ -8,8 +8,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
+from checker.io.toml_lines import line_of
 from checker.model import shown
-from checker.toml_lines import line_of
 from properties.catalogue import Expected, on_record
 from properties.forms import Property
 from properties.requirements import Requirement

@@ -3,10 +3,10 @@
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from checker.lowered import lowered
 from checker.mutate.product import same
 from checker.mutate.wiring import written_by
-from checker.slice import sliced
+from checker.system.lowered import lowered
+from checker.system.slice import sliced
 from properties.forms import Property
 from properties.reduce import reduce
 from spec_model.lang.action import writes

@@ -5,20 +5,20 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from time import monotonic
 
-from checker.decide import decide
-from checker.engine import AUTO, Limits, Progress
-from checker.lowered import lowered
+from checker.engines import AUTO, Limits, Progress
 from checker.mutate.observing import Difference, difference, observable
 from checker.mutate.product import Product, at_the_fault, described, product, same
 from checker.mutate.step_equality import equal_in_every_step
-from checker.portfolio import Question, Told, answers
-from checker.portfolio.question import stays
-from checker.result import Result, check_domains
-from checker.runs.domains import LeavesDomain
-from checker.runs.known import confirm, reaching, run_of
-from checker.tasks import Task, tasks
-from checker.trace import Trace
-from checker.verdict import Open, Proved, Reached, Run, Unknown, Unreachable, Violated
+from checker.results.trace import Trace
+from checker.results.verdict import Open, Proved, Reached, Run, Unknown, Unreachable, Violated
+from checker.system.lowered import lowered
+from checker.verify.decide import decide
+from checker.verify.portfolio import Question, Told, answers
+from checker.verify.portfolio.question import stays
+from checker.verify.result import Result, check_domains
+from checker.verify.runs.domains import LeavesDomain
+from checker.verify.runs.known import confirm, reaching, run_of
+from checker.verify.tasks import Task, tasks
 from properties.forms import Property, Reachable
 from spec_model.lang.errors import ModelError
 from spec_model.lang.lower import lower

@@ -6,15 +6,15 @@ from dataclasses import dataclass, replace
 from time import monotonic
 from types import MappingProxyType
 
-from checker.decide import decide
-from checker.engine import AUTO, Limits, quiet
-from checker.lowered import lowered
+from checker.engines import AUTO, Limits, quiet
 from checker.mutate.asked import as_it_is, changed
 from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.tries import RandomRuns, spread, tried
-from checker.runs.known import reached, run_of
-from checker.tasks import tasks
-from checker.verdict import Run, Violated
+from checker.results.verdict import Run, Violated
+from checker.system.lowered import lowered
+from checker.verify.decide import decide
+from checker.verify.runs.known import reached, run_of
+from checker.verify.tasks import tasks
 from properties.forms import Property, formulas
 from spec_model.lang.errors import ModelError
 from spec_model.lang.system import System

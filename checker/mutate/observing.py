@@ -4,10 +4,10 @@ from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
 from checker.mutate.product import Product
-from checker.runs.calm import calmed
-from checker.runs.replay import ReplayError, followed
-from checker.trace import Tick
-from checker.verdict import Run
+from checker.results.trace import Tick
+from checker.results.verdict import Run
+from checker.verify.runs.calm import calmed
+from checker.verify.runs.replay import ReplayError, followed
 from spec_model.lang.chart import Chart, parts
 from spec_model.lang.evaluate import admissible
 from spec_model.lang.system import System, TransitionSystem

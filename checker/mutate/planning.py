@@ -8,10 +8,10 @@ from checker.mutate.asked import Cone, as_it_is, concerned, cones
 from checker.mutate.judging import Case, Fate, Judged
 from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.tries import ROUNDS, RandomRuns, tried
-from checker.result import Result
-from checker.runs.known import run_of
-from checker.tasks import Task
-from checker.verdict import Proved, Run, Unknown
+from checker.results.verdict import Proved, Run, Unknown
+from checker.verify.result import Result
+from checker.verify.runs.known import run_of
+from checker.verify.tasks import Task
 from properties.forms import Property, formulas
 from spec_model.lang.chart import parts
 from spec_model.lang.system import System

@@ -7,7 +7,7 @@ allowed for one system only.  A smaller question comes before it: does the fault
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from checker.slice import names
+from checker.system.slice import names
 from spec_model.lang.action import Action, Assign, If, each_action, writes
 from spec_model.lang.domain import Bool, boolean
 from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, any_of

@@ -5,15 +5,15 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 
 from checker.cache.telling import listening
-from checker.engine import Limits
-from checker.faults import Fault, described, is_fault, tell
-from checker.faults import listening as attending
-from checker.isolate import Send
+from checker.engines import Limits
 from checker.mutate.judging import Case, Fate, Judged
 from checker.mutate.mutants import Mutant
 from checker.mutate.planning import Planned
-from checker.pool import Event, Granted, Order, Pool
-from checker.searches import SLACK, cores
+from checker.process.faults import Fault, described, is_fault, tell
+from checker.process.faults import listening as attending
+from checker.process.isolate import Send
+from checker.process.pool import Event, Granted, Order, Pool
+from checker.verify.searches import SLACK, cores
 
 
 @dataclass(frozen=True)
@@ -86,8 +86,8 @@ class _Judging:
 
     def __call__(self, send: Send, id: str, cases: tuple[Case, ...], before: Judged | None) -> None:
         from checker.mutate.judging import judged
-        from checker.portfolio import Disagreement
-        from checker.runs.replay import ReplayError
+        from checker.verify.portfolio import Disagreement
+        from checker.verify.runs.replay import ReplayError
 
         send(Granted(self._limits.seconds))
         try:

@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
-from checker.lowered import lowered
-from checker.verdict import Run
+from checker.results.verdict import Run
+from checker.system.lowered import lowered
 from spec_model.lang.evaluate import step
 from spec_model.lang.system import System
 

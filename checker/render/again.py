@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from checker.render.durations import duration
 from checker.render.story import Event, Quiet, Row, rows
-from checker.trace import Trace, counted_ticks
+from checker.results.trace import Trace, counted_ticks
 
 TIMES = 2
 """How often rows must be repeated, after the first time, not to be told again."""

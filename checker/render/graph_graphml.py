@@ -2,9 +2,9 @@
 
 import networkx as nx
 
-from checker.graph import StateGraph
 from checker.render.statechart_graphml import graphml
 from checker.render.stategraph.words import ticks
+from checker.results.graph import StateGraph
 
 NAME = "graphml"
 KIND = "graph"

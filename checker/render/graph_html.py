@@ -1,8 +1,8 @@
 """A projected state graph as a page: to move about in, to search, and to ask for the way to a node."""
 
-from checker.graph import MOST_NODES, StateGraph, drawable
 from checker.render.page import page
 from checker.render.stategraph.fragment import part
+from checker.results.graph import MOST_NODES, StateGraph, drawable
 
 NAME = "html"
 KIND = "graph"

@@ -3,7 +3,7 @@
 import json
 from typing import Any
 
-from checker.graph import Kind, StateGraph
+from checker.results.graph import Kind, StateGraph
 
 NAME = "json"
 KIND = "graph"

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from checker.render.durations import duration
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.lang.chart import Chart, State
 from spec_model.lang.domain import Num, show
 from spec_model.lang.expr import Apply, Const, Expr, Temporal, Var, When

@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
 from checker.render.story import start_values, value
-from checker.trace import Trace, counted_ticks
+from checker.results.trace import Trace, counted_ticks
 from spec_model.lang.domain import Num
 
 

@@ -9,7 +9,7 @@ from checker.render.drawing.nested import picture
 from checker.render.drawing.picture import Box, Piece, Spot
 from checker.render.drawing.scheme import arrows, explained
 from checker.render.drawing.text import LINE, width, wrap
-from checker.trace import Arrow
+from checker.results.trace import Arrow
 from spec_model.lang.chart import Chart
 
 NAME = "svg"

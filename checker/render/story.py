@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from checker.render.durations import duration
 from checker.render.limits import bounds, timer
-from checker.trace import Arrow, Tick, Trace, counted_ticks
+from checker.results.trace import Arrow, Tick, Trace, counted_ticks
 from spec_model.lang.domain import Enum, Num
 from spec_model.lang.expr import Expr, Named
 from spec_model.lang.label import text

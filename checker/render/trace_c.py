@@ -6,9 +6,9 @@ see it (``Trace.concrete``); of a run of several boards, each is compiled by its
 
 from collections.abc import Iterable
 
-from checker.concrete import BoardRun, Kind, Signal, Value, held
 from checker.render.trace_pytest import required
-from checker.trace import Trace
+from checker.results.board_steps import BoardRun, Kind, Signal, Value, held
+from checker.results.trace import Trace
 
 NAME = "c"
 KIND = "trace"

@@ -10,8 +10,8 @@ import csv
 from collections.abc import Mapping, Sequence
 from io import StringIO
 
-from checker.files import csv_cell
-from checker.trace import Trace
+from checker.io.files import csv_cell
+from checker.results.trace import Trace
 
 NAME = "csv"
 KIND = "trace"

@@ -2,7 +2,7 @@
 
 from checker.render.ci import of_trace
 from checker.render.ci.github import annotation, annotations
-from checker.trace import Trace
+from checker.results.trace import Trace
 
 NAME = "github"
 KIND = "trace"

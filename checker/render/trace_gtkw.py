@@ -11,7 +11,7 @@ from io import StringIO
 from vcd.gtkw import GTKWColor, GTKWFlag, GTKWSave
 
 from checker.render.waves import Group, Sort, Wave, outcome, waves
-from checker.trace import Trace
+from checker.results.trace import Trace
 
 NAME = "gtkw"
 KIND = "trace"

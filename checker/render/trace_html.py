@@ -5,7 +5,7 @@ from markupsafe import Markup
 from checker.render import player, timeline
 from checker.render.page import Part, page, together
 from checker.render.story import heading
-from checker.trace import Trace
+from checker.results.trace import Trace
 
 NAME = "html"
 KIND = "trace"

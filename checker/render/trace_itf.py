@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from checker.render.trace_json import shows
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.lang.domain import Bool, Enum, Num, show
 
 NAME = "itf"

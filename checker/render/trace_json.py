@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from checker.render.story import false_parts
-from checker.trace import Arrow, Needed, Tick, Trace
+from checker.results.trace import Arrow, Needed, Tick, Trace
 from spec_model.lang.domain import Bool, Enum
 from spec_model.lang.expr import Var
 from spec_model.lang.place import Place

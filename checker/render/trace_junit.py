@@ -2,7 +2,7 @@
 
 from checker.render.ci import of_trace
 from checker.render.ci.junit import junit
-from checker.trace import Trace
+from checker.results.trace import Trace
 
 NAME = "junit"
 KIND = "trace"

@@ -17,7 +17,7 @@ from checker.render.story import (
     start_of,
     start_values,
 )
-from checker.trace import Trace
+from checker.results.trace import Trace
 
 NAME = "markdown"
 KIND = "trace"

@@ -4,7 +4,7 @@ from markupsafe import Markup
 
 from checker.render.page import Part, page
 from checker.render.player import part
-from checker.trace import Trace
+from checker.results.trace import Trace
 
 NAME = "play"
 KIND = "trace"

@@ -8,9 +8,9 @@ import re
 import textwrap
 from collections.abc import Mapping
 
-from checker.concrete import BoardRun, Value, held
 from checker.render.waves import outcome
-from checker.trace import Trace
+from checker.results.board_steps import BoardRun, Value, held
+from checker.results.trace import Trace
 from spec_model.lang.errors import ModelError
 
 NAME = "pytest"
@@ -48,7 +48,7 @@ import pytest
 from rovercheck import own
 
 with own():  # whatever else bears the names
-    from checker.conform.adapters import start
+    from checker.adapters import start
     from spec_model.abstraction import boards
 
 CLOCK = "now_ms"

@@ -1,7 +1,7 @@
 """A trace as a picture over time: lanes of values, limits and timers, readable on paper too."""
 
 from checker.render.timeline import picture, timeline
-from checker.trace import Trace
+from checker.results.trace import Trace
 
 NAME = "svg"
 KIND = "trace"

@@ -5,6 +5,7 @@ from io import StringIO
 
 from rich.text import Text
 
+from checker.io.console import UnmarkedConsole
 from checker.render.again import folded
 from checker.render.hanging import hanging
 from checker.render.reasons import forced, reasons
@@ -21,8 +22,7 @@ from checker.render.story import (
     start_of,
     start_values,
 )
-from checker.trace import Arrow, Trace
-from checker.unmarked import UnmarkedConsole
+from checker.results.trace import Arrow, Trace
 
 NAME = "table"
 KIND = "trace"

@@ -13,7 +13,7 @@ from unicodedata import normalize
 from vcd import VCDWriter
 
 from checker.render.waves import Group, Sort, Wave, outcome, waves
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.lang.domain import Num
 
 NAME = "vcd"

@@ -6,7 +6,7 @@ from enum import StrEnum
 from unicodedata import combining, normalize
 
 from checker.render.story import TIMER
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.lang.domain import Bool, Enum
 
 

@@ -10,7 +10,7 @@ from checker.render import player, trace_play
 from checker.render.page import Part
 from checker.render.page import page as whole
 from checker.render.statechart_svg import render
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.rover import charts
 from tests.browser.conftest import Show
 from tests.render.test_player import TOY, run, shining

@@ -2,9 +2,9 @@
 
 import pytest
 
-from checker.commands.check import results
-from checker.engine import Limits
-from checker.verdict import Proved
+from checker.commands.check.run import results
+from checker.engines import Limits
+from checker.results.verdict import Proved
 from properties.forms import always, never
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block

@@ -4,10 +4,9 @@ from collections.abc import Callable
 from functools import cache
 
 from checker.encode.native import OutsideDomain
-from checker.engine import Limits, Timers
-from checker.engine import quiet as silent
-from checker.engines import explicit
-from checker.verdict import Answer, Exhausted, Reached, Unreachable
+from checker.engines import Limits, Timers, explicit
+from checker.engines import quiet as silent
+from checker.results.verdict import Answer, Exhausted, Reached, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import chosen, integer
 from spec_model.lang.expr import FALSE, Var, all_of, flag, ite, var

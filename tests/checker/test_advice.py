@@ -6,13 +6,12 @@ import pytest
 
 from checker.encode.counting import counters
 from checker.encode.native import NativeSearch, Task, layout, shifts
-from checker.engine import Limits, Timers, quiet
-from checker.engines import explicit
+from checker.engines import Limits, Timers, explicit, quiet
 from checker.engines.explicit.advice import Advisor
 from checker.engines.explicit.levels import Search
 from checker.engines.explicit.lines import LineSearch
-from checker.slice import sliced
-from checker.verdict import Open
+from checker.results.verdict import Open
+from checker.system.slice import sliced
 from spec_model.lang.action import Assign
 from spec_model.lang.chart import Chart, State, to
 from spec_model.lang.domain import chosen, integer

@@ -8,16 +8,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from benchmarks.roverlite import roverlite
-from checker.diagram import Diagram
 from checker.encode.bits import circuit
 from checker.encode.bits.inputs import input_cut
 from checker.encode.bits.order import orders
-from checker.engine import Limits, engines, quiet
-from checker.engines import bdd
+from checker.engines import Limits, bdd, engines, quiet
 from checker.engines.bdd import kept
 from checker.engines.bdd.events import Bound, Closed, Found, Stuck
 from checker.engines.bdd.search import search
-from checker.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
+from checker.results.diagram import Diagram
+from checker.results.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import Bool, chosen, integer
 from spec_model.lang.expr import FALSE, TRUE, Apply, Var, all_of, const, flag, ite, var

@@ -7,7 +7,7 @@ import z3
 from hypothesis import given, settings
 
 from checker.encode.bitvector import OPERATORS, Encoder, literal, member, symbol, value, width
-from checker.encode.intervals import Interval, intervals
+from checker.system.intervals import Interval, intervals
 from spec_model.lang.domain import Bool, Domain, Num, Sort, boolean, chosen, enumeration, integer
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Apply, Const, Expr, Var, ite

@@ -6,12 +6,11 @@ from dataclasses import dataclass, field, replace
 import pytest
 from hypothesis import given, settings
 
-from checker.engine import Limits, engines, quiet
-from checker.engines import bmc
+from checker.engines import Limits, bmc, engines, quiet
 from checker.engines.bmc.events import Bound, Found, Undefined
 from checker.engines.bmc.search import search
-from checker.isolate import Send
-from checker.verdict import Open, Reached, Run
+from checker.process.isolate import Send
+from checker.results.verdict import Open, Reached, Run
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import integer
 from spec_model.lang.expr import FALSE, TRUE, flag, var

@@ -15,10 +15,9 @@ from checker.encode import native
 from checker.encode.counting import counters
 from checker.encode.native import NativeSearch, Task, fingerprint, jit, layout, shifts
 from checker.encode.native.jit import Level
-from checker.engine import Limits, quiet
-from checker.engines import explicit
+from checker.engines import Limits, explicit, quiet
 from checker.engines.explicit import levels
-from checker.verdict import Answer, Reached, Unreachable
+from checker.results.verdict import Answer, Reached, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import chosen, integer
 from spec_model.lang.expr import Var, flag, ite, var

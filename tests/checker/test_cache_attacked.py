@@ -15,7 +15,7 @@ import pytest
 from checker import cache
 from checker.cache import Refused, listening
 from checker.encode.native import fingerprint
-from checker.verdict import Answer, Reached, Unreachable
+from checker.results.verdict import Answer, Reached, Unreachable
 from spec_model.lang.action import Assign
 from spec_model.lang.expr import flag
 from tests.checker.test_cache import answers, compiled, folder, system

@@ -15,12 +15,11 @@ import pytest
 from checker import cache
 from checker.cache import Taken
 from checker.encode.native.jit import Level, object_code
-from checker.engine import Engine, Limits, Progress
-from checker.engines import explicit
-from checker.pool import Event
-from checker.result import Result
-from checker.searches import Heard, Over, Warned, _Decided, _Returns, searches
-from checker.verdict import Answer, Exhausted, Proved, Unknown, Violated
+from checker.engines import Engine, Limits, Progress, explicit
+from checker.process.pool import Event
+from checker.results.verdict import Answer, Exhausted, Proved, Unknown, Violated
+from checker.verify.result import Result
+from checker.verify.searches import Heard, Over, Warned, _Decided, _Returns, searches
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 from tests.checker.test_cache import folder

@@ -12,8 +12,8 @@ from checker.certify.check import check
 from checker.certify.diagram import Diagram, Node, Nodes
 from checker.certify.outcome import Accepted, Rejected
 from checker.certify.reduction import diagram
-from checker.closed import ClosedSet
-from checker.verdict import Exhausted, Unreachable
+from checker.results.closed import ClosedSet
+from checker.results.verdict import Exhausted, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import admissible, step

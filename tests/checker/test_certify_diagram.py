@@ -8,7 +8,7 @@ from hypothesis.strategies import DrawFn
 
 from checker.certify import reduction
 from checker.certify.diagram import Diagram, Nodes, count, members
-from checker.closed import ClosedSet, Place
+from checker.results.closed import ClosedSet, Place
 from spec_model.lang.expr import Var
 from tests.certifying import closed_set
 from tests.naive import vectors

@@ -14,7 +14,7 @@ from checker.certify.smtlib import own, quoted
 from checker.certify.terms import DEEPEST, TRUTH, Malformed, definitions, evaluate, read
 from checker.certify.tick import conjuncts as parts
 from checker.certify.tick import executed
-from checker.verdict import Inductive
+from checker.results.verdict import Inductive
 from spec_model.lang.evaluate import evaluate as value_of
 from spec_model.lang.evaluate import step
 from spec_model.lang.expr import Expr, Var

@@ -11,7 +11,7 @@ import pytest
 from checker.certify import solver
 from checker.certify.check import By, Effort, check
 from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
-from checker.isolate import Send
+from checker.process.isolate import Send
 from tests.certifying import BACK, BOTH, COUNT, SOLVER, claimed, counting, inline
 
 Solve = Callable[..., None]

@@ -21,7 +21,7 @@ from checker.certify.question import question
 from checker.certify.reduction import diagram
 from checker.certify.sweep import OPERATORS, Formulas, Rows, columns, swept
 from checker.certify.tick import executed
-from checker.encode.intervals import postorder
+from checker.system.intervals import postorder
 from spec_model.lang.evaluate import step
 from spec_model.lang.expr import Var, flag
 from spec_model.lang.operators import Op

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.runs.compiled import Compiled, TooDeep
-from checker.runs.known import reached
-from checker.verdict import Run
+from checker.results.verdict import Run
+from checker.verify.runs.compiled import Compiled, TooDeep
+from checker.verify.runs.known import reached
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import admissible, step
@@ -94,6 +94,6 @@ def test_branches_beyond_all_measure_are_told() -> None:
 
 
 def test_what_only_compiled_code_finds_is_a_bug_of_ours(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("checker.runs.known._first", lambda _: lambda run: {"LIT": 1})
+    monkeypatch.setattr("checker.verify.runs.known._first", lambda _: lambda run: {"LIT": 1})
     with pytest.raises(AssertionError, match="LIT: a run of 1 ticks reaches it only as compiled"):
         reached(lamps, [LIT], [Run({}, ({"press": 0, "level": 0},))])

@@ -1,8 +1,8 @@
 """Properties with and without a bound in one task: each is decided as what it is."""
 
-from checker.decide import AUTO, Task, decide
-from checker.engine import Limits, quiet
-from checker.verdict import Violated
+from checker.engines import Limits, quiet
+from checker.results.verdict import Violated
+from checker.verify.decide import AUTO, Task, decide
 from properties.catalogue import catalogue
 from spec_model.rover import systems
 

@@ -10,8 +10,8 @@ from checker.certify.check import check
 from checker.certify.outcome import Accepted
 from checker.encode.cone import as_written, folded, straying
 from checker.encode.symbolic import transition
-from checker.engine import Limits, engines, quiet
-from checker.verdict import Answer, Open
+from checker.engines import Limits, engines, quiet
+from checker.results.verdict import Answer, Open
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import Bool, Domain, chosen, integer
 from spec_model.lang.expr import Expr, Var, flag, ite, var

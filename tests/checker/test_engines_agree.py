@@ -12,8 +12,8 @@ from checker.certify.certificate import certificates
 from checker.certify.check import check
 from checker.certify.outcome import Accepted
 from checker.encode.native import OutsideDomain
-from checker.engine import Limits, engines, quiet
-from checker.verdict import Answer, Open, Reached, Unreachable
+from checker.engines import Limits, engines, quiet
+from checker.results.verdict import Answer, Open, Reached, Unreachable
 from spec_model.lang.system import TransitionSystem
 from tests import naive
 from tests.certifying import SOLVER

@@ -7,12 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmarks.roverlite import roverlite
-from checker.closed import ClosedSet
 from checker.encode.native import OutsideDomain
-from checker.engine import Limits, quiet
-from checker.engines import explicit
-from checker.slice import sliced
-from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable
+from checker.engines import Limits, explicit, quiet
+from checker.results.closed import ClosedSet
+from checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
+from checker.system.slice import sliced
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import chosen, integer
 from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Var, all_of, const, flag, ite, var

@@ -13,11 +13,10 @@ import pytest
 from checker.encode import native, path_statements, paths
 from checker.encode.native import Field, Layout, body, quiet, retrace, search, table
 from checker.encode.native.expressions import BIT, INT, Expressions
-from checker.engine import Limits, Timers
-from checker.engine import quiet as silent
-from checker.engines import explicit
+from checker.engines import Limits, Timers, explicit
+from checker.engines import quiet as silent
 from checker.engines.explicit import answers, levels, parents, runs
-from checker.partition import Partition, partitions
+from checker.system.partition import Partition, partitions
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import integer
 from spec_model.lang.expr import Var, const, flag, var

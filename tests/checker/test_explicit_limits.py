@@ -4,10 +4,9 @@ from functools import partial
 
 import pytest
 
-from checker.engine import Limits, Timers
-from checker.engines import explicit
+from checker.engines import Limits, Timers, explicit
 from checker.engines.explicit import levels, store
-from checker.verdict import Exhausted, Open, Reached
+from checker.results.verdict import Exhausted, Open, Reached
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import integer
 from spec_model.lang.errors import ModelError

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 
 import pytest
 
-from checker.engine import ALL, AUTO, Engine, Limits, Progress
-from checker.faults import Fault, InternalError, attempted, listening, tell
-from checker.isolate import Send, Stopped, messages
-from checker.portfolio import Question, Told, answers, compare, turns
-from checker.portfolio.order import ORDERS, Turn
-from checker.verdict import Answer, Inductive, Open, Reached, Run, Unreachable
+from checker.engines import ALL, AUTO, Engine, Limits, Progress
+from checker.process.faults import Fault, InternalError, attempted, listening, tell
+from checker.process.isolate import Send, Stopped, messages
+from checker.results.verdict import Answer, Inductive, Open, Reached, Run, Unreachable
+from checker.verify.portfolio import Question, Told, answers, compare, turns
+from checker.verify.portfolio.order import ORDERS, Turn
 from spec_model.lang.action import Assign
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Var, flag

@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import pytest
 
-from checker.commands.check import length
-from checker.decide import Task, decide
-from checker.engine import Limits, Timers, quiet
-from checker.result import Result
-from checker.trace import Trace
-from checker.verdict import Exhausted, Proved, Violated
+from checker.commands.check.run import length
+from checker.engines import Limits, Timers, quiet
+from checker.results.trace import Trace
+from checker.results.verdict import Exhausted, Proved, Violated
+from checker.verify.decide import Task, decide
+from checker.verify.result import Result
 from properties.forms import Never, Property, Reachable
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, State, to

@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.engine import Limits
-from checker.graph import Kind, StateGraph
-from checker.graphs.making import LIMITS, Made, made
-from checker.graphs.projecting import exact_with
-from checker.slice import sliced
+from checker.engines import Limits
+from checker.explore.graphs.making import LIMITS, Made, made
+from checker.explore.graphs.projecting import exact_with
+from checker.results.graph import Kind, StateGraph
+from checker.system.slice import sliced
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Const, all_of
 from spec_model.lang.system import System, TransitionSystem

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.isolate import Send, Stopped, messages
+from checker.process.isolate import Send, Stopped, messages
 from spec_model.lang.expr import flag
 from spec_model.lang.walk import nodes
 
@@ -148,7 +148,7 @@ def test_nobody_listens_any_more() -> None:
 
 PARENT = """
 from contextlib import closing
-from checker.isolate import messages
+from checker.process.isolate import messages
 from tests.checker import test_isolate
 with closing(messages(test_isolate.{work}, 60)) as inbox:
     for message in inbox:

@@ -7,12 +7,11 @@ import pytest
 from hypothesis import given, settings
 
 from benchmarks.roverlite import roverlite
-from checker.engine import Limits, engines, quiet
-from checker.engines import kinduction
+from checker.engines import Limits, engines, kinduction, quiet
 from checker.engines.kinduction.events import Bound, Closed, Doing, Event, Found, Stuck
 from checker.engines.kinduction.hunt import Hunt
 from checker.engines.kinduction.search import search
-from checker.verdict import Answer, Inductive, Open, Reached, Unreachable
+from checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import chosen, integer
 from spec_model.lang.expr import FALSE, Var, flag, var

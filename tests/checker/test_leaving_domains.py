@@ -10,19 +10,18 @@ from typing import get_args
 
 import pytest
 
-from checker.decide import ALL, AUTO, Task, decide
-from checker.engine import Engine, Limits, Progress, engines, quiet
-from checker.engines import explicit
-from checker.graph import Kind
-from checker.graphs.making import made
-from checker.lowered import lowered
-from checker.result import Result
-from checker.runs.calm import calmed
-from checker.runs.domains import LeavesDomain, stray
-from checker.runs.replay import replay
-from checker.searches import Heard, searches
-from checker.trace import Trace
-from checker.verdict import Answer, Exhausted, Open, Proved, Reached, Run, Unknown, Violated
+from checker.engines import Engine, Limits, Progress, engines, explicit, quiet
+from checker.explore.graphs.making import made
+from checker.results.graph import Kind
+from checker.results.trace import Trace
+from checker.results.verdict import Answer, Exhausted, Open, Proved, Reached, Run, Unknown, Violated
+from checker.system.lowered import lowered
+from checker.verify.decide import ALL, AUTO, Task, decide
+from checker.verify.result import Result
+from checker.verify.runs.calm import calmed
+from checker.verify.runs.domains import LeavesDomain, stray
+from checker.verify.runs.replay import replay
+from checker.verify.searches import Heard, searches
 from properties import forms
 from properties.forms import Form, Property
 from properties.reduce import reduce

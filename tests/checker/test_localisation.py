@@ -9,13 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.engine import Limits, engines, quiet
-from checker.engines import localisation
+from checker.engines import Limits, engines, localisation, quiet
 from checker.engines.localisation.bounded import Bounded, Core, Hit
 from checker.engines.localisation.cuts import with_cuts, with_switches, written
 from checker.engines.localisation.orders import Orders
-from checker.isolate import Stopped
-from checker.verdict import Answer, Inductive, Open, Reached, Unreachable
+from checker.process.isolate import Stopped
+from checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
 from spec_model.lang.action import If, assign, when
 from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import step

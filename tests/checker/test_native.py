@@ -9,11 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from llvmlite import ir
 
-from checker.encode.intervals import Interval
 from checker.encode.native import OutsideDomain, TooWide, layout
 from checker.encode.native.expressions import BIT, INT, Expressions, Slot
 from checker.encode.native.jit import Library
 from checker.encode.native.table import WORDS, function
+from checker.system.intervals import Interval
 from spec_model.lang.domain import Bool, Num, chosen, integer
 from spec_model.lang.evaluate import evaluate, operate
 from spec_model.lang.expr import Apply, Expr, Var, flag, var

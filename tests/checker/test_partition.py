@@ -2,7 +2,7 @@
 
 from hypothesis import given
 
-from checker.partition import Partition, expressions, partitions
+from checker.system.partition import Partition, expressions, partitions
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import Bool, chosen, integer
 from spec_model.lang.evaluate import admissible, step

@@ -9,12 +9,11 @@ from hypothesis import given, settings
 from checker.encode.bits import circuit
 from checker.encode.bits.aig import Aig, Literal
 from checker.encode.bits.cnf import Cnf
-from checker.engine import Limits, engines, quiet
-from checker.engines import pdr
+from checker.engines import Limits, engines, pdr, quiet
 from checker.engines.pdr.events import Bound, Decided, Undefined
 from checker.engines.pdr.groups import decisions
-from checker.isolate import Send
-from checker.verdict import Inductive, Open, Reached, Unreachable
+from checker.process.isolate import Send
+from checker.results.verdict import Inductive, Open, Reached, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import chosen, integer
 from spec_model.lang.evaluate import admissible, evaluate, step

@@ -19,7 +19,7 @@ from checker.engines.pdr.groups import decisions
 from checker.engines.pdr.lemmas import Lemma, Step
 from checker.engines.pdr.lift import Lifter
 from checker.engines.pdr.machine import Machine, machine
-from checker.verdict import Reached, Unreachable
+from checker.results.verdict import Reached, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import chosen, integer
 from spec_model.lang.expr import TRUE, Expr, flag, ite, var

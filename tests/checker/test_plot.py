@@ -12,7 +12,7 @@ from benchmarks.growth import SCALES, SEARCH, pictured, symbolic
 from benchmarks.labels import HEIGHT, SIZE, Box, labels
 from benchmarks.measure import Sample
 from benchmarks.plot import Series, plot
-from checker.engine import engines
+from checker.engines import engines
 from checker.render.drawing.text import width
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import pytest
 
-from checker.isolate import Send, messages
-from checker.pool import Event, Granted, Order, Pool
+from checker.process.isolate import Send, messages
+from checker.process.pool import Event, Granted, Order, Pool
 from tests.checker.test_isolate import _tell_and_sleep as tell_and_sleep
 from tests.checker.test_isolate import gone
 

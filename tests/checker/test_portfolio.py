@@ -8,8 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.engine import ALL, AUTO, Engine, Limits, Progress, engines
-from checker.portfolio import (
+from checker.engines import ALL, AUTO, Engine, Limits, Progress, engines
+from checker.results.verdict import Answer, Exhausted, Inductive, Open, Reached, Run, Unreachable
+from checker.verify.portfolio import (
     Disagreement,
     Found,
     Hint,
@@ -20,10 +21,9 @@ from checker.portfolio import (
     compare,
     turns,
 )
-from checker.portfolio.order import ORDERS, Turn
-from checker.portfolio.shape import VAST, WIDE, Shape
-from checker.portfolio.turns import better
-from checker.verdict import Answer, Exhausted, Inductive, Open, Reached, Run, Unreachable
+from checker.verify.portfolio.order import ORDERS, Turn
+from checker.verify.portfolio.shape import VAST, WIDE, Shape
+from checker.verify.portfolio.turns import better
 from spec_model.lang.action import Assign
 from spec_model.lang.expr import Var, flag
 from spec_model.lang.system import TransitionSystem

@@ -10,9 +10,8 @@ from hypothesis.strategies import DrawFn
 
 from checker.encode.counting import counters
 from checker.encode.native import Layout, layout, moved_on, shifts
-from checker.engine import Limits, Timers, quiet
-from checker.engines import explicit
-from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable
+from checker.engines import Limits, Timers, explicit, quiet
+from checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.chart import Chart, State, to
 from spec_model.lang.domain import Domain, Num, integer

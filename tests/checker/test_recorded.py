@@ -8,13 +8,13 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.engine import AUTO, Engine, Limits
+from checker.engines import AUTO, Engine, Limits
 from checker.engines.kinduction.search import with_given
-from checker.portfolio import Question, Told, answers, turns
-from checker.portfolio.order import ORDERS, SOON
-from checker.portfolio.recorded import Recorded
-from checker.verdict import Answer, Inductive, Open, Reached, Unreachable
-from checker.written import Tree, Unreadable, formula, readable, size, written
+from checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
+from checker.system.formula_json import Tree, Unreadable, formula, readable, size, written
+from checker.verify.portfolio import Question, Told, answers, turns
+from checker.verify.portfolio.order import ORDERS, SOON
+from checker.verify.portfolio.recorded import Recorded
 from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Expr, Var, flag, var
@@ -141,7 +141,7 @@ def asked(system: TransitionSystem, candidates: tuple[Expr, ...] | None, engine:
 def test_what_a_record_shows_is_not_searched_for(monkeypatch: pytest.MonkeyPatch) -> None:
     system = relay()
     hold, since, on = (system.var(name) for name in ("hold", "since", "on"))
-    monkeypatch.setattr("checker.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, ()))
+    monkeypatch.setattr("checker.verify.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, ()))
     answer = asked(system, (~on | (hold == since),))
     assert isinstance(answer, Unreachable) and isinstance(answer.because, Inductive)
     assert problems(system, GOAL, answer.because) == []
@@ -174,7 +174,9 @@ def test_what_a_record_leaves_open_is_enumerated_next(monkeypatch: pytest.Monkey
         return asked_by(engine, *rest)
 
     monkeypatch.setattr(turns, "asked", noted)
-    monkeypatch.setattr("checker.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, (SOON, ORDERS["narrow"][0])))
+    monkeypatch.setattr(
+        "checker.verify.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, (SOON, ORDERS["narrow"][0]))
+    )
     assert isinstance(asked(relay(20), ()), Unreachable)
     assert order == [Recorded.SUMMARY, "explicit"]
     order.clear()

@@ -14,10 +14,9 @@ from benchmarks.explicit import ours
 from benchmarks.peers.unrolling import induct, unroll
 from benchmarks.roverlite import question, roverlite
 from benchmarks.targets import agrees
-from checker.decide import Task, decide
-from checker.engine import Limits, quiet
-from checker.engines import explicit
-from checker.verdict import Reached
+from checker.engines import Limits, explicit, quiet
+from checker.results.verdict import Reached
+from checker.verify.decide import Task, decide
 from spec_model.lang.domain import Enum
 from spec_model.lang.evaluate import step
 from spec_model.lang.lower import lower

@@ -8,13 +8,12 @@ from dataclasses import dataclass, replace
 
 import pytest
 
-from checker.engine import Limits, Progress
-from checker.engines import explicit
-from checker.faults import Fault, listening
-from checker.result import Result
-from checker.searches import Over, searches
-from checker.tasks import MOST, Task, tasks
-from checker.verdict import Answer, Proved, Unknown, Violated
+from checker.engines import Limits, Progress, explicit
+from checker.process.faults import Fault, listening
+from checker.results.verdict import Answer, Proved, Unknown, Violated
+from checker.verify.result import Result
+from checker.verify.searches import Over, searches
+from checker.verify.tasks import MOST, Task, tasks
 from properties.catalogue import catalogue
 from properties.forms import Always, Never, Property
 from spec_model.lang.errors import ModelError
@@ -124,7 +123,7 @@ def test_properties_are_grouped_as_the_lowered_system_says(
 ) -> None:
     about = [p for p in catalogue().values() if p.on == name]
     quick = [task.properties for task in tasks(about, systems())]
-    monkeypatch.setattr("checker.tasks.without_step", lower)
+    monkeypatch.setattr("checker.verify.tasks.without_step", lower)
     assert quick == [task.properties for task in tasks(about, systems())]
     assert max(map(len, quick)) <= MOST
     assert sorted(p.id for group in quick for p in group) == sorted(p.id for p in about)

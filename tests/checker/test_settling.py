@@ -2,9 +2,9 @@
 
 from checker.encode.bits import circuit
 from checker.encode.bits.simulate import Simulation
-from checker.engine import quiet
-from checker.liveness.loops import Hunt, hunt, looped
-from checker.liveness.settling import settled
+from checker.engines import quiet
+from checker.verify.liveness.loops import Hunt, hunt, looped
+from checker.verify.liveness.settling import settled
 from properties.forms import settles
 from properties.reduce import reduce
 from spec_model.lang.action import assign

@@ -2,9 +2,9 @@
 
 import pytest
 
-from checker.portfolio import Hint, Question
-from checker.portfolio.order import ORDERS
-from checker.portfolio.shape import BROAD, FEW, MANY, VAST, WIDE, Shape, shape
+from checker.verify.portfolio import Hint, Question
+from checker.verify.portfolio.order import ORDERS
+from checker.verify.portfolio.shape import BROAD, FEW, MANY, VAST, WIDE, Shape, shape
 from spec_model.composition.motors import motors_zero
 from spec_model.lang.chart import Chart, State, to
 from spec_model.lang.lower import lower

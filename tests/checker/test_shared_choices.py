@@ -6,8 +6,8 @@ import pytest
 from hypothesis import given
 
 from checker.encode.native import Task, assembly, layout, search
-from checker.engine import Timers
-from checker.slice import sliced
+from checker.engines import Timers
+from checker.system.slice import sliced
 from spec_model.lang.system import TransitionSystem
 from tests import naive
 from tests.checker.compared import Group, compare, long, many, mixed, overflowing, wide

@@ -2,13 +2,12 @@
 
 import pytest
 
-from checker.decide import AUTO, Task, decide
-from checker.engine import Limits, quiet
-from checker.engines import simulation
-from checker.portfolio.order import ORDERS
-from checker.runs.domains import stray
-from checker.trace import Trace
-from checker.verdict import Open, Proved, Reached
+from checker.engines import Limits, quiet, simulation
+from checker.results.trace import Trace
+from checker.results.verdict import Open, Proved, Reached
+from checker.verify.decide import AUTO, Task, decide
+from checker.verify.portfolio.order import ORDERS
+from checker.verify.runs.domains import stray
 from properties.forms import Property, Reachable
 from spec_model.lang.action import Assign, assign
 from spec_model.lang.chart import Block, Chart, State, to

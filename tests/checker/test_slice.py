@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from hypothesis import given
 
-from checker.slice import sliced
+from checker.system.slice import sliced
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import integer
 from spec_model.lang.expr import FALSE, TRUE, Expr, Var, flag, ite, var

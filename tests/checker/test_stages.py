@@ -10,9 +10,9 @@ from hypothesis.strategies import DataObject
 from checker.encode.native import OutsideDomain, Task, layout, search
 from checker.encode.path_statements import Branch, Choose, Complete, Each, PathProgram, PathStatement, Require
 from checker.encode.sinking import sunk
-from checker.engine import Limits, Timers
-from checker.slice import sliced
-from checker.verdict import Open, Reached
+from checker.engines import Limits, Timers
+from checker.results.verdict import Open, Reached
+from checker.system.slice import sliced
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import chosen, enumeration, integer
 from spec_model.lang.evaluate import step

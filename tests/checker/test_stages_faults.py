@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from checker import partition
 from checker.encode import path_statements, paths, sinking
 from checker.encode.native import body, search
 from checker.encode.path_statements import Choose
+from checker.system import partition
 from spec_model.lang.expr import TRUE, Expr
 from spec_model.lang.system import TransitionSystem
 from tests.checker.compared import Differs, compare

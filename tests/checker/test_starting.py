@@ -3,10 +3,10 @@
 import pytest
 from hypothesis import given
 
-from checker import starting
-from checker.decide import AUTO, Task, decide
-from checker.engine import Limits, quiet
-from checker.starting import check_starts, starts
+from checker.engines import Limits, quiet
+from checker.system import initial as starting
+from checker.system.initial import check_starts, starts
+from checker.verify.decide import AUTO, Task, decide
 from properties.forms import never
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block

@@ -10,11 +10,11 @@ from hypothesis import strategies as st
 
 from benchmarks.roverlite import roverlite
 from checker.encode.native import NativeSearch, Task, layout
-from checker.engine import Limits, quiet
+from checker.engines import Limits, quiet
 from checker.engines.explicit.levels import Found, Search
 from checker.engines.explicit.parents import Unary
 from checker.engines.explicit.store import Store
-from checker.slice import sliced
+from checker.system.slice import sliced
 
 
 @given(st.lists(st.integers(0, 40), max_size=300), st.integers(1, 3))

@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from checker.encode.cone import cone, constants, folded, settled
-from checker.encode.intervals import intervals, postorder
 from checker.encode.symbolic import transition
+from checker.system.intervals import intervals, postorder
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import boolean, enumeration, integer
 from spec_model.lang.evaluate import admissible, evaluate, step

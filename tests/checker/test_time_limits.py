@@ -7,12 +7,12 @@ from typing import Any
 
 import pytest
 
-from checker.certifying import Certifying
-from checker.engine import AUTO, Limits
-from checker.result import Result
-from checker.searches import Over, searches
-from checker.tasks import Task
-from checker.verdict import Unknown
+from checker.engines import AUTO, Limits
+from checker.results.verdict import Unknown
+from checker.verify.certificates import Certifying
+from checker.verify.result import Result
+from checker.verify.searches import Over, searches
+from checker.verify.tasks import Task
 from properties.forms import Always, Property
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, State, to
@@ -68,9 +68,9 @@ def heard(*functions: str, certify: bool = False) -> tuple[Result, float]:
 @pytest.mark.parametrize(
     ("function", "stage"),
     [
-        ("checker.lowered.lower", "while lowering lamp"),
-        ("checker.decide.check_starts", "while lowering lamp"),
-        ("checker.portfolio.shape.sliced", "while slicing lamp"),
+        ("checker.system.lowered.lower", "while lowering lamp"),
+        ("checker.verify.decide.check_starts", "while lowering lamp"),
+        ("checker.verify.portfolio.shape.sliced", "while slicing lamp"),
         ("checker.encode.native.search.partitions", "while compiling 2 variables in 3 bits (explicit)"),
         ("checker.encode.native.object_code", "while compiling 2 variables in 3 bits (explicit)"),
         ("checker.engines.explicit.answers.sliced", "while searching (explicit)"),
@@ -83,7 +83,7 @@ def test_what_looks_at_no_clock_is_ended_and_named(function: str, stage: str) ->
 
 
 def test_a_proof_that_cannot_be_certified_in_time_stays_a_proof_without_certificate() -> None:
-    result, took = heard("checker.certifying.check", certify=True)
+    result, took = heard("checker.verify.certificates.check", certify=True)
     assert result.verdict.word == "proved"
     assert "time: 4 s ended while certifying 1 verdict" in str(result.certificate)
     assert took < 30
@@ -95,7 +95,7 @@ def test_without_a_slow_stage_the_question_is_decided() -> None:
 
 
 def test_no_engine_is_asked_when_the_time_is_over() -> None:
-    from checker.decide import decide
+    from checker.verify.decide import decide
 
     system = in_order("lamp", LAMP)
     prop = Property("LAMP", "", Always(lamp | ~lamp), (), "lamp")

@@ -14,13 +14,12 @@ from checker.certify.outcome import Accepted
 from checker.encode import values as known_values
 from checker.encode.native import OutsideDomain, layout
 from checker.encode.values import Values, ends, possible, values
-from checker.engine import Limits, quiet
-from checker.engines import explicit
+from checker.engines import Limits, explicit, quiet
 from checker.engines.explicit import answers as explicit_answers
 from checker.engines.explicit import cases as explicit_cases
 from checker.engines.explicit.cases import cases, joined
-from checker.slice import sliced
-from checker.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
+from checker.results.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
+from checker.system.slice import sliced
 from spec_model.lang.action import Assign, If, assign
 from spec_model.lang.domain import chosen, enumeration, integer
 from spec_model.lang.expr import TRUE, Expr, Var, flag, ite, var

@@ -11,12 +11,13 @@ from pathlib import Path
 from unittest.mock import patch
 
 from checker.cli import run
-from checker.commands import generating, reporting
-from checker.conform.cover.generate import Aim
-from checker.conform.cover.watch import watched
-from checker.conform.cross import check, recorded
-from checker.conform.cross.environment import Environment
-from checker.conform.cross.search import Run
+from checker.commands.reports import run as reporting
+from checker.commands.testgen import run as generating
+from checker.compare import check, recorded
+from checker.compare.environment import Environment
+from checker.compare.search import Run
+from checker.testgen.generate import Aim
+from checker.testgen.watch import watched
 from properties.catalogue import catalogue
 from tests.conform import cover_toys
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 
 WRONG = [
     (["check", "PB1-111"], Exit.USAGE, "There is no property 'PB1-111'. Did you mean 'PB1-11"),

@@ -15,8 +15,8 @@ import checker
 from checker import cli
 from checker.certify.file import SCHEMA, Unwritable, read, write
 from checker.certify.terms import Malformed
-from checker.commands.certifying import certify
-from checker.commands.codes import Exit
+from checker.commands.certify.run import certify
+from checker.commands.shared.codes import Exit
 from properties.catalogue import catalogue
 from tests.certificate_files import COUNTERS, WHEEL, changed, counters, two_searches, written
 from tests.certifying import SOLVER

@@ -10,11 +10,11 @@ from checker import cli
 from checker.certify.file import Origin, Written, read, write
 from checker.certify.outcome import Rejected
 from checker.certify.terms import Malformed
-from checker.commands import deriving
-from checker.commands.certifying import certify
-from checker.commands.codes import Exit
-from checker.commands.deriving import Checking, Told, told_of
-from checker.pool import Event, Order, Pool
+from checker.commands.certify import derive as deriving
+from checker.commands.certify.derive import Checking, Told, told_of
+from checker.commands.certify.run import certify
+from checker.commands.shared.codes import Exit
+from checker.process.pool import Event, Order, Pool
 from tests.certificate_files import COUNTERS, WHEEL, changed, counters, two_searches, written
 from tests.certifying import SOLVER
 

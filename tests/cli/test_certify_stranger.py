@@ -14,7 +14,7 @@ import z3
 
 from checker.certify.certificate import certificates
 from checker.certify.file import Origin, write
-from checker.verdict import Inductive, Unreachable
+from checker.results.verdict import Inductive, Unreachable
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import chosen, integer
 from spec_model.lang.expr import TRUE, Expr, Var, const, flag, ite, var

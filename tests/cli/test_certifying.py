@@ -10,15 +10,15 @@ import pytest
 from checker.certify.file import read
 from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from checker.certify.record import Recorder
-from checker.certifying import Certifying
 from checker.cli import run
-from checker.commands.codes import Exit
-from checker.decide import decide
-from checker.engine import Limits, quiet
-from checker.portfolio.question import Told
-from checker.result import Result
-from checker.searches import searches as honest
-from checker.tasks import tasks
+from checker.commands.shared.codes import Exit
+from checker.engines import Limits, quiet
+from checker.verify.certificates import Certifying
+from checker.verify.decide import decide
+from checker.verify.portfolio.question import Told
+from checker.verify.result import Result
+from checker.verify.searches import searches as honest
+from checker.verify.tasks import tasks
 from properties.catalogue import catalogue
 from spec_model.rover import systems
 
@@ -78,7 +78,7 @@ def test_certifying_within_little_memory(monkeypatch: pytest.MonkeyPatch) -> Non
     def no_room(*_: object) -> Outcome:
         raise MemoryError
 
-    monkeypatch.setattr("checker.certifying.check", no_room)
+    monkeypatch.setattr("checker.verify.certificates.check", no_room)
     [task] = tasks([catalogue()["PB1-11"]], systems())
     recorder = Recorder()
     told = Told(answered=recorder.answered)
@@ -108,7 +108,7 @@ def test_what_comes_of_a_certificate_is_shown(
         for heard in honest(*arguments):  # type: ignore[arg-type]
             yield replace(heard, certificate=outcome) if isinstance(heard, Result) else heard
 
-    monkeypatch.setattr("checker.commands.check.searches", searches)
+    monkeypatch.setattr("checker.commands.check.run.searches", searches)
     assert run(["check", "PB1-11"]) == code
     shown = capfd.readouterr()
     assert said in shown.out
@@ -118,7 +118,7 @@ def test_what_comes_of_a_certificate_is_shown(
 def test_a_folder_that_cannot_be_written_any_more(
     tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("checker.commands.certificates.writable", lambda folder: None)
+    monkeypatch.setattr("checker.commands.check.certificates.writable", lambda folder: None)
     (tmp_path / "taken").write_text("a file")
     assert run(["check", "PB1-11", "--certificates", str(tmp_path / "taken" / "in")]) == Exit.USAGE
     shown = capfd.readouterr()

@@ -6,13 +6,13 @@ from dataclasses import replace
 import pytest
 
 from checker.cli import run
-from checker.commands import standing
-from checker.commands.check import Compared, check, results
-from checker.commands.codes import Exit
-from checker.commands.further import Further
-from checker.commands.standing import Chains
-from checker.commands.variant import Variant
-from checker.engine import AUTO, Limits
+from checker.commands.check import standing
+from checker.commands.check.further import Further
+from checker.commands.check.run import Compared, check, results
+from checker.commands.check.standing import Chains
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.variant import Variant
+from checker.engines import AUTO, Limits
 from properties.catalogue import promises
 from properties.promises.promise import Promise
 from spec_model.repairs import repairs

@@ -11,14 +11,14 @@ from junitparser import Error, Failure, JUnitXml
 
 from checker.certify.outcome import Rejected
 from checker.cli import run
-from checker.commands import check as checking
-from checker.commands.check import Compared
-from checker.commands.ci import finding, level
-from checker.commands.codes import Exit
+from checker.commands.check import run as checking
+from checker.commands.check.ci import finding, level
+from checker.commands.check.run import Compared
+from checker.commands.shared.codes import Exit
 from checker.render.ci import Level
-from checker.result import Result
-from checker.trace import Trace
-from checker.verdict import Exhausted, Proved, Unknown, Verdict, Violated
+from checker.results.trace import Trace
+from checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
+from checker.verify.result import Result
 from properties.catalogue import Expected, catalogue, expected
 from spec_model.lang.errors import ModelError
 from spec_model.rover import systems

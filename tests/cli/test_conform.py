@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 from spec_model.abstraction import boards
 from tests.conform.recorded import copied, long_log, written
 

@@ -10,11 +10,11 @@ import pytest
 from jsonschema import Draft202012Validator
 
 import checker
+from checker.adapters.c_build import compiler
 from checker.cli import run
-from checker.commands import conforming
-from checker.commands.codes import Exit
-from checker.conform.adapters.c_build import compiler
-from checker.conform.logs import Result, examine
+from checker.commands.conform import run as conforming
+from checker.commands.shared.codes import Exit
+from checker.logs import Result, examine
 from spec_model.abstraction import boards
 from tests.conform.recorded import Row, copied, long_log, written
 

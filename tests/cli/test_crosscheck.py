@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit
-from checker.conform.cross import check, recorded
-from checker.conform.cross.environment import Environment
-from checker.conform.cross.search import Run
+from checker.commands.shared.codes import Exit
+from checker.compare import check, recorded
+from checker.compare.environment import Environment
+from checker.compare.search import Run
 from spec_model.abstraction import boards
 from tests.conform import cross_faults
 

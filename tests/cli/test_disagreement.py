@@ -8,15 +8,15 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.codes import Exit, UsageError
-from checker.commands.disagreeing import bundle
-from checker.portfolio import Disagreement
+from checker.commands.shared.codes import Exit, UsageError
+from checker.commands.shared.disagreement import bundle
+from checker.verify.portfolio import Disagreement
 
 ROOT = Path(__file__).parents[2]
 LIAR = '''
 """An engine for tests: says that nothing is ever reached."""
 
-from checker.verdict import Inductive, Unreachable
+from checker.results.verdict import Inductive, Unreachable
 
 NAME = "liar"
 SUMMARY = "wrong on purpose"

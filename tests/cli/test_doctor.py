@@ -13,12 +13,12 @@ import pytest
 
 from checker import cache
 from checker.cli import run
-from checker.commands import doctor
-from checker.commands.codes import Exit
-from checker.decide import Task, decide
-from checker.engine import Limits, Progress, engines
-from checker.result import Result
-from checker.verdict import Unknown
+from checker.commands.doctor import run as doctor
+from checker.commands.shared.codes import Exit
+from checker.engines import Limits, Progress, engines
+from checker.results.verdict import Unknown
+from checker.verify.decide import Task, decide
+from checker.verify.result import Result
 from spec_model.lang.system import System
 
 ROOT = Path(__file__).parents[2]
@@ -102,7 +102,7 @@ def test_an_engine_that_gives_up_on_what_is_true_is_found_out(monkeypatch: pytes
             unknown = Unknown("no more time", 7, "bmc")
             yield replace(found, verdict=unknown) if found.property.id == "true" else found
 
-    monkeypatch.setattr("checker.decide.decide", giving_up)
+    monkeypatch.setattr("checker.verify.decide.decide", giving_up)
     assert doctor.tried("bmc") == "says unknown of what is true"
 
 

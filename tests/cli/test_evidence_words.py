@@ -2,9 +2,9 @@
 
 import pytest
 
-from checker.commands.check import evidence, in_short, recorded
-from checker.result import Result
-from checker.verdict import Unknown
+from checker.commands.check.run import evidence, in_short, recorded
+from checker.results.verdict import Unknown
+from checker.verify.result import Result
 from properties.catalogue import Expected
 from properties.forms import Property, never, reachable
 from spec_model.lang.expr import flag

@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit
-from checker.commands.exploring_commands import COMMANDS, named
-from checker.exploring.written import Refused
+from checker.commands.explore.commands import COMMANDS, named
+from checker.commands.shared.codes import Exit
+from checker.explore.by_hand.written import Refused
 from tests.cli.terminal import Terminal
 
 COMMAND = [sys.executable, "-m", "checker", "explore"]

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 from junitparser import JUnitXml
 
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 from checker.engines import explicit, kinduction
 
 ROOT = Path(__file__).parents[2]

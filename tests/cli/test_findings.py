@@ -8,15 +8,15 @@ from pathlib import Path
 import pytest
 
 from checker.cli import app, run
-from checker.commands import findings
-from checker.commands.check import Compared
-from checker.commands.codes import Exit
-from checker.commands.findings import SHOWN, Guide, gravest, listed, program, read_on, totals
-from checker.commands.wrapping import plain
+from checker.commands.check import findings
+from checker.commands.check.findings import SHOWN, Guide, gravest, listed, program, read_on, totals
+from checker.commands.check.run import Compared
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.wrapping import plain
 from checker.model.rover import rover
-from checker.result import Result
-from checker.trace import Trace
-from checker.verdict import Exhausted, Proved, Unknown, Verdict, Violated
+from checker.results.trace import Trace
+from checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
+from checker.verify.result import Result
 from properties.catalogue import Expected
 from properties.forms import Property, Reachable, always, reachable
 from properties.requirements import PROMISES, requirements

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands import graphing
-from checker.commands.codes import Exit
+from checker.commands.graph import run as graphing
+from checker.commands.shared.codes import Exit
 from tests.model_files.files import HEATER
 
 Capture = pytest.CaptureFixture[str]

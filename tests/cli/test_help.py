@@ -8,15 +8,15 @@ from pathlib import Path
 
 import click
 import pytest
+from checker.commands.list import LISTS
 from click.testing import CliRunner
 
 from checker.cli import app, run
-from checker.commands.helping import EXAMPLES
-from checker.commands.listing import LISTS as LISTED
-from checker.commands.listing import OTHERS
-from checker.commands.output import counted
-from checker.engine import engines
-from checker.verbs.properties import LISTS
+from checker.commands.list.run import LISTS as LISTED
+from checker.commands.list.run import OTHERS
+from checker.commands.shared.help_examples import EXAMPLES
+from checker.commands.shared.output import counted
+from checker.engines import engines
 
 ROOT = Path(__file__).parents[2]
 WRITTEN = "".join(p.read_text(encoding="utf-8") for p in (ROOT / "README.md", *(ROOT / "docs").glob("*.md")))

@@ -10,7 +10,7 @@ from types import ModuleType
 import pytest
 
 from checker.__main__ import main
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 
 
 class Interrupting:

@@ -5,13 +5,13 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from checker.commands.list import LISTS
 from jsonschema import Draft202012Validator
 
 import checker
 from checker.cli import run
-from checker.commands.codes import Exit
-from checker.engine import engines
-from checker.verbs.properties import LISTS
+from checker.commands.shared.codes import Exit
+from checker.engines import engines
 from properties.catalogue import catalogue
 from properties.requirements import requirements
 from spec_model.readings import readings

@@ -10,9 +10,9 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands import tracing
-from checker.commands.codes import Exit
-from checker.commands.output import write
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.output import write
+from checker.commands.trace import run as tracing
 
 COMMANDS = [["check", "PB1-11"], ["check", "PB1-11", "--json"], ["list", "properties"]]
 

@@ -8,10 +8,10 @@ import pytest
 from rich.console import Console
 
 from checker.cli import app, run
-from checker.commands import progress
-from checker.commands.codes import Exit
-from checker.commands.progress import Watch
-from checker.commands.silence import silence
+from checker.commands.shared import progress
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.progress import Watch
+from checker.commands.shared.silence import silence
 
 
 def watch() -> Watch:

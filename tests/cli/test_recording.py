@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 
 TWINS = """
 from properties.forms import never

@@ -5,12 +5,12 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.check import results
-from checker.commands.codes import Exit
-from checker.commands.promises import page
-from checker.commands.repairing import Proof, repair_pages, sections
-from checker.commands.variant import Variant
-from checker.engine import AUTO, Limits
+from checker.commands.check.run import results
+from checker.commands.reports.promises import page
+from checker.commands.reports.repairs import Proof, repair_pages, sections
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.variant import Variant
+from checker.engines import AUTO, Limits
 from properties.catalogue import expected, promises
 from spec_model.repairs import repairs
 

@@ -6,20 +6,21 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands import reviewing, reviewing_graphs
-from checker.commands.check import Compared
-from checker.commands.codes import Exit
-from checker.commands.premises import told
-from checker.commands.reviewed import by_number, cause, drawn, named, written
-from checker.commands.reviewing_graphs import state_graphs
-from checker.commands.reviewing_rover import coverage
-from checker.engine import Limits
+from checker.commands.check.premises import told
+from checker.commands.check.run import Compared
+from checker.commands.report import command
+from checker.commands.report import graphs as reviewing_graphs
+from checker.commands.report import report as verb
+from checker.commands.report import run as reviewing
+from checker.commands.report.data import by_number, cause, drawn, named, written
+from checker.commands.report.graphs import state_graphs
+from checker.commands.report.rover import coverage
+from checker.commands.shared.codes import Exit
+from checker.engines import Limits
 from checker.model.rover import rover
 from checker.render.review.model import Seen
-from checker.result import Result
-from checker.verbs.report import command
-from checker.verbs.report import report as verb
-from checker.verdict import Unknown, Violated
+from checker.results.verdict import Unknown, Violated
+from checker.verify.result import Result
 from properties.catalogue import catalogue, expected
 from spec_model.rover import systems
 from tests.render.test_page import Reader

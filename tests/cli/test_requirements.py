@@ -8,12 +8,12 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.check import Compared, results
-from checker.commands.codes import Exit
-from checker.commands.reporting import NOT_ASKED, differences, pages_of_verdicts
-from checker.commands.requirements import DECIDED, ON_RECORD, because, counts, page, show, words
-from checker.commands.reviewing_more import with_reasons
-from checker.engine import AUTO, Limits
+from checker.commands.check.run import Compared, results
+from checker.commands.report.forced import with_reasons
+from checker.commands.reports.run import NOT_ASKED, differences, pages_of_verdicts
+from checker.commands.requirements.run import DECIDED, ON_RECORD, because, counts, page, show, words
+from checker.commands.shared.codes import Exit
+from checker.engines import AUTO, Limits
 from checker.model.rover import rover
 from properties.catalogue import catalogue, expected
 from properties.coverage import Coverage, matrix
@@ -128,7 +128,7 @@ def test_verdicts_can_be_decided_now(
 ) -> None:
     some = {id: catalogue()[id] for id in ("PB1-11", "PB2-12-first")}
     model = replace(rover(), properties=some)
-    monkeypatch.setattr("checker.commands.requirements.rover", lambda: model)
+    monkeypatch.setattr("checker.commands.requirements.run.rover", lambda: model)
     code = run(["requirements", "--check", "--json"])
     found = json.loads(capfd.readouterr().out)
     assert (code, found["verdicts"]) == (Exit.CHANGED, DECIDED)

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit, UsageError
-from checker.commands.select import pick_properties
-from checker.verbs.check import _selection
+from checker.commands.check import _selection
+from checker.commands.shared.codes import Exit, UsageError
+from checker.commands.shared.select import pick_properties
 from properties.catalogue import catalogue
 
 

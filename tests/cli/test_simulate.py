@@ -10,8 +10,8 @@ from xml.etree import ElementTree
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit
-from checker.commands.simulated import lanes
+from checker.commands.shared.codes import Exit
+from checker.commands.simulate.lanes import lanes
 from checker.render import run_plot
 from supervisor.bench import judge, loads, simulate
 from supervisor.bench.conditions import BOTH, CONDITIONS

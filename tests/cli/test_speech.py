@@ -12,12 +12,12 @@ from jsonschema import Draft202012Validator
 
 import checker
 from checker.cli import run
-from checker.commands.check import check
-from checker.commands.codes import Exit
-from checker.commands.doctor import memory
-from checker.commands.progress import Watch
-from checker.commands.variant import Variant
-from checker.engine import AUTO, Limits
+from checker.commands.check.run import check
+from checker.commands.doctor.run import memory
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.progress import Watch
+from checker.commands.shared.variant import Variant
+from checker.engines import AUTO, Limits
 from properties.catalogue import Expected
 from spec_model.rover import systems
 from tests.cli.terminal import Terminal
@@ -123,7 +123,7 @@ def test_a_quiet_watch_shows_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     from rich.console import Console
 
     told = StringIO()
-    monkeypatch.setattr("checker.commands.progress.PAUSE", 0.0)
+    monkeypatch.setattr("checker.commands.shared.progress.PAUSE", 0.0)
     for quiet in (True, False):
         with Watch(Console(file=told), 2, quiet) as watch:
             watch.say("one", "depth 3")

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 from tests.cli import conversation
 from tests.cli.conversation import COMMANDS, MARK
 from tests.cli.terminal import PATIENCE, Terminal

@@ -9,13 +9,13 @@ from jsonschema import Draft202012Validator
 
 import checker
 from checker.cli import run
-from checker.commands import generating
-from checker.commands.codes import Exit
-from checker.commands.generating import Saying
-from checker.conform.cover.fingerprint import fingerprint
-from checker.conform.cover.generate import Aim
-from checker.conform.cover.keep import Kept, kept_of, written
-from checker.conform.cover.watch import watched
+from checker.commands.shared.codes import Exit
+from checker.commands.testgen import run as generating
+from checker.commands.testgen.run import Saying
+from checker.testgen.fingerprint import fingerprint
+from checker.testgen.generate import Aim
+from checker.testgen.keep import Kept, kept_of, written
+from checker.testgen.watch import watched
 from tests.conform.cover_toys import SYSTEM, TOY
 
 SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "testgen-1.json").read_text("utf-8"))

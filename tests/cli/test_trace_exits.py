@@ -19,15 +19,15 @@ from jsonschema import validate
 from markdown_it import MarkdownIt
 
 from checker.cli import run
-from checker.commands.check import results
-from checker.commands.codes import Exit
-from checker.commands.concrete import concrete
-from checker.commands.exits import exit_written
-from checker.commands.tracing import Showing
-from checker.engine import AUTO, Limits
+from checker.commands.check.run import results
+from checker.commands.shared.codes import Exit
+from checker.commands.trace.board_steps import concrete
+from checker.commands.trace.formats import exit_written
+from checker.commands.trace.run import Showing
+from checker.engines import AUTO, Limits
 from checker.render import renderers, trace_itf, trace_json
-from checker.trace import Trace
-from checker.verdict import Violated
+from checker.results.trace import Trace
+from checker.results.verdict import Violated
 from properties.catalogue import catalogue
 from spec_model.lang.errors import ModelError
 from spec_model.rover import systems

@@ -6,12 +6,12 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit
-from checker.commands.examples import Wanted
-from checker.commands.explaining import Explaining
-from checker.commands.tracing import Showing, trace
-from checker.engine import Limits
-from checker.trace import Trace
+from checker.commands.shared.codes import Exit
+from checker.commands.trace.examples import Wanted
+from checker.commands.trace.explain import Explaining
+from checker.commands.trace.run import Showing, trace
+from checker.engines import Limits
+from checker.results.trace import Trace
 from properties.catalogue import Expected
 from properties.forms import Property, reachable
 from spec_model.rover import systems

@@ -5,21 +5,21 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands import tracing
-from checker.commands.codes import Exit
-from checker.commands.examples import Wanted, asked, of_arrow, of_state
-from checker.commands.exits import exit_written
-from checker.commands.explaining import Explaining
-from checker.commands.tracing import Showing, trace
-from checker.commands.variant import pick_variant
-from checker.engine import Limits
-from checker.lowered import lowered
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.variant import pick_variant
+from checker.commands.trace import run as tracing
+from checker.commands.trace.examples import Wanted, asked, of_arrow, of_state
+from checker.commands.trace.explain import Explaining
+from checker.commands.trace.formats import exit_written
+from checker.commands.trace.run import Showing, trace
+from checker.engines import Limits
 from checker.render import renderers
 from checker.render.ci import Level, of_trace
 from checker.render.waves import outcome
-from checker.result import Result, result
-from checker.trace import Trace
-from checker.verdict import Reached, Run, Unknown, Violated
+from checker.results.trace import Trace
+from checker.results.verdict import Reached, Run, Unknown, Violated
+from checker.system.lowered import lowered
+from checker.verify.result import Result, result
 from properties.catalogue import Expected
 from properties.forms import Property, reachable
 from properties.reduce import reduce

@@ -2,7 +2,7 @@
 
 import pytest
 
-from checker.conform.adapters.c_build import compiler
+from checker.adapters.c_build import compiler
 
 
 @pytest.fixture(scope="session")

@@ -7,7 +7,7 @@ from io import StringIO
 from pathlib import Path
 from random import Random
 
-from checker.conform.adapters.python_calls import Instance
+from checker.adapters.python_calls import Instance
 from spec_model.abstraction import Board, Signal, boards
 from supervisor.board1 import Board1
 from supervisor.board2.board import Board2

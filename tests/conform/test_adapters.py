@@ -14,9 +14,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.conform.adapters import Limits, adapters, start
-from checker.conform.adapters.python import start as start_python
-from checker.conform.implementation import ImplementationError, notes, run
+from checker.adapters import Limits, adapters, start
+from checker.adapters.implementation import ImplementationError, notes, run
+from checker.adapters.python import start as start_python
 from spec_model.abstraction import boards
 from tests.conform.adapters_counter import TELL
 from tests.profiles import examples

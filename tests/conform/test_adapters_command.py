@@ -7,8 +7,8 @@ from contextlib import closing
 
 import pytest
 
-from checker.conform.adapters import Limits, start
-from checker.conform.implementation import ImplementationError, run
+from checker.adapters import Limits, start
+from checker.adapters.implementation import ImplementationError, run
 from spec_model.abstraction import boards
 
 BOARD = boards()["board1"]

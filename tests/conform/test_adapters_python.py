@@ -5,10 +5,10 @@ from math import isinf
 
 import pytest
 
-from checker.conform.adapters import Limits, firmware, start
-from checker.conform.adapters.python import start as start_python
-from checker.conform.adapters.records import builder, reader
-from checker.conform.implementation import ImplementationError, run
+from checker.adapters import Limits, firmware, start
+from checker.adapters.implementation import ImplementationError, run
+from checker.adapters.python import start as start_python
+from checker.adapters.records import builder, reader
 from spec_model.abstraction import boards
 from supervisor import Board1, Board1Inputs, Board1Outputs, Board2, Board2Inputs, Board2Outputs
 from supervisor.board2.actuation import Actuated, MotorCommand

@@ -5,17 +5,17 @@ from random import Random
 
 import pytest
 
-from checker.conform.cover.coverage import NOT_TRIED, Coverage, Effort, chosen, cover
-from checker.conform.cover.explore import Machine, Place, explored, first_reached, shortened
-from checker.conform.cover.fingerprint import fingerprint
-from checker.conform.cover.goals import Goal, Kind
-from checker.conform.cover.keep import Kept, kept_of, written
-from checker.conform.cover.replay import first_reached as replayed
-from checker.conform.cover.replay import played
-from checker.conform.cover.scripts import Script, blocks, script, steps, unfolded
-from checker.conform.cover.search import Found, Uncoverable
-from checker.conform.cover.watch import watched
-from checker.conform.cover.weather import Weather
+from checker.testgen.coverage import NOT_TRIED, Coverage, Effort, chosen, cover
+from checker.testgen.explore import Machine, Place, explored, first_reached, shortened
+from checker.testgen.fingerprint import fingerprint
+from checker.testgen.goals import Goal, Kind
+from checker.testgen.keep import Kept, kept_of, written
+from checker.testgen.replay import first_reached as replayed
+from checker.testgen.replay import played
+from checker.testgen.scripts import Script, blocks, script, steps, unfolded
+from checker.testgen.search import Found, Uncoverable
+from checker.testgen.watch import watched
+from checker.testgen.weather import Weather
 from spec_model.abstraction import Board, boards
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block
@@ -185,7 +185,7 @@ def test_few_tests_reach_all_that_is_covered(covered: Coverage) -> None:
 
 
 def test_a_false_claim_is_not_kept() -> None:
-    from checker.runs.replay import ReplayError
+    from checker.verify.runs.replay import ReplayError
 
     coverage = Coverage(TOY, LOOKED.goals)
     coverage.scripts.append((toy("00"), {NEVER: 2}))
@@ -229,7 +229,7 @@ def test_going_on_asks_for_nothing_that_is_settled(
         asked.extend(goals)
         return ()
 
-    monkeypatch.setattr("checker.conform.cover.coverage.searched", search)
+    monkeypatch.setattr("checker.testgen.coverage.searched", search)
     cover(again, SYSTEM, Effort(ticks=0), lambda line: None)
     assert asked == [] and again.kept("as drawn") == covered.kept("as drawn")
 

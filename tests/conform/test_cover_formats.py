@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from checker.conform.cover import kept_text
-from checker.conform.cover.formats import FORMATS
-from checker.conform.cover.formats.expected import Expected, expected, rows
-from checker.conform.cover.keep import kept_of
-from checker.conform.cover.scripts import Script, unfolded
+from checker.testgen import kept_text
+from checker.testgen.formats import FORMATS
+from checker.testgen.formats.expected import Expected, expected, rows
+from checker.testgen.keep import kept_of
+from checker.testgen.scripts import Script, unfolded
 from spec_model.abstraction import boards
 from tests.conform.cover_toys import TOY
 

@@ -2,14 +2,14 @@
 
 import pytest
 
-from checker.conform.adapters import python
-from checker.conform.cover import kept, kept_text
-from checker.conform.cover.fingerprint import fingerprint
-from checker.conform.cover.formats.expected import required
-from checker.conform.cover.goals import Kind
-from checker.conform.cover.keep import kept_of
-from checker.conform.cover.replay import first_reached
-from checker.conform.cover.watch import watched
+from checker.adapters import python
+from checker.testgen import kept, kept_text
+from checker.testgen.fingerprint import fingerprint
+from checker.testgen.formats.expected import required
+from checker.testgen.goals import Kind
+from checker.testgen.keep import kept_of
+from checker.testgen.replay import first_reached
+from checker.testgen.watch import watched
 from spec_model.abstraction import boards
 from spec_model.rover import systems
 
@@ -40,7 +40,7 @@ def test_every_goal_is_covered_or_said_not_to_be(name: str) -> None:
 
 @pytest.mark.parametrize("name", BOARDS)
 def test_what_is_proved_is_proved_of_the_charts_as_drawn(name: str) -> None:
-    """After a change of charts: ``rovercheck testgen --keep checker/conform/cover/kept``."""
+    """After a change of charts: ``rovercheck testgen --keep checker/testgen/kept``."""
     document = kept_of(boards()[name], kept_text(name))
     assert document.charts == fingerprint(boards()[name], systems()[name])
 

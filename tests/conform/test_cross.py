@@ -7,18 +7,18 @@ from pathlib import Path
 
 import pytest
 
-from checker.conform.adapters import python
-from checker.conform.cross import Allowance, Mismatch, cross_check, effort, quick_check, replay
-from checker.conform.cross.beside import rerun
-from checker.conform.cross.check import Remembered, recorded_suite
-from checker.conform.cross.coverage import arrows
-from checker.conform.cross.recorded import counterexamples
-from checker.conform.cross.reproduce import file_name, pytest_file, stimulus_of
-from checker.conform.cross.result import ALLOWED, FIXED, RANDOM
-from checker.conform.cross.search import Run, Search
-from checker.conform.cross.smaller import Budget, smaller
-from checker.conform.cross.strategy import ENVIRONMENTS
-from checker.conform.implementation import Implementation, ImplementationError, Values
+from checker.adapters import python
+from checker.adapters.implementation import Implementation, ImplementationError, Values
+from checker.compare import Allowance, Mismatch, cross_check, effort, quick_check, replay
+from checker.compare.beside import rerun
+from checker.compare.check import Remembered, recorded_suite
+from checker.compare.coverage import arrows
+from checker.compare.recorded import counterexamples
+from checker.compare.reproduce import file_name, pytest_file, stimulus_of
+from checker.compare.result import ALLOWED, FIXED, RANDOM
+from checker.compare.search import Run, Search
+from checker.compare.smaller import Budget, smaller
+from checker.compare.strategy import ENVIRONMENTS
 from spec_model.abstraction import boards
 from tests.conform import cross_faults
 from tests.conform.cross_faults import FAULTS

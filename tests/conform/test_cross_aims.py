@@ -5,14 +5,14 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from checker.conform.cross.aims import aims
-from checker.conform.cross.beside import Charts, played, rerun
-from checker.conform.cross.environment import AROUND
-from checker.conform.cross.fixed import fixed
-from checker.conform.cross.smaller import columns
-from checker.conform.cross.stimulus import SILENT, Block, Every, Player, Stimulus, Toward
-from checker.conform.cross.strategy import ENVIRONMENTS
-from checker.conform.cross.values import nearest
+from checker.compare.aims import aims
+from checker.compare.beside import Charts, played, rerun
+from checker.compare.environment import AROUND
+from checker.compare.fixed import fixed
+from checker.compare.smaller import columns
+from checker.compare.stimulus import SILENT, Block, Every, Player, Stimulus, Toward
+from checker.compare.strategy import ENVIRONMENTS
+from checker.compare.values import nearest
 from spec_model.abstraction import Value, boards
 from spec_model.abstraction.stamps import CLOCK
 from spec_model.lang.expr import Temporal

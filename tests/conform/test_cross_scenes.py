@@ -7,10 +7,10 @@ import pytest
 
 from benchmarks.faults.by_hand import Fault, faults
 from benchmarks.faults.hand_run import InProcess
-from checker.conform.cross.beside import compared, played
-from checker.conform.cross.environment import Environment
-from checker.conform.cross.stimulus import Block, Stimulus
-from checker.conform.cross.strategy import ENVIRONMENTS
+from checker.compare.beside import compared, played
+from checker.compare.environment import Environment
+from checker.compare.stimulus import Block, Stimulus
+from checker.compare.strategy import ENVIRONMENTS
 
 FAULTS = {
     "timer, board1, Backward_mode_toggle: 1 s becomes 1.02 s": "presses",

@@ -12,9 +12,9 @@ import pytest
 from hypothesis import Phase, find, given, settings
 from hypothesis import strategies as st
 
-from checker.conform.adapters import Limits, start
-from checker.conform.adapters.python import start as start_python
-from checker.conform.implementation import notes, run
+from checker.adapters import Limits, start
+from checker.adapters.implementation import notes, run
+from checker.adapters.python import start as start_python
 from spec_model.abstraction import boards
 from tests.profiles import examples
 

@@ -10,10 +10,10 @@ from benchmarks.faults.judged import KINDS, judgements
 from benchmarks.faults.mutate import path
 from benchmarks.faults.package import importers, replaced
 from benchmarks.faults.recorded import Found, Run, prepared, search
-from checker.conform.cross import SILENT, Block, Every, Stimulus
-from checker.conform.cross.beside import Step, compared, played
-from checker.conform.cross.stimulus import Change
-from checker.conform.cross.strategy import ENVIRONMENTS
+from checker.compare import SILENT, Block, Every, Stimulus
+from checker.compare.beside import Step, compared, played
+from checker.compare.stimulus import Change
+from checker.compare.strategy import ENVIRONMENTS
 from spec_model.abstraction import boards
 
 Changes = dict[str, Change]

@@ -4,13 +4,13 @@ from collections.abc import Mapping
 
 import pytest
 
-from checker.commands.check import results
-from checker.commands.crossrecording import in_steps_of
-from checker.conform.adapters.python_calls import Instance
-from checker.conform.cross.beside import differs, rerun
-from checker.engine import AUTO, Limits
-from checker.trace import Trace
-from checker.verdict import Violated
+from checker.adapters.python_calls import Instance
+from checker.commands.check.run import results
+from checker.commands.crosscheck.record import in_steps_of
+from checker.compare.beside import differs, rerun
+from checker.engines import AUTO, Limits
+from checker.results.trace import Trace
+from checker.results.verdict import Violated
 from properties.catalogue import catalogue, expected
 from spec_model.abstraction import Board, boards
 from spec_model.abstraction.board import units

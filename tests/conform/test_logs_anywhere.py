@@ -10,11 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.cli import run
-from checker.commands.codes import Exit
-from checker.conform.logs import Map, Result, examine
-from checker.conform.logs.cones import Cone, cones
-from checker.conform.logs.program import Needed
-from checker.conform.logs.signals import TIME, Vocabulary
+from checker.commands.shared.codes import Exit
+from checker.logs import Map, Result, examine
+from checker.logs.cones import Cone, cones
+from checker.logs.program import Needed
+from checker.logs.signals import TIME, Vocabulary
 from spec_model.abstraction import boards
 from tests.conform.recorded import copied, long_log
 from tests.profiles import examples

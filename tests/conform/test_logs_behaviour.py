@@ -8,13 +8,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.conform.logs import Map, examine
-from checker.conform.logs.behaviour import Behaviour
-from checker.conform.logs.cones import Cone, cones
-from checker.conform.logs.deviations import Deviation
-from checker.conform.logs.mapping import Column
-from checker.conform.logs.program import Needed
-from checker.conform.logs.signals import Vocabulary
+from checker.logs import Map, examine
+from checker.logs.behaviour import Behaviour
+from checker.logs.cones import Cone, cones
+from checker.logs.deviations import Deviation
+from checker.logs.mapping import Column
+from checker.logs.program import Needed
+from checker.logs.signals import Vocabulary
 from spec_model.abstraction import boards
 from spec_model.lang.evaluate import step
 from spec_model.lang.interpret import Interpreter

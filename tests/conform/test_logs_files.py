@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.conform.logs import LogError, Map
-from checker.conform.logs import files as log_files
-from checker.conform.logs.cells import Raw, converter
-from checker.conform.logs.files import BLOCK, opened
-from checker.conform.logs.mapping import Column
+from checker.logs import LogError, Map
+from checker.logs import files as log_files
+from checker.logs.cells import Raw, converter
+from checker.logs.files import BLOCK, opened
+from checker.logs.mapping import Column
 from spec_model.abstraction import Signal, boards
 
 Rows = list[tuple[int, list[str]]]

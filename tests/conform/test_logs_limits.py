@@ -10,9 +10,9 @@ from random import Random
 
 import pytest
 
-from checker.conform.logs import LogError, Map, files, limits
-from checker.conform.logs.files import BLOCK, BUFFER, PIECE, opened
-from checker.conform.logs.log import open_log
+from checker.logs import LogError, Map, files, limits
+from checker.logs.files import BLOCK, BUFFER, PIECE, opened
+from checker.logs.log import open_log
 
 HEAD = "now_ms,temp_status\n20,0\n"
 

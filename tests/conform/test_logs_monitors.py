@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.conform.logs import Map, as_on_record, examine
-from checker.conform.logs.cells import converter
-from checker.conform.logs.check import Result
-from checker.conform.logs.choosing import choose
-from checker.conform.logs.formula import Rows
-from checker.conform.logs.judge import Judge
-from checker.conform.logs.mapping import Column
-from checker.conform.logs.signals import Vocabulary
+from checker.logs import Map, as_on_record, examine
+from checker.logs.cells import converter
+from checker.logs.check import Result
+from checker.logs.choosing import choose
+from checker.logs.formula import Rows
+from checker.logs.judge import Judge
+from checker.logs.mapping import Column
+from checker.logs.signals import Vocabulary
 from properties.catalogue import catalogue
 from properties.forms import (
     Always,

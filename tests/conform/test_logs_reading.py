@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.conform.logs import LogError, Map, examine, read_map
-from checker.conform.logs.log import Block, open_log
+from checker.logs import LogError, Map, examine, read_map
+from checker.logs.log import Block, open_log
 from spec_model.abstraction import boards
 from tests.conform.recorded import Row, copied, long_log, text, written
 

@@ -4,7 +4,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.strategies import DataObject
 
-from checker.conform.python_text import text_of
+from checker.encode.python_text import text_of
 from spec_model.lang.domain import chosen, integer
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Var, flag, var

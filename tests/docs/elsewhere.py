@@ -52,7 +52,7 @@ COMMANDS = {
     "rovercheck testgen --format c -o tests_c": COVERS,
     "rovercheck testgen --kept": Instead("tests/cli/test_testgen.py writes the kept set of a board"),
     "rovercheck testgen --keep FOLDER": COVERS,
-    "rovercheck testgen --keep checker/conform/cover/kept": COVERS,
+    "rovercheck testgen --keep checker/testgen/kept": COVERS,
     "rovercheck mutate": MUTATES,
     "rovercheck mutate --system rover": MUTATES,
     "rovercheck mutate --part Relay": MUTATES,
@@ -161,7 +161,7 @@ SHOWN = {
 PROGRAMS = {
     ("docs/adapters.md", "class Supervisor:"): "python",
     ("docs/adapters.md", "import json, sys"): "python",
-    ("docs/crosscheck.md", "from checker.conform.cross import cross_check, quick_check"): "imports",
+    ("docs/crosscheck.md", "from checker.compare import cross_check, quick_check"): "imports",
     ("docs/models.md", "from properties.forms import always"): "model",
 }
 """Python of a page: compiled; its imports executed; or read as a model."""

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 
 ROOT = Path(__file__).parents[2]
 INSTALLED = """

@@ -15,7 +15,7 @@ from mkdocs.config import load_config
 from playwright.sync_api import Page
 
 from checker.cli import app
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 from docs.reference import forms, language
 from docs.reference.listings import applied, listings
 from spec_model.lang.errors import ModelError

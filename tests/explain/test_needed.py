@@ -12,9 +12,9 @@ from checker.explain import backwards, fewest, needed
 from checker.explain.completions import check
 from checker.explain.needed import Forcing, forcing
 from checker.explain.unrolled import OutOfTime, Unrolled
-from checker.runs.replay import ReplayError
-from checker.trace import Needed
-from checker.verdict import Run
+from checker.results.trace import Needed
+from checker.results.verdict import Run
+from checker.verify.runs.replay import ReplayError
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import chosen, integer
 from spec_model.lang.evaluate import admissible, step

@@ -2,16 +2,16 @@
 
 from dataclasses import replace
 
-from checker.engine import Limits
+from checker.engines import Limits
 from checker.explain.explained import explained, unexplained
 from checker.explain.others import NoMore, Other, Others
 from checker.explain.unlike import Unlike
-from checker.lowered import lowered
 from checker.render.reasons import in_reason
 from checker.render.trace_table import render as table
-from checker.result import result
-from checker.trace import Trace
-from checker.verdict import Reached, Run, Violated
+from checker.results.trace import Trace
+from checker.results.verdict import Reached, Run, Violated
+from checker.system.lowered import lowered
+from checker.verify.result import result
 from properties.forms import Property, never
 from properties.reduce import reduce
 from spec_model.lang.chart import Chart, State, to

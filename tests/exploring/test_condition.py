@@ -2,9 +2,9 @@
 
 import pytest
 
-from checker.exploring.condition import condition
-from checker.exploring.names import Names
-from checker.exploring.written import Refused
+from checker.explore.by_hand.condition import condition
+from checker.explore.by_hand.names import Names
+from checker.explore.by_hand.written import Refused
 from spec_model.lang.domain import enumeration, integer
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import flag, var

@@ -2,9 +2,9 @@
 
 import pytest
 
-from checker.exploring import session
-from checker.exploring.session import Session
-from checker.exploring.written import Refused
+from checker.explore.by_hand import session
+from checker.explore.by_hand.session import Session
+from checker.explore.by_hand.written import Refused
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block
 from spec_model.lang.expr import flag

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.exploring import simulation
-from checker.exploring.admitted import broken, drawn
-from checker.exploring.simulation import Simulation
-from checker.exploring.written import Refused, value
-from checker.runs.replay import ReplayError
+from checker.explore.by_hand import simulation
+from checker.explore.by_hand.admitted import broken, drawn
+from checker.explore.by_hand.simulation import Simulation
+from checker.explore.by_hand.written import Refused, value
+from checker.verify.runs.replay import ReplayError
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block, Chart, State, to
 from spec_model.lang.domain import chosen, enumeration, fixed, integer

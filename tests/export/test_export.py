@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit
-from checker.commands.exporting import file_name
+from checker.commands.export.run import file_name
+from checker.commands.shared.codes import Exit
 from checker.export import Problem, exporters, problem
 from checker.export.names import identifiers, symbols
 from properties.catalogue import catalogue

@@ -7,9 +7,9 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 
-from checker.engine import Limits, engines, quiet
+from checker.engines import Limits, engines, quiet
 from checker.export import Bad, Problem, exporters, problem
-from checker.verdict import Reached, Unreachable
+from checker.results.verdict import Reached, Unreachable
 from properties.catalogue import catalogue
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import Domain, Num, boolean, chosen, integer

@@ -9,11 +9,10 @@ from hypothesis import strategies as st
 
 from checker.encode.paths import path_program
 from checker.encode.symbolic import transition
-from checker.engine import Limits, quiet
-from checker.engines import explicit
-from checker.partition import partitions
-from checker.slice import sliced
-from checker.verdict import Reached
+from checker.engines import Limits, explicit, quiet
+from checker.results.verdict import Reached
+from checker.system.partition import partitions
+from checker.system.slice import sliced
 from properties.forms import Never, Property
 from properties.reduce import reduce
 from spec_model.lang.action import If, assign, send

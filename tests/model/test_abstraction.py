@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.conform.adapters.python import start
+from checker.adapters.python import start
 from spec_model.abstraction import Board, boards
 from spec_model.abstraction.stamps import CLOCK, MeanOfTen, Stamp, Updates, age, since
 from spec_model.lang.action import assign

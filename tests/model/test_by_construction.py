@@ -8,7 +8,7 @@ from collections.abc import Iterator
 
 import pytest
 
-from checker.slice import sliced
+from checker.system.slice import sliced
 from spec_model.board1 import REFERENCES, SUPERVISOR, monitors
 from spec_model.board1.masks import COMPONENTS
 from spec_model.board2.acquisition import axis_x, axis_y, ble_task, button1, button2

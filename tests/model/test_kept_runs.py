@@ -6,13 +6,13 @@ from pathlib import Path
 
 import pytest
 
-from checker.lowered import lowered
 from checker.model.kept_runs import PREMISES, Kept, file_of, read, text
 from checker.model.kept_runs import SCHEMA as SCHEMAS
 from checker.model.rover import rover
-from checker.runs.known import reached
-from checker.runs.replay import replay
-from checker.verdict import Run
+from checker.results.verdict import Run
+from checker.system.lowered import lowered
+from checker.verify.runs.known import reached
+from checker.verify.runs.replay import replay
 from properties.premise import premise
 from properties.reduce import reduce
 from spec_model.lang.errors import ModelError

@@ -2,9 +2,9 @@
 
 import pytest
 
-from checker.commands.check import results
-from checker.commands.variant import Variant
-from checker.engine import AUTO, Limits, Timers
+from checker.commands.check.run import results
+from checker.commands.shared.variant import Variant
+from checker.engines import AUTO, Limits, Timers
 from checker.render.drawing.changes import changes
 from properties.catalogue import baseline, catalogue, expected
 from spec_model.lang.chart import Chart, parts, to

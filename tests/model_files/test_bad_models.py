@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 from tests.model_files.files import BASELINE, HEATER, but, line_of
 
 ENUM = """

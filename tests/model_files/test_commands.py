@@ -7,7 +7,7 @@ from shlex import quote
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 from tests.model_files.files import BASELINE, HEATER, START
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -12,7 +12,7 @@ import pytest
 from ruamel.yaml import YAML
 
 from checker.cli import app, run
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 from tests.model_files.files import START
 
 ROOT = Path(__file__).parents[2]

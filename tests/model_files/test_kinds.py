@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 
 HEAD = """
 from properties.forms import Always, Property, always, leads_to, never, recoverable, responds

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 from checker.model.load import load
 from checker.model.texts import HIDDEN
 from spec_model.lang.errors import ModelError

@@ -4,10 +4,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
-from checker.commands.check import length
-from checker.decide import Task, decide
-from checker.engine import Limits, quiet
-from checker.verdict import Verdict
+from checker.commands.check.run import length
+from checker.engines import Limits, quiet
+from checker.results.verdict import Verdict
+from checker.verify.decide import Task, decide
 from properties.catalogue import catalogue
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.chart import Block, Chart

@@ -5,8 +5,8 @@ from itertools import chain
 
 import pytest
 
-from checker.trace import Trace
-from checker.verdict import Violated
+from checker.results.trace import Trace
+from checker.results.verdict import Violated
 from spec_model.lang.edit import (
     constant,
     drop,

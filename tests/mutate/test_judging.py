@@ -5,15 +5,15 @@ from functools import cache
 
 import pytest
 
-from checker.decide import decide
-from checker.engine import Limits, quiet
+from checker.engines import Limits, quiet
 from checker.mutate.asked import as_it_is, cones
 from checker.mutate.judging import DOMAINS, Case, Fate, Judged, judged
 from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.observing import observable
 from checker.mutate.planning import Plan, homes
-from checker.runs.known import reached, run_of
-from checker.tasks import Task
+from checker.verify.decide import decide
+from checker.verify.runs.known import reached, run_of
+from checker.verify.tasks import Task
 from properties.forms import Reachable
 from properties.reduce import reduce
 from spec_model.lang.action import assign, when

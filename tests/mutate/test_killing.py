@@ -9,10 +9,9 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands import killing
-from checker.commands.codes import Exit
-from checker.commands.further import noticing
-from checker.lowered import lowered
+from checker.commands.check.further import noticing
+from checker.commands.mutate import kills as killing
+from checker.commands.shared.codes import Exit
 from checker.model.kept_runs import KILLS, file_of, read
 from checker.model.load import load
 from checker.model.rover import rover
@@ -20,8 +19,9 @@ from checker.mutate.asked import as_it_is, changed
 from checker.mutate.killing import kills, noticed, searched, still
 from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.tries import BACK, COUNT, ON, TICKS, RandomRuns, spread, tried
-from checker.runs.known import reached
-from checker.verdict import Run
+from checker.results.verdict import Run
+from checker.system.lowered import lowered
+from checker.verify.runs.known import reached
 from properties.coverage import matrix
 from properties.forms import Always, always
 from spec_model.lang.evaluate import admissible, step

@@ -4,11 +4,11 @@ import hypothesis.strategies as st
 import pytest
 from hypothesis import given, settings
 
-from checker.engine import Limits, quiet
-from checker.lowered import lowered
+from checker.engines import Limits, quiet
 from checker.mutate.judging import EQUAL_STEPS, OVERWRITTEN, Case, Fate, judged
 from checker.mutate.mutants import mutants
 from checker.mutate.step_equality import equal_in_every_step
+from checker.system.lowered import lowered
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, State, to
 from spec_model.lang.domain import integer

@@ -10,14 +10,14 @@ from xml.etree import ElementTree
 
 import pytest
 
-from checker.commands import check
-from checker.commands.explaining import Explaining
-from checker.faults import Fault, tell
-from checker.plugin import deciding
-from checker.plugin.deciding import Decider
-from checker.plugin.item import PropertyItem
-from checker.result import Result
-from checker.runs.replay import ReplayError
+from checker.commands.check import run as check
+from checker.commands.trace.explain import Explaining
+from checker.process.faults import Fault, tell
+from checker.pytest_plugin import deciding
+from checker.pytest_plugin.deciding import Decider
+from checker.pytest_plugin.item import PropertyItem
+from checker.verify.result import Result
+from checker.verify.runs.replay import ReplayError
 from rovercheck import NAMES
 from spec_model.lang.errors import ModelError
 from tests.cli.terminal import Terminal

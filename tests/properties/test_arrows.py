@@ -1,9 +1,9 @@
 """The properties that every arrow of the obstacle chart can be taken: together their runs take them all."""
 
-from checker.decide import AUTO, decide, tasks
-from checker.engine import Limits, quiet
-from checker.trace import Trace
-from checker.verdict import Proved
+from checker.engines import Limits, quiet
+from checker.results.trace import Trace
+from checker.results.verdict import Proved
+from checker.verify.decide import AUTO, decide, tasks
 from properties.catalogue import catalogue
 from spec_model.lang.chart import Chart, Path, Transition
 from spec_model.rover import systems

@@ -5,8 +5,8 @@ from typing import get_args
 import pytest
 
 from checker.cli import run
-from checker.commands.codes import Exit
-from checker.commands.wording import formally
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.wording import formally
 from properties import forms
 from properties.catalogue import catalogue
 from properties.english import definitions, sentence

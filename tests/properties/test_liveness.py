@@ -9,19 +9,19 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.decide import AUTO, Task, decide, tasks
-from checker.engine import Limits, engines, quiet
-from checker.faults import Fault, listening
-from checker.liveness import recover, verdicts
-from checker.liveness.loops import hunt, looped
-from checker.liveness.recover import Trap, trapped
-from checker.liveness.verdicts import NO_LOOP
+from checker.engines import Limits, engines, quiet
+from checker.process.faults import Fault, listening
 from checker.render import renderers
 from checker.render.trace_json import SCHEMA, document
 from checker.render.trace_table import render
-from checker.result import Result
-from checker.trace import Trace
-from checker.verdict import Exhausted, Proved, Reached, Unknown, Unreachable, Violated
+from checker.results.trace import Trace
+from checker.results.verdict import Exhausted, Proved, Reached, Unknown, Unreachable, Violated
+from checker.verify.decide import AUTO, Task, decide, tasks
+from checker.verify.liveness import recover, verdicts
+from checker.verify.liveness.loops import hunt, looped
+from checker.verify.liveness.recover import Trap, trapped
+from checker.verify.liveness.verdicts import NO_LOOP
+from checker.verify.result import Result
 from properties import forms
 from properties.forms import Form, LeadsTo, Property, Recoverable, Settles
 from properties.reduce import reduce

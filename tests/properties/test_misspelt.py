@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.codes import Exit
+from checker.commands.shared.codes import Exit
 
 ROOT = Path(__file__).parents[2]
 AREA = "properties/areas/relay.py"

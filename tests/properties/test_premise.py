@@ -4,8 +4,8 @@ from typing import Any
 
 import pytest
 
-from checker.decide import decide, tasks
-from checker.engine import Limits, quiet
+from checker.engines import Limits, quiet
+from checker.verify.decide import decide, tasks
 from properties.catalogue import catalogue
 from properties.forms import (
     Property,

@@ -7,8 +7,8 @@ from itertools import product
 
 import pytest
 
-from checker.commands.chains import check, holes
-from checker.commands.variant import Variant
+from checker.commands.check.chains import check, holes
+from checker.commands.shared.variant import Variant
 from properties.catalogue import as_written, catalogue, expected, promises
 from properties.forms import Always, EntersOnlyIf, HoldsAfter, LeavesOnlyIf, Property, formulas
 from properties.promises.promise import Chain, Promise
@@ -177,7 +177,7 @@ def test_a_link_that_begins_later_than_what_rests_on_it_is_a_hole(monkeypatch: p
     say, obey = CONTRACTS["critical_1_to_2"]
     assert say.begins == 2
     everywhere = {**CONTRACTS, "critical_1_to_2": (replace(say, first=True), obey)}
-    monkeypatch.setattr("checker.commands.chains.CONTRACTS", everywhere)
+    monkeypatch.setattr("checker.commands.check.chains.CONTRACTS", everywhere)
     hole = "P-SHOWN-TEMPERATURE says nothing before step 2; Sender.contract does"
     assert hole in "\n".join(holes(CRITICAL.chains[0]))
 

@@ -3,8 +3,8 @@
 from dataclasses import replace
 from functools import cache
 
-from checker.concrete import BoardRun, Kind, Signal, Step
-from checker.trace import Arrow, Needed, Tick, Trace
+from checker.results.board_steps import BoardRun, Kind, Signal, Step
+from checker.results.trace import Arrow, Needed, Tick, Trace
 from spec_model.lang.domain import enumeration, integer
 from spec_model.lang.expr import flag, var
 from spec_model.lang.place import Place

@@ -7,7 +7,7 @@ from checker.render.again import Again, folded
 from checker.render.story import Event, rows
 from checker.render.trace_markdown import render as markdown
 from checker.render.trace_table import render as table
-from checker.trace import Tick, Trace
+from checker.results.trace import Tick, Trace
 from spec_model.lang.expr import flag
 
 BEEP = flag("beep")

@@ -20,7 +20,7 @@ from checker.render.ci.github import MOST, annotations, command, summary
 from checker.render.ci.junit import junit
 from checker.render.ci.sarif import RESULTS, document, sarif
 from checker.render.ci.sarif_flow import LOCATIONS
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.lang.place import Place
 from tests.render.conformance import Suite
 from tests.render.exits_zoo import TRACES, huge, lasso, odd, told, witness

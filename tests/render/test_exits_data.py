@@ -15,7 +15,7 @@ from vcd.reader import TokenKind, tokenize
 
 from checker.render import renderers, trace_csv, trace_gtkw, trace_itf, trace_json, trace_vcd
 from checker.render.waves import waves
-from checker.trace import Tick, Trace
+from checker.results.trace import Tick, Trace
 from spec_model.lang.domain import enumeration, integer
 from spec_model.lang.expr import var
 from tests.render.conformance import Suite

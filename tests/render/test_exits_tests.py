@@ -10,11 +10,11 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.concrete import signals
-from checker.concrete import BoardRun, held
-from checker.conform.cover.formats import FORMATS
+from checker.commands.trace.board_steps import signals
 from checker.render import trace_c, trace_pytest
 from checker.render.trace_c import render as as_c
+from checker.results.board_steps import BoardRun, held
+from checker.testgen.formats import FORMATS
 from spec_model.abstraction import boards
 from tests.render.conformance import Suite
 from tests.render.exits_zoo import CONCRETE, LAMP
@@ -74,7 +74,7 @@ def boards():
 
 def replaced(text: str) -> str:
     """The file with the lamp of this module in place of the adapters and boards of the rover."""
-    left = text.replace("    from checker.conform.adapters import start\n", "    pass\n")
+    left = text.replace("    from checker.adapters import start\n", "    pass\n")
     return left.replace("    from spec_model.abstraction import boards\n", FAKES)
 
 

@@ -9,17 +9,17 @@ import networkx as nx
 import pytest
 from jsonschema import validate
 
-from checker.engine import Limits
-from checker.graph import StateGraph, drawable, with_trace
-from checker.graphs.explored import tabulated
-from checker.graphs.making import made
-from checker.graphs.projecting import project
+from checker.engines import Limits
+from checker.explore.graphs.explored import tabulated
+from checker.explore.graphs.making import made
+from checker.explore.graphs.projecting import project
 from checker.render import graph_json
 from checker.render.stategraph.findings import findings, told
 from checker.render.stategraph.fragment import document, rows
 from checker.render.stategraph.picture import LABELLED, drawn
 from checker.render.stategraph.rows import in_rows, too_long
 from checker.render.stategraph.words import brief, several, short, spans
+from checker.results.graph import StateGraph, drawable, with_trace
 from spec_model.lang.action import Assign, assign
 from spec_model.lang.domain import integer
 from spec_model.lang.errors import ModelError

@@ -15,7 +15,7 @@ from checker.render.drawing.scheme import arrows
 from checker.render.page import page
 from checker.render.player.steps import script, shown_charts
 from checker.render.statechart_svg import inline
-from checker.trace import Arrow, Needed, Tick, Trace
+from checker.results.trace import Arrow, Needed, Tick, Trace
 from spec_model.lang.action import assign, send
 from spec_model.lang.chart import Chart, Junction, State, to
 from spec_model.lang.interpret import Fired, Interpreter

@@ -8,7 +8,7 @@ import pytest
 from checker.render import trace_sequence
 from checker.render.sequence.flow import ENVIRONMENT, flow
 from checker.render.sequence.steps import Message, Note, Step, message_sequence
-from checker.trace import Arrow, Tick, Trace
+from checker.results.trace import Arrow, Tick, Trace
 from spec_model.composition.fine_systems import SYSTEMS as FINE
 from spec_model.composition.systems import SYSTEMS as COMPOSED
 from spec_model.lang.action import assign, when

@@ -9,7 +9,7 @@ import pytest
 
 from checker.render import statechart_svg
 from checker.render.drawing.scheme import arrows
-from checker.trace import Arrow
+from checker.results.trace import Arrow
 from spec_model.lang.errors import ModelError
 from tests.render.conformance import Suite
 from tests.render.zoo import CHARTS, crossing, monitor, nested, parallel, relay

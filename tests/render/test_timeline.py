@@ -18,7 +18,7 @@ from checker.render.timeline.limits import thresholds, time_limits
 from checker.render.timeline.model import Group, Kind, Lane, Need, Timeline
 from checker.render.timeline.shapes import fitting
 from checker.render.timeline.tones import tone
-from checker.trace import Needed, Tick, Trace
+from checker.results.trace import Needed, Tick, Trace
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block
 from spec_model.lang.domain import fixed, integer

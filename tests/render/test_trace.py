@@ -9,7 +9,7 @@ import pytest
 from checker.render import trace_markdown, trace_table
 from checker.render.reasons import forced, reasons
 from checker.render.story import Event, Quiet, conjuncts, false_parts, rows
-from checker.trace import Needed, Trace
+from checker.results.trace import Needed, Trace
 from tests.render.conformance import Suite
 from tests.render.zoo import TRACES, long_trace
 

@@ -6,12 +6,12 @@ from io import StringIO
 
 import pytest
 
-from checker.commands.check import results
-from checker.commands.concrete import concrete
-from checker.engine import AUTO, Limits
+from checker.commands.check.run import results
+from checker.commands.trace.board_steps import concrete
+from checker.engines import AUTO, Limits
 from checker.render import trace_csv, trace_json, trace_svg, trace_table, trace_vcd
-from checker.trace import Trace
-from checker.verdict import Violated
+from checker.results.trace import Trace
+from checker.results.verdict import Violated
 from properties.catalogue import catalogue
 from spec_model.lang.errors import ModelError
 from spec_model.rover import systems

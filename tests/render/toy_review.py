@@ -3,7 +3,7 @@
 from dataclasses import replace
 from typing import Any
 
-from checker.graphs.making import made
+from checker.explore.graphs.making import made
 from checker.render.review.model import (
     About,
     Ambiguity,

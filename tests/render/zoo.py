@@ -1,9 +1,9 @@
 """Toy charts, graphs and traces that every renderer must be able to show."""
 
-from checker.graph import StateGraph, with_trace
-from checker.graphs.explored import tabulated
-from checker.graphs.projecting import project
-from checker.trace import Arrow, Tick, Trace
+from checker.explore.graphs.explored import tabulated
+from checker.explore.graphs.projecting import project
+from checker.results.graph import StateGraph, with_trace
+from checker.results.trace import Arrow, Tick, Trace
 from spec_model.lang.action import assign, send, when
 from spec_model.lang.chart import Chart, Junction, State, to
 from spec_model.lang.domain import enumeration, fixed, integer

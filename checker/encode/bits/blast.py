@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from checker.encode.bits.aig import FALSE, TRUE, Aig, Literal
 from checker.encode.bits.words import Word, Words
-from checker.encode.intervals import Interval, interval, postorder
+from checker.system.intervals import Interval, interval, postorder
 from spec_model.lang.domain import Bool, Domain
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from spec_model.lang.operators import Op

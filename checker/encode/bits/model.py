@@ -12,7 +12,7 @@ from checker.encode.bits.aig import Aig, Literal, bits_of
 from checker.encode.bits.blast import Blaster, Value, as_word, bits_needed
 from checker.encode.cone import Slice, as_written, cone, folded, straying
 from checker.encode.symbolic import Transition, transition
-from checker.verdict import Run
+from checker.results.verdict import Run
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from checker.encode.bits.aig import FALSE, TRUE, Aig, Literal, bits_of
-from checker.encode.intervals import Interval
+from checker.system.intervals import Interval
 
 Word = list[Literal]
 

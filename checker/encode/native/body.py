@@ -13,9 +13,9 @@ from typing import Any
 
 from llvmlite import ir
 
-from checker.encode.intervals import Interval
 from checker.encode.native.expressions import INT, Expressions, Slot, kind
 from checker.encode.path_statements import Branch, Choose, Complete, Each, Fork, PathProgram, Require, Span
+from checker.system.intervals import Interval
 from spec_model.lang.action import Assign
 from spec_model.lang.expr import Var
 

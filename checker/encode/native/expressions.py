@@ -10,7 +10,7 @@ from typing import Any
 
 from llvmlite import ir
 
-from checker.encode.intervals import TRUTH, Interval, transfer
+from checker.system.intervals import TRUTH, Interval, transfer
 from spec_model.lang.domain import Bool
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from spec_model.lang.operators import COMPARISONS, Op

@@ -28,8 +28,8 @@ SOURCES = (
     "checker/__init__.py",
     "checker/cache",
     "checker/encode",
-    "checker/partition.py",
-    "checker/slice.py",
+    "checker/system/partition.py",
+    "checker/system/slice.py",
     "spec_model/__init__.py",
     "spec_model/lang",
 )

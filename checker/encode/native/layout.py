@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import gcd
 
-from checker.encode.intervals import Interval
 from checker.encode.values import Values, ends, whole
+from checker.system.intervals import Interval
 from spec_model.lang.expr import Var
 
 NOTHING: Mapping[str, Values] = {}

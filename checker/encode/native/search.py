@@ -6,7 +6,6 @@ from enum import IntEnum
 from functools import cached_property
 from typing import Any
 
-from checker.encode.intervals import Interval
 from checker.encode.native.body import Body
 from checker.encode.native.expressions import BIT, INT, Slot
 from checker.encode.native.fingerprint import fingerprint
@@ -15,7 +14,8 @@ from checker.encode.native.quiet import Shift, emit_moved_on
 from checker.encode.native.table import CONTEXT, NUMBER, NUMBERS, WORDS, Table, context, function
 from checker.encode.path_statements import Complete, PathProgram, assigned, choices, saved
 from checker.encode.paths import path_program, staged_program
-from checker.partition import Partition, partitions
+from checker.system.intervals import Interval
+from checker.system.partition import Partition, partitions
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 

@@ -9,11 +9,11 @@ from dataclasses import dataclass, field, replace
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from checker.engine import Limits, Progress
+from checker.engines import Limits, Progress
 from checker.engines.bdd.events import Bound, Closed, Event, Found, Stuck
-from checker.isolate import Send, Stopped, messages
-from checker.trace import counted_ticks
-from checker.verdict import Answer, Open, Reached, Unreachable
+from checker.process.isolate import Send, Stopped, messages
+from checker.results.trace import counted_ticks
+from checker.results.verdict import Answer, Open, Reached, Unreachable
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
     from spec_model.lang.expr import Var

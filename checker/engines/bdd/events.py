@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Union
 
-from checker.verdict import Exhausted, Run
+from checker.results.verdict import Exhausted, Run
 
 
 @dataclass(frozen=True)

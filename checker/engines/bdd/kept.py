@@ -1,10 +1,10 @@
 """The set of valuations reached, as a diagram over bits that other tools can read."""
 
-from checker.diagram import ALL, NONE, Diagram, Node
 from checker.encode.bits.blast import bits_needed
 from checker.engines.bdd.groups import Group
 from checker.engines.bdd.layers import Layers
 from checker.engines.bdd.space import Function
+from checker.results.diagram import ALL, NONE, Diagram, Node
 
 MOST = 100_000
 """Nodes of the largest diagram that is kept: a certificate is read by people's solvers, too."""

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from checker.encode.bits import Literal
 from checker.engines.bdd.layers import Hit, Layers
 from checker.engines.bdd.space import Function
-from checker.verdict import Run
+from checker.results.verdict import Run
 from spec_model.lang.evaluate import admissible, step
 from spec_model.lang.system import TransitionSystem
 

@@ -15,7 +15,7 @@ from checker.engines.bdd.kept import diagram
 from checker.engines.bdd.layers import Layers
 from checker.engines.bdd.runs import last, run_to
 from checker.engines.bdd.space import Overdrawn, Space, Store, meets
-from checker.verdict import Exhausted
+from checker.results.verdict import Exhausted
 from spec_model.lang.system import TransitionSystem
 
 TRIAL = 300_000

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Union
 
-from checker.verdict import Run
+from checker.results.verdict import Run
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ shortest run.  It stops when every goal is reached or nothing new appears.
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from checker.engine import Limits, Progress
-from checker.verdict import Answer
+from checker.engines import Limits, Progress
+from checker.results.verdict import Answer
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
     from spec_model.lang.expr import Var

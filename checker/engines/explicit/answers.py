@@ -5,19 +5,19 @@ from dataclasses import dataclass, replace
 from functools import partial
 from time import monotonic
 
-from checker.closed import ClosedSet, Place
 from checker.encode.counting import counters
 from checker.encode.gather import bits, gathered
 from checker.encode.native import Field, Layout, NativeSearch, Task, TooWide, layout, shifts
 from checker.encode.native.layout import WORD_BITS
 from checker.encode.values import values
-from checker.engine import Limits, Progress, Stage, Timers
+from checker.engines import Limits, Progress, Stage, Timers
 from checker.engines.explicit.cases import about, cases, joined
 from checker.engines.explicit.levels import Found, Search, Spent
 from checker.engines.explicit.lines import LineSearch
 from checker.engines.explicit.runs import Runs
-from checker.slice import sliced
-from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable
+from checker.results.closed import ClosedSet, Place
+from checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
+from checker.system.slice import sliced
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem

@@ -9,9 +9,9 @@ from functools import partial
 from itertools import product
 from math import prod
 
-from checker.closed import ClosedSet, union
 from checker.encode.values import possible
-from checker.verdict import Answer, Exhausted, Open, Reached, Unreachable
+from checker.results.closed import ClosedSet, union
+from checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
 from spec_model.lang.domain import Enum
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem

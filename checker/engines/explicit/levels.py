@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from checker.encode.native import CONTEXT, NativeSearch, Status, Task
-from checker.engine import Limits, Progress, Timers
+from checker.engines import Limits, Progress, Timers
 from checker.engines.explicit.advice import Advisor, Multiplier
 from checker.engines.explicit.parents import Unary
 from checker.engines.explicit.store import Store
-from checker.trace import counted_ticks
+from checker.results.trace import counted_ticks
 
 QUICK_TRANSITIONS = 1 << 22
 """Transitions tried before the code is compiled again to run fast: most searches end before.

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from checker.encode.native import NativeSearch
-from checker.engine import Limits, Progress
+from checker.engines import Limits, Progress
 from checker.engines.explicit.levels import NOTHING, Search, Spent
 
 

@@ -19,9 +19,9 @@ from checker.encode.native import (
     moved_on,
 )
 from checker.engines.explicit.levels import Found
-from checker.partition import Partition, partition
-from checker.slice import assumption_groups
-from checker.verdict import Run
+from checker.results.verdict import Run
+from checker.system.partition import Partition, partition
+from checker.system.slice import assumption_groups
 from spec_model.lang.evaluate import evaluate, step
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem

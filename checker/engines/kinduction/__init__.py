@@ -10,10 +10,10 @@ from contextlib import closing
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from checker.engine import Limits, Progress
+from checker.engines import Limits, Progress
 from checker.engines.kinduction.events import Bound, Closed, Doing, Event, Found, Stuck
-from checker.isolate import Send, Stopped, messages
-from checker.verdict import Answer, Open, Reached, Unreachable
+from checker.process.isolate import Send, Stopped, messages
+from checker.results.verdict import Answer, Open, Reached, Unreachable
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
     from spec_model.lang.expr import Expr, Var

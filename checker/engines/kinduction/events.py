@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Union
 
-from checker.verdict import Inductive, Run
+from checker.results.verdict import Inductive, Run
 
 
 @dataclass(frozen=True)

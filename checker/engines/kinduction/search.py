@@ -17,7 +17,7 @@ from checker.engines.kinduction.houdini import Consecution, of_given
 from checker.engines.kinduction.hunt import Hunt
 from checker.engines.kinduction.induction import WINDOW, Step, induction
 from checker.engines.kinduction.ticks import GaveUp, Scope, excluded
-from checker.verdict import Inductive, Run
+from checker.results.verdict import Inductive, Run
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem
 

@@ -11,10 +11,10 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from checker.engine import Engine, Limits, Progress, engines
-from checker.isolate import Stopped
-from checker.trace import counted_ticks
-from checker.verdict import Answer, Inductive, Open, Reached, Unreachable
+from checker.engines import Engine, Limits, Progress, engines
+from checker.process.isolate import Stopped
+from checker.results.trace import counted_ticks
+from checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
     from checker.engines.localisation.orders import Orders

@@ -13,8 +13,8 @@ from checker.encode.cone import as_written, cone, folded, straying
 from checker.encode.symbolic import Transition, transition
 from checker.encode.unrolling import Outside, Unrolling, literal, satisfiable
 from checker.engines.localisation.cuts import with_switches
-from checker.isolate import Send
-from checker.verdict import Run
+from checker.process.isolate import Send
+from checker.results.verdict import Run
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 

@@ -6,7 +6,7 @@ from types import TracebackType
 from typing import Self
 
 from checker.engines.localisation.bounded import Bounded, Core, Hit
-from checker.isolate import Child, End, Stopped
+from checker.process.isolate import Child, End, Stopped
 from spec_model.lang.system import TransitionSystem
 
 

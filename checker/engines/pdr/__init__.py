@@ -8,11 +8,11 @@ from contextlib import closing
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from checker.engine import Limits, Progress
+from checker.engines import Limits, Progress
 from checker.engines.pdr.events import Bound, Decided, Event, Undefined
-from checker.isolate import Send, Stopped, messages
-from checker.trace import counted_ticks
-from checker.verdict import Answer, Open
+from checker.process.isolate import Send, Stopped, messages
+from checker.results.trace import counted_ticks
+from checker.results.verdict import Answer, Open
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
     from spec_model.lang.expr import Var

@@ -15,7 +15,7 @@ from checker.engines.pdr.runs import others, replayed, run_of
 from checker.engines.pdr.search import Bounded, Excluded, Search, Traced
 from checker.engines.pdr.seeds import LARGE, Seed, mined, proved
 from checker.engines.pdr.support import needed
-from checker.verdict import Inductive, Reached, Run, Unreachable
+from checker.results.verdict import Inductive, Reached, Run, Unreachable
 from spec_model.lang.expr import Expr
 from spec_model.lang.system import TransitionSystem
 

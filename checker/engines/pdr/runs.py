@@ -5,7 +5,7 @@ from pysat.solvers import Minisat22
 from checker.encode.bits import Circuit, Literal
 from checker.encode.bits.cnf import Cnf
 from checker.engines.pdr.search import Traced
-from checker.verdict import Run
+from checker.results.verdict import Run
 from spec_model.lang.evaluate import admissible, step
 from spec_model.lang.system import TransitionSystem
 

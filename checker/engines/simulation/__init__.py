@@ -7,8 +7,8 @@ breadth-first search first visits all that could happen in the meantime.
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from checker.engine import Limits, Progress
-from checker.verdict import Answer
+from checker.engines import Limits, Progress
+from checker.results.verdict import Answer
 
 if TYPE_CHECKING:  # as in `explicit`
     from spec_model.lang.expr import Var

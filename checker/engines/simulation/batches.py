@@ -11,11 +11,11 @@ from time import monotonic
 import numpy as np
 
 from checker.encode.cone import Slice, as_written, by_cone, cone, folded, straying
-from checker.encode.intervals import postorder
 from checker.encode.simulate import HOLD, Simulator
 from checker.encode.symbolic import transition
-from checker.engine import Limits, Progress
-from checker.verdict import Answer, Open, Reached, Run
+from checker.engines import Limits, Progress
+from checker.results.verdict import Answer, Open, Reached, Run
+from checker.system.intervals import postorder
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem
 

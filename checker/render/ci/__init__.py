@@ -7,7 +7,7 @@ from textwrap import wrap
 
 from checker.render import trace_table
 from checker.render.waves import outcome
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.lang.place import Place
 
 

@@ -7,7 +7,7 @@ from urllib.parse import quote
 
 from checker.render.ci import Finding
 from checker.render.story import Change, Event, Quiet, Repeats, ending, false_parts, rows, start_of
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.lang.place import Place
 
 LOCATIONS = 1_000

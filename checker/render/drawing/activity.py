@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from checker.trace import Arrow
+from checker.results.trace import Arrow
 from spec_model.lang.chart import NOWHERE, Chart, Path
 
 Active = frozenset[Path]

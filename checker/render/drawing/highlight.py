@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 from checker.render.drawing.scheme import ChartArrow, label
-from checker.trace import Arrow
+from checker.results.trace import Arrow
 from spec_model.lang.chart import Chart, Path
 
 

@@ -13,7 +13,7 @@ from checker.render.page import Part, data, templates
 from checker.render.player.steps import Script, States, Step, script, shown_charts
 from checker.render.statechart_svg import LEGEND, STYLE, inline, size
 from checker.render.story import Event, ending, false_parts, heading, start_of, value
-from checker.trace import Arrow, Trace
+from checker.results.trace import Arrow, Trace
 from spec_model.lang.chart import Chart
 
 TEMPLATES = templates("player")

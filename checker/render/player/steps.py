@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from checker.render.drawing.activity import Active, active, followed
 from checker.render.story import Event, Quiet, Repeats, rows
-from checker.trace import Arrow, Trace
+from checker.results.trace import Arrow, Trace
 from spec_model.lang.chart import Chart
 
 States = Mapping[str, Active]

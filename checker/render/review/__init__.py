@@ -22,7 +22,7 @@ from checker.render.statechart_svg import size
 from checker.render.stategraph.fragment import part as stategraph
 from checker.render.stategraph.fragment import shows, trust
 from checker.render.story import ending, false_parts, heading
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.lang.chart import Chart
 
 TEMPLATES = templates("review")

@@ -1,14 +1,14 @@
 """What a review page shows, as plain data: it knows no rover, no engine and no property form.
 
-``checker.commands.reviewing`` makes it of the rover's verdicts; whoever checks a model of his own makes
+``checker.commands.report.run`` makes it of the rover's verdicts; whoever checks a model of his own makes
 it of that.  Whatever is empty is left out of the page, or said to be missing.
 """
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from checker.graph import StateGraph
-from checker.trace import Trace
+from checker.results.graph import StateGraph
+from checker.results.trace import Trace
 from spec_model.lang.chart import Chart
 
 PROVED, VIOLATED, UNKNOWN = "proved", "violated", "unknown"

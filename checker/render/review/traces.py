@@ -6,7 +6,7 @@ from dataclasses import replace
 
 from checker.render import player, timeline
 from checker.render.page import Part
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.lang.chart import Chart
 
 

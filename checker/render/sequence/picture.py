@@ -12,7 +12,7 @@ from checker.render.durations import duration
 from checker.render.sequence.steps import Message, MessageSequence, Note, Pause, Step
 from checker.render.story import Repeats, ending, false_parts, heading
 from checker.render.timeline import forced_by
-from checker.trace import Trace
+from checker.results.trace import Trace
 
 LEFT, MARGIN = 84, 16
 """Pixels left of the first lifeline's column, for the time, and at the edges."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from checker.render.sequence.flow import ENVIRONMENT, Flow, flow
 from checker.render.story import Change, Event, Quiet, Repeats, Row, rows, start_of
-from checker.trace import Arrow, Trace
+from checker.results.trace import Arrow, Trace
 from spec_model.lang.errors import ModelError
 from spec_model.lang.walk import variables
 

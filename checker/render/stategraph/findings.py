@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from textwrap import fill
 
-from checker.graph import StateGraph
 from checker.render.stategraph.words import behind, named, several
+from checker.results.graph import StateGraph
 
 Finding = tuple[str, str]
 """A heading and a sentence."""

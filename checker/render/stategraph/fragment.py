@@ -6,12 +6,12 @@ from typing import Any
 
 from markupsafe import Markup
 
-from checker.graph import GraphNode, StateGraph, Way
 from checker.render import story
 from checker.render.page import Part, data, templates
 from checker.render.stategraph.findings import findings
 from checker.render.stategraph.picture import LABELLED, drawn
 from checker.render.stategraph.words import LEGEND, named, values
+from checker.results.graph import GraphNode, StateGraph, Way
 
 TEMPLATES = templates("stategraph")
 PANZOOM = files("checker.render").joinpath("vendor", "panzoom", "panzoom.min.js").read_text(encoding="utf-8")

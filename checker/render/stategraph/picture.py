@@ -3,7 +3,6 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.graph import GraphEdge, GraphNode, StateGraph
 from checker.render.drawing import svg
 from checker.render.drawing.cuts import padded
 from checker.render.drawing.graph import Edge, Node, Placed, Point
@@ -12,6 +11,7 @@ from checker.render.drawing.ranking import backward
 from checker.render.drawing.text import LINE, block, wrap
 from checker.render.stategraph.rows import curve, in_rows, ranks, too_long
 from checker.render.stategraph.words import behind, brief, example, short, ticks
+from checker.results.graph import GraphEdge, GraphNode, StateGraph
 
 LABELLED = 48
 """With more edges than this the example inputs are left out of the picture."""

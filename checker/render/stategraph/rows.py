@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, hypot
 
-from checker.graph import StateGraph
+from checker.results.graph import StateGraph
 
 GAP_X, GAP_Y, ROW = 56, 16, 46
 """Pixels between columns, between boxes of a column, and between rows."""

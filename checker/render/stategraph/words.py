@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 from itertools import groupby
 
-from checker.graph import GraphEdge, GraphNode, StateGraph
+from checker.results.graph import GraphEdge, GraphNode, StateGraph
 from spec_model.lang.chart import NOWHERE
 
 LEGEND = (

@@ -10,7 +10,7 @@ from checker.render.timeline.limits import Limits, thresholds, time_limits
 from checker.render.timeline.model import Group, Kind, Lane, Limit, Need, Shot, Timeline
 from checker.render.timeline.runs import Values, runs
 from checker.render.timeline.truths import parts
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.lang.action import expressions
 from spec_model.lang.chart import NOWHERE, Block
 from spec_model.lang.chart import parts as components

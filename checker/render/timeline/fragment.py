@@ -13,7 +13,7 @@ from checker.render.timeline.model import Lane, Timeline
 from checker.render.timeline.picture import RIGHT, scale, signs
 from checker.render.timeline.shapes import reach
 from checker.render.timeline.style import THEMED, sheet
-from checker.trace import Trace
+from checker.results.trace import Trace
 
 TEMPLATES = templates("timeline")
 PAPER = 690

@@ -5,7 +5,7 @@ from fractions import Fraction
 
 from checker.render.limits import timer
 from checker.render.timeline.model import Limit
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.lang.chart import Chart, Path
 from spec_model.lang.domain import Num, show
 from spec_model.lang.errors import ModelError

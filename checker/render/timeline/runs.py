@@ -8,7 +8,7 @@ from checker.render.limits import timer
 from checker.render.story import value
 from checker.render.timeline.model import Kind, Run
 from checker.render.timeline.tones import tone
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.lang.domain import Num
 
 STEADY = 3

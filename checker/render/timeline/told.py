@@ -9,7 +9,7 @@ from checker.render.page import Part
 from checker.render.reasons import forced, reasons
 from checker.render.story import UNTOLD, rows, standstill, start_of, start_values
 from checker.render.timeline.fragment import TEMPLATES, own
-from checker.trace import Trace
+from checker.results.trace import Trace
 
 
 def told(trace: Trace, *, everything: bool = False) -> Part:

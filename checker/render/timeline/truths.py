@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from checker.render.lanes import Tone
 from checker.render.timeline.model import Group, Kind, Lane, Run
 from checker.render.timeline.runs import Values, stretches
-from checker.trace import Trace
+from checker.results.trace import Trace
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Expr, Named, Temporal
 from spec_model.lang.label import text

@@ -1,0 +1,70 @@
+"""How an implementation under test is run: one file per kind of implementation, found by being here.
+
+An adapter has a ``KIND``, the ``FORM`` of its addresses, a one-line ``SUMMARY`` and a function ``start`` with
+the signature of ``Adapter.start``.  What an implementation does, it does in a process that can be killed.
+"""
+
+import importlib
+import pkgutil
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
+
+from checker.adapters.implementation import Implementation, ImplementationError
+from spec_model.lang.errors import did_you_mean
+
+if TYPE_CHECKING:
+    from spec_model.abstraction import Board
+
+
+@dataclass(frozen=True)
+class Limits:
+    """What an implementation may spend: seconds for one step, seconds to start, bytes of its own data."""
+
+    step: float = 5.0
+    start: float = 30.0
+    memory: int = 4 << 30
+
+
+LIMITS = Limits()
+
+
+class Adapter(Protocol):
+    """Runs implementations of one kind."""
+
+    KIND: str
+    FORM: str
+    SUMMARY: str
+
+    def start(self, what: str, board: "Board", limits: Limits) -> Implementation:
+        """The implementation at an address (without its kind), at power-up.
+
+        Linux ends it with the thread that starts it.  Raises ``ImplementationError`` if it cannot be started.
+        """
+        ...
+
+
+def adapters() -> dict[str, Adapter]:
+    """The adapters in this folder, by kind."""
+    found: dict[str, Adapter] = {}
+    for entry in sorted(pkgutil.iter_modules(__path__), key=lambda e: e.name):
+        module = importlib.import_module(f"{__name__}.{entry.name}")
+        if hasattr(module, "KIND"):
+            found[module.KIND] = module
+    return found
+
+
+def start(address: str, board: "Board", limits: Limits = LIMITS) -> Implementation:
+    """The implementation of a board at an address ``KIND:WHAT``, at power-up.
+
+    Raises ``ImplementationError`` for an address without meaning and for one that cannot be started.
+    """
+    kind, colon, what = address.partition(":")
+    known = adapters()
+    if not colon or kind not in known or not what:
+        forms = "\n".join(f"  {adapter.FORM:<30} {adapter.SUMMARY}" for adapter in known.values())
+        hint = f" {did_you_mean(kind, known)}" if colon and kind not in known else ""
+        raise ImplementationError(f"{address!r} names no implementation.{hint} Write one of\n{forms}")
+    return known[kind].start(what, board, limits)
+
+
+__all__ = ["LIMITS", "Adapter", "Limits", "adapters", "start"]

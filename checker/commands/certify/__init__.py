@@ -1,0 +1,41 @@
+"""The verb ``certify``: proofs checked again."""
+
+from pathlib import Path
+
+import click
+
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.options import SECONDS, modelling, quietly
+
+
+@click.command(short_help="Check certificates of proofs again.")
+@click.argument("paths", nargs=-1, required=True, metavar="FILE|DIR...", type=click.Path(path_type=Path))
+@click.option(
+    "--solver",
+    type=click.Choice(["bitwuzla", "enumeration", "both"]),
+    default="both",
+    show_default=True,
+    help="Who checks; both: enumeration as well where few ticks are to be tried.",
+)
+@click.option("--smt2", type=click.Path(path_type=Path), metavar="DIR", help="Write the obligations there.")
+@click.option("--timeout", type=SECONDS, metavar="SEC", help="Seconds per certificate.")
+@click.option("--verbose", "-v", is_flag=True, help="The whole valuation that refutes a certificate.")
+@click.option(
+    "--json", "as_json", is_flag=True, help="The outcomes as JSON (checker/schemas/certify-1.json)."
+)
+@modelling
+@quietly
+def certify(
+    paths: tuple[Path, ...],
+    solver: str,
+    smt2: Path | None,
+    timeout: float | None,
+    verbose: bool,
+    as_json: bool,
+    model: Path | None,
+) -> Exit:
+    """Check the certificates of proofs again, by other means than found them."""
+    from checker.certify.check import By, Effort
+    from checker.commands.certify.run import certify as run
+
+    return run(paths, Effort(By(solver), timeout), smt2, verbose, model, as_json)

@@ -1,0 +1,191 @@
+"""``rovercheck certify``: verdicts derived again from certificates, each checked by other means."""
+
+from collections import Counter
+from collections.abc import Generator, Iterator, Sequence
+from contextlib import closing
+from dataclasses import asdict, replace
+from pathlib import Path
+from shlex import quote
+
+from checker.certify.check import Effort
+from checker.certify.file import Unwritable, Written, read
+from checker.certify.outcome import Accepted, Rejected, Undecided
+from checker.certify.terms import Malformed
+from checker.commands.certify.derive import Deriving, Told
+from checker.commands.shared.codes import Exit, UsageError
+from checker.commands.shared.output import counted, out, wrapped
+from checker.commands.shared.progress import ProgressLine
+from checker.commands.shared.wrapping import whole
+from checker.engines import Limits
+from checker.io.printable import json_text
+from checker.model.load import load
+from checker.process.pool import Order, Pool
+
+WORKERS = 2
+WHY = 34
+"""The column in which the reason of an outcome begins."""
+SCHEMA = 1
+"""The version of the JSON document."""
+SIGNS = {Accepted: "✓", Rejected: "✗", Undecided: "?"}
+WORDS = {Accepted: "accepted", Rejected: "rejected", Undecided: "undecided"}
+_SHOWN = 300
+
+
+def certify(
+    paths: Sequence[Path],
+    effort: Effort,
+    smt2: Path | None,
+    verbose: bool,
+    model: Path | None = None,
+    as_json: bool = False,
+) -> Exit:
+    """One line for each property of the files, in no particular order of the files; or all of it as JSON.
+
+    They are about the rover, or the model at a path.  Each file is checked in a child process, which may
+    die of it.  Raises ``UsageError`` for what holds no certificates, and for a folder that cannot be
+    written, ``ModelError`` for a model without meaning.
+    """
+    if model is not None:
+        load(model)
+    written = [(path, _read(path)) for path in files(paths)]
+    if smt2 is not None:
+        _folder(smt2)
+    found: list[Told] = []
+    deriving = Deriving(effort, smt2, model)
+    with ProgressLine() as progress, closing(_told(written, deriving, progress)) as heard:
+        for told in heard:
+            if not as_json:
+                out.print(wrapped(line(told, verbose, several=len(written) > 1), WHY), markup=False)
+            found.append(told)
+    if as_json:
+        print(json_text(document(found, len(written))))
+    else:
+        summary(found, len(written))
+    return code(found)
+
+
+def files(paths: Sequence[Path]) -> Iterator[Path]:
+    """The files named, and all of a folder."""
+    for path in paths:
+        if not path.is_dir():
+            yield path
+            continue
+        inside = sorted(p for p in _inside(path) if p.name.endswith((".json", ".json.gz")))
+        if not inside:
+            writes = whole(f"rovercheck check --certificates {quote(str(path))}")
+            raise UsageError(f"{whole(path)} holds no certificates; {writes} writes some.")
+        yield from inside
+
+
+def _inside(folder: Path) -> list[Path]:
+    try:
+        return list(folder.iterdir())
+    except OSError as error:
+        raise UsageError(f"Cannot read {whole(folder)}: {error.strerror}.") from error
+
+
+def _read(path: Path) -> Written:
+    try:
+        return read(path)
+    except Malformed as error:
+        raise UsageError(f"{whole(path)} is no file of certificates: {shown(str(error))}.") from error
+    except OSError as error:
+        raise UsageError(f"Cannot read {whole(path)}: {error.strerror}.") from error
+
+
+def _folder(place: Path) -> None:
+    try:
+        place.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise UsageError(f"Cannot write {whole(place)}: {error.strerror}. Choose another --smt2.") from error
+
+
+def _told(
+    written: Sequence[tuple[Path, Written]], deriving: Deriving, progress: ProgressLine
+) -> Generator[Told, None, None]:
+    """What is said of each property that some file is to prove, as it is found."""
+    left = [dict.fromkeys(found.origin.proved) for _, found in written]
+    stems = Counter[str]()
+    orders = []
+    for path, found in written:
+        stem = path.name.partition(".json")[0]
+        stems[stem] += 1
+        orders.append(Order((f"{stem}-{stems[stem]}" if stems[stem] > 1 else stem, found)))
+    done = 0
+    pool = Pool(WORKERS, _itself, (deriving,), Limits().memory)
+    with closing(pool.run(orders)) as events:
+        for event in events:
+            file = str(written[event.number][0])
+            match event.message:
+                case Unwritable() as error:
+                    raise UsageError(str(error))
+                case Told() as told:
+                    del left[event.number][told.id]
+                    yield replace(told, file=file)
+            if event.done:
+                done += 1
+                progress.show(f"{done} of {counted(len(written), 'file', 'files')} checked")
+                reason = event.failure or "the check ended without a word on it"
+                yield from (Told(id, Undecided(reason), file=file) for id in left[event.number])
+
+
+def _itself(deriving: Deriving) -> Deriving:
+    return deriving
+
+
+def line(told: Told, verbose: bool, several: bool = False) -> str:
+    """Sign, id, outcome and why; of ``several`` files also in which one what is not accepted stands."""
+    match told.outcome:
+        case Accepted(how):
+            why = f"{told.verdict}: {how}"
+        case Rejected(obligation, counterexample):
+            why = f"{obligation}: {counterexample}"
+        case Undecided(reason):
+            why = reason
+    word = WORDS[type(told.outcome)]
+    if several and not isinstance(told.outcome, Accepted):
+        why = f"{told.file}: {why}"
+    cut = why if verbose or len(why) <= _SHOWN else f"{why[:_SHOWN]} … (all of it: -v)"
+    return f"{SIGNS[type(told.outcome)]} {shown(f'{told.id:<21} {word:<9} {cut}')}"
+
+
+def shown(text: str) -> str:
+    """What a file says, in one line: no character in it moves the cursor or begins a new line."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
+
+
+def document(found: Sequence[Told], count: int) -> dict[str, object]:
+    """All of it for machines; ``checker/schemas/certify-1.json`` describes it."""
+    told = sorted(found, key=lambda one: (one.id, one.file))
+    return {
+        "schema": f"rovercheck/certify/{SCHEMA}",
+        "exit": int(code(found)),
+        "files": count,
+        "properties": [
+            {
+                "id": one.id,
+                "file": one.file,
+                "outcome": WORDS[type(one.outcome)],
+                "verdict": one.verdict,
+                **asdict(one.outcome),
+            }
+            for one in told
+        ],
+    }
+
+
+def code(found: Sequence[Told]) -> Exit:
+    """What is rejected counts first, then what is not decided."""
+    kinds = [type(one.outcome) for one in found]
+    if Rejected in kinds:
+        return Exit.CHANGED
+    return Exit.INCONCLUSIVE if Undecided in kinds else Exit.AS_EXPECTED if found else Exit.NOTHING
+
+
+def summary(found: Sequence[Told], count: int) -> None:
+    """Counts."""
+    kinds = [type(one.outcome) for one in found]
+    counts = ", ".join(f"{kinds.count(k)} {word}" for k, word in WORDS.items() if k in kinds)
+    told = counts or "nothing is proved in them"
+    size = f"{counted(len(found), 'property', 'properties')} in {counted(count, 'file', 'files')}"
+    out.print(f"\n{size}: {told}.", markup=False)

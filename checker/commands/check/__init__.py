@@ -1,0 +1,228 @@
+"""The verb ``check``: properties against the verdicts on record."""
+
+from dataclasses import replace
+from pathlib import Path
+from shlex import join
+from typing import TYPE_CHECKING
+
+import click
+
+from checker.commands.shared.codes import Exit, UsageError
+from checker.commands.shared.options import GIB, modelling, searching, varying
+from checker.engines import ALL, AUTO, LOADED, Limits, Timers
+
+if TYPE_CHECKING:
+    from checker.commands.check.further import Further
+    from checker.commands.check.premises import Asking
+    from checker.commands.check.standing import Chains
+    from checker.commands.shared.variant import Variant
+
+
+@click.command(short_help="Check properties, and compare with the verdicts on record.")
+@click.argument("ids", nargs=-1, metavar="[ID]...")
+@click.option(
+    "--system", "about", multiple=True, metavar="NAME", help="Only properties about this system, or these."
+)
+@click.option("--full", is_flag=True, help="Also the properties that take long.")
+@click.option(
+    "--strict",
+    is_flag=True,
+    help="A proof of a case that never occurs, or may never, or that notices no known fault, is an error.",
+)
+@click.option("--no-premises", is_flag=True, help="Do not ask whether the cases occur that proofs speak of.")
+@click.option(
+    "--record-premises", is_flag=True, help="Search longer for these cases, and keep runs that show them."
+)
+@click.option(
+    "--record-invariants",
+    is_flag=True,
+    help="Keep the invariants of proofs: the next check tries them first.",
+)
+@click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
+@click.option("--quiet", "-q", is_flag=True, help="Only what is not as expected, and no progress.")
+@click.option(
+    "--jobs",
+    type=click.IntRange(min=1),
+    metavar="N",
+    help="Searches at a time; by default one per processor.",
+)
+@click.option(
+    "--memory",
+    type=GIB,
+    default=8.0,
+    show_default=True,
+    metavar="GIB",
+    help="What each search may take.",
+)
+@click.option("--all-engines", is_flag=True, help="Ask every engine and compare the answers.")
+@click.option("--certify", is_flag=True, help="Check every proof again, without the engine that found it.")
+@click.option(
+    "--certificates",
+    type=click.Path(file_okay=False, path_type=Path),
+    metavar="DIR",
+    help="Write the proofs into this folder.",
+)
+@click.option(
+    "--junit",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Write the verdicts as JUnit XML, for Jenkins, GitLab and others.",
+)
+@click.option(
+    "--sarif",
+    type=click.Path(dir_okay=False, path_type=Path),
+    metavar="FILE",
+    help="Write the findings as SARIF 2.1.0, for code scanning and editors.",
+)
+@click.option(
+    "--annotations",
+    type=click.Choice(["github"]),
+    help="Annotate the lines of a pull request.",
+)
+@modelling
+@varying
+@searching
+def check(
+    ids: tuple[str, ...],
+    about: tuple[str, ...],
+    full: bool,
+    strict: bool,
+    no_premises: bool,
+    record_premises: bool,
+    record_invariants: bool,
+    as_json: bool,
+    quiet: bool,
+    jobs: int | None,
+    memory: float,
+    all_engines: bool,
+    certify: bool,
+    certificates: Path | None,
+    junit: Path | None,
+    sarif: Path | None,
+    annotations: str | None,
+    model: Path | None,
+    chosen: tuple[str, ...],
+    repair: str | None,
+    dropped: tuple[str, ...],
+    engine: str,
+    depth: int | None,
+    timeout: float | None,
+    timers: str,
+) -> Exit:
+    """Check properties and compare the verdicts with the baseline."""
+    from checker.process.isolate import prepared
+
+    with prepared(*LOADED):
+        from checker.commands.check.certificates import writable
+        from checker.commands.check.findings import Guide, causes
+        from checker.commands.check.run import check as run
+        from checker.commands.check.run import undelivered
+        from checker.commands.shared.select import pick_engine, pick_properties
+        from checker.commands.shared.variant import pick_variant
+        from checker.model.kept_invariants import invariants_of
+
+        variant = pick_variant(chosen, repair, dropped, model)
+        properties = pick_properties(ids, about, variant.properties(), full, variant.unchanged())
+        if variant.name and not ids:
+            properties = list(filter(variant.concerns(), properties))
+        chains = _chains(variant) if not ids and not about and (full or variant.name) else None
+        if chains is not None:
+            properties = list(
+                {p.id: p for p in (*properties, *variant.promised(), *chains.links.values())}.values()
+            )
+        if variant.name:
+            properties = variant.askable(properties)
+        if no_premises and (strict or record_premises):
+            other = "--strict" if strict else "--record-premises"
+            raise UsageError(f"--no-premises leaves out what {other} asks for; write one of them.")
+        limits = Limits(depth, timeout, int(memory * 2**30), timers=Timers(timers))
+        asked = _asked(pick_engine(engine), all_engines)
+        if certificates:
+            writable(certificates)
+        certifying = variant.certifying(certificates, certify) if certify or certificates else None
+        systems = variant.systems()
+        deliver = undelivered
+        if junit or sarif or annotations:
+            from checker.commands.check.ci import Reports
+
+            again = _again(variant.model.options, chosen, repair, dropped)
+            reports = Reports(systems, junit, sarif, annotations or "", variant.name, again, as_json)
+            reports.possible()
+            deliver = reports.write
+        further = _further(
+            variant,
+            None if no_premises else _premises(variant, asked, limits, jobs, quiet, record_premises),
+            chains,
+        )
+        if record_invariants:
+            from checker.commands.check.invariants import Recording
+
+            further = replace(further, keep=Recording(variant.model, variant.name))
+        return run(
+            properties,
+            systems,
+            asked,
+            limits,
+            as_json,
+            variant.name,
+            variant.expected,
+            jobs,
+            certifying,
+            Guide(variant.options, _selection(ids, about, full), variant.model.by_gravity, causes(variant)),
+            deliver,
+            quiet,
+            further,
+            strict,
+            invariants_of(variant.model),
+        )
+
+
+def _chains(variant: "Variant") -> "Chains | None":
+    """The chains of the rover's promises, checked for holes; a model of a user's own has none."""
+    if variant.own is not None:
+        return None
+    from checker.commands.check.standing import Chains
+
+    return Chains(variant)
+
+
+def _further(variant: "Variant", premises: "Asking | None", chains: "Chains | None") -> "Further":
+    """What is asked of the verdicts; faults are kept of the charts as they are."""
+    from checker.commands.check.further import Further, noticing
+
+    further = Further(noticing=None if variant.name else noticing(variant.model))
+    if premises is not None:
+        further = replace(further, heard=premises.heard, cases=premises)
+    return further if chains is None else replace(further, chains=chains.standings)
+
+
+def _premises(
+    variant: "Variant", engine: str, limits: Limits, jobs: int | None, quiet: bool, keep: bool
+) -> "Asking":
+    """Asks whether the cases occur that proofs speak of, and keeps the runs if wanted."""
+    from checker.commands.check.premises import Asking, recordable
+    from checker.model.kept_runs import file_of, read
+
+    model = variant.model
+    if keep:
+        recordable(model, variant.name)
+    return Asking(model, variant.systems(), read(file_of(model)), engine, limits, jobs, quiet, keep)
+
+
+def _selection(ids: tuple[str, ...], about: tuple[str, ...], full: bool) -> str:
+    """The words that choose the same properties again."""
+    systems = (word for name in about for word in ("--system", name))
+    return join([*ids, *systems, *(("--full",) if full else ())])
+
+
+def _again(options: str, chosen: tuple[str, ...], repair: str | None, dropped: tuple[str, ...]) -> str:
+    """The options that let another command speak of the same charts."""
+    readings, without = [f"--reading {c}" for c in chosen], [f"--without {d}" for d in dropped]
+    return " ".join(filter(None, [options, *readings, f"--repair {repair}" if repair else "", *without]))
+
+
+def _asked(engine: str, every: bool) -> str:
+    """The engines to ask.  Raises ``UsageError`` when one is named and every engine wanted."""
+    if every and engine not in (AUTO, ALL):
+        raise UsageError(f"--engine {engine} asks one engine and --all-engines every one; write one of them.")
+    return ALL if every else engine

@@ -1,0 +1,140 @@
+"""What `check` tells machines: JUnit and SARIF files, annotations of a pull request."""
+
+import os
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from secrets import token_hex
+
+from checker.certify.outcome import Rejected
+from checker.commands.check.run import Compared, evidence, length, recorded
+from checker.commands.shared.codes import Exit, UsageError
+from checker.commands.shared.output import possible, write
+from checker.commands.shared.wording import formally
+from checker.commands.shared.wrapping import whole
+from checker.render.ci import Finding, Level, Report
+from checker.render.ci.github import annotations, summary
+from checker.render.ci.junit import junit
+from checker.render.ci.sarif import sarif
+from checker.results.trace import Trace, counted_ticks
+from checker.results.verdict import Exhausted, Unknown, Violated
+from properties.forms import Reachable
+from spec_model.lang.system import System
+
+SUMMARY = "GITHUB_STEP_SUMMARY"
+"""The file, named by GitHub, to which a step adds its summary."""
+
+
+@dataclass(frozen=True)
+class Reports:
+    """The files and annotations that were asked for.
+
+    They are written whole, also when a run was interrupted: then they say so.
+    """
+
+    systems: Mapping[str, System]
+    junit: Path | None = None
+    sarif: Path | None = None
+    annotations: str = ""
+    variant: str = ""
+    options: str = ""
+    as_json: bool = False
+    _token: str = field(default_factory=token_hex, init=False)
+    """What makes the runner of GitHub look for commands again; nobody who writes a model knows it."""
+
+    @property
+    def _in_log(self) -> bool:
+        """Whether annotations stand in the log behind what people read."""
+        return bool(self.annotations) and not self.as_json
+
+    def possible(self) -> None:
+        """Raises ``UsageError`` when a file cannot be written, before anything is decided.
+
+        What is printed from now on, until the annotations, commands nothing on GitHub, whatever a model says.
+        """
+        possible(self.junit)
+        possible(self.sarif)
+        if self._in_log:
+            print(f"::stop-commands::{self._token}", flush=True)
+
+    def write(self, found: Sequence[Compared], wanted: int, ended: str = "") -> None:
+        """Write all of them.  Raises ``UsageError`` for a place that cannot be written."""
+        findings = tuple(finding(c, self.systems, self.options) for c in found)
+        report = Report(findings, wanted, self.variant, ended)
+        if self.annotations:
+            text = annotations(report)  # the runner reads both streams
+            if self._in_log:
+                write(f"::{self._token}::\n{text}", None)
+            else:
+                print(text, end="", file=sys.stderr)
+            _summarised(report)
+        if self.junit:
+            write(junit(report), self.junit)
+        if self.sarif:
+            write(sarif(report), self.sarif)
+
+
+def _summarised(report: Report) -> None:
+    """Add the summary to that of the job, if this runs in one."""
+    file = os.environ.get(SUMMARY)
+    if file:
+        try:
+            with Path(file).open("a", encoding="utf-8") as stream:
+                stream.write(summary(report))
+        except OSError as error:
+            raise UsageError(f"Cannot write {whole(file)}: {error.strerror}. Unset {SUMMARY}.") from error
+
+
+def finding(compared: Compared, systems: Mapping[str, System], options: str = "") -> Finding:
+    """A verdict as every report shows it."""
+    prop, verdict = compared.result.property, compared.verdict
+    because = verdict.reason if isinstance(verdict, Unknown) else verdict.because
+    on_record = compared.verdict.word == compared.expected.verdict
+    system = systems.get(compared.result.system, systems.get(prop.on))
+    return Finding(
+        id=prop.id,
+        text=prop.text,
+        system=compared.result.system,
+        word=compared.word,
+        level=level(compared),
+        evidence=_rejected(compared) or evidence(compared.result),
+        recorded=recorded(compared.expected),
+        because=compared.expected.because if on_record else "",
+        help="\n".join(formally(prop, system, "")) if system is not None else prop.text,
+        tags=prop.covers,
+        place=prop.place,
+        trace=because if isinstance(because, Trace) else None,
+        details=_details(compared),
+        options=f" {options}" if options else "",
+        variant=compared.variant,
+    )
+
+
+def _rejected(compared: Compared) -> str:
+    found = compared.result.certificate
+    return f"{found.obligation}: {found.shown}" if isinstance(found, Rejected) else ""
+
+
+def level(compared: Compared) -> Level:
+    """How the verdict counts: as the exit code has it."""
+    if isinstance(compared.result.certificate, Rejected):
+        return Level.REJECTED
+    match compared.code:
+        case Exit.AS_EXPECTED:
+            return Level.KNOWN if isinstance(compared.verdict, Violated | Unknown) else Level.PASSED
+        case Exit.INCONCLUSIVE:
+            return Level.OPEN
+    return Level.FAILED
+
+
+def _details(compared: Compared) -> dict[str, str]:
+    """Engine, states and bound."""
+    verdict, found = compared.verdict, {"engine": compared.verdict.engine}
+    if isinstance(verdict, Unknown):
+        none = "no run to it" if isinstance(compared.result.property.form, Reachable) else "no counterexample"
+        return {**found, "bound": f"{none} within {counted_ticks(verdict.depth)}"}
+    if isinstance(verdict.because, Exhausted):
+        found["states"] = str(verdict.because.states)
+    ticks = length(verdict)
+    return {**found, "ticks": str(ticks)} if ticks is not None else found

@@ -1,0 +1,190 @@
+"""What a check found, in a few lines: how many demands hold, the gravest findings, and where to read on."""
+
+import sys
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from os.path import relpath
+from pathlib import Path
+from shlex import quote
+from shutil import which
+from typing import TYPE_CHECKING
+
+from checker.commands.shared.output import counted
+from checker.commands.shared.wrapping import whole
+from properties.forms import Property, Reachable
+from spec_model.lang.system import System
+
+if TYPE_CHECKING:
+    from checker.commands.check.run import Compared
+    from checker.commands.check.standing import Standing
+    from checker.commands.shared.variant import Variant
+
+REPORTS = Path("reports/README.md")
+
+SHOWN = 10
+"""Findings that are named; the others are counted, and where all of them are is said."""
+DEMAND = {"proved": "proved", "in part": "in part", "violated": "violated", "unknown": "unknown"}
+SITUATION = {"proved": "reached", "in part": "out of reach in part", "violated": "out of reach",
+             "unknown": "unknown"}  # fmt: skip
+"""What a verdict on a demand, and on a situation that is to be reached, is called when they are counted."""
+
+
+@dataclass(frozen=True)
+class Guide:
+    """Where a user reads on.
+
+    ``options`` make a command be about the same charts, ``chosen`` about the same properties.  ``gravest``
+    are the requirements, those first whose violation is gravest; ``causes`` is a page on all findings.
+    """
+
+    options: str = ""
+    chosen: str = ""
+    gravest: Sequence[str] = ()
+    causes: str = ""
+
+    def command(self, *words: str) -> str:
+        """A command about the same charts, as it is typed here."""
+        return whole(" ".join(filter(None, (program(), *words, self.options))))
+
+
+ALONE = Guide()
+"""Of properties that are nobody's model."""
+
+
+def program() -> str:
+    """The name of the program, or its path where a shell would not find it by its name."""
+    beside = Path(sys.executable).with_name("rovercheck")
+    if which("rovercheck") or not beside.is_file():
+        return "rovercheck"
+    near = beside.is_relative_to(Path.cwd())
+    return quote(relpath(beside) if near else str(beside))
+
+
+def causes(variant: "Variant") -> str:
+    """The page that tells the causes of the findings on the rover as specified, where it is at hand."""
+    there = variant.own is None and not variant.name and REPORTS.is_file()
+    return str(REPORTS) if there else ""
+
+
+def totals(found: Sequence["Compared"]) -> str:
+    """``337 demands: 244 proved, 93 violated; 156 situations: all reached.``"""
+    kinds = [(one, isinstance(one.result.property.form, Reachable)) for one in found]
+    demands = [_word(one) for one, situation in kinds if not situation]
+    situations = [_word(one) for one, situation in kinds if situation]
+    parts = [
+        f"{counted(len(words), *names)}: {_shares(words, called)}"
+        for words, names, called in (
+            (demands, ("demand", "demands"), DEMAND),
+            (situations, ("situation", "situations"), SITUATION),
+        )
+        if words
+    ]
+    return "; ".join(parts) + "."
+
+
+def _word(one: "Compared") -> str:
+    return "in part" if one.result.in_part else one.verdict.word
+
+
+def _shares(words: Sequence[str], called: Mapping[str, str]) -> str:
+    counts = Counter(words)
+    if len(counts) == 1:
+        return f"{'all ' if len(words) > 1 else ''}{called[words[0]]}"
+    return ", ".join(f"{counts[word]} {said}" for word, said in called.items() if word in counts)
+
+
+def about_cases(found: Sequence["Compared"]) -> Iterator[str]:
+    """Which proofs speak of a case that never occurs, or of which it is not known."""
+    told = [(one.result.property, one.case.occurs) for one in found if one.case is not None]
+    empty = [prop for prop, occurs in told if occurs is False]
+    unknown = [prop.id for prop, occurs in told if occurs is None]
+    if told and not empty and not unknown and found[0].strict:
+        speak = counted(len(told), "proof speaks", "proofs speak")
+        yield f"{speak} of a case (whenever ..., then ...): it occurs."
+    if empty:
+        yield "Proved of nothing, as the case never occurs that is spoken of:"
+        yield from (f"  {prop.id}, {prop.on}: {prop.text}" for prop in empty)
+    if unknown:
+        yield f"Proved, not known whether the case occurs that is spoken of: {', '.join(unknown)}."
+
+
+def about_faults(found: Sequence["Compared"]) -> Iterator[str]:
+    """Which proofs notice no fault that is known."""
+    idle = sorted(one.result.property.id for one in found if one.idle)
+    noticing = sum(one.noticed is True for one in found)
+    if noticing and not idle and found[0].strict:
+        notice = counted(noticing, "proof notices", "proofs notice")
+        yield f"{notice} a fault that was put into the charts."
+    if idle:
+        more = f" and {len(idle) - SHOWN} more" if len(idle) > SHOWN else ""
+        yield f"Proved, and no fault of the charts is known that it notices: {', '.join(idle[:SHOWN])}{more}."
+
+
+def about_chains(told: Sequence["Standing"]) -> Iterator[str]:
+    """How many chains across the link hold, and which do not."""
+    if told:
+        good = sum(one.holds is True for one in told)
+        yield f"{good} of {counted(len(told), 'chain', 'chains')} across the link hold, link by link."
+        yield from (f"  {one.text}" for one in told if not one.holds)
+
+
+def read_on(found: Sequence["Compared"], systems: Mapping[str, System], guide: Guide) -> Iterator[str]:
+    """The gravest findings that are not explained already, and where all are; nothing if there is none."""
+    known = gravest([one for one in found if one.as_expected or one.variant], systems, guide.gravest)
+    number = sum(one.verdict.word == "violated" for one in found)
+    if known:
+        yield ""
+        yield from listed(known)
+    if number:
+        yield ""
+        yield from _commands(known, number, guide)
+
+
+def listed(ordered: Sequence["Compared"]) -> Iterator[str]:
+    """The first findings, each in a line."""
+    if len(ordered) > SHOWN:
+        yield f"Violated, the gravest first, one for each requirement ({SHOWN} of {len(ordered)}):"
+    else:
+        yield "Violated, the gravest first:" if len(ordered) > 1 else "Violated:"
+    for one in ordered[:SHOWN]:
+        prop = one.result.property
+        out_of_reach = "Cannot be reached: " if isinstance(prop.form, Reachable) else ""
+        yield f"  {prop.id}, {one.result.system}: {out_of_reach}{prop.text}"
+
+
+def _commands(known: Sequence["Compared"], number: int, guide: Guide) -> Iterator[str]:
+    """What to type, or to read, to see more of so many findings."""
+    if runs := [one.result.property.id for one in known if one.length is not None]:
+        yield f"Tick by tick: {guide.command('trace', runs[0])}"
+    page = guide.command("report", guide.chosen, "-o review.html")
+    yield f"All {number} on one page: {page}" if number > 1 else f"On a page: {page}"
+    if guide.causes:
+        yield f"Causes and proposed repairs: {guide.causes}"
+
+
+def gravest(
+    found: Sequence["Compared"], systems: Mapping[str, System], order: Sequence[str]
+) -> list["Compared"]:
+    """What is violated: for each requirement the gravest finding, in the order of the requirements, then for
+    each the next, and so on.
+
+    Of one requirement a demand comes before a situation out of reach, then what is shown on more of the
+    charts, then what a shorter run shows.
+    """
+    rank = {id: place for place, id in enumerate(order)}
+    turns = Counter[int]()
+    keyed = []
+    broken = (one for one in found if one.verdict.word == "violated")
+    for one in sorted(broken, key=lambda one: _within(one, systems)):
+        first = min((rank.get(id, len(rank)) for id in one.result.property.covers), default=len(rank))
+        keyed.append(((turns[first], first), one))
+        turns[first] += 1
+    return [one for _, one in sorted(keyed, key=lambda pair: pair[0])]
+
+
+def _within(one: "Compared", systems: Mapping[str, System]) -> tuple[bool, int, int, str]:
+    """What is graver of two findings about one requirement."""
+    prop: Property = one.result.property
+    charts = len(systems[one.result.system].charts) if one.result.system in systems else 0
+    return isinstance(prop.form, Reachable), -charts, one.length or sys.maxsize, prop.id

@@ -1,0 +1,76 @@
+"""What is asked of verdicts once they are found: whether cases occur, chains hold, and a fault is noticed."""
+
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from checker.model import Model
+from checker.model.kept_runs import KILLS, file_of, read
+from checker.results.verdict import Proved
+from properties.forms import Property, Reachable, Unbounded
+
+if TYPE_CHECKING:
+    from checker.commands.check.premises import Case
+    from checker.commands.check.run import Compared
+    from checker.commands.check.standing import Standing
+
+
+def _unheard(_: "Compared") -> None:
+    """Nothing is asked while others are searched for."""
+
+
+def _no_cases(_: Sequence["Compared"]) -> Mapping[str, "Case"]:
+    return {}
+
+
+def _nothing_kept(_: Sequence["Compared"]) -> None:
+    """No proof is put on record."""
+
+
+def _no_chains(_: Sequence["Compared"]) -> Sequence["Standing"]:
+    return ()
+
+
+@dataclass(frozen=True)
+class Further:
+    """What is asked of the verdicts; by default nothing.
+
+    ``heard`` is told each result while others are searched for.  ``cases`` says of each proof that speaks of
+    a case, by id, whether the case occurs, ``chains`` what becomes of chains of properties.  ``noticing`` are
+    the properties that notice a fault which is on record; None where none are kept.  ``keep`` puts proofs on
+    record.
+    """
+
+    heard: Callable[["Compared"], None] = _unheard
+    cases: Callable[[Sequence["Compared"]], Mapping[str, "Case"]] = _no_cases
+    chains: Callable[[Sequence["Compared"]], Sequence["Standing"]] = _no_chains
+    noticing: Collection[str] | None = None
+    keep: Callable[[Sequence["Compared"]], None] = _nothing_kept
+
+    def noticed(self, one: "Compared") -> bool | None:
+        """Whether a fault is known that a proof notices; None of what no fault is looked for."""
+        prop = one.result.property
+        if self.noticing is None or not isinstance(one.verdict, Proved) or not asks_for_fault(prop):
+            return None
+        return prop.id in self.noticing
+
+
+def asks_for_fault(prop: Property) -> bool:
+    """Whether a fault is looked for that a property notices: not of those that take long, nor of situations
+    and of what happens some day.
+    """
+    return not prop.costly and not isinstance(prop.form, Reachable | Unbounded)
+
+
+def noticing(model: Model) -> frozenset[str] | None:
+    """The properties that notice a fault, or the charts as they are; None if no kills are on record."""
+    place = file_of(model, KILLS)
+    if not place.exists():
+        return None
+    broken = {id for id in model.properties if model.expected(id).verdict == "violated"}
+    return frozenset(broken | read(place, KILLS).keys())
+
+
+NOTHING_FURTHER = Further()
+
+__all__ = ["NOTHING_FURTHER", "Further", "asks_for_fault", "noticing"]

@@ -1,0 +1,176 @@
+"""Whether the cases occur that proofs speak of: runs on record first, then a search."""
+
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from checker.commands.check.run import Compared, evidence, results
+from checker.commands.shared.codes import UsageError
+from checker.commands.shared.output import write
+from checker.commands.shared.wrapping import whole
+from checker.engines import Limits
+from checker.model import Model
+from checker.model.kept_runs import INVARIANTS, PREMISES, Kept, file_of, read, text
+from checker.results.trace import counted_ticks
+from checker.results.verdict import Proved, Unknown
+from checker.verify.result import Result
+from checker.verify.runs.known import reached, run_of
+from properties.forms import Property
+from properties.premise import premise
+from spec_model.lang.system import System
+
+PATIENCE = 5.0
+"""Seconds for each search for a case where verdicts are what is asked for."""
+LONG = 60.0
+"""Seconds for each where the cases are: a witness may be hard to find."""
+UNDECIDED = re.compile(r"(not reproduced on [\w.]+): .*", re.DOTALL)
+
+
+@dataclass(frozen=True)
+class Case:
+    """Whether the case occurs of which a proof speaks (None: not known), and what shows it, in words."""
+
+    occurs: bool | None
+    said: str
+    kept: Kept | None = None
+
+
+def cases(
+    found: Sequence[Compared],
+    systems: Mapping[str, System],
+    known: Mapping[str, Kept],
+    engine: str,
+    limits: Limits,
+    jobs: int | None = None,
+    quiet: bool = False,
+    patience: float = PATIENCE,
+    shown: Mapping[str, Case] | None = None,
+) -> dict[str, Case]:
+    """For each proof that speaks of a case, by id, whether it occurs on its system.
+
+    A ``known`` run is gone through again on the charts as they are now, unless that was done and it is among
+    those ``shown``; only where it does not show the case any more a run is searched for, ``patience`` seconds
+    long at most.
+    """
+    wanted, before = _wanted(found), shown or {}
+    found_out = {id: before[id] for id in wanted if id in before}
+    found_out |= _again({id: case for id, case in wanted.items() if id not in before}, known, systems)
+    left = [case for id, case in wanted.items() if id not in found_out]
+    brief = replace(limits, seconds=min(patience, limits.seconds or patience))
+    for one in _searched(left, systems, engine, brief, jobs, quiet):
+        found_out[one.property.id] = told(one, systems)
+    return found_out
+
+
+@dataclass
+class Asking:
+    """Asks of each proof whether its case occurs; ``keep``: for longer, and the runs that show it are kept.
+
+    Runs on record are gone through as the proofs are heard of: while others are searched for, there is time.
+    """
+
+    model: Model
+    systems: Mapping[str, System]
+    known: Mapping[str, Kept]
+    engine: str
+    limits: Limits
+    jobs: int | None
+    quiet: bool
+    keep: bool
+    _shown: dict[str, Case] = field(default_factory=dict)
+
+    def heard(self, one: Compared) -> None:
+        """Go through the run on record of a proof that speaks of a case."""
+        self._shown |= _again(_wanted([one]), self.known, self.systems)
+
+    def __call__(self, found: Sequence[Compared]) -> Mapping[str, Case]:
+        """For each proof that speaks of a case, by id, whether it occurs on its system."""
+        asked = self.systems, self.known, self.engine, self.limits, self.jobs, self.quiet
+        told = cases(found, *asked, LONG if self.keep else PATIENCE, self._shown)
+        if self.keep:
+            record(told, self.model)
+        return told
+
+
+def record(known: Mapping[str, Case], model: Model) -> None:
+    """Keep the runs that show the cases; those of properties that were not asked for stay as they are.
+
+    Raises ``UsageError`` where the file cannot be written.
+    """
+    file = file_of(model)
+    others = {id: kept for id, kept in read(file).items() if id in model.properties and id not in known}
+    new = {id: case.kept for id, case in known.items() if case.kept is not None}
+    write(text({**others, **new}), file)
+
+
+def recordable(model: Model, variant: str, kind: str = PREMISES) -> None:
+    """Raises ``UsageError`` where none of that kind can be kept, before anything is searched."""
+    if variant:
+        what = "invariants" if kind == INVARIANTS else "runs"
+        raise UsageError(
+            f"--record-{kind} keeps {what} of the charts as they are, not {variant}. Leave one of them out."
+        )
+    file = file_of(model, kind)
+    if not file.parent.is_dir() or file.is_dir():
+        raise UsageError(f"Cannot write {whole(file)}: it is no file in a folder that exists.")
+
+
+def _wanted(found: Sequence[Compared]) -> dict[str, Property]:
+    """The cases that proofs speak of, by id."""
+    proved = (c.result.property for c in found if isinstance(c.verdict, Proved))
+    return {prop.id: case for prop in proved if (case := premise(prop)) is not None}
+
+
+def _again(
+    wanted: Mapping[str, Property], known: Mapping[str, Kept], systems: Mapping[str, System]
+) -> Iterator[tuple[str, Case]]:
+    """The cases that runs on record still show."""
+    for id, case in wanted.items():
+        kept = known.get(id)
+        if kept is not None and kept.system in systems:
+            system = systems[kept.system]
+            shown = reached(system, [replace(case, on=system.name)], [kept.run])
+            if id in shown:
+                yield id, Case(True, _occurs(len(shown[id]), system), replace(kept, run=shown[id]))
+
+
+def _searched(
+    asked: Sequence[Property],
+    systems: Mapping[str, System],
+    engine: str,
+    limits: Limits,
+    jobs: int | None,
+    quiet: bool,
+) -> Iterator[Result]:
+    """What came of searching for cases; where none is found on the rover, on the system that was searched."""
+    free = {name: replace(system, over=False, concrete="") for name, system in systems.items()}
+    first = {name: system if system.concrete else free[name] for name, system in systems.items()}
+    again = list[Property]()
+    for one in results(asked, first, engine, limits, jobs, quiet=quiet) if asked else ():
+        if not isinstance(one.verdict, Proved) and first[one.property.on].over:
+            again.append(one.property)
+        else:
+            yield one
+    if again:
+        yield from results(again, free, engine, limits, jobs, quiet=quiet)
+
+
+def told(one: Result, systems: Mapping[str, System]) -> Case:
+    """What came of the search for a case."""
+    match one.verdict:
+        case Unknown(reason):
+            return Case(None, "not known: " + UNDECIDED.sub(r"\1 within the limits", reason))
+        case Proved() as verdict:
+            run = run_of(verdict)
+            assert run is not None, "what is reached is reached by a run"
+            return Case(True, _occurs(len(run), systems[one.system]), Kept(one.system, run))
+    part = ", as far as was searched" if one.in_part else ""
+    return Case(False, f"it NEVER occurs, so nothing is said{part}: {evidence(one)}")
+
+
+def _occurs(ticks: int, system: System) -> str:
+    more = ", which has more runs than it should" if system.over else ""
+    return f"it occurs: after {counted_ticks(ticks)} of {system.name}{more}"
+
+
+__all__ = ["LONG", "PATIENCE", "Asking", "Case", "cases", "record", "recordable", "told"]

@@ -1,0 +1,37 @@
+"""The verb ``conform``: logs checked against the properties and the charts."""
+
+from pathlib import Path
+
+import click
+
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.options import changing, quietly
+
+
+@click.command(short_help="Check logs recorded on a board.")
+@click.argument("place", type=click.Path(exists=True, path_type=Path), metavar="LOG|DIR")
+@click.option(
+    "--map",
+    "map_file",
+    type=click.Path(path_type=Path),
+    metavar="MAP.toml",
+    help="What the columns are (docs/conform.md).",
+)
+@click.option("--system", metavar="NAME", help="The board: board1 or board2; by default the columns tell.")
+@click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
+@click.option("--verbose", "-v", is_flag=True, help="Every property, also those that say nothing.")
+@changing
+@quietly
+def conform(
+    place: Path,
+    map_file: Path | None,
+    system: str | None,
+    as_json: bool,
+    verbose: bool,
+    chosen: tuple[str, ...],
+    repair: str | None,
+) -> Exit:
+    """Check a log, or all logs of a folder: every property as a monitor, and as a run of the charts."""
+    from checker.commands.conform.run import conform as run
+
+    return run(place, map_file, system, as_json, verbose, chosen, repair)

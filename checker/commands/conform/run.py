@@ -1,0 +1,148 @@
+"""``rovercheck conform``: logs checked against the properties and the charts."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from checker.commands.conform.document import as_json
+from checker.commands.conform.text import Fault, Outcome, page, summary
+from checker.commands.shared.codes import Exit, UsageError
+from checker.commands.shared.failure import told
+from checker.commands.shared.output import err, out
+from checker.commands.shared.progress import ProgressLine
+from checker.commands.shared.variant import Variant, pick_variant
+from checker.compare.varied import varied
+from checker.io.printable import json_text
+from checker.logs import Against, LogError, Map, Result, examine, read_map
+
+SCHEMA = "rovercheck/conform/1"
+"""The format of the JSON documents, and its version."""
+
+SUFFIXES = (".csv", ".csv.gz", ".tsv", ".tsv.gz", ".parquet")
+GRAVEST = (Exit.INTERNAL, Exit.CHANGED, Exit.USAGE, Exit.INCONCLUSIVE)
+"""Of a folder the first of these that applies to some log."""
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What the command line asks for; ``against``: the charts, with ``charts`` in words where changed."""
+
+    how: Map
+    system: str
+    as_json: bool
+    verbose: bool
+    charts: str = ""
+    against: Against | None = None
+
+    def examined(self, path: Path) -> Result:
+        """What one log says.  Raises ``LogError``."""
+        return examine(path, self.how, self.system, self.against)
+
+    def outcome(self, path: Path) -> Outcome:
+        """What one of many logs says, or why it says nothing, whatever that is: the others are judged."""
+        try:
+            return self.examined(path)
+        except LogError as error:
+            return error
+        except MemoryError:
+            return LogError("takes more memory than there is; cut it into several logs.")
+        except Exception as error:
+            return Fault(told(error))
+
+
+def conform(
+    place: Path,
+    map_file: Path | None,
+    system: str | None,
+    json_wanted: bool,
+    verbose: bool,
+    chosen: tuple[str, ...] = (),
+    repair: str | None = None,
+) -> Exit:
+    """Check one log or all logs of a folder, under chosen readings and with a repair.
+
+    Raises ``UsageError`` for a map without meaning, and for a single log that cannot be read.
+    """
+    variant = pick_variant(chosen, repair, ())
+    against = _against(variant) if variant.name else None
+    asked = Asked(_map(map_file), system or "", json_wanted, verbose, variant.name, against)
+    return _folder(place, asked) if place.is_dir() else _log(place, asked)
+
+
+def _log(place: Path, asked: Asked) -> Exit:
+    try:
+        found = asked.examined(place)
+    except LogError as error:
+        raise UsageError(f"{place}: {error}") from error
+    code = _code_of(found)
+    if asked.as_json:
+        print(json_text({"schema": SCHEMA, "exit": code, **as_json(found, asked.charts)}))
+    else:
+        out.print(page(found, asked.verbose, asked.charts), markup=False)
+    return code
+
+
+def _against(variant: Variant) -> Against:
+    """The boards, properties and verdicts on record of a variant."""
+    found = varied(variant.choices, variant.repair)
+    properties, systems = variant.properties(), variant.systems()
+    return Against(found, properties, systems, lambda id: variant.expected(id).verdict)
+
+
+def _map(file: Path | None) -> Map:
+    if file is None:
+        return Map()
+    try:
+        return read_map(file)
+    except LogError as error:
+        raise UsageError(str(error)) from error
+
+
+def _folder(folder: Path, asked: Asked) -> Exit:
+    """Every log of a folder; one that cannot be read or judged leaves the others' results."""
+    try:
+        logs = sorted(p for p in folder.iterdir() if p.is_file() and p.name.lower().endswith(SUFFIXES))
+    except OSError as error:
+        raise UsageError(f"Cannot read the folder {folder}: {error.strerror}. Write another.") from error
+    if not logs:
+        err.print(f"{folder} holds no log ({', '.join(SUFFIXES)}).", markup=False)
+        return Exit.NOTHING
+    found: dict[str, Outcome] = {}
+    with ProgressLine() as line:
+        for number, log in enumerate(logs, 1):
+            line.show(f"{number} of {len(logs)}: {log.name}")
+            found[log.name] = asked.outcome(log)
+    code = _code(list(found.values()))
+    if asked.as_json:
+        entries = [_entry(n, r, asked.charts) for n, r in found.items()]
+        print(json_text({"schema": SCHEMA, "exit": code, "logs": entries}))
+    else:
+        out.print(summary(found, asked.charts), markup=False)
+    return code
+
+
+def _entry(name: str, found: Outcome, charts: str) -> Mapping[str, object]:
+    match found:
+        case Result():
+            return as_json(found, charts)
+        case Fault(message):
+            return {"log": name, "error": message, "internal": True}
+        case _:
+            return {"log": name, "error": str(found)}
+
+
+def _code(found: Sequence[Outcome]) -> Exit:
+    """The gravest code of all logs."""
+    codes = set(map(_code_of, found))
+    return next((code for code in GRAVEST if code in codes), Exit.AS_EXPECTED)
+
+
+def _code_of(found: Outcome) -> Exit:
+    match found:
+        case Fault():
+            return Exit.INTERNAL
+        case LogError():
+            return Exit.USAGE
+    if found.deviates or found.invalid:
+        return Exit.CHANGED
+    return Exit.INCONCLUSIVE if found.behaviour.undecided else Exit.AS_EXPECTED

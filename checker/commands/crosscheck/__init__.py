@@ -1,0 +1,69 @@
+"""The verb ``crosscheck``: an implementation and the charts side by side."""
+
+from pathlib import Path
+
+import click
+
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.options import changing, quietly
+
+
+@click.command(short_help="Compare a supervisor with the charts, step by step.")
+@click.option("--system", metavar="NAME", help="The board: board1 or board2; by default both.")
+@click.option("--impl", metavar="KIND:WHAT", help="Its supervisor; by default that of the project.")
+@click.option(
+    "--profile", type=click.Choice(["ci", "nightly"]), default="ci", show_default=True, help="How long."
+)
+@click.option("--examples", type=click.IntRange(min=0), metavar="N", help="Random runs on each board.")
+@click.option("--seed", type=click.IntRange(min=0), metavar="S", help="Draw the runs of this number.")
+@click.option(
+    "--tests", type=click.Path(path_type=Path), metavar="DIR", help="Also the tests there, as CSV or JSON."
+)
+@click.option(
+    "--mismatches",
+    type=click.IntRange(min=0),
+    default=5,
+    show_default=True,
+    metavar="N",
+    help="Distinct mismatches told with inputs and a test; the others in a line each.",
+)
+@click.option(
+    "--failures",
+    type=click.IntRange(min=1),
+    default=3,
+    show_default=True,
+    metavar="N",
+    help="Runs it may fail to survive before no more are tried.",
+)
+@click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
+@click.option(
+    "--output",
+    "-o",
+    type=click.Path(file_okay=False, path_type=Path),
+    metavar="DIR",
+    help="Write a test for each of these mismatches there, not here.",
+)
+@changing
+@quietly
+def crosscheck(
+    system: str | None,
+    impl: str | None,
+    profile: str,
+    examples: int | None,
+    seed: int | None,
+    tests: Path | None,
+    mismatches: int,
+    failures: int,
+    as_json: bool,
+    output: Path | None,
+    chosen: tuple[str, ...],
+    repair: str | None,
+) -> Exit:
+    """Run a supervisor and the charts side by side; exit code 1 where they differ."""
+    from checker.commands.crosscheck.run import Asked
+    from checker.commands.crosscheck.run import crosscheck as run
+    from checker.compare import Allowance
+
+    allowed = Allowance(mismatches, failures)
+    asked = Asked(system, impl, profile, examples, seed, tests, allowed, chosen, repair)
+    return run(asked, output, as_json)

@@ -1,0 +1,77 @@
+"""The commands of ``rovercheck explore`` that load the run of a property, and write the run at hand."""
+
+from pathlib import Path
+
+from checker.commands.explore.explorer import Commands, Explorer
+from checker.commands.explore.text import show
+from checker.commands.explore.words import split
+from checker.commands.shared.output import write
+from checker.commands.shared.select import pick
+from checker.commands.shared.variant import Variant
+from checker.commands.shared.wrapping import whole
+from checker.explore.by_hand.session import Session
+from checker.explore.by_hand.written import Refused
+from checker.results.trace import Trace
+from properties.forms import Property
+
+
+def _trace(explorer: Explorer, rest: str) -> None:
+    known = explorer.variant.properties()
+    if not known:
+        raise Refused("The model states no properties, so there is no run to load.")
+    if not rest:
+        raise Refused(f"Write the ID of a property: trace {next(iter(known))}")
+    prop = pick("property", rest, known)
+    systems = explorer.variant.systems()
+    trace = _decided(prop, explorer.variant)
+    if trace.system != explorer.session.simulation.system.name:
+        explorer.session = Session(systems[trace.system])
+        explorer.introduce()
+    explorer.session.play(trace.before, [tick.inputs for tick in trace.ticks])
+    explorer.say(f"{prop.id}: {prop.text}", "bold")
+    explorer.say(f"Its run of {len(trace)} ticks is loaded, and this is its end; goto TICK looks at another.")
+    show(explorer.console, explorer.session)
+
+
+def _decided(prop: Property, variant: Variant) -> Trace:
+    """The run that the verdict on a property rests on.  Raises ``Refused`` if there is none."""
+    from checker.commands.check.run import evidence, results
+    from checker.engines import AUTO, Limits
+    from checker.results.verdict import Unknown
+
+    [result] = results([prop], variant.systems(), AUTO, Limits())
+    if isinstance(result.verdict, Unknown) or not isinstance(result.verdict.because, Trace):
+        raise Refused(f"{prop.id} is {result.verdict.word} and has no run to load: {evidence(result)}")
+    return result.verdict.because
+
+
+def _save(explorer: Explorer, rest: str) -> None:
+    words = split(rest)
+    if not 1 <= len(words) <= 2:
+        raise Refused("Write save FILE, or save FILE FORMAT: save run.vcd, save run.html play")
+    target, session = Path(words[0]), explorer.session
+    if not session.simulation.at:
+        raise Refused("There is no run before the first tick; write step first.")
+    if target.suffix == ".txt" and len(words) == 1:
+        write(session.script(), target)
+        explorer.say(f"{whole(target)} holds the commands that make this run again.")
+        return
+    from checker.commands.trace.formats import exit_written
+    from checker.render import renderers
+
+    known = renderers("trace")
+    exits = {e.SUFFIX: name for name, e in reversed(known.items())} | {".html": "html", ".svg": "svg"}
+    found = [name for suffix, name in exits.items() if target.name.endswith(suffix) and suffix != ".txt"]
+    format = words[1] if len(words) == 2 else max(found, key=lambda n: len(known[n].SUFFIX), default="")
+    if not format:
+        raise Refused(f"No format has files like {words[0]}; write one of *{', *'.join(sorted(exits))}.")
+    systems = {**explorer.variant.systems(), session.simulation.system.name: session.simulation.system}
+    trace = session.simulation.trace()
+    for path in (target, *exit_written(pick("trace format", format, known), trace, systems, target)):
+        explorer.say(f"{whole(path)} is written ({format}).")
+
+
+COMMANDS: Commands = {
+    "trace": ("trace PROPERTY", _trace, "load the counterexample or witness of a property"),
+    "save": ("save FILE [FORMAT]", _save, "the run as .vcd, .json, .csv, .html, .py ...; .txt as a script"),
+}

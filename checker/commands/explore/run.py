@@ -1,0 +1,137 @@
+"""``rovercheck explore``: a system stepped through at a prompt, or by a script of the same commands."""
+
+import shlex
+import signal
+import sys
+from collections.abc import Callable, Iterable, Mapping
+from contextlib import suppress
+from functools import partial
+from pathlib import Path
+from types import FrameType
+from typing import NoReturn
+
+from checker.commands.explore.commands import Quit, completions, obey
+from checker.commands.explore.explorer import Explorer
+from checker.commands.shared.codes import Exit, UsageError
+from checker.commands.shared.output import out
+from checker.commands.shared.select import pick
+from checker.commands.shared.variant import Variant
+from checker.commands.shared.wrapping import filled, whole
+from checker.explore.by_hand.session import Session
+from checker.explore.by_hand.written import Refused
+from spec_model.lang.chart import Chart
+from spec_model.lang.errors import ModelError
+from spec_model.lang.system import System, in_order
+from spec_model.rover import charts_of
+
+
+def explore(name: str | None, variant: Variant, traced: str | None, script: Path | None) -> Exit:
+    """Run a session.  Raises ``UsageError`` for a name that is none, and a bad command of a script."""
+    by_name = variant.systems()
+    if name is None and traced is None:
+        return _offer(by_name)
+    prop = pick("property", traced, variant.properties()) if traced else None
+    system = by_name[prop.on] if name is None and prop else _system(name or "", by_name)
+    explorer = Explorer(Session(system), variant, out)
+    explorer.introduce()
+    if traced:
+        _first(explorer, f"trace {shlex.quote(traced)}")
+    if script is not None:
+        return _scripted(explorer, _read(script))
+    if sys.stdin is not None and sys.stdin.isatty():
+        return _asked(explorer)
+    return _scripted(explorer, sys.stdin or ())
+
+
+def _system(name: str, by_name: Mapping[str, System]) -> System:
+    """The system of that name, or a chart alone: all that it reads is then an input."""
+    if name in by_name:
+        return by_name[name]
+    charts: Mapping[str, Chart] = charts_of(by_name)
+    known: dict[str, Chart | None] = {**dict.fromkeys(by_name), **charts}
+    found = pick("chart or system", name, known)
+    assert found is not None, "systems were looked for before"
+    return in_order(found.name, found, text=found.text, notes=("The chart alone: all it reads is an input.",))
+
+
+def _offer(by_name: Mapping[str, System]) -> Exit:
+    """What can be explored."""
+    for title, names in (("Charts, each alone", charts_of(by_name)), ("Systems", by_name)):
+        out.print(f"{title}:", style="bold")
+        listed = filled(", ".join(names), min(out.width, 100), "  ", "  ")
+        out.print(listed, markup=False)
+    systems, charts, begin = (
+        whole(f"rovercheck {words}") for words in ("list systems", "list charts", "explore NAME")
+    )
+    out.print(f"What each is: {systems}; {charts}. Begin: {begin}")
+    return Exit.AS_EXPECTED
+
+
+def _read(script: Path) -> list[str]:
+    try:
+        return script.read_text(encoding="utf-8").splitlines()
+    except (OSError, UnicodeDecodeError) as error:
+        raise UsageError(f"Cannot read {whole(script)}: {error}") from None
+
+
+def _first(explorer: Explorer, line: str) -> None:
+    try:
+        obey(explorer, line)
+    except (Refused, ModelError) as error:
+        raise UsageError(str(error)) from None
+
+
+def _scripted(explorer: Explorer, lines: Iterable[str]) -> Exit:
+    """Obey commands, each shown as if it had been typed, up to the first that has no meaning."""
+    for number, line in enumerate(lines, start=1):
+        out.print(f"{explorer.prompt}{line.rstrip()}", markup=False)
+        try:
+            obey(explorer, line)
+        except Quit:
+            break
+        except (Refused, ModelError, UsageError) as error:
+            raise UsageError(f"Line {number}, {line.strip()!r}: {error}") from None
+    return Exit.AS_EXPECTED
+
+
+def _asked(explorer: Explorer) -> Exit:
+    """Obey commands from a terminal until there are no more, or somebody wants the program to end."""
+    _line_editing(partial(completions, explorer))
+    _end_when_told()
+    while True:
+        try:
+            obey(explorer, input(explorer.prompt))
+        except (EOFError, Quit):
+            out.print()
+            return Exit.AS_EXPECTED
+        except KeyboardInterrupt:
+            out.print("\nInterrupted; quit or Ctrl-D ends.")
+        except (Refused, ModelError, UsageError) as error:
+            explorer.say(str(error), "red")
+
+
+def _end_when_told() -> None:
+    """A request to end is no Ctrl-C here, which only clears the line."""
+    for name in ("SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        if number is not None and signal.getsignal(number) is not signal.SIG_IGN:  # not under nohup
+            signal.signal(number, _ended)
+
+
+def _ended(number: int, _: FrameType | None) -> NoReturn:
+    out.print()  # what follows, a shell's prompt perhaps, begins a line
+    raise SystemExit
+
+
+def _line_editing(completions: Callable[[str], list[str]]) -> None:
+    """History and completion with the tabulator, where Python has readline."""
+    with suppress(ImportError):
+        import readline
+
+        def complete(begun: str, count: int) -> str | None:
+            found = completions(begun)
+            return found[count] if count < len(found) else None
+
+        readline.set_completer(complete)
+        readline.set_completer_delims(" =\t\n")
+        readline.parse_and_bind("tab: complete")

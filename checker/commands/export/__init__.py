@@ -1,0 +1,41 @@
+"""The verb ``export``: properties for other model checkers."""
+
+from pathlib import Path
+
+import click
+
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.options import modelling, quietly, varying, writing
+
+
+@click.command(short_help="Write properties for other model checkers.")
+@click.argument("ids", nargs=-1, metavar="PROPERTY...")
+@click.option(
+    "--system", "about", multiple=True, metavar="NAME", help="All properties about this system, or these."
+)
+@click.option(
+    "--format",
+    default="aiger",
+    show_default=True,
+    metavar="FORMAT",
+    help="aiger, aag, btor2, smv or promela.",
+)
+@modelling
+@varying
+@writing
+@quietly
+def export(
+    ids: tuple[str, ...],
+    about: tuple[str, ...],
+    format: str,
+    model: Path | None,
+    chosen: tuple[str, ...],
+    repair: str | None,
+    dropped: tuple[str, ...],
+    output: Path | None,
+) -> Exit:
+    """Write properties for other model checkers: a file, or a folder of them."""
+    from checker.commands.export.run import export as run
+    from checker.commands.shared.variant import pick_variant
+
+    return run(ids, about, format, pick_variant(chosen, repair, dropped, model), output)

@@ -1,0 +1,169 @@
+"""``rovercheck list``: what there is."""
+
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from checker.commands.shared.codes import Exit, UsageError
+from checker.commands.shared.output import out
+from checker.commands.shared.tables import listed
+from checker.commands.shared.wrapping import filled
+from checker.engines import ALL, AUTO, engines
+from checker.io.printable import json_text
+
+if TYPE_CHECKING:  # each list reads only what is in it
+    from checker.model import Model
+    from properties.forms import Property
+
+
+def list_properties(chosen: Iterable["Property"], model: "Model") -> None:
+    listed(
+        ("id", "system", "on record", "requires"),
+        [(p.id, p.on, model.expected(p.id).verdict, p.text) for p in chosen],
+    )
+
+
+def list_systems(model: "Model") -> None:
+    listed(
+        ("name", "charts", "what it is"),
+        [
+            (s.name, ", ".join(c.name for c in s.charts), " ".join((s.text, *s.notes)))
+            for s in model.systems.values()
+        ],
+    )
+
+
+def list_charts(model: "Model") -> None:
+    listed(
+        ("name", "states", "arrows", "what it is"),
+        [(c.name, str(len(c.states) - 1), str(len(c.arrows)), c.text) for c in model.charts.values()],
+    )
+
+
+def list_requirements(model: "Model") -> None:
+    covered: dict[str, list[str]] = {}
+    for prop in model.properties.values():
+        for id in prop.covers:
+            covered.setdefault(id, []).append(prop.id)
+    listed(
+        ("id", "source", "requirement", "properties"),
+        [(r.id, r.source, r.text, ", ".join(covered.get(r.id, ["-"]))) for r in model.requirements.values()],
+    )
+
+
+def list_readings() -> None:
+    """Every reading: the sentence, the choices (the default marked), what tells them apart."""
+    from spec_model.readings import readings
+
+    about = ""
+    for one in readings().values():
+        if one.about != about:
+            about = one.about
+            out.print(f"\n{about}", style="bold", markup=False)
+        out.print()
+        _hanging(f"{one.id}  {one.says}")
+        for choice, meaning in one.choices.items():
+            mark = "*" if choice == one.default else "-"
+            why = one.not_modelled.get(choice)
+            text = f"{choice}{f': {meaning}' if meaning else ''}{f' (not modelled: {why})' if why else ''}"
+            _hanging(f"     {mark} {text}", 7)
+        _hanging(f"     Scenario: {one.scenario}")
+        _hanging(f"     Default:  {one.because}")
+
+
+def _hanging(text: str, indent: int = 5) -> None:
+    out.print(filled(text, out.width, then=" " * indent), markup=False)
+
+
+def list_repairs() -> None:
+    from spec_model.repairs import proposals
+
+    listed(
+        ("name", "repairs", "what changes"),
+        [(r.name, ", ".join(r.fixes), r.text) for r in proposals().values()],
+    )
+
+
+def list_assumptions(model: "Model") -> None:
+    holders: dict[tuple[str, str], list[str]] = {}
+    for system in model.systems.values():
+        for one in system.assumptions:
+            holders.setdefault((one.id, one.text), []).append(system.name)
+    listed(
+        ("id", "what is assumed", "of"),
+        [(id, text, ", ".join(names)) for (id, text), names in holders.items()],
+    )
+
+
+def list_engines() -> None:
+    rows = [(e.NAME, e.SUMMARY) for e in engines().values()]
+    rows.append((AUTO, "engines in turn, each with more to spend; the first conclusive answer counts"))
+    rows.append((ALL, "every engine; answers that cannot both be true are an error (exit code 3)"))
+    listed(("name", "what it does"), rows)
+
+
+LISTS: dict[str, Callable[["Model"], None]] = {
+    "systems": list_systems,
+    "charts": list_charts,
+    "requirements": list_requirements,
+    "assumptions": list_assumptions,
+}
+OTHERS: dict[str, Callable[[], None]] = {
+    "readings": list_readings,
+    "repairs": list_repairs,
+    "engines": list_engines,
+}
+
+
+def listing(
+    what: str,
+    ids: Sequence[str] = (),
+    english: bool = False,
+    path: Path | None = None,
+    as_json: bool = False,
+) -> Exit:
+    """Print one of the lists, of the rover or the model at a path; of the properties those of ``ids``.
+
+    With ``english`` these are told in words, which JSON has in any case.  Raises ``UsageError`` for ids or
+    ``english`` with another list, and for a list that only the rover has.
+    """
+    if what != "properties" and (ids or english):
+        raise UsageError(
+            f"Ids and --english choose among properties; write `rovercheck list {what}` without them, "
+            "or `rovercheck list properties [ID]... --english`."
+        )
+    if path is not None and what in OTHERS and what != "engines":
+        raise UsageError(f"No model of your own has {what}; write `rovercheck list {what}` without --model.")
+    model = None if what in OTHERS else _model(path)
+    chosen = _chosen(ids, model) if model and what == "properties" else []
+    if as_json:
+        from checker.commands.list.document import document
+
+        print(json_text(document(what, chosen, model), indent=1))
+    elif model is None:
+        OTHERS[what]()
+    elif what in LISTS:
+        LISTS[what](model)
+    elif english:
+        from checker.commands.shared.wording import in_english
+
+        in_english(chosen, model)
+    else:
+        list_properties(chosen, model)
+    return Exit.AS_EXPECTED
+
+
+def _model(path: Path | None) -> "Model":
+    if path is None:
+        from checker.model.rover import rover
+
+        return rover()
+    from checker.model.load import load
+
+    return load(path)
+
+
+def _chosen(ids: Sequence[str], model: "Model") -> Sequence["Property"]:
+    from checker.commands.shared.select import pick_properties
+
+    return pick_properties(ids, (), model.stated(), full=True)

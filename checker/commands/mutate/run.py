@@ -1,0 +1,139 @@
+"""``rovercheck mutate``: faults put into a model, and what notices them."""
+
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
+from random import Random
+
+from checker.commands.check.premises import recordable
+from checker.commands.mutate.document import document
+from checker.commands.mutate.found import Found
+from checker.commands.mutate.judge import judge
+from checker.commands.mutate.places import sites
+from checker.commands.mutate.text import report
+from checker.commands.shared.codes import Exit, UsageError
+from checker.commands.shared.output import counted, err, out, wrapped, write
+from checker.commands.shared.select import pick
+from checker.commands.shared.tables import listed
+from checker.engines import Limits
+from checker.io.printable import json_text
+from checker.model import Model
+from checker.model.kept_runs import MUTANTS, Kept, file_of, read, text
+from checker.mutate.asked import as_it_is
+from checker.mutate.judging import Fate
+from checker.mutate.mutants import Mutant, mutants
+from checker.mutate.planning import homes
+from spec_model.lang.chart import parts
+from spec_model.lang.system import System
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What the command line asks for.
+
+    ``named`` are systems, ``parts`` charts and blocks; without any, all are meant.  ``alone``: only
+    properties about the named systems count; ``by_place``: also which properties constrain each place;
+    ``record``: the runs that searches find are kept.
+    """
+
+    named: tuple[str, ...]
+    parts: tuple[str, ...] = ()
+    sample: int | None = None
+    seed: int = 0
+    alone: bool = False
+    by_place: bool = False
+    jobs: int | None = None
+    record: bool = False
+
+
+def mutate(model: Model, wanted: Wanted, limits: Limits, as_json: bool) -> Exit:
+    """Judge the mutants of a model, and tell what becomes of each.
+
+    Raises ``UsageError`` for an unknown system, or where what is found cannot be kept, ``ModelError`` where
+    the model has no meaning.
+    """
+    if wanted.record:
+        recordable(model, "", MUTANTS)
+    properties = [p for p in model.stated().values() if not p.costly]
+    at_home = _homes(model, wanted, {p.on for p in properties})
+    if not any(p.on in at_home for p in properties):
+        err.print("Nothing to check: no property is about what was selected.")
+        return Exit.NOTHING
+    made = todo = _chosen(model.systems, at_home, wanted)
+    named = wanted.named if wanted.named and not wanted.parts else tuple(at_home)
+    found = Found(named, len(todo), seed=None if wanted.sample is None else wanted.seed)
+    if wanted.sample is not None and wanted.sample < len(todo):
+        kept = sorted(Random(wanted.seed).sample(range(len(todo)), wanted.sample))
+        todo = [todo[number] for number in kept]
+    found.chosen = len(todo)
+    code = Exit.INTERRUPTED
+    try:
+        judge(model, properties, todo, limits, wanted.jobs, wanted.alone, found)
+        code = found.code
+    except KeyboardInterrupt:
+        err.print(f"Interrupted: {len(found.told)} of {found.chosen} mutants judged.")
+    if wanted.record:
+        _record(model, found, {mutant.id for _, mutant in made})
+    if as_json:
+        print(json_text(document(found, code), ascii=True))
+    else:
+        if wanted.by_place:
+            rows = [(site.name, site.counts, site.by) for site in sites(found)]
+            listed(("place", "faults", "constrained by"), rows)
+            out.print()
+        for text, indent in report(found):
+            out.print(wrapped(text, indent), markup=False)
+    return code
+
+
+def _record(model: Model, found: Found, made: Collection[str]) -> None:
+    """Keep the runs by which searches killed mutants.
+
+    What is on record stays, but for mutants that no run kills, and those of the same parts that are not
+    ``made`` any more.
+    """
+    place, parts_of = file_of(model, MUTANTS), {id.partition("/")[0] for id in made}
+    rows = {
+        mutant.id: Kept(judged.on, judged.run)
+        for _, mutant, judged in found.told
+        if judged.fate is Fate.KILLED and judged.run is not None and mutant.id in found.searched
+    }
+    alive = {mutant.id for _, mutant, judged in found.told if judged.fate not in (Fate.KILLED, Fate.UNKNOWN)}
+    known = {
+        id: row
+        for id, row in read(place, MUTANTS).items()
+        if id not in alive and (id in made or id.partition("/")[0] not in parts_of)
+    }
+    write(text({**known, **rows}, MUTANTS), place)
+    err.print(f"{counted(len(rows), 'run is', 'runs are')} on record that searches found now.")
+
+
+def _homes(model: Model, wanted: Wanted, stated: Collection[str]) -> dict[str, list[str]]:
+    """The parts to make faulty by the system in which each is judged first: the smallest with properties.
+
+    That is one of the systems named, if properties of no other count.
+    """
+    systems = {name: pick("system", name, model.systems) for name in wanted.named}
+    known = {p.name: p for system in model.systems.values() for p in parts(system.components)}
+    chosen = {pick("chart or block", name, known).name for name in wanted.parts} or known.keys()
+    if systems:
+        chosen = chosen & {p.name for system in systems.values() for p in parts(system.components)}
+    among = [name for name in model.systems if name in stated]
+    if wanted.alone and systems:
+        among = list(systems)
+    inside = homes(model.systems, dict.fromkeys([*among, *systems]), chosen)
+    return {name: names for name, names in inside.items() if names}
+
+
+def _chosen(
+    systems: Mapping[str, System], at_home: Mapping[str, Sequence[str]], wanted: Wanted
+) -> list[tuple[str, Mutant]]:
+    if wanted.sample is not None and wanted.sample < 1:
+        raise UsageError("--sample takes a number of mutants, at least 1.")
+    return [
+        (name, mutant)
+        for name, inside in at_home.items()
+        for mutant in mutants(as_it_is(systems[name]), inside)
+    ]
+
+
+__all__ = ["Found", "Wanted", "mutate"]

@@ -1,0 +1,244 @@
+"""From verdicts to the data of the review page, for the rover and for a user's own model alike."""
+
+import re
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields
+
+from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
+from checker.commands.check.further import noticing
+from checker.commands.check.premises import Case
+from checker.commands.check.run import Compared, evidence, recorded
+from checker.commands.shared.wording import formally
+from checker.model import Model
+from checker.render.review.model import (
+    About,
+    Ambiguity,
+    Assumed,
+    Checked,
+    Covered,
+    Demand,
+    Origin,
+    Remedy,
+    Review,
+    Seen,
+)
+from checker.results.trace import Trace
+from checker.results.verdict import Exhausted, Unknown
+from properties.coverage import Coverage, matrix
+from properties.english import HOW_TO_READ
+from properties.forms import Form, Property, formulas
+from spec_model.lang.chart import Chart
+from spec_model.lang.expr import Expr, Named
+from spec_model.lang.label import text
+from spec_model.lang.system import System
+from spec_model.lang.walk import nodes
+from spec_model.rover import charts_of
+
+SAME_CAUSE = re.compile(r"As ([\w-]*\d[\w-]*)\b")
+"""How a reason on record begins that is the reason of another finding."""
+
+
+@dataclass(frozen=True)
+class Extras:
+    """What a model may have besides properties and systems.
+
+    ``depends`` names the readings on which a property depends; ``reasons`` are the causes on record, by id,
+    ``premises`` what came of asking whether the case occurs that a property speaks of.  ``graphs`` are the
+    state graphs of systems, ``undrawn`` says of some why there is none.
+    """
+
+    readings: tuple[Ambiguity, ...] = ()
+    depends: Callable[[Property], Sequence[str]] = lambda prop: prop.readings
+    repairs: tuple[Remedy, ...] = ()
+    coverage: tuple[Covered, ...] = ()
+    reasons: Mapping[str, str] = field(default_factory=dict)
+    premises: Mapping[str, Case] = field(default_factory=dict)
+    graphs: tuple[Seen, ...] = ()
+    undrawn: tuple[tuple[str, str], ...] = ()
+
+
+def reviewed(
+    model: Model, found: Sequence[Compared], origin: Origin, extras: Extras, whole: bool = True
+) -> Review:
+    """All that the page shows.  ``whole``: no selection was made among the properties of the model."""
+    shown = sorted(found, key=lambda c: (c.result.property.area, by_number(c.result.property.id)))
+    systems = concerned(shown, model)
+    properties = [c.result.property for c in shown]
+    decided = {p.id for p in properties}
+    left = [p for id, p in model.properties.items() if id not in decided] if whole else []
+    verdicts = {c.result.property.id: c.verdict.word for c in shown}
+    verdicts |= {p.id: model.expected(p.id).verdict for p in left}
+    checks = tuple(checked(c, model, extras) for c in shown)
+    read = {id for one in checks for id in one.readings}
+    return Review(
+        f"Review of {model.name}",
+        f"What was checked of {model.name}, with which verdict and evidence, and how to check it again.",
+        checks,
+        origin,
+        {s.name: about(s) for s in systems},
+        drawn(systems, model),
+        demands([*properties, *left], verdicts, model, whole),
+        tuple(r for r in extras.readings if whole or r.id in read),
+        assumed(systems),
+        extras.repairs,
+        extras.coverage,
+        extras.graphs,
+        extras.undrawn,
+        HOW_TO_READ,
+        tuple((p.id, f"only with --full; on record {model.expected(p.id).verdict}") for p in left),
+    )
+
+
+def checked(compared: Compared, model: Model, extras: Extras) -> Checked:
+    """A property with its verdict."""
+    prop, verdict, entry = compared.result.property, compared.verdict, compared.expected
+    system = model.systems[prop.on]
+    because = None if isinstance(verdict, Unknown) else verdict.because
+    proof = compared.result.certificate
+    on_record = entry.verdict == verdict.word
+    case = extras.premises.get(prop.id)
+    return Checked(
+        prop.id,
+        prop.text,
+        prop.area,
+        verdict.word,
+        compared.result.system,
+        verdict.engine,
+        evidence(compared.result),
+        type(prop.form).__name__,
+        formally(prop, system, ""),
+        (*written(prop), *named(prop.form)),
+        compared.result.in_part,
+        recorded(entry),
+        compared.as_expected,
+        proved_again(proof),
+        None if proof is None else isinstance(proof, Accepted),
+        premise="" if case is None else case.said,
+        vacuous=case is not None and case.occurs is False,
+        because=entry.because if on_record else "",
+        no_repair=entry.no_repair if on_record else "",
+        cause=cause(prop.id, extras.reasons),
+        requirements=prop.covers,
+        readings=tuple(extras.depends(prop)),
+        quiet=isinstance(because, Exhausted) and because.skipped,
+        on=prop.on if prop.on != compared.result.system else "",
+        again=again(prop.id, model.options),
+        trace=because if isinstance(because, Trace) else None,
+    )
+
+
+def again(id: str, options: str) -> str:
+    """The commands that decide a property again and show its run."""
+    return "; ".join(" ".join(filter(None, ("rovercheck", verb, id, options))) for verb in ("check", "trace"))
+
+
+def cause(id: str, reasons: Mapping[str, str]) -> str:
+    """The finding whose reason the reason of this one refers to, and so on to the first."""
+    seen = [id]
+    while (found := SAME_CAUSE.match(reasons.get(seen[-1], ""))) and found[1] not in seen:
+        if found[1] not in reasons:
+            break
+        seen.append(found[1])
+    return seen[-1]
+
+
+def proved_again(outcome: Outcome | None) -> str:
+    """What came of checking the proof, in words; empty where nothing was to be checked."""
+    match outcome:
+        case None:
+            return ""
+        case Accepted(how):
+            return f"accepted: {how}"
+        case Rejected(obligation, shown):
+            return f"REJECTED at {obligation}: {shown}"
+        case Undecided(reason):
+            return f"not certified: {reason}"
+
+
+def written(prop: Property) -> Iterator[tuple[str, str]]:
+    """The parts of the form with their names, as formulas are written on arrows."""
+    for part in fields(prop.form):
+        value = getattr(prop.form, part.name)
+        shown = [_part(one) for one in (value if isinstance(value, tuple) else (value,)) if one is not None]
+        if shown:
+            yield part.name.rstrip("_"), "; ".join(shown)
+    if prop.from_tick > 1:
+        yield "from", f"tick {prop.from_tick} on"
+
+
+def _part(value: object) -> str:
+    return text(value) if isinstance(value, Expr) else str(value)
+
+
+def named(form: Form) -> Iterator[tuple[str, str]]:
+    """What the names in the formulas stand for."""
+    found = (n for formula in formulas(form) for n in nodes(formula) if isinstance(n, Named))
+    yield from {n.name: (f"{n.name} =", text(n, unfold=True)) for n in found}.values()
+
+
+def about(system: System) -> About:
+    """What a reader needs to know of a system."""
+    return About(
+        system.name,
+        system.text,
+        system.tick_ms,
+        tuple(c.name for c in system.charts),
+        system.notes,
+        tuple(a.id for a in system.assumptions),
+        system.over,
+        system.under,
+        system.concrete,
+    )
+
+
+def assumed(systems: Iterable[System]) -> tuple[Assumed, ...]:
+    """The assumptions about the environment, each with the systems that make it."""
+    holders: dict[tuple[str, str], list[str]] = {}
+    for system in systems:
+        for one in system.assumptions:
+            holders.setdefault((one.id, one.text), []).append(system.name)
+    return tuple(Assumed(id, said, tuple(names)) for (id, said), names in holders.items())
+
+
+def drawn(shown: Iterable[System], model: Model) -> dict[str, Chart]:
+    """The charts of some systems, whole where the model has them so: one may execute a region alone."""
+    whole, own = charts_of(model.systems), charts_of({s.name: s for s in shown})
+    return {n: whole[n] if c.states.keys() <= whole[n].states.keys() else c for n, c in own.items()}
+
+
+def demands(
+    properties: Sequence[Property], verdicts: Mapping[str, str], model: Model, whole: bool
+) -> tuple[Demand, ...]:
+    """The rows of the requirement matrix, uncovered ones first and then the worst verdicts.
+
+    ``whole``: all requirements; otherwise only those that one of the properties names.
+    """
+    if not model.requirements:
+        return ()
+    rows = (row for row in matrix(properties, model.requirements, noticing(model)) if whole or row.properties)
+    made = (_demand(row, row.state(verdicts)) for row in rows)
+    return tuple(sorted(made, key=lambda d: ORDER.index(d.state)))
+
+
+ORDER = ("open", "reached", "stated", "reason", "violated", "unknown", "proved")
+"""What a reviewer wants to see first."""
+
+
+def _demand(row: Coverage, state: str) -> Demand:
+    item = row.requirement
+    ids = tuple(p.id for p in row.properties)
+    return Demand(item.id, item.text, item.source, state, item.reason, ids, row.covered)
+
+
+def concerned(results: Iterable[Compared], model: Model) -> list[System]:
+    """The systems that the verdicts are about, in the order of the model."""
+    names = {c.result.property.on for c in results} | {c.result.system for c in results}
+    with_runs = {model.systems[n].concrete for n in names if n in model.systems}
+    return [s for name, s in model.systems.items() if name in names | with_runs]
+
+
+def by_number(id: str) -> tuple[object, ...]:
+    """Sorts ids as people do: PB1-2 before PB1-15."""
+    return tuple(
+        (0, int(part), "") if part.isdigit() else (1, 0, part) for part in re.split(r"(\d+)", id) if part
+    )

@@ -1,0 +1,96 @@
+"""What only the rover has on its review page: readings of its document, repairs, tests that are kept."""
+
+from collections.abc import Iterator, Sequence
+
+from checker.commands.check.run import Compared, evidence, results
+from checker.commands.report.data import Extras
+from checker.commands.reports.repairs import LIMITS, Proof
+from checker.commands.shared.variant import Variant
+from checker.engines import AUTO
+from checker.model.kept_invariants import invariants_of_rover
+from checker.render.drawing.changes import changes
+from checker.render.review.model import Ambiguity, Covered, Edit, Remedy
+from checker.testgen import kept_text
+from checker.testgen.goals import Kind
+from checker.testgen.keep import kept_of
+from checker.testgen.watch import watched
+from checker.verify.result import Result
+from properties.catalogue import expected, read_by
+from spec_model.abstraction import boards
+from spec_model.lang.chart import Chart
+from spec_model.readings import Reading, readings
+from spec_model.repairs import Repair, repairs
+
+
+def extras(variant: Variant, found: Sequence[Compared], with_repairs: bool) -> Extras:
+    """All of it; repairs, which are decided now, only if wanted and for the charts as specified."""
+    mended = tuple(remedies(found)) if with_repairs and not variant.name else ()
+    taken = tuple(ambiguity(one, variant.choices.get(one.id, one.default)) for one in readings().values())
+    reasons = {c.result.property.id: expected(c.result.property.id).because for c in found}
+    return Extras(
+        taken, lambda prop: sorted({*prop.readings, *read_by(prop)}), mended, tuple(coverage()), reasons
+    )
+
+
+def ambiguity(one: Reading, taken: str) -> Ambiguity:
+    """A reading as the page shows it."""
+    choices = tuple((name, _meaning(one, name)) for name in one.choices)
+    return Ambiguity(one.id, one.about, one.says, taken, choices, one.scenario, one.because)
+
+
+def _meaning(one: Reading, choice: str) -> str:
+    why = one.not_modelled.get(choice)
+    return f"{one.choices[choice]} (not modelled: {why})".strip() if why else one.choices[choice]
+
+
+def remedies(found: Sequence[Compared]) -> Iterator[Remedy]:
+    """The repairs of what was found violated, the properties that they repair decided now."""
+    violated = {c.result.property.id for c in found if c.verdict.word == "violated"}
+    for repair in repairs().values():
+        if not violated.isdisjoint(repair.fixes):
+            yield remedy(Proof(repair, tuple(_decided(repair, violated))))
+
+
+def _decided(repair: Repair, violated: set[str]) -> Iterator[Result]:
+    variant = Variant(repair.readings, repair)
+    wanted = [variant.properties()[id] for id in repair.fixes if id in violated]
+    by_id = {
+        r.property.id: r
+        for r in results(wanted, variant.systems(), AUTO, LIMITS, invariants=invariants_of_rover())
+    }
+    yield from (by_id[prop.id] for prop in wanted)
+
+
+def remedy(proof: Proof) -> Remedy:
+    """A repair as the page shows it."""
+    one = proof.repair
+    return Remedy(
+        one.name,
+        one.text,
+        tuple(_edits(proof)),
+        tuple((r.property.id, _word(r), evidence(r)) for r in proof.results),
+        tuple(one.gives_up.items()),
+        f"rovercheck check --timers free --repair {one.name}",
+    )
+
+
+def _word(result: Result) -> str:
+    return f"{result.verdict.word} in part" if result.in_part else result.verdict.word
+
+
+def _edits(proof: Proof) -> Iterator[Edit]:
+    for before, after in proof.changed:
+        kind = "" if isinstance(after, Chart) else "block "
+        for change in changes(before, after):
+            yield Edit(f"{kind}{after.name}", change.place, change.before, change.after)
+
+
+def coverage() -> Iterator[Covered]:
+    """What the tests reach that are kept with the project."""
+    for board in boards().values():
+        kept = kept_of(board, kept_text(board.name))
+        reached = {goal for _, goals, _ in kept.tests for goal in goals}
+        for kind in Kind:
+            ids = {goal.id for goal in watched(board.system, {kind}).goals}
+            proved, left = ids & kept.uncoverable.keys(), ids & kept.unknown.keys()
+            yield Covered(board.name, kind.value, len(ids), len(ids & reached), len(proved), len(left))

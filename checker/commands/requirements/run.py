@@ -1,0 +1,179 @@
+"""``rovercheck requirements``: every requirement with the properties that cover it and their verdicts."""
+
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+
+from checker.commands.check.further import noticing
+from checker.commands.check.run import Compared, results, worst
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.output import out
+from checker.commands.shared.tables import listed
+from checker.engines import AUTO, Limits
+from checker.io.printable import json_text
+from checker.model.kept_invariants import invariants_of
+from checker.model.load import load
+from checker.model.rover import rover
+from properties.coverage import Coverage, matrix
+from properties.forms import Property, Reachable
+
+SCHEMA = 1
+ON_RECORD = "Verdicts are those on record in the baseline; --check decides them now."
+DECIDED = "Verdicts were decided now."
+REACHED = (
+    "A requirement is covered by a property that demands something; "
+    "one whose properties only say that a state can be reached is not covered."
+)
+NOTICED = (
+    "Nor is one that is only stated: a property that covers it must notice a fault put into the charts "
+    "(kills.json), or something wrong with them as they are."
+)
+
+SAID = ("violated", "unknown", "proved", "not reached by", "reached by")
+"""How the properties of a row are grouped, in this order."""
+
+NOTHING = "neither a property nor a reason"
+
+BAR = "\\|"
+"""How a cell of a Markdown table holds a bar."""
+
+Verdicts = Mapping[str, str]
+"""The word of the verdict of each property, by id."""
+
+
+def requirements(decide: bool, as_json: bool, path: Path | None = None) -> Exit:
+    """Print the matrix of the rover, or of the model at a path.
+
+    Exit code 1 if a requirement has neither a property that covers it nor a reason.
+    """
+    model = rover() if path is None else load(path)
+    stated = model.stated()
+    rows = matrix(stated.values(), model.requirements, noticing(model))
+    if not decide:
+        return show(rows, {id: model.expected(id).verdict for id in stated}, ON_RECORD, as_json)
+    found = [
+        Compared(r, model.expected(r.property.id))
+        for r in results(
+            list(stated.values()), model.systems, AUTO, Limits(), invariants=invariants_of(model)
+        )
+    ]
+    code = show(rows, words(found), DECIDED, as_json)
+    return code if code != Exit.AS_EXPECTED else worst(found)
+
+
+def words(found: Sequence[Compared]) -> Verdicts:
+    return {c.result.property.id: c.verdict.word for c in found}
+
+
+def show(rows: Sequence[Coverage], verdicts: Verdicts, origin: str, as_json: bool) -> Exit:
+    """Print the matrix as a table or as JSON."""
+    code = Exit.CHANGED if any(row.open for row in rows) else Exit.AS_EXPECTED
+    if as_json:
+        print(json_text(document(rows, verdicts, origin, code), ascii=True))
+        return code
+    listed(
+        ("requirement", "state", "properties, or the reason why none covers it"),
+        [(row.requirement.id, row.state(verdicts), because(row, verdicts)) for row in rows],
+    )
+    out.print()
+    for line in (*counts(rows, verdicts), *_meaning(rows), origin):
+        out.print(line, markup=False)
+    return code
+
+
+def _meaning(rows: Sequence[Coverage]) -> tuple[str, ...]:
+    """What covered means."""
+    return (REACHED, NOTICED) if any(row.noticing is not None for row in rows) else (REACHED,)
+
+
+def because(row: Coverage, verdicts: Verdicts, name: Callable[[str], str] = str) -> str:
+    """What speaks for a requirement: its properties, the worst verdicts first, or a reason.
+
+    Of the properties whose verdict is the state of the row only the names are said.
+    """
+    by: dict[str, list[str]] = {}
+    for prop in row.properties:
+        by.setdefault(_said(prop, verdicts[prop.id]), []).append(name(prop.id))
+    state = row.state(verdicts)
+    groups = [f"{'' if said == state else said} {', '.join(by[said])}".strip() for said in SAID if said in by]
+    return "; ".join(filter(None, (row.requirement.reason.removesuffix("."), *groups))) or NOTHING
+
+
+def _said(prop: Property, verdict: str) -> str:
+    if isinstance(prop.form, Reachable):
+        return {"proved": "reached by", "violated": "not reached by"}.get(verdict, verdict)
+    return verdict
+
+
+def counts(rows: Sequence[Coverage], verdicts: Verdicts) -> tuple[str, ...]:
+    """How many requirements are in each state, and which are open."""
+    states = [row.state(verdicts) for row in rows]
+    covered = sum(row.covered for row in rows)
+    worse = [f"{states.count(w)} by some {w} property" for w in ("violated", "unknown") if w in states]
+    shares = "; ".join((f"{states.count('proved')} by proved properties only", *worse))
+    opened = [row.requirement.id for row in rows if row.open]
+    first = (
+        f"{len(rows)} requirements: {covered} covered ({shares}), {states.count('reason')} with a reason "
+        f"instead ({_kinds_of_reasons(rows)}){_only_stated(states)}, {len(opened)} open."
+    )
+    return (first, f"Open: {', '.join(opened)}.") if opened else (first,)
+
+
+def _only_stated(states: Sequence[str]) -> str:
+    return f", {states.count('stated')} only stated" if "stated" in states else ""
+
+
+def _kinds_of_reasons(rows: Sequence[Coverage]) -> str:
+    kinds = [row.requirement.reason.partition(":")[0] for row in rows if row.requirement.reason]
+    return ", ".join(f"{kinds.count(kind)} {kind}" for kind in dict.fromkeys(kinds)) or "none given"
+
+
+def document(rows: Sequence[Coverage], verdicts: Verdicts, origin: str, code: Exit) -> dict[str, object]:
+    """The matrix as JSON."""
+    return {
+        "schema": f"rovercheck/requirements/{SCHEMA}",
+        "verdicts": origin,
+        "exit": int(code),
+        "requirements": [_row(row, verdicts) for row in rows],
+    }
+
+
+def _row(row: Coverage, verdicts: Verdicts) -> dict[str, object]:
+    item = row.requirement
+    return {
+        "id": item.id,
+        "text": item.text,
+        "source": item.source,
+        "bounds": item.bounds,
+        "kind": item.kind,
+        "checkable": item.checkable,
+        "state": row.state(verdicts),
+        "reason": item.reason,
+        "properties": [
+            {"id": p.id, "verdict": verdicts[p.id], "covers": not isinstance(p.form, Reachable)}
+            for p in row.properties
+        ],
+    }
+
+
+# --- the page of the reports ---------------------------------------------------------------------
+
+
+def page(found: Sequence[Compared]) -> str:
+    """The matrix in Markdown, from the verdicts found."""
+    rows = matrix((c.result.property for c in found), noticing=noticing(rover()))
+    verdicts = words(found)
+    lines = ["# Requirements", ""]
+    for said in (*counts(rows, verdicts), *_meaning(rows)):
+        lines += [said, ""]
+    lines += ["| requirement | source | text | state | properties, or the reason why none covers it |"]
+    lines += ["|---|---|---|---|---|"]
+    for row in rows:
+        item = row.requirement
+        linked = because(row, verdicts, lambda id: _linked(id, verdicts[id]))
+        cells = (item.id, item.source, item.text, row.state(verdicts), linked)
+        lines.append(f"| {' | '.join(cell.replace('|', BAR) for cell in cells)} |")
+    return "\n".join(lines) + "\n"
+
+
+def _linked(id: str, verdict: str) -> str:
+    return f"[{id}](findings/{id}.md)" if verdict == "violated" else id

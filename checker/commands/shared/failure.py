@@ -1,0 +1,59 @@
+"""What a person is told of an error that is none of their own making."""
+
+from errno import EDQUOT, EFBIG, ENOSPC
+
+from checker.commands.shared.codes import Exit, UsageError
+from checker.process.faults import Fault, place
+from spec_model.lang.errors import ModelError
+
+ROOM = "Make room for it, or write elsewhere, and run the command again."
+MEMORY = "Out of memory. Check fewer properties at once, or one --system."
+
+
+def told(error: Exception) -> str:
+    """One message for any error, as far as what it calls for is known; else it is a fault of ours."""
+    match error:
+        case ModelError():
+            return str(error)
+        case OSError():
+            return f"The operating system refuses: {error}. {ROOM}"
+        case MemoryError():
+            return MEMORY
+    from checker.verify.portfolio import Disagreement
+    from checker.verify.runs.replay import ReplayError
+
+    match error:
+        case ReplayError():
+            return f"INTERNAL: {error}"
+        case Disagreement():
+            return f"INTERNAL: {error} At least one engine is wrong."
+    return f"INTERNAL: {type(error).__name__}: {error}. {_report(place(error))}"
+
+
+def alarm(fault: Fault) -> str:
+    """What is said of an error of ours that the others have worked on without."""
+    return f"INTERNAL: {fault}. The verdicts of others stand. {_report('')}"
+
+
+def code_of(error: BaseException) -> Exit:
+    """The exit code that an error leads to."""
+    match error:
+        case KeyboardInterrupt() | SystemExit() | BrokenPipeError():
+            return Exit.INTERRUPTED
+        case ModelError() | UsageError():
+            return Exit.INCONCLUSIVE if no_room(error) else Exit.USAGE
+        case OSError() | MemoryError():
+            return Exit.INCONCLUSIVE
+    from checker.certify.file import Unwritable
+
+    return Exit.USAGE if isinstance(error, Unwritable) else Exit.INTERNAL
+
+
+def no_room(error: BaseException) -> bool:
+    """Whether it stands for a full disk or a used-up quota, which is no mistake on the command line."""
+    cause = error.__cause__
+    return isinstance(cause, OSError) and cause.errno in (ENOSPC, EDQUOT, EFBIG)
+
+
+def _report(place: str) -> str:
+    return f"This is a bug of rovercheck{place}; please report it with the command and the model."

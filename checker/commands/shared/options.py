@@ -1,0 +1,133 @@
+"""The options that several verbs share, and the numbers that may be written for them."""
+
+from collections.abc import Callable
+from math import isnan
+from pathlib import Path
+from typing import Any
+
+import click
+
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.silence import silence
+from checker.engines import AUTO, Timers
+
+
+class Amount(click.FloatRange):
+    """A number within bounds; nan, which is neither more nor less than anything, is none."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if isnan(number := super().convert(value, param, ctx)):
+            self.fail(f"{value!r} is not a number.", param, ctx)
+        return number
+
+
+SECONDS = Amount(min=0, min_open=True, max=100_000_000)
+GIB = Amount(min=0.25, max=1_000_000)
+
+
+def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The options of every verb that searches."""
+    options: list[Callable[[Any], Any]] = [
+        click.option(
+            "--engine",
+            default=AUTO,
+            show_default=True,
+            metavar="NAME",
+            help="With this engine; see list engines.",
+        ),
+        click.option("--depth", type=click.IntRange(min=1), metavar="N", help="Ticks to look ahead at most."),
+        click.option(
+            "--timeout",
+            type=SECONDS,
+            metavar="SEC",
+            help="Seconds per search. One that ignores them is killed when a quarter more and 5 s are over.",
+        ),
+        click.option(
+            "--timers",
+            type=click.Choice([t.value for t in Timers]),
+            default=Timers.EXACT.value,
+            show_default=True,
+            help="Count every tick, skip quiet ones, or try with timers that run out at will.",
+        ),
+    ]
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def quietly(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The option of every verb that says meanwhile what it does."""
+    return click.option(
+        "--quiet",
+        "-q",
+        is_flag=True,
+        expose_value=False,
+        callback=silence,
+        help="Only what is found, and no progress.",
+    )(command)
+
+
+class ModelPath(click.Path):
+    """Where a model is; an empty text, as of a variable that is not set, is no path."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        if value == "":
+            self.fail("the path is empty; write a Python file, or a folder of them.", param, ctx)
+        return super().convert(value, param, ctx)
+
+
+def modelling(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The option of every verb that a user's own model can be given to."""
+    return click.option(
+        "--model",
+        type=ModelPath(path_type=Path),
+        metavar="PATH",
+        help="Your own model instead of the rover: a Python file, or a folder of them.",
+    )(command)
+
+
+def varying(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The options of every verb that looks at the charts: other readings, a proposed repair."""
+    options: list[Callable[[Any], Any]] = [
+        click.option(
+            "--reading",
+            "chosen",
+            multiple=True,
+            metavar="ID=CHOICE",
+            help="Read a sentence otherwise: S43=AND; S43=any leaves it open.",
+        ),
+        click.option("--repair", metavar="NAME", help="With a proposed repair; see list repairs."),
+        click.option(
+            "--without",
+            "dropped",
+            multiple=True,
+            metavar="ID",
+            help="Drop an assumption about the environment; see list assumptions.",
+        ),
+    ]
+    for option in reversed(options):
+        command = option(command)
+    return command
+
+
+def writing(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The option of every verb that writes."""
+    where = click.Path(path_type=Path)
+    return click.option("--output", "-o", type=where, help="Where to write.")(command)
+
+
+def changing(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The options that change the charts compared with; assumptions about the environment play no part."""
+    options: list[Callable[[Any], Any]] = [
+        click.option(
+            "--reading",
+            "chosen",
+            multiple=True,
+            metavar="ID=CHOICE",
+            help="Read a sentence otherwise: S43=AND.",
+        ),
+        click.option("--repair", metavar="NAME", help="With a proposed repair; see list repairs."),
+    ]
+    for option in reversed(options):
+        command = option(command)
+    return command

@@ -1,0 +1,96 @@
+"""The verb ``testgen``: tests that cover the charts."""
+
+from pathlib import Path
+
+import click
+
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.options import SECONDS, quietly
+from checker.engines import LOADED
+
+
+@click.command(short_help="Write tests that cover the charts, with expected outputs.")
+@click.option(
+    "--system", "names", multiple=True, metavar="BOARD|CHART", help="Only these; both boards if none."
+)
+@click.option(
+    "--cover",
+    "kinds",
+    multiple=True,
+    type=click.Choice(["arrows", "boundaries", "pairs"]),
+    help="What the tests must reach; more than one may be given.  [default: arrows; all with --keep]",
+)
+@click.option(
+    "--format",
+    type=click.Choice(["csv", "pytest", "c"]),
+    default="csv",
+    show_default=True,
+    help="CSV files, a pytest file or a C program.",
+)
+@click.option("--kept", is_flag=True, help="Write the tests that come with rovercheck, without a search.")
+@click.option(
+    "--keep",
+    type=click.Path(file_okay=False, path_type=Path),
+    metavar="FOLDER",
+    help="Go on from the tests kept there, and keep all there instead.",
+)
+@click.option(
+    "--timeout",
+    type=SECONDS,
+    default=20.0,
+    show_default=True,
+    metavar="SEC",
+    help="Seconds for each search by engines.",
+)
+@click.option(
+    "--ticks",
+    type=click.IntRange(min=0),
+    default=40_000,
+    show_default=True,
+    metavar="N",
+    help="Ticks of random runs.",
+)
+@click.option("--seed", type=click.IntRange(min=0), default=0, metavar="N", help="Of the random runs.")
+@click.option(
+    "--jobs", type=click.IntRange(min=1), metavar="N", help="Searches at a time; one per processor."
+)
+@click.option("--json", "as_json", is_flag=True, help="Every goal and what is known of it, as JSON.")
+@click.option(
+    "--output",
+    "-o",
+    type=click.Path(file_okay=False, path_type=Path),
+    default=Path("covering"),
+    show_default=True,
+    metavar="DIR",
+    help="The folder to write into.",
+)
+@quietly
+def testgen(
+    names: tuple[str, ...],
+    kinds: tuple[str, ...],
+    format: str,
+    kept: bool,
+    keep: Path | None,
+    timeout: float,
+    ticks: int,
+    seed: int,
+    jobs: int | None,
+    as_json: bool,
+    output: Path,
+) -> Exit:
+    """Write short input sequences that cover the charts, with the outputs that the charts require.
+
+    Exit code 0 if every goal is reached by a test or proved out of reach, 2 if some are not known to be
+    either.  Ctrl-C writes what was found so far.
+    """
+    from checker.process.isolate import prepared
+
+    with prepared(*LOADED):
+        from checker.commands.testgen.run import Asked
+        from checker.commands.testgen.run import testgen as run
+        from checker.testgen.coverage import Effort
+        from checker.testgen.goals import Kind
+
+        wanted = tuple(map(Kind, kinds)) or (tuple(Kind) if keep else (Kind.ARROWS,))
+        asked = Asked(names, wanted, format, Effort(timeout, ticks, jobs, seed), kept, keep)
+        return run(asked, output, as_json)

@@ -1,0 +1,88 @@
+"""The verb ``trace``: the run that a verdict rests on, in every form."""
+
+from pathlib import Path
+
+import click
+
+from checker.commands.shared.codes import Exit
+from checker.commands.shared.options import modelling, quietly, searching, varying, writing
+from checker.engines import Limits, Timers
+
+
+@click.command(short_help="Show a counterexample or a witness, tick by tick.")
+@click.argument("id", required=False)
+@click.option("--state", metavar="CHART.STATE", help="Instead of a property: a run into a state of a chart.")
+@click.option("--arrow", metavar="'CHART: A -> B'", help="Instead of a property: a run through an arrow.")
+@click.option("--system", metavar="NAME", help="With --state or --arrow: on this system.")
+@click.option(
+    "--format",
+    default="table",
+    show_default=True,
+    metavar="FORMAT",
+    help="How: table, markdown, html, svg, vcd, json and more.",
+)
+@click.option("--all", "everything", is_flag=True, help="Also what the property does not depend on.")
+@click.option(
+    "--explain/--no-explain",
+    default=None,
+    help="Which inputs force the end of the run; by default for ten seconds at most.",
+)
+@click.option(
+    "--witnesses",
+    type=click.IntRange(min=1),
+    default=1,
+    metavar="N",
+    help="So many runs, each with other arrows than those before, or for another reason.",
+)
+@click.option(
+    "--by",
+    type=click.Choice(["arrows", "reason"]),
+    default="arrows",
+    show_default=True,
+    help="With --witnesses: in what runs differ, the arrows they take or the inputs they need.",
+)
+@modelling
+@varying
+@searching
+@writing
+@quietly
+def trace(
+    id: str | None,
+    state: str | None,
+    arrow: str | None,
+    system: str | None,
+    format: str,
+    everything: bool,
+    explain: bool | None,
+    witnesses: int,
+    by: str,
+    model: Path | None,
+    chosen: tuple[str, ...],
+    repair: str | None,
+    dropped: tuple[str, ...],
+    engine: str,
+    depth: int | None,
+    timeout: float | None,
+    timers: str,
+    output: Path | None,
+) -> Exit:
+    """Show the counterexample of a violated property, or the witness of a reachable one.
+
+    \b
+    Examples:
+      rovercheck trace PB1-15 --witnesses 3
+      rovercheck trace --state Relay.B2_actuating
+      rovercheck trace --arrow 'Relay: B1_actuating -> B2_actuating'
+    """
+    from checker.commands.shared.select import pick_engine
+    from checker.commands.shared.variant import pick_variant
+    from checker.commands.trace.examples import asked
+    from checker.commands.trace.explain import Explaining
+    from checker.commands.trace.run import Showing
+    from checker.commands.trace.run import trace as run
+
+    variant = pick_variant(chosen, repair, dropped, model)
+    wanted = asked(variant, id, state, arrow, system)
+    limits = Limits(depth, timeout, timers=Timers(timers))
+    showing = Showing(format, everything, output, Explaining.chosen(explain), witnesses, by)
+    return run(wanted, pick_engine(engine), limits, showing)

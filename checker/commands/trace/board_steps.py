@@ -1,0 +1,121 @@
+"""A run of the model as steps of the boards' firmware, for tests that any supervisor can be given."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from checker.commands.crosscheck.record import in_steps_of
+from checker.compare.beside import Charts
+from checker.results.board_steps import BoardRun, Kind, Signal, Step, Value
+from checker.results.trace import Tick, Trace
+from checker.testgen.formats.pytest_files import OURS
+from checker.testgen.scripts import CLOCK
+from spec_model.abstraction import Board, boards
+from spec_model.abstraction import Signal as BoardSignal
+from spec_model.lang.chart import parts
+from spec_model.lang.domain import Bool, Num
+from spec_model.lang.errors import ModelError
+from spec_model.lang.system import TICK_MS, System
+
+ASK = "The run can be looked at in any other format."
+
+
+def concrete(trace: Trace, system: System) -> Trace:
+    """The trace with the steps of each board on which it happens just so, power-up included.
+
+    The charts of the whole board are run on the concrete inputs, and all that the property depends on must
+    be as in the trace.  Raises ``ModelError`` when there is no such board, and says why.
+    """
+    if system.tick_ms != TICK_MS:
+        raise ModelError(
+            f"{trace.system} advances by {system.tick_ms} ms and lets every task start at any phase; a "
+            f"supervisor is executed every {TICK_MS} ms, so this run cannot be given to one. {ASK}"
+        )
+    if system.elapsed is not None:
+        raise ModelError(
+            f"{trace.system} has steps that last unlike times; a supervisor is given steps of {TICK_MS} ms, "
+            f"so this run cannot be given to one. {ASK}"
+        )
+    runs, reasons = [], []
+    for board in boards().values():
+        if _parts(board.system) & _parts(system):
+            try:
+                runs.append(_run(board, trace, system))
+            except ModelError as error:
+                reasons.append(str(error))
+    if not runs:
+        raise ModelError(" ".join(reasons) or _foreign(trace, system))
+    return replace(trace, concrete=tuple(runs))
+
+
+def _parts(system: System) -> set[str]:
+    return {part.name for part in parts(system.components)}
+
+
+def _foreign(trace: Trace, system: System) -> str:
+    found = ", ".join(sorted(_parts(system)))
+    return (
+        f"{trace.system} executes no chart and no block of a board (only {found}), so there is no supervisor "
+        f"to give this run to. {ASK}"
+    )
+
+
+def _run(board: Board, trace: Trace, system: System) -> BoardRun:
+    """The run on one board.  Raises ``ModelError`` where its charts do something else."""
+    writer, charts, names = board.writer(), Charts(board), _shared(board, trace)
+    stamps = {s.name for s in board.inputs if s.stamp}
+    before: Mapping[str, Value] = board.at_power_up()
+    steps = []
+    for tick in trace.ticks:
+        at = in_steps_of(board, system, {**tick.inputs, **tick.after})
+        inputs = writer.step(at)
+        required = charts.step(inputs).expected
+        _same(board, trace, tick, names, charts.valuation())
+        given = {n: _lag(inputs, before, n) if n in stamps else v for n, v in inputs.items() if n != CLOCK}
+        steps.append(Step(given, required))
+        before = inputs
+    return BoardRun(board.name, TICK_MS, *signals(board), tuple(steps), OURS[board.name])
+
+
+def _lag(inputs: Mapping[str, Value], before: Mapping[str, Value], stamp: str) -> Value | None:
+    return inputs[CLOCK] - inputs[stamp] if inputs[stamp] != before[stamp] else None
+
+
+def _same(board: Board, trace: Trace, tick: Tick, names: Sequence[str], valuation: Mapping[str, int]) -> None:
+    for name in names:
+        there, here = tick.after.get(name), valuation[name]
+        if there is not None and there != here:
+            raise ModelError(
+                f"This is a run of {trace.system}, not of {board.name}: in tick {tick.number} {name} is "
+                f"{trace.show(name, there)} there, and {trace.show(name, here)} when the charts of the whole "
+                f"board run on the measurements and messages that the run gives it. {ASK}"
+            )
+
+
+def _shared(board: Board, trace: Trace) -> list[str]:
+    """What the property depends on and the board computes.  Raises ``ModelError`` if that is nothing."""
+    known = {**board.system.written, **{v.name: v for c in board.system.charts for v in c.locations}}
+    names = sorted(trace.relevant & known.keys() & trace.variables.keys())
+    found = [n for n in names if trace.variables[n].domain == known[n].domain]
+    if not found:
+        raise ModelError(f"Nothing of what {trace.property} depends on is computed by {board.name}. {ASK}")
+    return found
+
+
+def signals(board: Board) -> tuple[tuple[Signal, ...], tuple[Signal, ...]]:
+    """The inputs and the outputs of a board."""
+    return tuple(map(_signal, board.inputs)), tuple(_signal(o.signal) for o in board.outputs)
+
+
+def _signal(signal: BoardSignal) -> Signal:
+    return Signal(signal.name, _kind(signal), signal.initial, signal.doc or str(signal.domain.sort))
+
+
+def _kind(signal: BoardSignal) -> Kind:
+    if signal.stamp:
+        return Kind.CLOCK if signal.name == CLOCK else Kind.STAMP
+    match signal.domain.sort:
+        case Bool():
+            return Kind.BOOL
+        case Num(resolution, _) if not (signal.whole and resolution == 1):
+            return Kind.NUMBER
+    return Kind.WHOLE

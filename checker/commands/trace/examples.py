@@ -1,0 +1,168 @@
+"""What a trace is asked for: a property, a state of a chart to be reached, or an arrow to be taken."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from shlex import quote
+from typing import TYPE_CHECKING
+
+from checker.commands.shared.codes import UsageError
+from checker.commands.shared.select import pick
+from checker.commands.shared.variant import Variant
+from checker.results.trace import Trace
+from checker.results.verdict import Run
+from checker.system.lowered import lowered
+from checker.verify.runs.replay import followed
+from checker.verify.tasks import Task
+from properties.catalogue import Expected
+from properties.forms import Property, reachable
+from spec_model.lang.chart import Chart
+from spec_model.lang.errors import did_you_mean
+from spec_model.lang.system import System
+
+if TYPE_CHECKING:  # with all that tests cover
+    from checker.testgen.goals import Goal, Watched
+
+COVERS = ("an example was asked for",)
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """A property, the systems that it is decided on, and the verdicts on record.
+
+    An ``example`` is no property that somebody stated, but something of which a user wants to see a run.
+    ``plain`` is the system as drawn, where charts had to be changed so that the property could be stated,
+    and ``watched`` that change.  ``again`` is the command that asks for it.
+    """
+
+    property: Property
+    systems: Mapping[str, System]
+    expected: Callable[[str], Expected]
+    example: bool = False
+    plain: System | None = None
+    watched: "Watched | None" = None
+    again: str = ""
+
+    def drawn(self, trace: Trace) -> Trace:
+        """A trace of the property on the charts as drawn, with the command that shows it."""
+        trace = replace(trace, again=self.again)
+        if self.plain is None:
+            return trace
+        system = lowered(self.plain)
+        frozen = {v.name: trace.before[v.name] for v in system.frozen}
+        run = Run(frozen, tuple(tick.inputs for tick in trace.ticks))
+        ticks, _ = followed(system, run, self.property.id)
+        before = {**system.init, **frozen}
+        return replace(
+            trace,
+            before=before,
+            ticks=ticks,
+            statecharts=_charts(self.plain),
+            components=self.plain.components,
+        )
+
+
+def asked(
+    variant: Variant, id: str | None, state: str | None, arrow: str | None, system: str | None
+) -> Wanted:
+    """What a user asks for, who must name one thing.  Raises ``UsageError`` and ``ModelError``."""
+    named = [thing for thing in (id, state, arrow) if thing is not None]
+    if len(named) != 1:
+        raise UsageError(
+            "Name one thing: the ID of a property, --state CHART.STATE or --arrow 'CHART: A -> B'."
+        )
+    systems = variant.systems()
+    again = _again(variant, id, state, arrow, system)
+    if id is not None:
+        if system is not None:
+            raise UsageError(
+                f"--system goes with --state and --arrow; {id} names its own system. Leave it out."
+            )
+        return Wanted(
+            pick("property", id, variant.properties()), systems, variant.model.expected, again=again
+        )
+    wanted = of_state(named[0], systems, system) if arrow is None else of_arrow(arrow, systems, system)
+    return replace(wanted, again=again)
+
+
+def _again(variant: Variant, id: str | None, state: str | None, arrow: str | None, system: str | None) -> str:
+    """The command that asks for the same."""
+    given = [("--state", state), ("--arrow", arrow), ("--system", system)]
+    options = [f"{option} {quote(value)}" for option, value in given if value is not None]
+    return " ".join(filter(None, ["rovercheck trace", id, *options, variant.options]))
+
+
+def _unrecorded(_: str) -> Expected:
+    return Expected()
+
+
+def of_state(wanted: str, systems: Mapping[str, System], system: str | None) -> Wanted:
+    """That a state, written ``CHART.STATE``, can be active.  Raises ``UsageError`` and ``ModelError``."""
+    name, dot, state = wanted.partition(".")
+    if not (dot and state):
+        raise UsageError(f"{wanted!r} names no state; write CHART.STATE, such as Relay.B2_actuating.")
+    on = _system(name, systems, system)
+    chart = _charts(on)[name]
+    path = chart.path(state)
+    id = f"state {'.'.join((name, *path))}"
+    found = reachable(
+        id, f"The {id} can be reached.", that=chart.active_path(path), covers=COVERS, on=on.name
+    )
+    return Wanted(_unwritten(found), systems, _unrecorded, example=True)
+
+
+def of_arrow(wanted: str, systems: Mapping[str, System], system: str | None) -> Wanted:
+    """That an arrow, written ``CHART: A -> B``, can be taken.  Raises ``UsageError``."""
+    name, colon, arrow = (part.strip() for part in wanted.partition(":"))
+    if not (colon and arrow):
+        raise UsageError(f"{wanted!r} names no arrow; write 'CHART: A -> B', as traces show it.")
+    on = _system(name, systems, system)
+    from checker.testgen.goals import Kind
+    from checker.testgen.watch import watched
+
+    looked = watched(on, (Kind.ARROWS,))
+    goal = _arrow(name, _plainly(arrow), looked.goals)
+    id = f"arrow {name}: {goal.text}"
+    found = reachable(id, f"The {id} can be taken.", that=goal.flag, covers=COVERS, on=on.name)
+    there = {**systems, on.name: looked.system}
+    return Wanted(_unwritten(found), there, _unrecorded, example=True, plain=on, watched=looked)
+
+
+def _unwritten(made: Property) -> Property:
+    """A property that nobody wrote: no line of a file leads to it."""
+    return replace(made, place=None)
+
+
+def _arrow(chart: str, wanted: str, goals: Sequence["Goal"]) -> "Goal":
+    """The arrow that is meant: by its ends, and its number where several have the same."""
+    own = {g.text: g for g in goals if g.part == chart}
+    found = [
+        g for text, g in own.items() if text == wanted or text.startswith((f"{wanted} (", f"{wanted} ["))
+    ]
+    if len(found) == 1:
+        return found[0]
+    if found:
+        options = "; ".join(f"'{chart}: {g.text.partition(' [')[0]}'" for g in found)
+        raise UsageError(f"{chart} has {len(found)} arrows {wanted!r}; write one of {options}.")
+    ends = [text.partition(" (")[0] for text in own]
+    raise UsageError(f"{chart} has no arrow {wanted!r}. {did_you_mean(wanted, ends)}")
+
+
+def _plainly(arrow: str) -> str:
+    return " ".join(arrow.replace("→", "->").split())
+
+
+def _system(chart: str, systems: Mapping[str, System], wanted: str | None) -> System:
+    """The system asked for, or the smallest one with the chart that has neither more nor fewer runs."""
+    known = {name: None for system in systems.values() for name in _charts(system)}
+    pick("chart", chart, known)
+    having = {name: system for name, system in systems.items() if chart in _charts(system)}
+    if wanted is not None:
+        pick("system", wanted, systems)
+        if wanted not in having:
+            raise UsageError(f"{wanted} does not execute {chart}; these do: {', '.join(sorted(having))}.")
+        return having[wanted]
+    return min(having.values(), key=lambda s: (s.over or s.under, s.over, Task(s, ()).size, s.name))
+
+
+def _charts(system: System) -> dict[str, Chart]:
+    return {chart.name: chart for chart in system.charts}

@@ -1,0 +1,57 @@
+"""Explaining a trace while a user waits: with progress, a limit of time, and Ctrl-C at any moment."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from time import process_time
+
+from checker.commands.shared.output import err
+from checker.commands.shared.progress import Watch
+from checker.results.trace import Trace
+from properties.forms import Property
+from spec_model.lang.system import System
+
+SECONDS = 10.0
+"""Of computing, for an explanation that was not asked for: however busy the machine, it is the same."""
+
+
+@dataclass(frozen=True)
+class Explaining:
+    """Whether what forces the end of a trace is looked for, and for how long (None: as long as it takes).
+
+    With ``quiet`` there is no progress line.
+    """
+
+    wanted: bool = True
+    seconds: float | None = SECONDS
+    quiet: bool = False
+
+    @staticmethod
+    def chosen(asked: bool | None) -> "Explaining":
+        """From what a user wrote: --explain, --no-explain or neither."""
+        return Explaining(asked is not False, None if asked else SECONDS)
+
+    def __call__(self, trace: Trace, prop: Property, systems: Mapping[str, System]) -> Trace:
+        """The trace with what forces its end, or as it is, with a word on why, after Ctrl-C too."""
+        if not self.wanted:
+            return trace
+        from checker.explain.explained import explained, unexplained  # by solvers, loaded for this alone
+        from checker.explain.unrolled import OutOfTime
+
+        if why := unexplained(trace):
+            err.print(f"What forces it is not looked for: {why}.", markup=False)
+            return trace
+        start, task = process_time(), f"{prop.id}: what forces it"
+        try:
+            with Watch(err, 1, self.quiet) as watch:
+                return explained(
+                    trace,
+                    prop,
+                    systems[trace.system],
+                    lambda line: watch.say(task, line),
+                    lambda: self.seconds is not None and process_time() - start > self.seconds,
+                )
+        except OutOfTime as late:
+            err.print(f"What forces it is not known: {late}. Wait for it with --explain.", markup=False)
+        except KeyboardInterrupt:
+            err.print("Interrupted: the run is shown without what forces it.", markup=False)
+        return trace

@@ -1,0 +1,54 @@
+"""Writing a trace in a format: what the format asks for beside the trace, and files that go together."""
+
+from collections.abc import Mapping
+from functools import partial
+from inspect import signature
+from pathlib import Path
+from typing import Any
+
+from checker.commands.shared.output import text_width, write
+from checker.render import Renderer, named
+from checker.results.trace import Trace
+from spec_model.lang.system import System
+
+
+def exit_written(
+    renderer: Renderer,
+    trace: Trace,
+    systems: Mapping[str, System],
+    output: Path | None,
+    everything: bool = False,
+) -> list[Path]:
+    """Write the trace to a file or to standard output; the further files that this made, if any.
+
+    ``everything``: also what the property does not depend on, where the format would leave it out.
+    A format with ``CONCRETE`` is given the run as the boards see it, one with ``BESIDE`` writes a file of
+    that format under the same name.  Raises ``ModelError`` for a run that the format cannot show.
+    """
+    if getattr(renderer, "CONCRETE", False):
+        from checker.commands.trace.board_steps import concrete
+
+        trace = concrete(trace, systems[trace.system])
+    render = fitted(renderer, output)
+    if "everything" in signature(render).parameters:
+        render = partial(render, everything=everything)
+    beside = getattr(renderer, "BESIDE", "")
+    other = named("trace", beside) if beside else None
+    if other is None or output is None:
+        write(render(trace), output)
+        return []
+    there = output.with_suffix(other.SUFFIX)
+    if there == output:
+        there = output.with_name(output.name + other.SUFFIX)
+    contents = other.render(trace), render(trace, dump=there.name)
+    for place, content in zip((there, output), contents, strict=True):
+        write(content, place)
+    return [there]
+
+
+def fitted(renderer: Renderer, output: Path | None) -> Any:
+    """What renders; a text that is laid out in columns and goes to a terminal is as narrow as that."""
+    render: Any = renderer.render
+    if output is None and "width" in signature(render).parameters:
+        render = partial(render, width=text_width())
+    return render

@@ -1,0 +1,210 @@
+"""``rovercheck trace``: the counterexample (or witness) of one property, in one of several forms."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from checker.commands.check.run import evidence, results
+from checker.commands.shared.codes import Exit, UsageError
+from checker.commands.shared.output import err, out, possible, text_width, write, wrote
+from checker.commands.shared.progress import Watch
+from checker.commands.shared.select import pick
+from checker.commands.shared.wrapping import filled
+from checker.commands.trace.examples import Wanted
+from checker.commands.trace.explain import Explaining
+from checker.commands.trace.formats import exit_written, fitted
+from checker.engines import Limits
+from checker.render import Renderer, named, renderers
+from checker.render.reasons import in_reason
+from checker.render.trace_markdown import SPECIAL
+from checker.results.trace import Trace
+from checker.results.verdict import Unknown
+from properties.forms import Property, Unbounded
+from spec_model.lang.system import System
+
+if TYPE_CHECKING:
+    from checker.explain.others import NoMore
+
+FOR_READERS = ("table", "markdown")
+SECONDS = 30.0
+"""For each further run, unless a time limit is given."""
+
+
+@dataclass(frozen=True)
+class Showing:
+    """How a run is shown, and how many runs.
+
+    What people read shows only what the property depends on, unless ``everything`` is wanted.
+    """
+
+    format: str = "table"
+    everything: bool = False
+    output: Path | None = None
+    explaining: Explaining = field(default_factory=Explaining)
+    runs: int = 1
+    by: str = "arrows"
+    """In what several runs differ: the ``arrows`` that they take, or the ``reason`` of their end."""
+
+    def check(self, prop: Property) -> None:
+        """Raises ``UsageError`` for a format that there is not, that cannot show several runs, or for a place
+        that cannot be written.
+        """
+        possible(self.output)
+        if named("trace", self.format) is None:
+            pick("trace format", self.format, renderers("trace"))
+        if self.runs > 1 and self.format not in FOR_READERS:
+            raise UsageError(
+                f"--witnesses shows several runs, and a file of the format {self.format} holds one; "
+                f"write --format {' or '.join(FOR_READERS)}, or leave --witnesses out."
+            )
+        if self.runs == 1 and self.by != "arrows":
+            raise UsageError("--by says in what several runs are to differ; add --witnesses N.")
+        if self.by == "reason" and not self.explaining.wanted:
+            raise UsageError(
+                "--by reason compares what forces runs, which --no-explain does not look for; "
+                "leave one of them out."
+            )
+        if self.runs > 1 and isinstance(prop.form, Unbounded):
+            raise UsageError(
+                f"{prop.id} is about runs without end, of which one is shown; leave --witnesses out."
+            )
+
+    @property
+    def renderer(self) -> Renderer:
+        """The exit of the format, which there is."""
+        found = named("trace", self.format)
+        assert found is not None, "the format was checked"
+        return found
+
+    def cut(self, trace: Trace) -> Trace:
+        """What is shown of a trace."""
+        return trace if self.everything or self.format not in FOR_READERS else trace.focused()
+
+
+def trace(
+    wanted: Wanted,
+    engine: str,
+    limits: Limits,
+    showing: Showing,
+) -> Exit:
+    """Decide a property and show its trace; say so when its verdict rests on none."""
+    prop, systems = wanted.property, wanted.systems
+    showing.check(prop)
+    [result] = results([prop], systems, engine, limits)
+    verdict = result.verdict
+    if isinstance(verdict, Unknown):
+        err.print(f"{prop.id} is unknown: {evidence(result)}", markup=False)
+        return Exit.INCONCLUSIVE
+    if not isinstance(verdict.because, Trace):
+        missing = "in no run" if wanted.example else f"{verdict.word} and has no trace"
+        err.print(f"{prop.id} is {missing}: {evidence(result)}", markup=False)
+        if result.in_part:
+            err.print(_only_some(result.system), markup=False)
+        return Exit.AS_EXPECTED
+    if showing.output is None and showing.format == "table":
+        _print_heading(wanted, verdict.word)
+    if not verdict.because.shortest and wanted.example:
+        err.print("Not known to be a shortest run: a shorter one may do the same.", markup=False)
+    if showing.runs > 1:
+        _show_several(wanted, verdict.because, engine, limits, showing)
+        return Exit.AS_EXPECTED
+    first = wanted.drawn(showing.explaining(verdict.because, prop, systems))
+    renderer = showing.renderer
+    others = exit_written(renderer, showing.cut(first), systems, showing.output, showing.everything)
+    for place in (showing.output, *others):
+        wrote(place)
+    return Exit.AS_EXPECTED
+
+
+def _only_some(system: str) -> str:
+    return f"{system} has only some of the runs there are: this says nothing of the others."
+
+
+def _print_heading(wanted: Wanted, verdict: str) -> None:
+    prop, on_record = wanted.property, wanted.expected(wanted.property.id)
+    said = prop.text if wanted.example else f"{prop.id} is {verdict}: {prop.text}"
+    out.print(filled(said, text_width()), markup=False)
+    if on_record.because and on_record.verdict == verdict:
+        out.print(filled(f"Why: {on_record.because}", text_width()), markup=False)
+
+
+def _show_several(wanted: Wanted, first: Trace, engine: str, limits: Limits, showing: Showing) -> None:
+    """Show runs as they are found; into a file all of them together."""
+    told: list[str] = []
+    for text in _several(wanted, first, engine, limits, showing):
+        if showing.output is None:
+            write(text, None)
+        told.append(text)
+    if showing.output is not None:
+        write("".join(told), showing.output)
+        wrote(showing.output)
+
+
+def _several(wanted: Wanted, first: Trace, engine: str, limits: Limits, showing: Showing) -> Iterator[str]:
+    """The text of several runs, each with what makes it different."""
+    from checker.explain.others import NoMore, Others
+    from checker.explain.unlike import Unlike
+
+    prop, system = wanted.property, wanted.systems[first.system]
+    limits = limits if limits.seconds is not None else replace(limits, seconds=SECONDS)
+    runs = [showing.explaining(first, prop, wanted.systems)]
+    yield _heading("Run 1", [], showing) + _rendered(wanted.drawn(runs[0]), showing)
+    by_arrows = Others(first, prop, system, wanted.watched) if showing.by == "arrows" else None
+    by_reason = Unlike(prop, system)
+    for number in range(2, showing.runs + 1):
+        if by_arrows is None and runs[-1].needed is None:
+            unknown = (
+                f"What forces run {number - 1} is not known, so that no other reason can be told from it."
+            )
+            yield _heading(f"No run {number}", [unknown], showing)
+            return
+        with Watch(err, 1) as watch:
+            say = partial(watch.say, f"{prop.id}: run {number}")
+            other = (
+                by_arrows.next(engine, limits, say)
+                if by_arrows is not None
+                else by_reason.next(runs, engine, limits, say)
+            )
+        if isinstance(other, NoMore):
+            yield _heading(f"No run {number}", _no_more(other, system, showing.by), showing)
+            return
+        trace, differences = (other, ()) if isinstance(other, Trace) else (other.trace, other.differences)
+        runs.append(showing.explaining(trace, prop, wanted.systems))
+        differences = differences or tuple(in_reason(runs[-1], earlier) for earlier in runs[:-1])
+        unlike = [f"Unlike run {i} it {d}." for i, d in enumerate(differences, 1)]
+        yield _heading(f"Run {number}", unlike, showing) + _rendered(wanted.drawn(runs[-1]), showing)
+
+
+NO_MORE = {
+    "arrows": (
+        "No other was found that takes other arrows",
+        "Every other run to this end takes the same arrows as one of these",
+    ),
+    "reason": (
+        "No other was found that ends so for another reason",
+        "Whenever another run first comes to this end, its last ticks are as one of these needs them",
+    ),
+}
+"""What is said when there is no further run: not proved, and proved."""
+
+
+def _no_more(found: "NoMore", system: System, by: str) -> list[str]:
+    unproved, proved = NO_MORE[by]
+    if not found.proved:
+        return [f"{unproved}; that there is none is not proved: {found.reason}."]
+    every = f"{proved}: {found.reason}."
+    return [every, _only_some(system.name)] if system.under else [every]
+
+
+def _rendered(trace: Trace, showing: Showing) -> str:
+    shown = fitted(showing.renderer, showing.output)(showing.cut(trace))
+    assert isinstance(shown, str), "formats for readers are text"
+    return shown
+
+
+def _heading(title: str, lines: Sequence[str], showing: Showing) -> str:
+    if showing.format == "markdown":
+        return "\n\n".join([f"### {title}", *(line.translate(SPECIAL) for line in lines)]) + "\n\n"
+    return "\n".join(["", f"--- {title} ---", *(filled(line, text_width()) for line in lines)]) + "\n"

@@ -1,0 +1,164 @@
+"""Charts and implementation side by side: what the charts require of each step, and the first difference."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+from math import isclose
+
+from checker.adapters.implementation import Implementation, Value, Values, run
+from checker.compare.stimulus import Player, Stimulus
+from spec_model.abstraction import Board
+from spec_model.lang.chart import parts
+from spec_model.lang.domain import Num
+from spec_model.lang.interpret import Fired, Interpreter
+
+NEAR = 1e-6
+"""Numbers that differ by no more, in their unit or as a part of the larger one, are equal: single precision
+keeps seven digits."""
+BATCH = 200
+"""Steps that an implementation is given at once."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """The inputs of a step, the outputs that the charts require, and the arrows that they took."""
+
+    inputs: Mapping[str, Value]
+    expected: Mapping[str, Value]
+    fired: tuple[Fired, ...]
+
+
+@dataclass(frozen=True)
+class Difference:
+    """An output that is not as the charts require; ``actual`` is None where it is missing."""
+
+    name: str
+    expected: Value
+    actual: Value | None
+
+
+@dataclass(frozen=True)
+class Mismatch:
+    """A run whose last step, and no other, has outputs that the charts do not allow.
+
+    The first difference is that of the component that executes first.
+    """
+
+    board: Board
+    steps: tuple[Step, ...]
+    differences: tuple[Difference, ...]
+    origin: str = ""
+
+    @property
+    def tick(self) -> int:
+        """The number of the step, from 1."""
+        return len(self.steps)
+
+    @property
+    def arrows(self) -> tuple[Fired, ...]:
+        """The arrows that the charts took in that step, those of the chart at fault first."""
+        author = author_of(self.board, self.differences[0].name)
+        return tuple(sorted(self.steps[-1].fired, key=lambda fired: fired.chart != author))
+
+    @property
+    def key(self) -> tuple[object, ...]:
+        """Mismatches with the same key are one: the same output first, after the same arrow of its chart."""
+        first = self.differences[0].name
+        author = author_of(self.board, first)
+        arrows = [(f.source, f.target, f.order) for f in self.steps[-1].fired if f.chart == author]
+        return (self.board.name, first, arrows[-1] if arrows else None)
+
+
+class Charts:
+    """The charts of a board, run on concrete inputs from power-up."""
+
+    def __init__(self, board: Board) -> None:
+        self._board = board
+        self._reader = board.reader()
+        self._interpreter = Interpreter(board.system, measured=True)
+
+    def valuation(self) -> dict[str, int]:
+        """Everything that the charts hold."""
+        return self._interpreter.valuation()
+
+    def step(self, inputs: Values) -> Step:
+        """One execution.  Raises ``ModelError`` for inputs that the charts give no meaning to."""
+        fired = self._interpreter.step(self._reader.step(inputs))
+        return Step(inputs, self._board.expected(self._interpreter.valuation()), fired)
+
+
+def played(board: Board, fields: Mapping[str, tuple[str, ...]], stimulus: Stimulus) -> list[Step]:
+    """What the charts do under a stimulus."""
+    charts = Charts(board)
+    return [charts.step(inputs) for inputs in Player(board, fields, charts).steps(stimulus)]
+
+
+def rerun(board: Board, inputs: Iterable[Values]) -> list[Step]:
+    """What the charts do under concrete inputs."""
+    charts = Charts(board)
+    return [charts.step(one) for one in inputs]
+
+
+def compared(board: Board, steps: Sequence[Step], implementation: Implementation) -> Mismatch | None:
+    """The first step in which an implementation differs, starting at power-up.
+
+    Raises ``ImplementationError``.
+    """
+    implementation.reset()
+    seen: set[str] = set()
+    for start in range(0, len(steps), BATCH):
+        part = steps[start : start + BATCH]
+        found = run(implementation, [step.inputs for step in part])
+        seen.update(*found)
+        for number, (step, actual) in enumerate(zip(part, found, strict=True), start + 1):
+            if differs(step.expected, actual, seen):
+                different = differences(board, step.expected, actual, seen)
+                return Mismatch(board, tuple(steps[:number]), different)
+    return None
+
+
+def differs(expected: Values, actual: Values, seen: set[str]) -> bool:
+    """Whether an output that the implementation has is not as required."""
+    for name, value in expected.items():
+        got = actual.get(name)
+        if got != value and (got is not None or name in seen) and not _close(value, got):
+            return True
+    return False
+
+
+def differences(board: Board, expected: Values, actual: Values, seen: set[str]) -> tuple[Difference, ...]:
+    """All outputs that are not as required, those of what executes first at the beginning."""
+    numbers = {o.name for o in board.outputs if isinstance(o.signal.domain.sort, Num)}
+    found = [
+        Difference(name, value, actual.get(name))
+        for name, value in expected.items()
+        if name in actual or name in seen
+        if not (_close(value, actual.get(name)) if name in numbers else actual.get(name) == value)
+    ]
+    order = writers(board)
+    return tuple(sorted(found, key=lambda d: order[d.name][0]))
+
+
+def _close(expected: Value, actual: Value | None) -> bool:
+    """Whether two numbers are equal; enumerations and truth values lie 1 apart."""
+    return actual is not None and isclose(expected, actual, rel_tol=NEAR, abs_tol=NEAR)
+
+
+def author_of(board: Board, output: str) -> str:
+    """The chart or block that writes an output last."""
+    return writers(board)[output][1]
+
+
+def writers(board: Board) -> Mapping[str, tuple[int, str]]:
+    """For each output, the place in the order of execution and the name of what writes it."""
+    return _writers(board.name, board)
+
+
+@cache
+def _writers(name: str, board: Board) -> Mapping[str, tuple[int, str]]:
+    found: dict[str, tuple[int, str]] = {}
+    for number, part in enumerate(parts(board.system.components)):
+        for output in board.outputs:
+            if output.var.name in part.written:
+                found[output.name] = (number, part.name)
+    return found

@@ -1,0 +1,158 @@
+"""Runs that are tried before the random ones: every aimed value alone, flags in pairs, timers, old data."""
+
+from collections.abc import Iterator
+from itertools import combinations, groupby, pairwise, zip_longest
+
+from checker.compare.aims import formulas
+from checker.compare.environment import AROUND, Blocks, Environment
+from checker.compare.stimulus import SILENT, Block, Change, Every, Stimulus
+from spec_model.abstraction import Value
+from spec_model.abstraction.board import computed
+from spec_model.abstraction.signals import plain
+from spec_model.lang.domain import Bool
+from spec_model.lang.evaluate import evaluate
+from spec_model.lang.expr import Temporal, When
+from spec_model.lang.walk import nodes, variables
+
+CLOSE = 0.0011
+"""How far from a moving boundary a value of a fixed run lies at most."""
+LATE_MS = (120, 140, 160, 500, 5_000, 70_000)
+"""When a first step may come that finds nothing measured or received since power-up."""
+LONG = 1500
+"""Steps of a fixed run, about."""
+
+Labelled = tuple[str, Stimulus]
+
+
+def fixed(env: Environment) -> Iterator[Labelled]:
+    """Every fixed run of a board, with what it is for."""
+    yield from _first_steps(env)
+    for theme, (begin, _) in env.themes.items():
+        if begin or theme == "anything":
+            yield from _in_runs(env, f"each value ({theme})", begin, list(_each_value(env)))
+    yield from _in_runs(env, "flags in pairs", [], list(_pairs(env)))
+    yield from _in_runs(env, "timers of inputs", [], list(_held(env)))
+    yield from _in_runs(env, "silences", [], list(_silences(env)))
+    yield from _in_runs(env, "rhythms", [], list(_rhythms(env)))
+    yield from _in_runs(env, "old measurements", [], list(_aging(env)))
+    for label, scenes in groupby(env.scenes(env), key=lambda scene: scene[0]):
+        parts = list(scenes)
+        yield from _in_runs(env, label, parts[0][1], [part for _, _, part in parts])
+
+
+def _in_runs(env: Environment, label: str, begin: Blocks, parts: list[Blocks]) -> Iterator[Labelled]:
+    """The parts one after another, in as many runs as their length asks for."""
+    opening = [Block(2, env.at_rest), *begin]
+    blocks = list(opening)
+    for part in parts:
+        if sum(b.steps for b in blocks) > LONG:
+            yield label, Stimulus(tuple(blocks))
+            blocks = list(opening)
+        blocks += part
+    if len(blocks) > len(opening):
+        yield label, Stimulus(tuple(blocks))
+
+
+def _first_steps(env: Environment) -> Iterator[Labelled]:
+    """Power-up with the first value of every input, then with the second, and so on; and in silence."""
+    names = sorted(env.values.aimed)
+    stamps: tuple[tuple[str, Change], ...] = tuple((s, Every()) for s in env.values.stamps)
+    calm = dict(env.at_rest)
+    for values in zip_longest(*(env.values.aimed[name] for name in names)):
+        chosen = tuple((n, calm[n] if v is None else v) for n, v in zip(names, values, strict=True))
+        yield "first step", Stimulus((Block(1, (*stamps, *chosen)), Block(2, env.at_rest)))
+    for late_ms in LATE_MS:
+        yield "late first step", Stimulus((Block(3), Block(3, env.at_rest)), late_ms)
+    for flags in combinations(_flags(env), 2):
+        yield "first step", Stimulus((Block(1, (*env.at_rest, *((f, not calm[f]) for f in flags))), Block(2)))
+    for one in env.values.stamps:
+        yield "first step", Stimulus((Block(30, (*env.at_rest, (one, SILENT))), Block(5, env.at_rest)))
+    yield "silence", Stimulus((Block(max(env.timers)), Block(max(env.timers), env.at_rest)))
+
+
+def _flags(env: Environment) -> list[str]:
+    return [name for name, s in env.values.signals.items() if isinstance(s.domain.sort, Bool)]
+
+
+def _each_value(env: Environment) -> Iterator[Blocks]:
+    calm = dict(env.at_rest)
+    for name, values in env.values.aimed.items():
+        for value in values:
+            yield [Block(2, ((name, value),)), Block(1, ((name, calm[name]),))]
+
+
+def _pairs(env: Environment) -> Iterator[Blocks]:
+    """Every change from one combination of two flags to another that differs in one or in both."""
+    calm = dict(env.at_rest)
+    for a, b in combinations(_flags(env), 2):
+        tour = ((1, 0), (1, 1), (0, 1), (1, 0), (0, 1), (0, 0), (1, 1), (0, 0))
+        at_rest = (bool(calm[a]), bool(calm[b]))
+        yield [Block(1, ((a, bool(x) != at_rest[0]), (b, bool(y) != at_rest[1]))) for x, y in tour]
+
+
+def _silences(env: Environment) -> Iterator[Blocks]:
+    """Each source silent for just short of, at and beyond each age, stamped at various ms before a step."""
+    for stamp in env.values.stamps:
+        for rhythm in env.lags:
+            for length in env.silences(stamp):
+                yield [Block(2, ((stamp, rhythm),)), Block(length, ((stamp, SILENT),))]
+        yield [Block(3, ((stamp, Every()),))]
+
+
+def _rhythms(env: Environment) -> Iterator[Blocks]:
+    """Each source in each rhythm, for a little more than ten gaps, and in every step again."""
+    for stamp in env.values.stamps:
+        if env.values.aims.silences.get(stamp, (99,))[0] < 20:  # whose mean gap is watched
+            for rhythm in env.rhythms:
+                gaps = max(len(rhythm.gaps), 11)
+                yield [Block(gaps * sum(rhythm.gaps) // len(rhythm.gaps) + 1, ((stamp, rhythm),))]
+                yield [Block(11, ((stamp, Every()),))]
+
+
+def _aging(env: Environment) -> Iterator[Blocks]:
+    """Measurements beside each boundary that moves, until it has moved past them."""
+    for boundary, value in env.values.aging:
+        if abs(float(value) - float(boundary.value)) <= CLOSE:
+            fresh: tuple[tuple[str, Change], ...] = ((boundary.signal, value), (boundary.source, Every()))
+            yield [Block(2, fresh), Block(boundary.steps + 1, ((boundary.source, SILENT),)), Block(1, fresh)]
+
+
+def _held(env: Environment) -> Iterator[Blocks]:
+    """Conditions on inputs that must last: for a little less than long enough, long enough, and more."""
+    calm = dict(env.at_rest)
+    for word in nodes(*formulas(env.board.system)):
+        if isinstance(word, Temporal) and word.when is When.HELD and word.arg is not None and word.span:
+            ticks = word.span.ticks(env.board.system.step_ms)
+            names = {plain(v) for v in variables(word.arg).values()} & env.values.signals.keys()
+            for name in sorted(names):
+                for value in _at_the_ends(env, name, word):
+                    for more in AROUND:
+                        yield [Block(ticks + more, ((name, value),)), Block(2, ((name, calm[name]),))]
+                for value in _beside_the_limits(env, name, word):
+                    yield [Block(ticks + max(AROUND), ((name, value),)), Block(2, ((name, calm[name]),))]
+
+
+def _at_the_ends(env: Environment, name: str, word: Temporal) -> list[Value]:
+    """The first and the last aimed value of an input for which the condition holds."""
+    found = [value for value, holds in _aimed(env, name, word) if holds]
+    return [found[0], found[-1]] if found else []
+
+
+def _beside_the_limits(env: Environment, name: str, word: Temporal) -> list[Value]:
+    """The aimed values of an input next to one another of which the condition holds for one only."""
+    found: dict[Value, None] = {}
+    for (one, first), (two, second) in pairwise(_aimed(env, name, word)):
+        if first != second:
+            found |= {one: None, two: None}
+    return list(found)
+
+
+def _aimed(env: Environment, name: str, word: Temporal) -> list[tuple[Value, bool]]:
+    """The aimed values of an input, and whether the condition holds for each."""
+    assert word.arg is not None
+    found: list[tuple[Value, bool]] = []
+    for value in env.values.aimed[name]:
+        read = env.board.reader().step(env.board.at_power_up() | {name: value})
+        if variables(word.arg).keys() <= read.keys():
+            found.append((value, bool(evaluate(word.arg, computed(read)))))
+    return found

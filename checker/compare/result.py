@@ -1,0 +1,102 @@
+"""What a cross-check found: distinct mismatches, what was exercised, and what was not compared."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from checker.compare.beside import Mismatch, Step
+from checker.compare.coverage import Arrow, Coverage, arrows
+from spec_model.abstraction import Board
+
+FIXED, RANDOM = "fixed runs", "random runs"
+"""The two kinds of runs, in the order in which they are tried."""
+
+
+@dataclass(frozen=True)
+class Allowance:
+    """What is spent on an implementation that differs; the rest is told, but not looked into."""
+
+    mismatches: int = 5
+    """Distinct mismatches, the shortest, that are made small and told in full; the others in a line each."""
+    failures: int = 3
+    """Runs that the implementation may fail to survive before no more are tried."""
+
+
+ALLOWED = Allowance()
+
+
+@dataclass(frozen=True)
+class Stage:
+    """How many runs of a kind were tried, of how many (None: not counted), and why not all, if not all."""
+
+    kind: str
+    tried: int
+    of: int | None
+    because: str = ""
+
+
+@dataclass(frozen=True)
+class Failure:
+    """A run in which the implementation crashed, hung or answered without meaning, in its last step.
+
+    It has no steps where that happened at power-up.
+    """
+
+    board: Board
+    origin: str
+    message: str
+    steps: tuple[Step, ...] = ()
+
+    @property
+    def tick(self) -> int:
+        """The number of the step, from 1; 0 at power-up."""
+        return len(self.steps)
+
+
+@dataclass(frozen=True)
+class Result:
+    """One cross-check of one implementation.
+
+    ``mismatches`` are the distinct ones, by output and arrow; the first ``small`` of them are made small.
+    ``uncompared`` are outputs that the implementation never gave, ``compared`` the steps in which it was: a
+    run ends at its first mismatch.  ``stages`` say what was tried.
+    """
+
+    board: Board
+    coverage: Coverage
+    mismatches: tuple[Mismatch, ...] = ()
+    small: int = 0
+    failures: tuple[Failure, ...] = ()
+    uncompared: tuple[str, ...] = ()
+    notes: Sequence[str] = field(default=())
+    examples: int = 0
+    seed: int = 0
+    interrupted: bool = False
+    stages: tuple[Stage, ...] = ()
+    compared: int = 0
+    allowance: Allowance = ALLOWED
+
+    @property
+    def conclusive(self) -> bool:
+        """Whether the search came to its end, and something was compared in it."""
+        nothing = len(self.uncompared) == len(self.board.outputs)
+        return not (self.interrupted or nothing)
+
+    @property
+    def differs(self) -> bool:
+        """Whether the implementation does something else than the charts: other outputs, or no answer."""
+        return bool(self.mismatches or self.failures)
+
+    @property
+    def conforms(self) -> bool:
+        """Whether every output compared was as the charts require, in every run that was asked for."""
+        return self.conclusive and not self.differs
+
+    @property
+    def arrows(self) -> tuple[int, int]:
+        """Arrows that the charts took, of how many."""
+        return len(self.coverage.taken), len(arrows(self.board))
+
+    @property
+    def missing(self) -> tuple[Arrow, ...]:
+        """Arrows that the charts took in no run."""
+        return self.coverage.missing

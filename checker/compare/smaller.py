@@ -1,0 +1,249 @@
+"""Making a mismatch small: fewer steps, calm inputs, fewer changes, plainer values, the same difference.
+
+A run is taken apart into columns, one for each input: what it is in each step; of a stamp, how many ms before
+the step it was renewed, or None.  So a step can be left out without the clock noticing.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from checker.adapters.implementation import Implementation, ImplementationError, Value, Values
+from checker.compare.beside import Mismatch, compared, rerun
+from checker.compare.environment import Environment
+from checker.compare.stimulus import NOW, SILENT, Block, Change, Every, Stimulus, clocked
+from spec_model.abstraction import Board
+from spec_model.abstraction.stamps import CLOCK, since
+from spec_model.lang.errors import ModelError
+from spec_model.lang.system import TICK_MS
+
+BUDGET = 30_000
+"""Steps of the charts that may be spent on making one mismatch small."""
+
+Column = tuple[Value | None, ...]
+
+
+@dataclass(frozen=True)
+class Columns:
+    """A run of concrete inputs, column by column; ``stamps`` are those that hold lags."""
+
+    start_ms: int
+    stamps: frozenset[str]
+    columns: Mapping[str, Column]
+
+    def __len__(self) -> int:
+        return len(next(iter(self.columns.values())))
+
+    def inputs(self, board: Board) -> list[dict[str, Value]]:
+        """The inputs of each step."""
+        at, found = board.at_power_up(), []
+        for k in range(len(self)):
+            at[NOW] = now = (self.start_ms + TICK_MS * k) % CLOCK
+            for name, column in self.columns.items():
+                value = column[k]
+                if name not in self.stamps:
+                    assert value is not None
+                    at[name] = value
+                elif value is not None:
+                    at[name] = (now - int(value)) % CLOCK
+            found.append(dict(at))
+        return found
+
+    def stimulus(self) -> Stimulus:
+        """The same run in held blocks."""
+        blocks: list[Block] = []
+        before: dict[str, Change] = {}
+        for k in range(len(self)):
+            now = {name: self._change(name, column[k]) for name, column in self.columns.items()}
+            changed = tuple((name, value) for name, value in now.items() if k == 0 or before[name] != value)
+            if k and not changed:
+                blocks[-1] = Block(blocks[-1].steps + 1, blocks[-1].changes)
+            else:
+                blocks.append(Block(1, changed))
+            before = now
+        return Stimulus(tuple(blocks), self.start_ms)
+
+    def _change(self, name: str, value: Value | None) -> Change:
+        if name not in self.stamps:
+            assert value is not None
+            return value
+        return SILENT if value is None else Every((1,), (int(value),))
+
+    def with_column(self, name: str, column: Column) -> "Columns":
+        return Columns(self.start_ms, self.stamps, {**self.columns, name: column})
+
+    def without(self, first: int, count: int) -> "Columns":
+        """Some steps left out."""
+        kept = {name: c[:first] + c[first + count :] for name, c in self.columns.items()}
+        return Columns(self.start_ms, self.stamps, kept)
+
+
+def columns(board: Board, inputs: Sequence[Values]) -> Columns:
+    """Concrete inputs taken apart.
+
+    Raises ``ModelError`` for steps that are not 20 ms apart: the charts count steps.
+    """
+    start = int(inputs[0][NOW])
+    for k, at in enumerate(inputs):
+        if since(int(at[NOW]), start) != TICK_MS * k:
+            raise ModelError(
+                f"Step {k + 1} is at {at[NOW]} ms, {since(int(at[NOW]), start)} ms after the first; "
+                f"steps are {TICK_MS} ms apart, because the charts count them."
+            )
+    stamps = frozenset(s.name for s in board.inputs if clocked(s))
+    found: dict[str, Column] = {
+        s.name: tuple(at[s.name] for at in inputs) for s in board.inputs if not s.stamp
+    }
+    for name in stamps:
+        found[name] = _lags(inputs, name)
+    return Columns(start, stamps, {s.name: found[s.name] for s in board.inputs if s.name != NOW})
+
+
+def _lags(inputs: Sequence[Values], name: str) -> Column:
+    before, found = 0, []
+    for at in inputs:
+        stamp = int(at[name])
+        found.append(since(int(at[NOW]), stamp) if stamp != before else None)
+        before = stamp
+    return tuple(found)
+
+
+class Budget:
+    """Steps that may still be run."""
+
+    def __init__(self, steps: int) -> None:
+        self.left = steps
+
+    def take(self, steps: int) -> bool:
+        """Whether there is enough for so many; they are then spent."""
+        self.left -= steps
+        return self.left >= 0
+
+
+def smaller(
+    env: Environment, mismatch: Mismatch, implementation: Implementation, budget: Budget | None = None
+) -> Mismatch:
+    """A mismatch with the same key in a run that is as small as the budget allows to find."""
+    work = _Work(env, mismatch, implementation, budget or Budget(BUDGET))
+    before = None
+    _fewer_steps(work, len(work.run) // 8)
+    _calm_together(work)
+    while before != work.run:
+        before = work.run
+        _fewer_steps(work)
+        for name in before.columns:
+            _calmer(work, name)
+            _fewer_changes(work, name)
+    for name in before.columns:
+        _plainer(work, name)
+    return work.best
+
+
+class _Work:
+    """The smallest run so far."""
+
+    def __init__(
+        self, env: Environment, mismatch: Mismatch, implementation: Implementation, budget: Budget
+    ) -> None:
+        self.env, self.best, self.budget = env, mismatch, budget
+        self._implementation = implementation
+        self.run = columns(env.board, [step.inputs for step in mismatch.steps])
+        self._calm = dict(env.at_rest)
+
+    def at_rest(self, name: str) -> Value:
+        """The calm value of an input; a calm stamp is renewed in every step."""
+        calm = self._calm[name]
+        if isinstance(calm, Every):
+            return 0
+        assert isinstance(calm, bool | int | float)
+        return calm
+
+    def accepts(self, run: Columns) -> bool:
+        """Take the run over if it has the same mismatch."""
+        if run == self.run:
+            return True
+        if not len(run) or not self.budget.take(len(run)):
+            return False
+        found = self._compared(run)
+        if found is None or found.key != self.best.key:
+            return False
+        self.best = found
+        self.run = columns(self.env.board, [step.inputs for step in found.steps])
+        return True
+
+    def _compared(self, run: Columns) -> Mismatch | None:
+        board = self.env.board
+        try:
+            found = compared(board, rerun(board, run.inputs(board)), self._implementation)
+        except (ImplementationError, ModelError):  # not the difference that is looked for
+            return None
+        return None if found is None else Mismatch(board, found.steps, found.differences, self.best.origin)
+
+
+def _calm_together(work: _Work) -> None:
+    """Calm many inputs at once, then ever fewer."""
+    names = list(work.run.columns)
+    size = len(names)
+    while size:
+        for first in range(0, len(names), size):
+            run = work.run
+            for name in names[first : first + size]:
+                run = run.with_column(name, (work.at_rest(name),) * len(run))
+            work.accepts(run)
+        size //= 2
+
+
+def _fewer_steps(work: _Work, least: int = 1) -> None:
+    """Leave out steps: large pieces first, then ever smaller ones."""
+    size = len(work.run)
+    while size >= max(1, least):
+        first = max(0, len(work.run) - size)
+        while first >= 0 and len(work.run) > 1:
+            if not work.accepts(work.run.without(first, min(size, len(work.run) - first))) and first == 0:
+                break
+            first = min(max(0, first - size), max(0, len(work.run) - size)) if first else -1
+        size //= 2
+
+
+def _calmer(work: _Work, name: str) -> None:
+    """Hold one value throughout: the calm one, else one of its own."""
+    column = work.run.columns[name]
+    for value in dict.fromkeys((work.at_rest(name), column[0], column[-1])):
+        if work.accepts(work.run.with_column(name, (value,) * len(column))):
+            return
+
+
+def _fewer_changes(work: _Work, name: str) -> None:
+    """Leave out changes, ever fewer together."""
+    size = len(_changes(work.run.columns[name]))
+    while size:
+        start = 0
+        while start < len(found := _changes(work.run.columns[name])):
+            kept = set(found[:start] + found[start + size :])
+            if not work.accepts(work.run.with_column(name, _held(work.run.columns[name], kept))):
+                start += size
+        size //= 2
+
+
+def _changes(column: Column) -> list[int]:
+    return [k for k in range(1, len(column)) if column[k] != column[k - 1]]
+
+
+def _held(column: Column, kept: set[int]) -> Column:
+    held = [column[0]]
+    for k in range(1, len(column)):
+        held.append(column[k] if k in kept else held[-1])
+    return tuple(held)
+
+
+SIMPLER: tuple[Callable[[float], float], ...] = (round, lambda v: round(v, 1), lambda v: round(v * 8) / 8)
+
+
+def _plainer(work: _Work, name: str) -> None:
+    """Rounder numbers in place of odd ones."""
+    for value in dict.fromkeys(work.run.columns[name]):
+        if not isinstance(value, float):
+            continue
+        for simpler in SIMPLER:
+            column = tuple(simpler(value) if v == value else v for v in work.run.columns[name])
+            if work.accepts(work.run.with_column(name, column)):
+                break

@@ -1,0 +1,57 @@
+"""Random stimuli of a board, as Hypothesis draws and shrinks them."""
+
+from collections.abc import Mapping
+
+from hypothesis import strategies as st
+
+from checker.compare.environment import Blocks, Environment
+from checker.compare.phases import changes, one_after_another, short, steps
+from checker.compare.phases1 import BOARD1
+from checker.compare.phases2 import BOARD2
+from checker.compare.stimulus import Block, Stimulus
+from spec_model.abstraction.stamps import CLOCK
+from spec_model.lang.system import TICK_MS
+
+ENVIRONMENTS: Mapping[str, Environment] = {"board1": BOARD1, "board2": BOARD2}
+"""The environment of each board, by its name."""
+PHASES = 24
+"""Phases of a stimulus at most; six on average."""
+LONGEST = 1500
+"""Steps of a stimulus; what is beyond is cut off."""
+
+
+@st.composite
+def openings(draw: st.DrawFn, env: Environment) -> tuple[int, Blocks]:
+    """Time and blocks from power-up to calm: at once, after silence, or just before the clock wraps."""
+    calm = Block(draw(short()), env.at_rest)
+    kind = draw(st.sampled_from(("calm", "calm", "calm", "calm", "silent", "some", "wrap")))
+    if kind == "silent":
+        return TICK_MS, [Block(draw(steps(env))), calm]
+    if kind == "some":
+        stamps = draw(st.lists(st.sampled_from(env.values.stamps), unique=True))
+        first = (*draw(changes(env)), *((stamp, draw(st.sampled_from(env.lags))) for stamp in stamps))
+        return TICK_MS, [Block(draw(short()), first), Block(draw(short())), calm]
+    if kind == "wrap":  # every stamp is new in the first step, or it would be as old as the clock
+        return CLOCK - TICK_MS * draw(st.integers(1, 60)), [calm]
+    return TICK_MS, [calm]
+
+
+@st.composite
+def stimuli(draw: st.DrawFn, env: Environment) -> Stimulus:
+    """A stimulus: a theme, an opening, and phases of that theme."""
+    begin, phases = env.themes[draw(st.sampled_from(sorted(env.themes)))]
+    start_ms, opening = draw(openings(env))
+    drawn = draw(st.lists(st.one_of([phase(env) for phase in phases]), min_size=1, max_size=PHASES))
+    return Stimulus(tuple(cut([*opening, *begin, *one_after_another(drawn)])), start_ms)
+
+
+def cut(blocks: Blocks) -> Blocks:
+    """The first blocks, up to the longest stimulus."""
+    kept: Blocks = []
+    left = LONGEST
+    for block in blocks:
+        if left <= 0:
+            break
+        kept.append(Block(min(block.steps, left), block.changes))
+        left -= block.steps
+    return kept

@@ -1,1 +1,0 @@
-"""Conformance: does an implementation, or a log of one, behave as the charts say?"""

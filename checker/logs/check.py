@@ -1,0 +1,141 @@
+"""One log, checked in both ways: every property as a monitor, and as a run of the charts."""
+
+from collections.abc import Mapping
+from contextlib import closing
+from dataclasses import dataclass
+from pathlib import Path
+
+from checker.logs.against import Against, as_drawn
+from checker.logs.behaviour import Behaviour, Follow
+from checker.logs.choosing import Choice
+from checker.logs.invalid import Invalid
+from checker.logs.log import Block, Layout, Log, open_log
+from checker.logs.mapping import Map
+from checker.logs.monitors import Monitors, Verdict
+from checker.logs.sight import Eyes
+from properties.forms import Reachable
+from spec_model.lang.system import TICK_MS
+
+MOST_GAPS = 5
+
+
+@dataclass(frozen=True)
+class Gap:
+    """Steps that are missing in front of a row."""
+
+    line: int
+    tick: int
+    steps: int
+
+
+@dataclass(frozen=True)
+class Result:
+    """What was found in one log; ``gaps`` are the first ones, ``missing`` the steps lost in all.
+
+    ``invalid``: cells without meaning; their values are unknown in all the rest.
+    """
+
+    name: str
+    layout: Layout
+    rows: int
+    ticks: int
+    start: str
+    missing: int
+    gaps: tuple[Gap, ...]
+    verdicts: tuple[Verdict, ...]
+    choice: Choice
+    behaviour: Behaviour
+    invalid: Invalid
+
+    @property
+    def unexpected(self) -> tuple[Verdict, ...]:
+        """Properties broken though they are on record as true, or reached though they are not."""
+        return tuple(v for v in self.verdicts if v.count and not as_on_record(v))
+
+    @property
+    def deviates(self) -> bool:
+        return bool(self.behaviour.deviations or self.unexpected)
+
+    @property
+    def conforms(self) -> bool:
+        """Whether nothing at all is wrong with the log, and all could be decided."""
+        return not (self.deviates or self.invalid or self.behaviour.undecided)
+
+    @property
+    def seconds(self) -> float:
+        """How long the recorded run took."""
+        return self.ticks * TICK_MS / 1000
+
+
+def as_on_record(verdict: Verdict) -> bool:
+    """Whether what was met in the log is what the baseline leads to expect."""
+    violated = verdict.expected == "violated"
+    return not violated if isinstance(verdict.prop.form, Reachable) else violated
+
+
+def examine(path: Path, how: Map, system: str = "", against: Against | None = None) -> Result:
+    """Check one log, against the charts as specified unless told otherwise.
+
+    Raises ``LogError`` for a file that is no log of the board, or not up to its end.
+    """
+    log = open_log(path, how, system)
+    with closing(log.blocks()) as blocks:
+        first = next(blocks)
+        run = _Run(log, against or as_drawn())
+        run.block(first)
+        for block in blocks:
+            run.block(block)
+    return run.result()
+
+
+class _Run:
+    """A log on its way through both checks."""
+
+    def __init__(self, log: Log, against: Against) -> None:
+        self._log, self._against = log, against
+        layout, from_power_up = log.layout, log.start == "power-up"
+        vocabulary = against.vocabulary(layout.board)
+        self._eyes = Eyes(vocabulary, layout.signals, from_power_up)
+        seen, logged = self._eyes.seen, layout.signals - vocabulary.inputs
+        known = seen | {o.var.name for o in vocabulary.board.outputs if o.name in logged}
+        self._choice = against.choice(layout.board, known)
+        self._monitors = Monitors(vocabulary, self._choice, known, from_power_up)
+        parts = against.cones(layout.board, seen, logged)
+        self._follow = Follow(parts, _tolerance(layout), seen, from_power_up)
+        self._rows = self._ticks = self._missing = 0
+        self._gaps: list[Gap] = []
+
+    def block(self, block: Block) -> None:
+        seen = self._eyes.look(block)
+        self._monitors.block(block, self._monitors.columns(block, seen))
+        self._follow.block(block, seen)
+        self._rows += len(block)
+        self._ticks = block.ticks[-1]
+        self._missing += sum(block.missing)
+        found = (
+            Gap(*where) for where in zip(block.lines, block.ticks, block.missing, strict=True) if where[2]
+        )
+        self._gaps += [gap for gap, _ in zip(found, range(MOST_GAPS - len(self._gaps)), strict=False)]
+
+    def result(self) -> Result:
+        return Result(
+            self._log.name,
+            self._log.layout,
+            self._rows,
+            self._ticks,
+            self._log.start,
+            self._missing,
+            tuple(self._gaps),
+            tuple(self._on_record(v) for v in self._monitors.verdicts()),
+            self._choice,
+            self._follow.end(),
+            self._log.invalid,
+        )
+
+    def _on_record(self, verdict: Verdict) -> Verdict:
+        verdict.expected = self._against.expected(verdict.prop.id)
+        return verdict
+
+
+def _tolerance(layout: Layout) -> Mapping[str, float]:
+    return {c.signal: c.tolerance for c in layout.stated.values() if c.tolerance is not None}

@@ -1,0 +1,242 @@
+"""A board taken apart at the signals that are logged: each part is checked on its own, against its outputs.
+
+A component that reads a logged output of another one reads it in the log.  What no row tells (states, timers,
+signals that are not logged) keeps the components that share it together.  A log is a run of the charts iff
+it is one of every part; and a fault shows in the part where it arises, not in all that follow.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from checker.logs.program import Shown, Step, compiled
+from checker.system.partition import expressions, partition
+from checker.system.slice import sliced
+from spec_model.abstraction import Board, Output
+from spec_model.lang.chart import Block, Chart, Component, Enabled
+from spec_model.lang.domain import Bool, Num
+from spec_model.lang.expr import Apply, Const, Expr, Var
+from spec_model.lang.lower import lower
+from spec_model.lang.system import System, TransitionSystem
+from spec_model.lang.walk import children, variables
+
+MOST_VALUES = 300
+"""Values of one variable that are tried where it is not known."""
+
+MOST_CUT = 200_000
+SOME = 24
+
+
+@dataclass(frozen=True)
+class Part:
+    """A component of the board with the conditions under which it executes."""
+
+    component: Chart | Block
+    enabled: tuple[Expr, ...]
+
+    @property
+    def reads(self) -> frozenset[str]:
+        return frozenset(self.component.read) | frozenset(variables(*self.enabled))
+
+    @property
+    def writes(self) -> frozenset[str]:
+        return frozenset(self.component.written)
+
+    @property
+    def whole(self) -> Component:
+        made: Component = self.component
+        for condition in reversed(self.enabled):
+            made = Enabled(condition, made)
+        return made
+
+
+@dataclass(frozen=True)
+class Cone:
+    """A part of a board that is checked on its own.
+
+    ``before``: inputs that are the logged outputs of the tick before.  ``between``: inputs that are not
+    logged and of which values between the representative ones may matter.  ``left_out``: logged outputs that
+    are computed from such inputs, which any value might explain.
+    """
+
+    system: TransitionSystem
+    outputs: tuple[Output, ...]
+    charts: tuple[Chart, ...]
+    before: frozenset[str]
+    between: frozenset[str]
+    left_out: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        return self.system.name
+
+    @cached_property
+    def step(self) -> Step:
+        return compiled(self.system, [Shown(o.var, o.unless) for o in self.outputs])
+
+    @cached_property
+    def _roots(self) -> list[Expr]:
+        return [*expressions(self.system.step), *(o.unless for o in self.outputs)]
+
+    @cached_property
+    def _cells(self) -> dict[str, tuple[tuple[int, ...], bool]]:
+        return {}
+
+    def values(self, name: str) -> tuple[int, ...]:
+        """Values of a variable that stand for all of them, or, if not ``complete``, some of them."""
+        return self._tried(name)[0]
+
+    def complete(self, name: str) -> bool:
+        """Whether the values tried stand for all that the variable may have."""
+        return name not in self.between and self._tried(name)[1]
+
+    def _tried(self, name: str) -> tuple[tuple[int, ...], bool]:
+        if name not in self._cells:
+            self._cells[name] = _representatives(self.system.var(name), self._roots)
+        return self._cells[name]
+
+
+def _representatives(var: Var, roots: Sequence[Expr]) -> tuple[tuple[int, ...], bool]:
+    """One value of each cell; where these are too many, some of them, and whether they are all."""
+    if len(var.domain) <= MOST_CUT:
+        cells = [cell.value for cell in partition(var, roots, {var.name: var}).cells]
+        if len(cells) <= MOST_VALUES:
+            return tuple(cells), True
+    values = var.domain.values
+    some = {*values[:SOME], *values[:: max(1, len(values) // SOME)], values[-1]}
+    return tuple(sorted(some)), False
+
+
+def cones(board: Board, seen: frozenset[str], logged: frozenset[str]) -> tuple[Cone, ...]:
+    """The parts of a board in the order of execution.
+
+    ``seen``: inputs of the charts that the log tells.  ``logged``: names of the outputs in the log.
+    """
+    parts = parts_of(board)
+    outputs = tuple(o for o in board.outputs if o.name in logged)
+    cuts = {o.var.name for o in outputs if _cut(o, parts)}
+    while True:
+        groups = _groups(parts, seen, cuts)
+        mixed = {v for group in groups for v in _read_twice(group, parts, cuts)}
+        if not mixed:
+            break
+        cuts -= mixed
+    made = (_cone(board, [parts[i] for i in g], parts, outputs, seen, cuts) for g in groups)
+    return tuple(cone for cone in made if cone is not None)
+
+
+def parts_of(board: Board) -> tuple[Part, ...]:
+    """The charts and blocks of a board in the order of execution."""
+    return tuple(_parts(board.system.components, ()))
+
+
+def _parts(components: Sequence[Component], enabled: tuple[Expr, ...]) -> Iterator[Part]:
+    for component in components:
+        if isinstance(component, Enabled):
+            yield from _parts(component.components, (*enabled, component.by))
+        else:
+            yield Part(component, enabled)
+
+
+def _cut(output: Output, parts: Sequence[Part]) -> bool:
+    """Whether the log tells the value of the variable exactly, in every tick, to whoever reads it."""
+    sort = output.var.domain.sort
+    always = isinstance(output.unless, Const) and not output.unless.value
+    whole = not isinstance(sort, Num) or sort.resolution == 1
+    return always and whole and sum(output.var.name in p.writes for p in parts) == 1
+
+
+def _groups(parts: Sequence[Part], seen: frozenset[str], cuts: Iterable[str]) -> list[list[int]]:
+    """Indexes of the parts that share what is not told."""
+    told = seen | frozenset(cuts)
+    groups: list[tuple[set[str], list[int]]] = []
+    for index, part in enumerate(parts):
+        own = set((part.reads | part.writes) - told) | {f"writes {v}" for v in part.writes & set(cuts)}
+        joined = [g for g in groups if g[0] & own]
+        groups = [g for g in groups if not g[0] & own]
+        groups.append(
+            (own.union(*(g[0] for g in joined)), sorted([index, *(i for g in joined for i in g[1])]))
+        )
+    return sorted((group for _, group in groups), key=max)
+
+
+def _writer(name: str, parts: Sequence[Part]) -> int:
+    return next(i for i, p in enumerate(parts) if name in p.writes)
+
+
+def _read_before(name: str, group: Sequence[Part], parts: Sequence[Part]) -> bool:
+    """Whether the group reads the variable before it is renewed."""
+    return any(name in p.reads and parts.index(p) < _writer(name, parts) for p in group)
+
+
+def _read_twice(group: Sequence[int], parts: Sequence[Part], cuts: Iterable[str]) -> Iterator[str]:
+    """Cut variables that the group reads both before and after they are renewed."""
+    for name in cuts:
+        writer = _writer(name, parts)
+        readers = [i for i in group if name in parts[i].reads and i != writer]
+        if writer not in group and min(readers, default=writer) < writer < max(readers, default=writer):
+            yield name
+
+
+def _cone(
+    board: Board,
+    group: Sequence[Part],
+    parts: Sequence[Part],
+    outputs: Sequence[Output],
+    seen: frozenset[str],
+    cuts: set[str],
+) -> Cone | None:
+    written = frozenset(name for part in group for name in part.writes)
+    own = tuple(o for o in outputs if o.var.name in written)
+    if not own:
+        return None
+    named = next((p for p in reversed(group) if own[-1].var.name in p.writes), group[-1])
+    system = System(named.component.name, tuple(p.whole for p in group), tick_ms=board.system.tick_ms)
+    lowered = replace(lower(system), checks=())
+    told = seen | cuts
+    free = frozenset(o.name for o in own if measured(o) and _between(_least(lowered, [o]), told))
+    own = tuple(o for o in own if o.name not in free)
+    least = _least(lowered, own)
+    before = frozenset(v.name for v in least.inputs if v.name in cuts and _read_before(v.name, group, parts))
+    charts = tuple(p.component for p in group if isinstance(p.component, Chart))
+    return Cone(least, own, charts, before, _between(least, told), tuple(sorted(free)))
+
+
+def _least(system: TransitionSystem, outputs: Sequence[Output]) -> TransitionSystem:
+    """What the outputs depend on."""
+    goals = {v.name: v for o in outputs for v in (o.var, *variables(o.unless).values())}
+    return sliced(system, tuple(goals.values()))
+
+
+# --- values between the representative ones ---------------------------------------------------
+
+
+def measured(output: Output) -> bool:
+    """Whether firmware computes the output with floats."""
+    sort = output.var.domain.sort
+    return isinstance(sort, Num) and sort.resolution != 1
+
+
+def _between(system: TransitionSystem, told: frozenset[str] | set[str]) -> frozenset[str]:
+    """Measured inputs that are not told and are computed with, not only compared with limits."""
+    found: set[str] = set()
+    for root in expressions(system.step):
+        _computed_with(root, found)
+    measured = {v.name for v in system.inputs if isinstance(v.domain.sort, Num) and not v.domain.dense}
+    measured |= {
+        v.name for v in system.inputs if isinstance(v.domain.sort, Num) and v.domain.sort.resolution != 1
+    }
+    return frozenset(found & measured - told)
+
+
+def _computed_with(expr: Expr, found: set[str]) -> None:
+    if isinstance(expr, Var):
+        found.add(expr.name)
+        return
+    if isinstance(expr, Apply) and isinstance(expr.sort, Bool) and len(variables(expr)) == 1:
+        return
+    for child in children(expr):
+        _computed_with(child, found)
+
+
+__all__ = ["Cone", "Part", "cones", "measured", "parts_of"]

@@ -1,0 +1,141 @@
+"""The step of a transition system as a Python function, which asks for what is not known when it needs it."""
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import cast
+
+from checker.encode.python_text import text_of
+from checker.logs.cells import Raw
+from spec_model.lang.action import Action, Assign, If
+from spec_model.lang.expr import Expr, Named, Var
+from spec_model.lang.system import TransitionSystem
+
+Known = tuple[Raw | None, ...]
+"""Values in the order of the variables; ``None``: any value."""
+
+Step = Callable[[Known, Known], tuple[Known, Known]]
+"""From a valuation and inputs to the valuation after the step and the outputs (``None``: nothing required).
+
+Raises ``Needed`` when it must read a value that is not known.
+"""
+
+
+class Needed(Exception):
+    """The step reads a value that is not known: the name of the state or input that it stems from.
+
+    It is always one that the step is given: of a copy it is the variable that was copied.
+    """
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        super().__init__(name)
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A variable whose value after the step is asked for, unless a condition holds then."""
+
+    var: Var
+    unless: Expr
+
+
+def compiled(system: TransitionSystem, outputs: Sequence[Shown]) -> Step:
+    """The step of a system.  Values between those of a domain are stored like the others."""
+    state, inputs = system.variables, system.inputs
+    names = _Names(_copied(system.step))
+    lines = [f"{_tuple(names.of(v) for v in state)} = state"] if state else []
+    lines += [f"{_tuple(names.of(v) for v in inputs)} = inputs"] if inputs else []
+    every = (*state, *inputs, *system.temps)
+    lines += [f"{names.origin(v)} = {v.name!r}" for v in every if names.is_copied_to(v)]
+    body = list(_statements(system.step, names))
+    shown = _tuple(f"None if {_value(o.unless, names)} else {names.of(o.var)}" for o in outputs)
+    lines += [*body, f"return {_tuple(names.of(v) for v in state)}, {shown}"]
+    source = "def step(state, inputs):\n" + "\n".join(f"    {line}" for line in lines)
+    scope: dict[str, object] = {"need": _need}
+    exec(compile(source, f"<step of {system.name}>", "exec"), scope)
+    return cast(Step, scope["step"])
+
+
+def _need(name: str) -> Raw:
+    raise Needed(name)
+
+
+class _Names:
+    """Python names of variables, and of those that hold where the value of a copy comes from."""
+
+    def __init__(self, copies: frozenset[str]) -> None:
+        self._known: dict[str, str] = {}
+        self._copies = copies
+
+    def of(self, var: Var) -> str:
+        return self._known.setdefault(var.name, f"v{len(self._known)}")
+
+    def is_copied_to(self, var: Var) -> bool:
+        """Whether the step may make it a copy of another variable."""
+        return var.name in self._copies
+
+    def origin(self, var: Var) -> str:
+        """What tells the state or input from which the value of the variable stems, if that is not known."""
+        return f"{self.of(var)}_from" if self.is_copied_to(var) else repr(var.name)
+
+
+def _copied(program: Sequence[Action]) -> frozenset[str]:
+    """The variables that some assignment makes copies of others."""
+    found = set[str]()
+    for statement in program:
+        if isinstance(statement, If):
+            found |= _copied(statement.then) | _copied(statement.otherwise)
+        elif isinstance(statement, Assign) and isinstance(_inner(statement.value), Var):
+            found.add(statement.var.name)
+    return frozenset(found)
+
+
+def _inner(value: Expr) -> Expr:
+    return value.body if isinstance(value, Named) else value
+
+
+def _tuple(parts: Iterator[str]) -> str:
+    return f"({''.join(f'{part}, ' for part in parts)})"
+
+
+def _statements(program: Sequence[Action], names: _Names) -> Iterator[str]:
+    for statement in program:
+        if isinstance(statement, Assign):
+            yield from _assigned(statement.var, statement.value, names)
+        elif isinstance(statement, If):
+            yield from _conditional(statement, names)
+
+
+def _assigned(var: Var, value: Expr, names: _Names) -> Iterator[str]:
+    """A copy of what is not known is not known either, and stems from the same."""
+    inner = _inner(value)
+    if not isinstance(inner, Var):
+        yield f"{names.of(var)} = {_value(value, names)}"
+    elif inner.name != var.name:
+        yield f"{names.of(var)}, {names.origin(var)} = {names.of(inner)}, {names.origin(inner)}"
+
+
+def _conditional(statement: If, names: _Names) -> Iterator[str]:
+    if _guards_a_domain(statement):
+        yield from _statements(statement.then, names)
+        return
+    for word, branch in (
+        (f"if {_value(statement.condition, names)}", statement.then),
+        ("else", statement.otherwise),
+    ):
+        if branch or word != "else":
+            yield f"{word}:"
+            yield from (f"    {line}" for line in [*_statements(branch, names)] or ["pass"])
+
+
+def _guards_a_domain(statement: If) -> bool:
+    """Whether lowering made it, to see values outside a domain, where a measured one may well lie."""
+    return any(isinstance(a, Assign) and a.var.name.endswith(".out_of_domain") for a in statement.otherwise)
+
+
+def _value(expr: Expr, names: _Names) -> str:
+    def read(var: Var) -> str:
+        name = names.of(var)
+        return f"({name} if {name} is not None else need({names.origin(var)}))"
+
+    return text_of(expr, read)

@@ -1,0 +1,211 @@
+"""Follows one part of a board through a log: explains each tick, or says what differs, and goes on."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from math import prod
+
+from checker.logs.belief import FIRST_RUNS, MORE_RUNS, Follower, Outcome, TooMany
+from checker.logs.cells import Raw
+from checker.logs.cones import Cone
+from checker.logs.mismatch import Mismatch, differences, moves, shown
+from checker.logs.program import Known
+
+MOST_LOST = 20
+"""How often the valuations may become too many before the part is given up."""
+
+MOST_MISSING, FEW_RUNS = 5, 500
+"""Steps missing in a row through which valuations are followed, and how many may be tried for it."""
+
+MOST_OPTIONS = 16
+
+
+@dataclass(frozen=True)
+class Row:
+    """What one row tells one part: inputs, each with every value it may have had, and logged outputs."""
+
+    tick: int
+    line: int
+    missing: int
+    inputs: tuple[tuple[Raw | None, ...], ...]
+    logged: Known
+
+
+@dataclass(frozen=True)
+class Undecided:
+    """From this tick on a part is not decided, and why."""
+
+    tick: int
+    part: str
+    because: str
+
+
+class Tracker:
+    """The valuations that explain the log so far.
+
+    After a tick that none explains, the charts go on from where they are; if they do not explain the next
+    one either, from any valuation that has the logged outputs.
+    """
+
+    def __init__(self, cone: Cone, tolerance: Mapping[str, float], from_power_up: bool) -> None:
+        self.cone = cone
+        self.undecided: Undecided | None = None
+        self.given_up = False
+        self._follow = Follower(cone, tolerance)
+        self._now = self._follow.power_up() if from_power_up else self._follow.anything({})
+        self._own: tuple[Known, ...] | None = self._now if from_power_up else None
+        self._lost = False
+        self._times_lost = 0
+        self._last: dict[str, Raw] = {}
+        self._told = [o.var.name for o in cone.outputs]
+        self.required: tuple[Raw | None, ...] = (
+            tuple(o.var.init for o in cone.outputs) if from_power_up else ()
+        )
+        """The outputs of the charts' own run in the tick before, where they leave no choice."""
+
+    def step(self, row: Row) -> Mismatch | None:
+        """Take one row; what differs, if no behaviour explains it."""
+        if self.given_up:
+            return None
+        self._follow.runs_left = min(self._follow.runs_left, FIRST_RUNS) + MORE_RUNS
+        try:
+            return self._step(row)
+        except TooMany as reason:
+            self._lose(row, str(reason))
+            return None
+        finally:
+            logged = zip(self._told, row.logged, strict=True)
+            self._last = {name: value for name, value in logged if value is not None}
+
+    def _step(self, row: Row) -> Mismatch | None:
+        if row.missing:
+            self._skip(row.missing)
+        found, fits = self._fitting(self._now, row)
+        fits = fits or self._from_own(row)
+        if not fits and self._lost:
+            _, fits = self._fitting(self._follow.anything(self._last), row)
+        if not fits:
+            return self._differs(row, found)
+        self._goes_on(row, fits)
+        return None
+
+    def _fitting(self, valuations: Sequence[Known], row: Row) -> tuple[list[Outcome], list[Outcome]]:
+        """All outcomes, and those that explain the row."""
+        found = [o for given in _combined(row.inputs) for o in self._follow.outcomes(valuations, given)]
+        return found, [o for o in found if self._follow.explains(o, row.logged)]
+
+    def _goes_on(self, row: Row, fits: Sequence[Outcome]) -> None:
+        same = self._own is self._now
+        self._now = self._follow.kept(fits)
+        self._lost = False
+        if same:
+            self._own = self._now
+            self.required = _agreed(fits)
+        else:
+            self._own_goes_on(row)
+
+    def _from_own(self, row: Row) -> list[Outcome]:
+        """Outcomes of the charts' own run that explain the row."""
+        if self._own is None or self._own is self._now:
+            return []
+        return self._fitting(self._own, row)[1]
+
+    def _own_goes_on(self, row: Row) -> None:
+        if self._own is None:
+            self.required = ()
+            return
+        found, fits = self._fitting(self._own, row)
+        after = tuple(dict.fromkeys(o.after for o in fits or found))
+        self.required = _agreed(fits or found)
+        self._own = after if len(after) <= MOST_OPTIONS else None
+        if self._own == self._now:
+            self._own = self._now
+
+    def _differs(self, row: Row, found: Sequence[Outcome]) -> Mismatch | None:
+        if self._follow.incomplete:
+            names = ", ".join(sorted(self._follow.incomplete))
+            self._undecided(row, f"{names} not logged, and not all values of it can be tried")
+            self._follow.incomplete.clear()
+            self._now, self._own = self._follow.anything(self._outputs(row)), None
+            return None
+        best, at = self._nearest(found, row.logged)
+        before = self.required
+        late = bool(before) and all(row.logged[i] == before[i] for i in at)
+        stuck = all(self._last.get(self._told[i]) == row.logged[i] for i in at)
+        self._stay(row, best)
+        told = moves(self.cone, best)
+        wrong = differences(self.cone, best, row.logged, at)
+        return Mismatch(row.tick, row.line, self.cone.name, wrong, told, self._inputs(row), late, stuck)
+
+    def _nearest(self, found: Sequence[Outcome], logged: Known) -> tuple[list[Outcome], list[int]]:
+        """The outcomes with the fewest outputs that differ, and the places of these."""
+        places = [self._follow.differing(outcome, logged) for outcome in found]
+        fewest = min(map(len, places))
+        best = [(o, at) for o, at in zip(found, places, strict=True) if len(at) == fewest]
+        return [o for o, _ in best], sorted({i for _, at in best for i in at})
+
+    def _stay(self, row: Row, best: Sequence[Outcome]) -> None:
+        """The charts go on from where they are, whatever the log says."""
+        same = self._own is self._now
+        self._now, self._lost = self._follow.kept(best), True
+        if same:
+            self._own = self._now if len(self._now) <= MOST_OPTIONS else None
+            self.required = _agreed(best)
+        else:
+            self._own_goes_on(row)
+
+    def _inputs(self, row: Row) -> dict[str, str]:
+        rows = zip(self.cone.system.inputs, row.inputs, strict=True)
+        return {v.name: "not logged" if given[0] is None else shown(v.domain, given[0]) for v, given in rows}
+
+    def _outputs(self, row: Row) -> dict[str, Raw]:
+        rows = zip(self._told, row.logged, strict=True)
+        return {name: value for name, value in rows if value is not None}
+
+    # --- what is not known ---
+
+    def _skip(self, missing: int) -> None:
+        """Steps that were not logged: anything may have been read in them."""
+        self._own, self._lost, self.required, self._last = None, False, (), {}
+        if missing > MOST_MISSING or not self.cone.system.variables:
+            self._now = self._follow.anything({})
+            return
+        nothing: Known = (None,) * len(self.cone.system.inputs)
+        left, self._follow.runs_left = self._follow.runs_left, FEW_RUNS
+        try:
+            for _ in range(missing):
+                self._now = self._follow.kept(self._follow.outcomes(self._now, nothing))
+        except TooMany:
+            self._now = self._follow.anything({})
+        self._follow.runs_left = left
+
+    def _lose(self, row: Row, what: str) -> None:
+        self._undecided(row, f"too many valuations; what multiplies them: {what}")
+        self._now, self._own, self._lost, self.required = (
+            self._follow.anything(self._outputs(row)),
+            None,
+            False,
+            (),
+        )
+
+    def _undecided(self, row: Row, because: str) -> None:
+        self._times_lost += 1
+        self.given_up = self._times_lost >= MOST_LOST
+        if self.undecided is None:
+            self.undecided = Undecided(row.tick, self.cone.name, because)
+
+
+def _agreed(outcomes: Sequence[Outcome]) -> tuple[Raw | None, ...]:
+    """The outputs on which all outcomes agree, ``None`` elsewhere."""
+    columns = zip(*(o.outputs for o in outcomes), strict=True)
+    return tuple(c[0] if all(v == c[0] for v in c) else None for c in columns)
+
+
+def _combined(inputs: Sequence[tuple[Raw | None, ...]]) -> Iterator[Known]:
+    """Every combination of the values that inputs may have had; where these are many, any value."""
+    if all(len(options) == 1 for options in inputs):
+        yield tuple(options[0] for options in inputs)
+    elif prod(len(options) for options in inputs) <= MOST_OPTIONS:
+        yield from product(*inputs)
+    else:
+        yield tuple(options[0] if len(options) == 1 else None for options in inputs)

@@ -1,7 +1,0 @@
-"""The portfolio: which engines a question is put to, in which order, and what their answers make together."""
-
-from checker.portfolio.answers import answers, as_found
-from checker.portfolio.disagreement import Disagreement
-from checker.portfolio.question import Found, Hint, Question, Told
-
-__all__ = ["Disagreement", "Found", "Hint", "Question", "Told", "answers", "as_found"]

@@ -1,0 +1,1 @@
+"""What is found, as data only: runs, traces, answers, verdicts, graphs."""

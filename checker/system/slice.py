@@ -1,0 +1,214 @@
+"""Slicing: the part of a transition system that a set of goals depends on, and nothing else.
+
+A variable belongs to a valuation only if the next tick may read it before writing it and what is
+read can reach a goal.  Wires and outputs that every tick rewrites first therefore cost nothing.
+"""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from itertools import product
+
+from checker.system.partition import conjuncts, partition
+from properties.forms import Property, Recoverable
+from spec_model.lang.action import Assign, If
+from spec_model.lang.errors import ModelError
+from spec_model.lang.evaluate import evaluate
+from spec_model.lang.expr import TRUE, Expr, Var, all_of
+from spec_model.lang.system import Program, Statement, TransitionSystem
+from spec_model.lang.walk import variables
+
+Names = frozenset[str]
+
+_MOST_TRIED = 1 << 14
+
+
+def sliced(system: TransitionSystem, goals: Sequence[Var]) -> TransitionSystem:
+    """The least part of the system in which the goals behave as in the whole.
+
+    ``variables`` are those of the valuation at the tick boundary, in the order of the system; what
+    else the sliced step writes is in ``temps``.  Conjuncts of the assumption that can always be met
+    by inputs which nothing else reads are left out.
+    """
+    wanted = frozenset(g.name for g in goals)
+    open_groups, kept = assumption_groups(system), list[Expr]()
+    while True:
+        live, step = _cyclic(system.step, wanted, names(kept), _written(system))
+        read = live | names(kept) | _all_read(step)
+        needed = [_needed(system, group, read) for group in open_groups]
+        if not any(needed):
+            return _cut(system, live, step, kept)
+        kept += [c for group, is_so in zip(open_groups, needed, strict=True) if is_so for c in group]
+        open_groups = [group for group, is_so in zip(open_groups, needed, strict=True) if not is_so]
+
+
+def names(exprs: Iterable[Expr]) -> Names:
+    """The names of the variables that occur."""
+    return frozenset(variables(*exprs))
+
+
+def live_before(
+    program: Program, after: Names, reads: dict[int, Names] | None = None
+) -> tuple[Names, Program]:
+    """Names whose value before the program can matter to the names ``after`` it, and the program
+    without the statements that cannot matter.  ``reads`` caches the names read, by ``id``."""
+    cache = {} if reads is None else reads
+    kept: list[Statement] = []
+    live = after
+    for statement in reversed(program):
+        live, remains = _statement(statement, live, cache)
+        kept += remains
+    return live, tuple(reversed(kept))
+
+
+def _statement(statement: Statement, live: Names, cache: dict[int, Names]) -> tuple[Names, list[Statement]]:
+    if isinstance(statement, Assign):
+        if statement.var.name not in live:
+            return live, []
+        return (live - {statement.var.name}) | _read(statement.value, cache), [statement]
+    before_then, then = live_before(_only(statement.then), live, cache)
+    before_else, otherwise = live_before(_only(statement.otherwise), live, cache)
+    if not then and not otherwise:
+        return live, []
+    same = _identical(then, statement.then) and _identical(otherwise, statement.otherwise)
+    whole = statement if same else If(statement.condition, then, otherwise)
+    return before_then | before_else | _read(statement.condition, cache), [whole]
+
+
+def _only(actions: Sequence[object]) -> Program:
+    """A step holds no sends, which the type of a conditional cannot say."""
+    return tuple(a for a in actions if isinstance(a, Assign | If))
+
+
+def _identical(a: Sequence[object], b: Sequence[object]) -> bool:
+    return len(a) == len(b) and all(x is y for x, y in zip(a, b, strict=True))
+
+
+def _read(expr: Expr, cache: dict[int, Names]) -> Names:
+    if id(expr) not in cache:
+        cache[id(expr)] = names([expr])
+    return cache[id(expr)]
+
+
+def _cyclic(program: Program, wanted: Names, always: Names, written: Names) -> tuple[Names, Program]:
+    """The least set of names live at the tick boundary, and the program sliced for it."""
+    cache: dict[int, Names] = {}
+    live = always
+    while True:
+        before, kept = live_before(program, wanted | (live & written), cache)
+        if before <= live:
+            return live, kept
+        live |= before
+
+
+def _written(system: TransitionSystem) -> Names:
+    return frozenset(v.name for v in system.variables)
+
+
+def _all_read(program: Program) -> Names:
+    found: set[str] = set()
+    for statement in program:
+        if isinstance(statement, Assign):
+            found |= names([statement.value])
+        else:
+            found |= names([statement.condition])
+            found |= _all_read(_only(statement.then)) | _all_read(_only(statement.otherwise))
+    return frozenset(found)
+
+
+# --- the assumption ------------------------------------------------------------------------------
+
+
+def assumption_groups(system: TransitionSystem) -> list[list[Expr]]:
+    """The conjuncts of the assumption, those that share inputs together."""
+    inputs = {v.name for v in system.inputs}
+    groups: list[tuple[Names, list[Expr]]] = []
+    for conjunct in conjuncts(system.assume):
+        own = names([conjunct]) & inputs
+        joined = [g for g in groups if g[0] & own]
+        groups = [g for g in groups if not g[0] & own]
+        merged = [c for _, group in joined for c in group]
+        groups.append((own.union(*(g[0] for g in joined)), [*merged, conjunct]))
+    return [group for _, group in groups]
+
+
+def _needed(system: TransitionSystem, group: list[Expr], read: Names) -> bool:
+    inputs = {v.name: v for v in system.inputs}
+    found = variables(*group)
+    if any(name in inputs and name in read for name in found):
+        return True
+    return not _always_met(group, found, inputs)
+
+
+def _always_met(group: list[Expr], found: Mapping[str, Var], inputs: Mapping[str, Var]) -> bool:
+    """Whether inputs that satisfy the group exist in every valuation (False when too many to try)."""
+    free = [v for n, v in found.items() if n in inputs]
+    given = [v for n, v in found.items() if n not in inputs]
+    cells = {v.name: [c.value for c in partition(v, group, found).cells] for v in found.values()}
+    size = 1
+    for values in cells.values():
+        size *= len(values)
+    if size > _MOST_TRIED:
+        return False
+    return all(_met(group, at, free, cells) for at in _vectors(given, cells))
+
+
+def _met(
+    group: list[Expr], given: Mapping[str, int], free: Sequence[Var], cells: Mapping[str, Sequence[int]]
+) -> bool:
+    return any(all(evaluate(c, {**given, **at}) for c in group) for at in _vectors(free, cells))
+
+
+def _vectors(chosen: Sequence[Var], cells: Mapping[str, Sequence[int]]) -> Iterable[dict[str, int]]:
+    domains = [cells[v.name] for v in chosen]
+    return (dict(zip([v.name for v in chosen], values, strict=True)) for values in product(*domains))
+
+
+def always_met(system: TransitionSystem, condition: Expr) -> bool:
+    """Whether in every valuation some admissible inputs meet a condition on inputs alone.
+
+    False also when there are too many combinations to try.
+    """
+    inputs = {v.name: v for v in system.inputs}
+    if not names([condition]) <= inputs.keys():
+        return False
+    demanded = replace(system, assume=all_of(system.assume, condition))
+    groups = assumption_groups(demanded)
+    return all(_always_met(group, variables(*group), inputs) for group in groups)
+
+
+def check_way_back(prop: Property, system: TransitionSystem) -> None:
+    """Raises ``ModelError`` if inputs are to lead back (``by``) that need not be there."""
+    match prop.form:
+        case Recoverable(by=Expr() as by) if not always_met(system, by):
+            raise ModelError(
+                f"{prop.id}: by = {by} must be a condition on inputs of {system.name} that can be met "
+                "in every tick; leave variables and other inputs out of it."
+            )
+
+
+# --- the result ----------------------------------------------------------------------------------
+
+
+def _cut(system: TransitionSystem, live: Names, step: Program, kept: Sequence[Expr]) -> TransitionSystem:
+    read = live | _all_read(step) | names(kept)
+    writes = _all_written(step)
+    temps = (*system.temps, *(v for v in system.variables if v.name not in live))
+    return replace(
+        system,
+        inputs=tuple(v for v in system.inputs if v.name in read),
+        frozen=tuple(v for v in system.frozen if v.name in read),
+        variables=tuple(v for v in system.variables if v.name in live),
+        temps=tuple(v for v in temps if v.name in writes),
+        step=step,
+        assume=all_of(*kept) if kept else TRUE,
+    )
+
+
+def _all_written(program: Program) -> Names:
+    found: set[str] = set()
+    for statement in program:
+        if isinstance(statement, Assign):
+            found.add(statement.var.name)
+        else:
+            found |= _all_written(_only(statement.then)) | _all_written(_only(statement.otherwise))
+    return frozenset(found)

@@ -1,0 +1,19 @@
+"""Tests as files that others run: a folder of CSV files, a pytest file, a C program."""
+
+from collections.abc import Callable, Mapping, Sequence
+
+from checker.testgen.formats import csv_files, pytest_files
+from checker.testgen.formats.c_files import c_files
+from checker.testgen.formats.expected import Expected
+from spec_model.abstraction import Board
+
+Write = Callable[[Board, Sequence[Expected]], Mapping[str, str]]
+"""The files, by name, that tests of a board become."""
+
+FORMATS: Mapping[str, Write] = {
+    "csv": csv_files.csv_files,
+    "pytest": pytest_files.pytest_files,
+    "c": c_files,
+}
+
+__all__ = ["FORMATS", "Expected", "Write"]

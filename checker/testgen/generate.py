@@ -1,0 +1,62 @@
+"""What a user asks for, as boards and goals: whole boards, or single charts of them."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+
+from checker.testgen.formats import FORMATS, Expected
+from checker.testgen.formats.expected import expected
+from checker.testgen.goals import Goal, Kind
+from checker.testgen.keep import Kept
+from checker.testgen.watch import watched
+from spec_model.abstraction import Board, boards
+from spec_model.lang.chart import parts
+from spec_model.lang.errors import ModelError, did_you_mean
+
+
+@dataclass(frozen=True)
+class Aim:
+    """A board, and the goals to be covered by tests of it."""
+
+    board: Board
+    goals: tuple[Goal, ...]
+
+
+def aims(names: Sequence[str], kinds: Iterable[Kind]) -> list[Aim]:
+    """The goals of boards and charts by name; of both boards if none is named.
+
+    Tests are always of a whole board.  Raises ``ModelError`` for a name of no board, chart or block.
+    """
+    found = [_aim(board, names, frozenset(kinds)) for board in boards().values()]
+    known = {*boards(), *(p.name for b in boards().values() for p in parts(b.system.components))}
+    for name in names:
+        if name not in known:
+            raise ModelError(f"{name!r} is no board and no chart of one. {did_you_mean(name, known)}")
+    return [aim for aim in found if aim.goals]
+
+
+def _aim(board: Board, names: Sequence[str], kinds: frozenset[Kind]) -> Aim:
+    goals = watched(board.system, kinds).goals
+    whole = not names or board.name in names
+    return Aim(board, goals if whole else tuple(g for g in goals if g.part in names))
+
+
+def only(kept: Kept, goals: Iterable[Goal]) -> Kept:
+    """What a set of tests says of some goals: tests that reach none of them are left out."""
+    wanted = {g.id for g in goals}
+    tests = [(name, tuple(g for g in reached if g in wanted), script) for name, reached, script in kept.tests]
+    return Kept(
+        tuple(test for test in tests if test[1]),
+        tuple(id for id in kept.shortest if id in wanted),
+        {id: why for id, why in kept.uncoverable.items() if id in wanted},
+        {id: why for id, why in kept.unknown.items() if id in wanted},
+    )
+
+
+def files(aim: Aim, kept: Kept, format: str) -> dict[str, str]:
+    """The tests as files of a format, by name, with the outputs that the interpreter requires."""
+    return dict(FORMATS[format](aim.board, _tests(aim, kept)))
+
+
+def _tests(aim: Aim, kept: Kept) -> list[Expected]:
+    texts = {g.id: f"{g.id}: {g.text}" for g in aim.goals}
+    return [expected(aim.board, name, [texts[g] for g in goals], s) for name, goals, s in kept.tests]

@@ -1,0 +1,201 @@
+"""Charts that tell which goals a tick reaches, and behave as before.
+
+An arrow raises a flag in its transition action, which runs on complete paths only (rule G6).  A boundary is
+seen by a probe in front of the arrow that is tested: a segment to a junction from which no path leads on, so
+that its condition action runs and the path goes back (rule G8).  Interpreter and engines read the same chart.
+"""
+
+from collections.abc import Collection, Container, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from checker.testgen.atoms import COUNTED, Side, sides
+from checker.testgen.entries import Arrows, Group, Segment
+from checker.testgen.goals import Goal, Kind, Watched
+from spec_model.lang.action import Action, Assign, If
+from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, Path, State, Transition
+from spec_model.lang.domain import boolean, integer
+from spec_model.lang.expr import FALSE, TRUE, Const, Expr, Temporal, Var
+from spec_model.lang.system import System
+from spec_model.lang.walk import nodes
+
+EVERY = tuple(Kind)
+
+
+def watched(system: System, kinds: Collection[Kind] = EVERY, only: Container[str] | None = None) -> Watched:
+    """The system with flags for every goal of some kinds, or ``only`` for goals of some ids."""
+    goals: list[Goal] = []
+    wanted = _Wanted(frozenset(kinds), only, system.step_ms, goals)
+    components = tuple(_component(c, wanted) for c in system.components)
+    reset = Block("goals not reached", [Assign(goal.flag, FALSE) for goal in goals])
+    return Watched(replace(system, components=(reset, *components)), tuple(goals))
+
+
+@dataclass(frozen=True)
+class _Wanted:
+    """Which goals are wanted, and those found so far."""
+
+    kinds: frozenset[Kind]
+    only: Container[str] | None
+    step_ms: int
+    found: list[Goal]
+
+
+def _component(component: Component, wanted: _Wanted) -> Component:
+    match component:
+        case Enabled(by=by, components=inside, name=name):
+            return Enabled(by, *(_component(c, wanted) for c in inside), name=name)
+        case Block():
+            goals = _Goals(component.name, wanted)
+            return Block(component.name, goals.actions(component.do, component.name), text=component.text)
+        case Chart():
+            return _Chart(component, _Goals(component.name, wanted)).watched()
+
+
+class _Goals:
+    """The goals of one part, numbered by kind as they are met."""
+
+    def __init__(self, part: str, wanted: _Wanted) -> None:
+        self._part = part
+        self._wanted = wanted
+        self._boundaries = 0
+
+    def goal(self, kind: Kind, number: str, text: str) -> tuple[Action, ...]:
+        """A goal as the action that raises its flag; none for one that is not wanted."""
+        id, wanted = f"{self._part}.{kind.one}.{number}", self._wanted
+        if kind not in wanted.kinds or not (wanted.only is None or id in wanted.only):
+            return ()
+        flag = Var(f"goal {id}", boolean, 0, text, hidden=True)
+        wanted.found.append(Goal(id, kind, self._part, text, flag))
+        return (Assign(flag, TRUE),)
+
+    def wants(self, kind: Kind) -> bool:
+        return kind in self._wanted.kinds
+
+    def boundaries(self, expr: Expr | None, where: str) -> Iterator[tuple[Side, tuple[Action, ...]]]:
+        """A goal for each side of each boundary in a formula."""
+        if expr is None or not self.wants(Kind.BOUNDARIES):
+            return
+        for side in sides(expr, self._wanted.step_ms):
+            self._boundaries += 1
+            raised = self.goal(Kind.BOUNDARIES, str(self._boundaries), f"{side.text}, in {where}")
+            if raised:
+                yield side, raised
+
+    def actions(self, actions: Sequence[Action], where: str) -> tuple[Action, ...]:
+        """Actions, each after a look at the boundaries in it."""
+        out: list[Action] = []
+        for action in actions:
+            match action:
+                case Assign(_, value):
+                    out += self._looks(value, where)
+                case If(condition, then, otherwise):
+                    out += self._looks(condition, where)
+                    action = If(condition, self.actions(then, where), self.actions(otherwise, where))
+            out.append(action)
+        return tuple(out)
+
+    def _looks(self, expr: Expr, where: str) -> list[Action]:
+        return [If(side.condition, raised) for side, raised in self.boundaries(expr, where)]
+
+
+class _Chart:
+    """One chart being rewritten."""
+
+    def __init__(self, chart: Chart, goals: _Goals) -> None:
+        self._chart = chart
+        self._goals = goals
+        self._arrows = Arrows(chart)
+        self._ends: list[Junction] = []
+
+    def watched(self) -> Chart:
+        root = self._state((), self._chart.root)
+        return Chart(
+            self._chart.name, root.states, default=root.default, parallel=root.parallel,
+            junctions=(*root.junctions, *self._ends), text=self._chart.text, local_to=self._chart.local_to,
+        )  # fmt: skip
+
+    def _state(self, path: Path, state: State) -> State:
+        at = ".".join(path)
+        return State(
+            state.name,
+            entry=self._goals.actions(state.entry, f"the entry of {at}"),
+            during=self._goals.actions(state.during, f"the during of {at}"),
+            exit=self._goals.actions(state.exit, f"the exit of {at}"),
+            states=[self._state((*path, child.name), child) for child in state.states],
+            transitions=self._group(Group(path)),
+            junctions=[Junction(j.name, self._group(Group((*path, j.name)))) for j in state.junctions],
+            default=self._group(Group(path, True)),
+            parallel=state.parallel,
+        )
+
+    def _group(self, group: Group) -> list[Transition]:
+        return [t for s in self._arrows.by_group.get(group, ()) for t in (*self._probes(s), self._taken(s))]
+
+    def _probes(self, segment: Segment) -> Iterator[Transition]:
+        """What looks at the boundaries of a guard just before it is tested."""
+        found = list(self._goals.boundaries(segment.drawn.guard, segment.text))
+        if found:
+            end = self._dead_end(segment)
+            event = segment.drawn.event
+            plain = tuple(If(side.condition, raised) for side, raised in found if not _counts(side.condition))
+            timed = [(side, raised) for side, raised in found if _counts(side.condition)]
+            yield from [Transition(end, None, event, plain)] if plain else []
+            yield from (Transition(end, side.condition, event, raised) for side, raised in timed)
+
+    def _dead_end(self, segment: Segment) -> str:
+        """A junction whose only arrow, never valid, goes where the segment goes: it adds no path."""
+        name, goal = f"looked at {segment.number}", self._arrows.target(segment)
+        while goal in self._chart.junctions:
+            goal = self._arrows.target(self._arrows.by_group[Group(goal)][0])
+        self._ends.append(Junction(name, [Transition(".".join(goal), FALSE)]))
+        return name
+
+    def _taken(self, segment: Segment) -> Transition:
+        drawn, goals = segment.drawn, self._goals
+        raised = goals.goal(Kind.ARROWS, str(segment.number), segment.text)
+        return replace(
+            drawn,
+            do=goals.actions(drawn.do, segment.text),
+            then=(
+                *goals.actions(drawn.then, segment.text),
+                *raised,
+                *self._follows(segment),
+                *self._entered(segment),
+            ),
+        )
+
+    # --- pairs: which arrow entered the state that another one leaves ---
+
+    def _follows(self, segment: Segment) -> Iterator[Action]:
+        state = segment.group.owner
+        if segment.group.default or state not in self._arrows.entering:
+            return
+        for before in self._arrows.entering[state]:
+            text = f"{before.text}, then {segment.text}"
+            raised = self._goals.goal(Kind.PAIRS, f"{before.number}-{segment.number}", text)
+            if raised:
+                yield If(_is(self._memory(state), before.number), raised)
+
+    def _entered(self, segment: Segment) -> Iterator[Action]:
+        if not self._goals.wants(Kind.PAIRS):
+            return
+        for state, entering in self._arrows.entering.items():
+            if segment in entering:
+                memory = self._memory(state)
+                note = Assign(memory, Const(segment.number, memory.sort))
+                sure = self._arrows.enters(segment, state)
+                yield note if sure else If(self._chart.active_path(state), (), (note,))
+
+    def _memory(self, state: Path) -> Var:
+        name = ".".join((self._chart.name, *state))
+        domain = integer(0, len(self._arrows.segments))
+        return Var(f"arrow into {name}", domain, 0, f"the arrow by which {name} was entered", hidden=True)
+
+
+def _counts(condition: Expr) -> bool:
+    """Whether the condition asks for a time since a state was entered, as only a guard may."""
+    return any(isinstance(n, Temporal) and n.when in COUNTED for n in nodes(condition))
+
+
+def _is(memory: Var, number: int) -> Expr:
+    return memory == number

@@ -1,1 +1,0 @@
-"""The verbs of the command line: what may be written after ``rovercheck``, found by being in this folder."""

@@ -1,0 +1,1 @@
+"""From properties to verdicts: tasks, searches in child processes, replay."""

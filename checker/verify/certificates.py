@@ -1,0 +1,92 @@
+"""Certificates beside the verdicts of a search: written down, and checked again without the engine."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from checker.certify.certificate import Certificate
+from checker.certify.check import Effort, check
+from checker.certify.file import Origin, write
+from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
+from checker.certify.reader import Reader
+from checker.certify.record import rests_on_answers
+from checker.engines import Limits, Progress, Stage
+from checker.results.verdict import Exhausted, Unknown, Verdict
+from checker.verify.decide import Task, decide
+from checker.verify.result import Result
+from spec_model.lang.system import System, TransitionSystem
+
+
+@dataclass(frozen=True)
+class Certifying:
+    """What to do with proofs: write them into a ``folder``, check them again, or both.
+
+    ``readings``, ``repair`` and ``without`` say how the charts that are checked differ from those specified.
+    """
+
+    folder: Path | None = None
+    again: bool = False
+    readings: Mapping[str, str] = field(default_factory=dict)
+    repair: str = ""
+    without: tuple[str, ...] = ()
+    effort: Effort = field(default_factory=Effort)
+
+    def written(
+        self, task: Task, limits: Limits, results: Sequence[Result], made: Sequence[Certificate]
+    ) -> None:
+        """Write the certificates of one search.  Raises ``Unwritable``."""
+        proved = tuple(r.property.id for r in results if rests_on_answers(r.verdict))
+        if self.folder is not None and made:
+            searched = tuple(p.id for p in task.properties)
+            timers = limits.timers.value
+            changed = self.readings, self.repair, self.without
+            write(self.folder, Origin(task.system.name, searched, proved, *changed, timers), made)
+
+    def outcomes(
+        self,
+        task: Task,
+        systems: Mapping[str, System],
+        limits: Limits,
+        results: Sequence[Result],
+        made: Sequence[Certificate],
+        progress: Progress,
+    ) -> dict[str, Outcome]:
+        """What comes of deriving again, from the certificates alone, each verdict that rests on a proof."""
+        proved = {r.property.id: r for r in results if rests_on_answers(r.verdict)}
+        if not proved or not self.again:
+            return {}
+        progress(Stage(f"certifying {len(proved)} verdict{'s' * (len(proved) != 1)}"))
+        reader = Reader(made, self._checked)
+        # All of the task: monitors that properties share are named after the first of them.
+        again = {r.property.id: r for r in decide(task, systems, reader, limits, _staying(progress))}
+        return {id: _outcome(first, again[id], reader) for id, first in proved.items()}
+
+    def _checked(self, one: Certificate, system: TransitionSystem) -> Outcome:
+        return check(one, system, self.effort)
+
+
+def _staying(progress: Progress) -> Progress:
+    """A progress that stays at certifying, whatever is done for it."""
+    return lambda line: None if isinstance(line, Stage) else progress(line)
+
+
+def _outcome(first: Result, again: Result, reader: Reader) -> Outcome:
+    """Whether the certificates show what the engine has shown."""
+    for outcome in reader.outcomes.values():
+        if isinstance(outcome, Rejected):
+            return outcome
+    if first.verdict.word == again.verdict.word and again.verdict.engine == reader.NAME:
+        hows = {o.how: None for o in reader.outcomes.values() if isinstance(o, Accepted)}
+        return Accepted("; ".join(hows))
+    undecided = [o for o in reader.outcomes.values() if isinstance(o, Undecided)]
+    return undecided[0] if undecided else Undecided(_lacking(first.verdict, again.verdict, reader))
+
+
+def _lacking(first: Verdict, again: Verdict, reader: Reader) -> str:
+    """Why no certificate was checked."""
+    if reader.certificates and isinstance(again, Unknown):
+        return again.reason
+    if not isinstance(first, Unknown) and isinstance(first.because, Exhausted):
+        too_many = "" if first.because.skipped else ", which are too many"
+        return f"{first.engine} wrote no certificate of {first.because.how}{too_many}"
+    return f"{first.engine} gave no certificate"

@@ -1,0 +1,134 @@
+"""From properties to verdicts: what the engines answer to the questions of a task."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from time import monotonic
+
+from checker.engines import ALL, AUTO, Engine, Limits, Progress, Stage, Timers
+from checker.process.faults import Failed, attempted
+from checker.results.verdict import Open, Reached, Unknown
+from checker.system.formula_json import Tree, readable
+from checker.system.initial import check_starts
+from checker.system.lowered import lowered
+from checker.verify.free_timers import freely
+from checker.verify.liveness.verdicts import unbounded
+from checker.verify.portfolio import Disagreement, Hint, Told, answers, as_found
+from checker.verify.portfolio import Question as Asked
+from checker.verify.result import Answers, Result, check_domains, result
+from checker.verify.runs.replay import ReplayError
+from checker.verify.runs.reproduce import not_reproducible, reproduced
+from checker.verify.tasks import Task, tasks
+from properties.forms import Property, Unbounded
+from properties.reduce import reduce
+from spec_model.lang.expr import Expr, Var
+from spec_model.lang.system import System, TransitionSystem
+
+
+def decide(
+    task: Task,
+    systems: Mapping[str, System],
+    engine: str | Engine,
+    limits: Limits,
+    progress: Progress,
+    told: Told | None = None,
+    deadline: float | None = None,
+) -> Iterator[Result]:
+    """A verdict for each property of the task, each as soon as it is known.
+
+    ``engine`` is one, or the name of one, ``auto`` (engines in turn, see ``checker.verify.portfolio.order``)
+    or ``all`` (every engine, answers compared).  With free timers in ``limits``, what the system with timers
+    that run out at will does not settle is then searched exactly.  The time of ``limits`` is for all of it,
+    lowering included, from now on or until the ``deadline``; ``searches`` ends what looks at no clock.
+    Raises ``Disagreement``, ``ReplayError``, and ``ModelError`` when the model leaves a domain or has no
+    run at all.
+    """
+    deadline = limits.deadline() if deadline is None else deadline
+    progress(Stage(f"lowering {task.system.name}"))
+    check_starts(lowered(task.system))
+    asking = Asking(engine, limits, told or Told(progress), deadline, task.recorded)
+    for prop in task.properties:
+        if isinstance(prop.form, Unbounded):
+            yield _unbounded(prop, systems, asking)
+    left: Sequence[Property] = [p for p in task.properties if not isinstance(p.form, Unbounded)]
+    if left and limits.timers is Timers.FREE:
+        done, left = freely(task.system, left, asking)
+        yield from done
+    if left:
+        yield from _exactly(Task(task.system, tuple(left), task.recorded), systems, asking)
+
+
+@dataclass(frozen=True)
+class Asking:
+    """Asks what the user chose: an engine, within limits until the deadline, telling those who listen.
+
+    Engines in turn try what is ``recorded`` first, as far as it speaks of what the system still has.
+    """
+
+    engine: str | Engine
+    limits: Limits
+    told: Told
+    deadline: float | None = None
+    recorded: Sequence[Tree] | None = None
+
+    def __call__(self, system: TransitionSystem, goals: Sequence[Var], hint: Hint = Hint.NONE) -> Answers:
+        """An answer for each goal and for each check of the system."""
+        engine = AUTO if hint is Hint.CONCRETE and self.engine != ALL else self.engine
+        question = Asked(system, tuple(goals), hint, self._candidates(system))
+        return self._late(question) or answers(question, engine, self._left(system), self.told)
+
+    def as_found(self, system: TransitionSystem, goals: Sequence[Var]) -> Iterator[Answers]:
+        """The same, each as soon as it is known."""
+        question = Asked(system, tuple(goals), candidates=self._candidates(system))
+        if late := self._late(question):
+            yield late
+        else:
+            yield from as_found(question, self.engine, self._left(system), self.told)
+
+    def _candidates(self, system: TransitionSystem) -> tuple[Expr, ...] | None:
+        if self.recorded is None:
+            return None
+        known = {v.name: v for v in (*system.frozen, *system.variables)}
+        return tuple(readable(self.recorded, known))
+
+    def _left(self, system: TransitionSystem) -> Limits:
+        self.told.progress(Stage(f"slicing {system.name}"))
+        return self.limits.until(self.deadline)
+
+    def _late(self, question: Asked) -> Answers:
+        """What is answered when the time is over before a question is asked; nothing before that."""
+        if self.deadline is None or monotonic() < self.deadline:
+            return {}
+        reason = f"time: {self.limits.seconds:g} s ended before an engine was asked"
+        return {goal.name: (Open(reason, 0), "none") for goal in question.goals}
+
+
+def _unbounded(prop: Property, systems: Mapping[str, System], asking: Asking) -> Result:
+    """The result of one property about infinite runs; unknown where an error of ours ends its search."""
+
+    def work() -> Result:
+        return unbounded(prop, systems, asking, asking.told.progress)
+
+    found = attempted(f"the search about {prop.id}", prop.on, work, Disagreement, ReplayError)
+    if isinstance(found, Failed):
+        return Result(prop, Unknown(found.reason, 0, "none"), prop.on)
+    return found
+
+
+def _exactly(task: Task, systems: Mapping[str, System], asking: Asking) -> Iterator[Result]:
+    question = reduce(lowered(task.system), task.properties)
+    by_goal = {g.var.name: g for g in question.goals}
+    runs: dict[str, tuple[Reached, str]] = {}
+    for found in asking.as_found(question.system, [g.var for g in question.goals]):
+        check_domains(question.system, found)
+        for name, (answer, by) in found.items():
+            if isinstance(answer, Reached) and task.system.over:
+                runs |= {name: (answer, by)} if name in by_goal else {}
+            elif name in by_goal:
+                yield result(question.system, by_goal[name], answer, by)
+    if runs and task.system.concrete:
+        yield from reproduced(question, runs, systems[task.system.concrete], asking)
+    elif runs:
+        yield from not_reproducible(question, runs)
+
+
+__all__ = ["ALL", "AUTO", "Disagreement", "Task", "decide", "tasks"]

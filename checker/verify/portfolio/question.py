@@ -1,0 +1,112 @@
+"""A question to engines, and who is told what while it is asked."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+
+from checker.engines import Progress, quiet
+from checker.results.trace import counted_ticks
+from checker.results.verdict import Answer, Evidence, Exhausted, Open, Reached, Unreachable
+from spec_model.lang.expr import Expr, Var
+from spec_model.lang.system import TransitionSystem
+
+Found = Mapping[str, tuple[Answer, str]]
+"""An answer for each goal, and the name of the engine that gave it."""
+
+
+def stays(question: "Question", found: Found) -> bool:
+    """Whether it is shown among the answers that no run leaves a domain."""
+    return all(c.name in found and isinstance(found[c.name][0], Unreachable) for c in question.checks)
+
+
+def conclusive(answer: Answer) -> bool:
+    """Whether no engine can add to an answer."""
+    return isinstance(answer, Unreachable) or (isinstance(answer, Reached) and answer.shortest)
+
+
+class Hint(StrEnum):
+    """What whoever asks knows of the answer."""
+
+    NONE = ""
+    SHORT = "short"
+    """If there is a run, it is probably short, and it counts whatever other runs do."""
+    CONCRETE = "concrete"
+    """An over-approximation has a run, so there probably is one."""
+
+
+@dataclass(frozen=True)
+class Question:
+    """Is any of the ``wanted`` goals ever true after a tick, and does the model leave a domain?
+
+    ``candidates`` are formulas that may be an invariant, from a proof on record: of the same charts, or of
+    charts before they were changed.  None: no proof is on record.
+    """
+
+    system: TransitionSystem
+    wanted: tuple[Var, ...]
+    hint: Hint = Hint.NONE
+    candidates: tuple[Expr, ...] | None = None
+
+    @property
+    def checks(self) -> tuple[Var, ...]:
+        """The variables that tell that the model has left a domain."""
+        return tuple(check for check, _ in self.system.checks)
+
+    @property
+    def goals(self) -> tuple[Var, ...]:
+        """All that engines are asked about."""
+        return (*self.wanted, *self.checks)
+
+    def open(self, found: Found) -> list[Var]:
+        """The goals without a conclusive answer; a run that may not be a shortest one is none."""
+        return [*_open(self.wanted, found), *self.unsettled(found)]
+
+    def unsettled(self, found: Found) -> list[Var]:
+        """The checks of which it is not known whether the model breaks them."""
+        return _open(self.checks, found)
+
+
+def _open(goals: Sequence[Var], found: Found) -> list[Var]:
+    return [g for g in goals if g.name not in found or not conclusive(found[g.name][0])]
+
+
+def _nothing(_: object) -> None:
+    pass
+
+
+def _no_answers(_: Question, __: Found) -> None:
+    pass
+
+
+@dataclass(frozen=True)
+class Told:
+    """Who is told what.
+
+    ``granted`` hears, before each engine and when it has answered, how many seconds are left for the
+    question (None: any number).  ``answered`` hears the answers of a question as they are found.
+    """
+
+    progress: Progress = quiet
+    granted: Callable[[float | None], None] = _nothing
+    answered: Callable[[Question, Found], None] = _no_answers
+
+
+def in_words(answer: Answer) -> str:
+    """``after 8 ticks``, ``never: all 154 valuations``, ``not within 300 ticks: the time limit ...``."""
+    match answer:
+        case Reached(run):
+            return f"after {counted_ticks(len(run))}"
+        case Unreachable(because):
+            return f"never: {because.how}"
+        case Open(reason, depth):
+            return f"not within {counted_ticks(depth)}: {reason}"
+
+
+def light(answer: Answer) -> Answer:
+    """The answer without the valuations that an exhausted search kept: fit for travelling."""
+    return Unreachable(light_evidence(answer.because)) if isinstance(answer, Unreachable) else answer
+
+
+def light_evidence(evidence: Evidence) -> Evidence:
+    """The evidence without the valuations themselves."""
+    return replace(evidence, closed=None, diagram=None) if isinstance(evidence, Exhausted) else evidence

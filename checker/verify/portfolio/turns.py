@@ -1,0 +1,167 @@
+"""Engines in turn: each is asked what the ones before it left open, until every goal is decided."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from time import monotonic
+
+from checker.engines import Engine, Limits, Prover, Stage, engines
+from checker.process.faults import Failed, attempted
+from checker.results.verdict import Answer, Open, Reached, Run
+from checker.verify.portfolio.disagreement import contradict, said
+from checker.verify.portfolio.order import CHECKS, ORDERS, RECORDED, SOON, Turn
+from checker.verify.portfolio.question import Found, Question, Told
+from checker.verify.portfolio.recorded import Recorded
+from checker.verify.portfolio.shape import shape
+from checker.verify.runs.domains import stray
+from spec_model.lang.expr import Var
+
+OUT_OF_MEMORY = "the memory limit is reached"
+
+SHORTENED = 128
+"""Ticks of the longest run for which a shorter one is looked for: unrolling further takes minutes."""
+
+
+def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
+    """After each turn all that is found so far; the last one holds an answer for every goal.
+
+    Raises ``Disagreement`` when a turn contradicts what an earlier one left to be confirmed.
+    """
+    known, deadline = engines(), limits.deadline()
+    found: Found = {}
+    turns: Sequence[Turn] = ORDERS[shape(question).kind]
+    prover = known.get(RECORDED.engine)
+    if question.candidates is not None and isinstance(prover, Prover):
+        recorded = Recorded(prover, question.candidates)
+        found = _turn(recorded, RECORDED, question, question.goals, found, limits, deadline, told)
+        turns = [turn for turn in turns if turn is not SOON]
+        yield found
+    for turn in turns:
+        goals = [g for g in question.open(found) if _worth(found.get(g.name))]
+        if not goals or (found and _over(question, found, limits, deadline)):
+            break
+        if turn.engine in known:
+            found = _turn(known[turn.engine], turn, question, goals, found, limits, deadline, told)
+            yield found
+    unsettled = question.unsettled(found)
+    if unsettled and _affordable(question, deadline) and CHECKS.engine in known:
+        yield _turn(known[CHECKS.engine], CHECKS, question, unsettled, found, limits, deadline, told)
+
+
+def _turn(
+    engine: Engine, turn: Turn, question: Question, goals: Sequence[Var], found: Found, limits: Limits,
+    deadline: float | None, told: Told,
+) -> Found:  # fmt: skip
+    """What is found so far, with what an engine says of some goals in its turn."""
+    left = None if deadline is None else max(0.0, deadline - monotonic())
+    told.granted(left)
+    answers = asked(engine, question, turn.within(limits, left), told, goals)
+    told.granted(limits.seconds)  # for what is made of the answers
+    return {**found, **{g.name: _both(question, g, found.get(g.name), answers[g.name]) for g in goals}}
+
+
+def _affordable(question: Question, deadline: float | None) -> bool:
+    """Whether it is soon found out that the model has no meaning, though a run has decided what was asked."""
+    wide = shape(question).enumerable or not shape(Question(question.system, ())).enumerable
+    return not wide and (deadline is None or monotonic() < deadline)
+
+
+def _both(
+    question: Question, goal: Var, before: tuple[Answer, str] | None, now: tuple[Answer, str]
+) -> tuple[Answer, str]:
+    """What two turns say of a goal together.  Raises ``Disagreement``."""
+    if before is None:
+        return now
+    if contradict(before[0], now[0]):
+        raise said(question.system, goal, (before, now))
+    return better(before, now)
+
+
+def _worth(known: tuple[Answer, str] | None) -> bool:
+    """Whether a goal is worth another engine: a run that is known need only be made shorter."""
+    return known is None or not isinstance(known[0], Reached) or len(known[0].run) <= SHORTENED
+
+
+def _over(question: Question, found: Found, limits: Limits, deadline: float | None) -> bool:
+    """Whether no further engine is worth asking."""
+    open_ = question.open(found)
+    if not open_:
+        return True
+    looked = limits.depth is not None and all(_looked(found[g.name][0], limits.depth) for g in open_)
+    # Whether other runs leave a domain does not matter to a run that is replayed.
+    shown = question.wanted and all(_shortest(found[g.name][0]) for g in question.wanted)
+    return looked or bool(shown) or (deadline is not None and monotonic() >= deadline)
+
+
+def _shortest(answer: Answer) -> bool:
+    return isinstance(answer, Reached) and answer.shortest
+
+
+def _looked(answer: Answer, depth: int) -> bool:
+    return isinstance(answer, Open) and answer.depth >= depth
+
+
+def asked(
+    engine: Engine, question: Question, limits: Limits, told: Told, goals: Sequence[Var]
+) -> dict[str, tuple[Answer, str]]:
+    """What one engine says of some goals; nothing, if it fails: the others have their turns all the same."""
+    told.progress(Stage(f"{engine.NAME}: searching"))
+
+    def work() -> Mapping[str, Answer]:
+        answers = engine.check(question.system, goals, limits, told.progress)
+        meant = _without_strays(question, answers) if question.checks else answers
+        return {**{goal.name: meant[goal.name] for goal in goals}, **meant}
+
+    meant: Mapping[str, Answer] | Failed
+    try:
+        meant = attempted(engine.NAME, question.system.name, work)
+    except MemoryError:
+        meant = Failed(OUT_OF_MEMORY)
+    except OSError as error:
+        meant = Failed(f"the operating system refuses: {error}")
+    if isinstance(meant, Failed):
+        meant = {goal.name: Open(meant.reason, 0) for goal in goals}
+    return {name: (answer, engine.NAME) for name, answer in meant.items()}
+
+
+def _without_strays(question: Question, answers: Mapping[str, Answer]) -> dict[str, Answer]:
+    """The answers, where a run that leaves a domain shows that, and not what it comes to afterwards."""
+    meant = dict(answers)
+    runs = {goal: answer.run for goal, answer in answers.items() if isinstance(answer, Reached)}
+    for goal, run in runs.items():
+        found = stray(question.system, run)
+        if found is None or goal == found.check.name:
+            continue
+        meant[goal] = Open(f"the run that was found leaves a domain in tick {found.tick}", 0)
+        if not isinstance(meant.get(found.check.name), Reached):
+            short = Run(run.frozen, run.inputs[: found.tick])
+            meant[found.check.name] = Reached(short, shortest=False)
+    return meant
+
+
+def better(first: tuple[Answer, str], second: tuple[Answer, str]) -> tuple[Answer, str]:
+    """Of two answers to one goal what both say together: the shorter run, the deeper search."""
+    match first[0], second[0]:
+        case Open(), Open():
+            return _deeper(first, second)
+        case Reached() as run, Open(_, depth):
+            return (replace(run, shortest=True), first[1]) if depth >= len(run.run) - 1 else first
+        case Open(), Reached():
+            return better(second, first)
+        case Reached(one, shortest), Reached(other):
+            return first if shortest or len(one) < len(other) else second
+        case Open(), _:
+            return second
+        case _:
+            return first
+
+
+def _deeper(first: tuple[Answer, str], second: tuple[Answer, str]) -> tuple[Answer, str]:
+    (a, by_a), (b, by_b) = first, second
+    assert isinstance(a, Open) and isinstance(b, Open)
+    reason = f"{_by(by_a, a.reason)}; {_by(by_b, b.reason)}"
+    return Open(reason, max(a.depth, b.depth)), by_a if a.depth > b.depth else by_b
+
+
+def _by(engine: str, reason: str) -> str:
+    """The reason with the engine whose it is, unless those that were put together already say it."""
+    return reason if reason.startswith(tuple(f"{name}: " for name in engines())) else f"{engine}: {reason}"

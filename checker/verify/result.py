@@ -1,0 +1,85 @@
+"""Results: an answer about a goal taken home as a verdict on a property."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Protocol
+
+from checker.certify.outcome import Outcome
+from checker.results.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Verdict, Violated
+from checker.verify.portfolio.question import Found, Hint
+from checker.verify.runs.domains import leaves, stray
+from properties.forms import Property
+from properties.reduce import Goal
+from spec_model.lang.expr import Var
+from spec_model.lang.system import TransitionSystem
+
+Answers = Found
+"""An answer for each goal and the name of the engine that gave it."""
+
+
+class Ask(Protocol):
+    """Asks the engines that the user chose; the hint tells what is known of the answer."""
+
+    def __call__(self, system: TransitionSystem, goals: Sequence[Var], hint: Hint = Hint.NONE) -> Answers:
+        """An answer for each goal and for each check of the system."""
+        ...
+
+
+@dataclass(frozen=True)
+class Result:
+    """A property, its verdict, and the name of the system the verdict is about.
+
+    ``in_part``: the verdict rests on having searched a system that has only some of the runs of the
+    rover, so it is none about the rover.  ``certificate``: what came of checking the proof again, where
+    that was asked for and the verdict rests on a proof.  ``limited_to``: what a proof is limited to, in a
+    few words.
+    """
+
+    property: Property
+    verdict: Verdict
+    system: str
+    in_part: bool = False
+    certificate: Outcome | None = None
+    limited_to: str = ""
+
+
+def result(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Result:
+    """The result of a goal; a run is calmed and replayed first.  Raises ``ReplayError``."""
+    return Result(goal.property, _verdict(system, goal, answer, by), system.name)
+
+
+def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Verdict:
+    match answer:
+        case Reached(run, shortest):
+            from checker.verify.runs.calm import calmed
+            from checker.verify.runs.replay import replay
+
+            trace = replace(replay(system, goal, calmed(system, goal.var, run)), shortest=shortest)
+            return Proved(trace, by) if goal.reach else Violated(trace, by)
+        case Unreachable(because):
+            return Violated(because, by) if goal.reach else Proved(because, by)
+        case Open(reason, depth):
+            return Unknown(reason, depth, by)
+
+
+def check_domains(system: TransitionSystem, found: Answers) -> None:
+    """Raises ``LeavesDomain``, of the shortest run that leaves a domain, if one is known."""
+    checks = {check.name: found[check.name][0] for check, _ in system.checks if check.name in found}
+    runs = [answer for answer in checks.values() if isinstance(answer, Reached)]
+    if runs:
+        shortest = min(runs, key=lambda answer: len(answer.run))
+        at = stray(system, shortest.run)
+        assert at is not None, "a check is raised by a run that leaves no domain"
+        known = len(checks) == len(system.checks) and all(_none_before(a, at.tick) for a in checks.values())
+        raise leaves(system, at, first=known)
+
+
+def _none_before(answer: Answer, tick: int) -> bool:
+    """Whether nothing is reached before a tick."""
+    match answer:
+        case Reached(run, shortest):
+            return shortest and len(run) >= tick
+        case Open(_, depth):
+            return depth >= tick - 1
+        case _:
+            return True

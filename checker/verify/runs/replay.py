@@ -1,0 +1,134 @@
+"""Replay: a run becomes a trace only after the lowered system and the chart interpreter agree on it.
+
+The engines read the lowered system; the interpreter reads the charts.  They share no code, so a
+trace that both produce is evidence about the charts.
+"""
+
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import accumulate
+
+from checker.results.trace import Arrow, Tick, Trace
+from checker.results.verdict import Run
+from checker.system.slice import sliced
+from checker.verify.runs.domains import leaves, stayed, stray
+from properties.reduce import Goal
+from spec_model.lang.chart import Chart, Path
+from spec_model.lang.errors import ModelError
+from spec_model.lang.evaluate import admissible, evaluate, step
+from spec_model.lang.interpret import Fired, Interpreter
+from spec_model.lang.system import TransitionSystem
+from spec_model.lang.walk import variables
+
+
+class ReplayError(Exception):
+    """Two parts of the checker disagree about a run: a bug of ours, never a verdict."""
+
+
+def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
+    """The trace of a run that reaches the goal in its last tick.
+
+    Raises ``ReplayError`` when the run is not admissible, does not reach the goal, or when the
+    interpreter of the charts computes another valuation or refuses a step; ``LeavesDomain`` when the run
+    leaves a domain, which is no fault of ours but one of the model.
+    """
+    ticks, last = followed(system, run, goal.var.name)
+    if not ticks or not last[goal.var.name]:
+        raise ReplayError(f"{goal.var.name}: the run of {len(ticks)} ticks does not reach the goal.")
+    shown, truths = tuple(part for part, _ in goal.parts), tuple(_truths(goal, ticks))
+    false = tuple(part for part, true in zip(shown, truths, strict=True) if not true[-1])
+    table = {v.name: v for v in (*system.variables, *system.inputs, *system.frozen)}
+    names = tuple(v.name for v in system.inputs)
+    relevant = _relevant(system, goal)
+    drawn = system.source.charts if system.source else ()
+    charts = frozenset(c.name for c in drawn if _of(c) & relevant)
+    before = {**system.init, **run.frozen}
+    return Trace(
+        system.name, system.tick_ms, table, names, before, ticks, false, relevant, charts,
+        property=goal.property.id, text=goal.property.text, statecharts={c.name: c for c in drawn},
+        place=goal.property.place, components=system.source.components if system.source else (),
+        parts=shown, truths=truths, violated=not goal.reach, frozen=tuple(v.name for v in system.frozen),
+        ends=ends(system, ticks),
+    )  # fmt: skip
+
+
+def ends(system: TransitionSystem, ticks: Sequence[Tick]) -> tuple[int, ...]:
+    """The time in ms at the end of each tick, where ticks last unlike times; else nothing."""
+    if system.elapsed is None:
+        return ()
+    name = system.elapsed.name
+    return tuple(accumulate({**t.inputs, **t.after}[name] for t in ticks))
+
+
+def followed(system: TransitionSystem, run: Run, what: str) -> tuple[tuple[Tick, ...], Mapping[str, int]]:
+    """The ticks of a run, ``what`` it shows being named in errors, and the valuation after the last.
+
+    Raises ``ReplayError`` when the run is not admissible, or the interpreter of the charts disagrees, and
+    ``LeavesDomain`` when a tick leaves a domain.
+    """
+    interpreter = Interpreter(system.source, run.frozen) if system.source is not None else None
+    at: Mapping[str, int] = {**system.init, **run.frozen}
+    ticks: list[Tick] = []
+    for number, inputs in enumerate(run.inputs, start=1):
+        if not admissible(system, at, inputs):
+            raise ReplayError(f"{what}: the inputs of tick {number} are not admissible.")
+        after = step(system, at, inputs)
+        if not stayed(system, after) and (found := stray(system, run)) is not None:
+            raise leaves(system, found)
+        fired = _interpreted(interpreter, inputs, after, number) if interpreter else ()
+        ticks.append(Tick(number, dict(inputs), _visible(system, after), tuple(map(arrow_of, fired))))
+        at = {n: v for n, v in after.items() if n not in inputs}
+    return tuple(ticks), after if ticks else at
+
+
+def _truths(goal: Goal, ticks: Sequence[Tick]) -> Iterator[tuple[bool, ...]]:
+    """For each conjunct of the property, whether it is true after each tick."""
+    for _, formula in goal.parts:
+        yield tuple(bool(evaluate(formula, {**tick.after, **tick.inputs})) for tick in ticks)
+
+
+def _relevant(system: TransitionSystem, goal: Goal) -> frozenset[str]:
+    """The variables that the goal, or a part of the property, depends on."""
+    part = sliced(system, [goal.var, *goal.recurs])
+    inside = {v.name for v in (*part.inputs, *part.frozen, *part.variables, *part.temps)}
+    return frozenset(inside | set(variables(*(formula for _, formula in goal.parts))))
+
+
+def _of(chart: Chart) -> frozenset[str]:
+    return frozenset([*chart.written, *(v.name for v in chart.locations)])
+
+
+def _visible(system: TransitionSystem, after: Mapping[str, int]) -> dict[str, int]:
+    kept = {v.name for v in (*system.variables, *system.frozen)}
+    return {name: value for name, value in after.items() if name in kept}
+
+
+def _interpreted(
+    interpreter: Interpreter, inputs: Mapping[str, int], after: Mapping[str, int], number: int
+) -> tuple[Fired, ...]:
+    try:
+        fired = interpreter.step(inputs)
+    except ModelError as error:
+        raise ReplayError(f"tick {number}: the interpreter refuses the step: {error}") from error
+    for name, value in interpreter.valuation().items():
+        if name in after and after[name] != value:
+            raise ReplayError(
+                f"tick {number}: {name} is {value} in the interpreter and {after[name]} when lowered."
+            )
+    return fired
+
+
+def arrow_of(fired: Fired) -> Arrow:
+    """An arrow taken by the interpreter, as traces hold it."""
+    return Arrow(
+        fired.chart,
+        _dotted(fired.source),
+        _dotted(fired.target),
+        fired.label,
+        fired.order,
+        fired.event,
+        fired.place,
+    )
+
+
+def _dotted(path: Path) -> str:
+    return ".".join(path)
