@@ -12,10 +12,10 @@ from checker.engines import Limits, Progress, quiet
 from checker.process.isolate import Send, Stopped, messages
 from checker.results.trace import Trace, counted_ticks
 from checker.results.verdict import Answer, Open, Reached, Run, Unreachable
+from checker.system.instrument.goals import Goal as Arrow
+from checker.system.instrument.goals import Kind, Watched
+from checker.system.instrument.watch import watched
 from checker.system.lowered import lowered
-from checker.testgen.goals import Goal as Arrow
-from checker.testgen.goals import Kind, Watched
-from checker.testgen.watch import watched
 from checker.verify.decide import Asking
 from checker.verify.portfolio import Hint, Told
 from checker.verify.portfolio.question import light

@@ -5,13 +5,13 @@ from dataclasses import dataclass, field
 from random import Random
 
 from checker.engines import Limits
+from checker.system.instrument.goals import Goal, Kind
+from checker.system.instrument.watch import watched
 from checker.testgen.explore import Machine, explored, first_reached, shortened
-from checker.testgen.goals import Goal, Kind
 from checker.testgen.keep import Kept
 from checker.testgen.replay import first_reached as replayed
 from checker.testgen.scripts import Script, steps
 from checker.testgen.search import Answer, Found, Open, Saying, Uncoverable, refuted, searched
-from checker.testgen.watch import watched
 from checker.verify.runs.replay import ReplayError
 from spec_model.abstraction import Board
 from spec_model.lang.system import System

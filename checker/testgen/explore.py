@@ -5,8 +5,8 @@ from copy import deepcopy
 from dataclasses import dataclass
 from random import Random
 
+from checker.system.instrument.goals import Watched
 from checker.testgen.compiled import Step, compiled
-from checker.testgen.goals import Watched
 from checker.testgen.scripts import CLOCK, Moment, Script
 from checker.testgen.weather import Weather
 from spec_model.abstraction import Board, Value

@@ -3,11 +3,11 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
+from checker.system.instrument.goals import Goal, Kind
+from checker.system.instrument.watch import watched
 from checker.testgen.formats import FORMATS, Expected
 from checker.testgen.formats.expected import expected
-from checker.testgen.goals import Goal, Kind
 from checker.testgen.keep import Kept
-from checker.testgen.watch import watched
 from spec_model.abstraction import Board, boards
 from spec_model.lang.chart import parts
 from spec_model.lang.errors import ModelError, did_you_mean

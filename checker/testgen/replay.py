@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.testgen.goals import Watched
+from checker.system.instrument.goals import Watched
 from spec_model.abstraction import Board, Value
 from spec_model.lang.interpret import Interpreter
 

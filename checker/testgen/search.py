@@ -8,9 +8,9 @@ from itertools import groupby
 from checker.engines import AUTO, Limits
 from checker.results.trace import Trace
 from checker.results.verdict import Proved, Unknown, Verdict, Violated
-from checker.testgen.goals import Goal, Kind, Watched
+from checker.system.instrument.goals import Goal, Kind, Watched
+from checker.system.instrument.watch import watched
 from checker.testgen.scripts import Script, script
-from checker.testgen.watch import watched
 from checker.verify.searches import Doing, Over, Warned, searches
 from checker.verify.tasks import Task
 from properties.forms import Property, reachable

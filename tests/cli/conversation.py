@@ -16,8 +16,8 @@ from checker.commands.testgen import run as generating
 from checker.compare import check, recorded
 from checker.compare.environment import Environment
 from checker.compare.search import Run
+from checker.system.instrument.watch import watched
 from checker.testgen.generate import Aim
-from checker.testgen.watch import watched
 from properties.catalogue import catalogue
 from tests.conform import cover_toys
 

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import click
 import pytest
-from checker.commands.list import LISTS
 from click.testing import CliRunner
 
 from checker.cli import app, run
+from checker.commands.list import LISTS
 from checker.commands.list.run import LISTS as LISTED
 from checker.commands.list.run import OTHERS
 from checker.commands.shared.help_examples import EXAMPLES

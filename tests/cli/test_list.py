@@ -5,11 +5,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from checker.commands.list import LISTS
 from jsonschema import Draft202012Validator
 
 import checker
 from checker.cli import run
+from checker.commands.list import LISTS
 from checker.commands.shared.codes import Exit
 from checker.engines import engines
 from properties.catalogue import catalogue

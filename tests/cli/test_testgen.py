@@ -12,10 +12,10 @@ from checker.cli import run
 from checker.commands.shared.codes import Exit
 from checker.commands.testgen import run as generating
 from checker.commands.testgen.run import Saying
+from checker.system.instrument.watch import watched
 from checker.testgen.fingerprint import fingerprint
 from checker.testgen.generate import Aim
 from checker.testgen.keep import Kept, kept_of, written
-from checker.testgen.watch import watched
 from tests.conform.cover_toys import SYSTEM, TOY
 
 SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "testgen-1.json").read_text("utf-8"))

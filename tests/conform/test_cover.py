@@ -5,16 +5,16 @@ from random import Random
 
 import pytest
 
+from checker.system.instrument.goals import Goal, Kind
+from checker.system.instrument.watch import watched
 from checker.testgen.coverage import NOT_TRIED, Coverage, Effort, chosen, cover
 from checker.testgen.explore import Machine, Place, explored, first_reached, shortened
 from checker.testgen.fingerprint import fingerprint
-from checker.testgen.goals import Goal, Kind
 from checker.testgen.keep import Kept, kept_of, written
 from checker.testgen.replay import first_reached as replayed
 from checker.testgen.replay import played
 from checker.testgen.scripts import Script, blocks, script, steps, unfolded
 from checker.testgen.search import Found, Uncoverable
-from checker.testgen.watch import watched
 from checker.testgen.weather import Weather
 from spec_model.abstraction import Board, boards
 from spec_model.lang.action import assign

@@ -3,13 +3,13 @@
 import pytest
 
 from checker.adapters import python
+from checker.system.instrument.goals import Kind
+from checker.system.instrument.watch import watched
 from checker.testgen import kept, kept_text
 from checker.testgen.fingerprint import fingerprint
 from checker.testgen.formats.expected import required
-from checker.testgen.goals import Kind
 from checker.testgen.keep import kept_of
 from checker.testgen.replay import first_reached
-from checker.testgen.watch import watched
 from spec_model.abstraction import boards
 from spec_model.rover import systems
 

@@ -10,10 +10,10 @@ from checker.engines import AUTO
 from checker.model.kept_invariants import invariants_of_rover
 from checker.render.drawing.changes import changes
 from checker.render.review.model import Ambiguity, Covered, Edit, Remedy
+from checker.system.instrument.goals import Kind
+from checker.system.instrument.watch import watched
 from checker.testgen import kept_text
-from checker.testgen.goals import Kind
 from checker.testgen.keep import kept_of
-from checker.testgen.watch import watched
 from checker.verify.result import Result
 from properties.catalogue import expected, read_by
 from spec_model.abstraction import boards

@@ -88,8 +88,8 @@ def testgen(
     with prepared(*LOADED):
         from checker.commands.testgen.run import Asked
         from checker.commands.testgen.run import testgen as run
+        from checker.system.instrument.goals import Kind
         from checker.testgen.coverage import Effort
-        from checker.testgen.goals import Kind
 
         wanted = tuple(map(Kind, kinds)) or (tuple(Kind) if keep else (Kind.ARROWS,))
         asked = Asked(names, wanted, format, Effort(timeout, ticks, jobs, seed), kept, keep)

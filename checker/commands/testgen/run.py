@@ -10,13 +10,13 @@ from checker.commands.shared.output import counted, out, write
 from checker.commands.shared.progress import ProgressLine
 from checker.commands.shared.wrapping import filled, whole
 from checker.io.printable import json_text
+from checker.system.instrument.goals import Goal, Kind
+from checker.system.instrument.watch import watched
 from checker.testgen import kept_text
 from checker.testgen.coverage import Coverage, Effort, cover
 from checker.testgen.fingerprint import fingerprint
 from checker.testgen.generate import Aim, aims, files, only
-from checker.testgen.goals import Goal, Kind
 from checker.testgen.keep import Kept, kept_of, written
-from checker.testgen.watch import watched
 from spec_model.abstraction import Board
 from spec_model.lang.errors import ModelError
 from spec_model.rover import systems

@@ -20,7 +20,7 @@ from spec_model.lang.errors import did_you_mean
 from spec_model.lang.system import System
 
 if TYPE_CHECKING:  # with all that tests cover
-    from checker.testgen.goals import Goal, Watched
+    from checker.system.instrument.goals import Goal, Watched
 
 COVERS = ("an example was asked for",)
 
@@ -116,8 +116,8 @@ def of_arrow(wanted: str, systems: Mapping[str, System], system: str | None) -> 
     if not (colon and arrow):
         raise UsageError(f"{wanted!r} names no arrow; write 'CHART: A -> B', as traces show it.")
     on = _system(name, systems, system)
-    from checker.testgen.goals import Kind
-    from checker.testgen.watch import watched
+    from checker.system.instrument.goals import Kind
+    from checker.system.instrument.watch import watched
 
     looked = watched(on, (Kind.ARROWS,))
     goal = _arrow(name, _plainly(arrow), looked.goals)

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Mapping
 from itertools import islice
 
-from checker.explore.reachable import ticks
 from checker.system.partition import Partition
+from checker.verify.reachable import ticks
 from spec_model.lang.system import TransitionSystem
 
 TOGETHER = 64

@@ -8,11 +8,11 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
 from checker.engines import Progress
-from checker.explore.reachable import Search, TooLarge
 from checker.results.graph import Values
 from checker.results.verdict import Exhausted, Open, Proved, Reached, Unknown, Verdict, Violated
 from checker.system.lowered import lowered
 from checker.system.slice import sliced
+from checker.verify.reachable import Search, TooLarge
 from checker.verify.result import Ask, check_domains
 from checker.verify.runs.calm import calmed
 from checker.verify.runs.replay import replay

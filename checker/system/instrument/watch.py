@@ -8,9 +8,9 @@ that its condition action runs and the path goes back (rule G8).  Interpreter an
 from collections.abc import Collection, Container, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from checker.testgen.atoms import COUNTED, Side, sides
-from checker.testgen.entries import Arrows, Group, Segment
-from checker.testgen.goals import Goal, Kind, Watched
+from checker.system.instrument.atoms import COUNTED, Side, sides
+from checker.system.instrument.entries import Arrows, Group, Segment
+from checker.system.instrument.goals import Goal, Kind, Watched
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, Path, State, Transition
 from spec_model.lang.domain import boolean, integer
