@@ -15,7 +15,7 @@ RUNS = """
 import json, sys
 started = set(sys.modules)
 from rovercheck import claim; claim()
-from checker import isolate
+from checker.process import isolate
 def show(*_):
     print(json.dumps(sorted(sys.modules.keys() - started)), file=sys.stderr)
     raise SystemExit(0)
@@ -62,7 +62,7 @@ def test_help_loads_click_alone(arguments: list[str]) -> None:
     told = arguments in ([], ["nonsense"], ["completion", "bash"])  # in words of ours
     wanted = {"click", "rich"} if told else {"click"}
     assert of_others(found) <= wanted
-    own = {m for m in found if m.startswith(("spec_model.", "properties", "checker.e", "checker.tr"))}
+    own = {m for m in found if m.startswith(("spec_model.", "properties", "checker.e", "checker.results", "checker.verify"))}
     assert own - {"checker.engines", "spec_model.lang", "spec_model.lang.errors"} == set()
 
 
