@@ -151,6 +151,9 @@ SHOWN = {
         "✓ PSY-21a               accepted  proved of counters: 4 obligations by Bitwuzla 0.9.1",
     ): ("tests/cli/test_certify.py has the line"),
     ("docs/testgen.md", "board1"): MADE,
+    ("docs/inside.md", "spec_model/         properties/        a user's file"): (
+        "a drawing; tests/test_architecture.py has the order of the folders"
+    ),
     ("docs/mutate.md", "Relay/default.1/target"): "tests/cli/test_mutate.py has the survivor",
     ("docs/timers.md", "all 425 valuations of references                                exact"): (
         "three ways to count, of three systems; tests/checker has the texts"
