@@ -20,7 +20,7 @@ from benchmarks.measure import Sample
 from benchmarks.roverlite import roverlite
 from checker.engines import AUTO, Limits, engines
 from checker.results.verdict import Answer, Open, Reached, Unreachable
-from checker.verify.portfolio import Question, Told, answers
+from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
 
 SEARCHED = ("P1", "P2", "P3", "P5", "broken")
 """Goals of an exhaustive search: C and SPIN check as much; ``broken`` is never reached."""
@@ -66,10 +66,10 @@ def asked(name: str, goals: str, comp: int, k: int, limit: float, again: bool) -
     system, known = roverlite(comp, k)
     wanted = {g.name: g for g in known if g.name in goals.split(",")}
     tool = engines().get(name, AUTO)
-    told, began, wall = Told(), cpu(), perf_counter()
+    told, began, wall = Callbacks(), cpu(), perf_counter()
     depth = DEEP if name in engines() and goals in ("P4", "P5") else None
     limits = Limits(depth=depth, seconds=limit, memory=MEMORY)
-    found = answers(Question(system, tuple(wanted.values())), tool, limits, told)
+    found = answers(PortfolioQuestion(system, tuple(wanted.values())), tool, limits, told)
     cost = Sample(cpu() - began, perf_counter() - wall, "open")
     words = evidence(system, wanted, found, limit) if again else {}
     return {n: answered(cost, answer, words.get(n, "")) for n, (answer, _) in found.items()}

@@ -16,9 +16,9 @@ from time import process_time
 from checker.logs.behaviour import Follow
 from checker.logs.choosing import choose
 from checker.logs.cones import cones
-from checker.logs.log import Block, Layout, open_log
-from checker.logs.mapping import Map
-from checker.logs.monitors import Monitors
+from checker.logs.log import LogBlock, LogLayout, open_log
+from checker.logs.mapping import ColumnMap
+from checker.logs.monitors import LogMonitors
 from checker.logs.sight import Eyes
 from checker.logs.signals import Vocabulary
 from properties.catalogue import catalogue
@@ -50,12 +50,12 @@ NOT_LOGGED: dict[str, tuple[tuple[str, ...], ...]] = {
 """Columns left out; the last case of each board is that of no input at all."""
 
 
-def read(file: Path) -> tuple[list[Block], Layout]:
-    log = open_log(file, Map())
+def read(file: Path) -> tuple[list[LogBlock], LogLayout]:
+    log = open_log(file, ColumnMap())
     return list(log.blocks()), log.layout
 
 
-def known_of(vocabulary: Vocabulary, eyes: Eyes, layout: Layout) -> frozenset[str]:
+def known_of(vocabulary: Vocabulary, eyes: Eyes, layout: LogLayout) -> frozenset[str]:
     return eyes.seen | {o.var.name for o in vocabulary.board.outputs if o.name in layout.signals}
 
 
@@ -68,7 +68,7 @@ def monitors(board: str, file: Path) -> tuple[float, float, float, int]:
     eyes = Eyes(vocabulary, layout.signals, True)
     known = known_of(vocabulary, eyes, layout)
     choice = choose(vocabulary, known, catalogue().values(), systems().__getitem__)
-    made = Monitors(vocabulary, choice, known, True)
+    made = LogMonitors(vocabulary, choice, known, True)
     start = process_time()
     columns = [made.columns(block, eyes.look(block)) for block in blocks]
     seeing = process_time() - start

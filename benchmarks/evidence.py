@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from checker.certify.certificate import certificates
-from checker.certify.check import Effort, check
+from checker.certify.check import CheckEffort, check
 from checker.certify.outcome import Accepted, Rejected
 from checker.results.verdict import Answer, Open, Reached, Run, Unreachable
 from spec_model.lang.evaluate import admissible, step
@@ -31,7 +31,7 @@ def evidence(
                 words[name] = "open"
     for engine, answers in proofs.items():
         for one in certificates(system, [goals[n] for n in answers], answers, engine):
-            outcome = check(one, system, Effort(seconds=limit))
+            outcome = check(one, system, CheckEffort(seconds=limit))
             for name in one.claims:
                 match outcome:
                     case Accepted():

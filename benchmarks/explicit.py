@@ -24,9 +24,9 @@ from time import process_time
 
 from benchmarks.roverlite import roverlite
 from checker import cache
-from checker.encode.native import NativeSearch, Task, layout
+from checker.encode.native import NativeSearch, NativeTask, layout
 from checker.engines import Limits, quiet
-from checker.engines.explicit.levels import Found, Search
+from checker.engines.explicit.levels import ExplicitFound, LevelSearch
 from checker.system.slice import sliced
 from properties.catalogue import catalogue
 from properties.reduce import reduce
@@ -65,10 +65,10 @@ def ours(
     began = clock()
     part = sliced(system, goals)
     packing = layout((*part.frozen, *part.variables))
-    native = NativeSearch.compile(Task(part, packing, tuple(goals)))
+    native = NativeSearch.compile(NativeTask(part, packing, tuple(goals)))
     native.improve()
     resident, started = _resident(), clock()
-    found: Found = Search(native, limits, limits.deadline(), quiet).run()
+    found: ExplicitFound = LevelSearch(native, limits, limits.deadline(), quiet).run()
     ended = clock()
     grown = _resident() - resident  # the arrays are still held
     return Timed(found.states, found.transitions, ended - started, ended - began, grown)

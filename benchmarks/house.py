@@ -1,7 +1,7 @@
 """The shape of the code base in figures: `python -m benchmarks.house`.
 
-Modules and imports are read from the sources, imports inside functions included; a package counts as the module
-that its ``__init__.py`` is.
+Modules and imports are read from the sources, imports inside functions included; a package counts as the
+module that its ``__init__.py`` is.
 """
 
 import ast

@@ -152,7 +152,7 @@ def staged(path: Path) -> None:
 
     Reading holds well-formedness, which is then measured once more, by itself.
     """
-    from checker.encode.native import Level, NativeSearch, Task, layout
+    from checker.encode.native import NativeSearch, NativeTask, OptimisationLevel, layout
     from checker.encode.symbolic import transition
     from checker.model.load import load
     from checker.process.garbage import collect_seldom
@@ -182,8 +182,10 @@ def staged(path: Path) -> None:
     part = timed("slice", lambda: sliced(question.system, goals))
     timed("partition", lambda: partitions(part))
     timed("encode", lambda: transition(part))
-    native = timed("compile", lambda: NativeSearch.compile(Task(part, layout(part.variables), tuple(goals))))
-    assert native.level in Level
+    native = timed(
+        "compile", lambda: NativeSearch.compile(NativeTask(part, layout(part.variables), tuple(goals)))
+    )
+    assert native.level in OptimisationLevel
     timed("interpret", lambda: Interpreter(system))
 
 

@@ -17,7 +17,7 @@ from checker.process.isolate import Send
 from checker.process.pool import Granted, Order, Pool
 from checker.results.verdict import Open
 from checker.system.lowered import lowered
-from checker.verify.portfolio import Question, Told, answers
+from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
 from checker.verify.portfolio.question import conclusive
 from checker.verify.portfolio.shape import shape
 from checker.verify.tasks import Task, tasks
@@ -51,11 +51,11 @@ class Measure:
 
     def __call__(self, send: Send, system: str, properties: tuple[Property, ...], engine: str) -> None:
         asked = reduce(lowered(self._known[system]), properties)
-        question = Question(asked.system, tuple(g.var for g in asked.goals))
+        question = PortfolioQuestion(asked.system, tuple(g.var for g in asked.goals))
         looks = shape(question)
         send(Granted(self._limits.seconds))
         began = processor()
-        found = [a for a, _ in answers(question, engine, self._limits, Told()).values()]
+        found = [a for a, _ in answers(question, engine, self._limits, Callbacks()).values()]
         took = processor() - began
         decided = sum(conclusive(a) for a in found)
         reached = sum(not isinstance(a, Open) for a in found) - decided

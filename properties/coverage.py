@@ -9,7 +9,7 @@ from spec_model.lang.errors import ModelError
 
 
 @dataclass(frozen=True)
-class Coverage:
+class RequirementCoverage:
     """A row of the matrix: a requirement and the properties that name it.
 
     ``noticing`` are the properties known to notice that something is wrong: a fault put into the charts, or
@@ -52,7 +52,7 @@ def matrix(
     properties: Iterable[Property],
     register: Mapping[str, Requirement] | None = None,
     noticing: Collection[str] | None = None,
-) -> tuple[Coverage, ...]:
+) -> tuple[RequirementCoverage, ...]:
     """A row for every requirement of the register, by default that of the document, in its order.
 
     Raises ``ModelError`` for a reason why no property covers a requirement that one covers.
@@ -62,7 +62,7 @@ def matrix(
         for id in prop.covers:
             by.setdefault(id, []).append(prop)
     known = requirements() if register is None else register
-    rows = tuple(Coverage(item, tuple(by.get(item.id, ())), noticing) for item in known.values())
+    rows = tuple(RequirementCoverage(item, tuple(by.get(item.id, ())), noticing) for item in known.values())
     for row in rows:
         if row.stated and row.requirement.reason:
             raise ModelError(

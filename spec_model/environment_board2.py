@@ -17,7 +17,7 @@ from spec_model.signals import board2_supervisor as b2
 from spec_model.signals.board2 import SONARS
 
 
-def clocks_of(sources: Sequence[b2.Source]) -> tuple[Block, ...]:
+def clocks_of(sources: Sequence[b2.SourceSignals]) -> tuple[Block, ...]:
     """The ages of monitored stamps."""
     return tuple(
         clock(f"{s.region}.age", s.update, s.age)

@@ -5,11 +5,11 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from checker.certify.file import Origin, write
+from checker.certify.file import CertificateOrigin, write
 from checker.certify.record import Recorder, certified
 from checker.engines import Limits, quiet
 from checker.verify.decide import Task, decide
-from checker.verify.portfolio import Told as Listeners
+from checker.verify.portfolio import Callbacks as Listeners
 from properties.catalogue import under
 from spec_model.rover import systems
 from tests.certifying import Naive
@@ -27,7 +27,7 @@ def written(folder: Path, *ids: str, readings: dict[str, str] | None = None) -> 
     told = Listeners(answered=recorder.answered)
     results = list(decide(task, by_name, Naive(), Limits(), quiet, told))
     proved = certified({r.property.id: r.verdict for r in results}, recorder.made)
-    return write(folder, Origin(task.system.name, ids, proved, readings or {}), recorder.made)
+    return write(folder, CertificateOrigin(task.system.name, ids, proved, readings or {}), recorder.made)
 
 
 def changed(path: Path, folder: Path, change: Callable[[Any], None]) -> Path:

@@ -13,13 +13,13 @@ from hypothesis.strategies import DrawFn
 
 from checker.certify import solver
 from checker.certify.certificate import Certificate, certificates
-from checker.certify.check import By, Effort
-from checker.certify.diagram import Diagram
+from checker.certify.check import By, CheckEffort
+from checker.certify.diagram import CertifiedDiagram
 from checker.certify.invariant import Conjuncts
 from checker.certify.question import question
 from checker.certify.tick import executed
 from checker.engines import Limits, Progress
-from checker.results.closed import ClosedSet, Place
+from checker.results.closed import BitPlace, ClosedSet
 from checker.results.verdict import Answer, Exhausted, Inductive, Open, Unreachable
 from checker.system.slice import sliced
 from spec_model.lang.action import Assign
@@ -29,7 +29,7 @@ from spec_model.lang.system import TransitionSystem
 from tests.naive import projected, search
 from tests.strategies_ts import goals, transition_systems
 
-SOLVER, ENUMERATION, BOTH = (Effort(by) for by in By)
+SOLVER, ENUMERATION, BOTH = (CheckEffort(by) for by in By)
 
 Rows = Iterable[Mapping[str, int]]
 
@@ -39,7 +39,9 @@ def closed_set(variables: Sequence[Var], rows: Rows) -> ClosedSet:
     values = [[at[v.name] - v.domain.low for v in variables] for at in rows]
     words = np.array(values, dtype=np.uint64).reshape(len(values), len(variables))
     bits = [(v.domain.high - v.domain.low).bit_length() for v in variables]
-    return ClosedSet(tuple(Place(v, i, 0, bits[i], 1, v.domain.low) for i, v in enumerate(variables)), words)
+    return ClosedSet(
+        tuple(BitPlace(v, i, 0, bits[i], 1, v.domain.low) for i, v in enumerate(variables)), words
+    )
 
 
 def part_of(system: TransitionSystem, goals: Sequence[Var]) -> tuple[TransitionSystem, tuple[Var, ...]]:
@@ -116,7 +118,9 @@ def proofs(draw: DrawFn) -> tuple[TransitionSystem, Certificate]:
     return system, one
 
 
-def with_invariant(one: Certificate, system: TransitionSystem, invariant: Diagram | Conjuncts) -> Certificate:
+def with_invariant(
+    one: Certificate, system: TransitionSystem, invariant: CertifiedDiagram | Conjuncts
+) -> Certificate:
     return asked_anew(replace(one, invariant=invariant), system)
 
 

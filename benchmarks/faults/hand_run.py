@@ -8,7 +8,7 @@ from benchmarks.faults.recorded import supervisor
 from checker.adapters.implementation import Implementation, Value, Values
 from checker.adapters.python_calls import Instance
 from checker.compare import effort, known_runs
-from checker.compare.search import Search
+from checker.compare.search import CompareSearch
 from checker.compare.strategy import ENVIRONMENTS
 
 
@@ -44,7 +44,7 @@ def hunt(fault: Fault, examples: int | None = None) -> Caught | int:
     """What the cross-check finds first, or after how many steps it found nothing."""
     env = replace(ENVIRONMENTS[fault.board], board=fault.varied())
     implementation: Implementation = InProcess(fault)
-    search = Search(env, implementation, effort("ci", examples), stop_early=True)
+    search = CompareSearch(env, implementation, effort("ci", examples), stop_early=True)
     result = search.run(known_runs(env))
     if not result.mismatches:
         return result.coverage.steps

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Limits:
+class AdapterLimits:
     """What an implementation may spend: seconds for one step, seconds to start, bytes of its own data."""
 
     step: float = 5.0
@@ -25,7 +25,7 @@ class Limits:
     memory: int = 4 << 30
 
 
-LIMITS = Limits()
+LIMITS = AdapterLimits()
 
 
 class Adapter(Protocol):
@@ -35,7 +35,7 @@ class Adapter(Protocol):
     FORM: str
     SUMMARY: str
 
-    def start(self, what: str, board: "Board", limits: Limits) -> Implementation:
+    def start(self, what: str, board: "Board", limits: AdapterLimits) -> Implementation:
         """The implementation at an address (without its kind), at power-up.
 
         Linux ends it with the thread that starts it.  Raises ``ImplementationError`` if it cannot be started.
@@ -53,7 +53,7 @@ def adapters() -> dict[str, Adapter]:
     return found
 
 
-def start(address: str, board: "Board", limits: Limits = LIMITS) -> Implementation:
+def start(address: str, board: "Board", limits: AdapterLimits = LIMITS) -> Implementation:
     """The implementation of a board at an address ``KIND:WHAT``, at power-up.
 
     Raises ``ImplementationError`` for an address without meaning and for one that cannot be started.
@@ -67,4 +67,4 @@ def start(address: str, board: "Board", limits: Limits = LIMITS) -> Implementati
     return known[kind].start(what, board, limits)
 
 
-__all__ = ["LIMITS", "Adapter", "Limits", "adapters", "start"]
+__all__ = ["LIMITS", "Adapter", "AdapterLimits", "adapters", "start"]

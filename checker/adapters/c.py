@@ -6,9 +6,9 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from checker.adapters import LIMITS, Limits, c_calls
+from checker.adapters import LIMITS, AdapterLimits, c_calls
 from checker.adapters.c_build import built, is_library
-from checker.adapters.c_map import Map, read
+from checker.adapters.c_map import CMap, read
 from checker.adapters.implementation import Implementation, ImplementationError
 from checker.adapters.process import Process, ours
 
@@ -20,7 +20,7 @@ FORM = "c:PATH[,map=FILE]"
 SUMMARY = "C sources (a file, a folder) or a shared object"
 
 
-def start(what: str, board: "Board", limits: Limits = LIMITS) -> Implementation:
+def start(what: str, board: "Board", limits: AdapterLimits = LIMITS) -> Implementation:
     """The supervisor, compiled with what its mapping file says.
 
     Raises ``ImplementationError`` if it cannot be compiled or started.
@@ -36,13 +36,13 @@ def start(what: str, board: "Board", limits: Limits = LIMITS) -> Implementation:
             f"c:{what}: {path.name} is neither a C file (.c), a folder nor a shared object."
         )
     c = read(Path(file) if file else _beside(path), board)
-    return Compiled(f"c:{what}", path, c, board, limits)
+    return CompiledC(f"c:{what}", path, c, board, limits)
 
 
-class Compiled(Process):
+class CompiledC(Process):
     """A compiled supervisor; what was compiled is deleted when it is closed."""
 
-    def __init__(self, address: str, path: Path, c: Map, board: "Board", limits: Limits) -> None:
+    def __init__(self, address: str, path: Path, c: CMap, board: "Board", limits: AdapterLimits) -> None:
         self._folder = tempfile.TemporaryDirectory(prefix="rovercheck-")
         try:
             library, warnings = built(path, c, Path(self._folder.name))
@@ -59,7 +59,7 @@ class Compiled(Process):
         self._folder.cleanup()
 
 
-def _options(library: Path, path: Path, c: Map) -> dict[str, object]:
+def _options(library: Path, path: Path, c: CMap) -> dict[str, object]:
     return {
         "library": str(library),
         "before": str(path.resolve()) if is_library(path) else "",
@@ -76,7 +76,7 @@ def _beside(path: Path) -> Path:
     return same if same.is_file() else path.parent / "map.toml"
 
 
-def _notes(c: Map, board: "Board", warnings: str) -> list[str]:
+def _notes(c: CMap, board: "Board", warnings: str) -> list[str]:
     """What a person should know: what it is not given, and what the compiler warned of."""
     inputs = {place.signal for place in c.inputs}
     unread = [s.name for s in board.inputs if s.name not in inputs]

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from checker.adapters.c_map import Map
+from checker.adapters.c_map import CMap
 from checker.adapters.c_shim import OWN, shim
 from checker.adapters.implementation import ImplementationError
 from spec_model.lang.errors import did_you_mean
@@ -34,7 +34,7 @@ def compiler() -> str | None:
     )
 
 
-def built(path: Path, c: Map, folder: Path) -> tuple[Path, str]:
+def built(path: Path, c: CMap, folder: Path) -> tuple[Path, str]:
     """The shared object, made in ``folder``, and what the compiler warned of.
 
     ``path`` is a C file, a folder of them, or a shared object.  Raises ``ImplementationError`` with the words
@@ -62,7 +62,7 @@ def is_library(path: Path) -> bool:
     return any(suffix in LIBRARIES for suffix in path.suffixes)
 
 
-def _code(path: Path, c: Map) -> list[str]:
+def _code(path: Path, c: CMap) -> list[str]:
     """The files to compile or to link."""
     if is_library(path):
         return [str(path.resolve())]
@@ -84,14 +84,14 @@ def _linking(path: Path) -> list[str]:
     return [*found, f"-Wl,-rpath,{path.resolve().parent}"] if is_library(path) else found
 
 
-def _folders(path: Path, c: Map) -> list[Path]:
+def _folders(path: Path, c: CMap) -> list[Path]:
     """Where headers are looked for."""
     beside = path if path.is_dir() else path.parent
     found = [c.file.parent, *(c.file.parent / name for name in c.include), beside]
     return list(dict.fromkeys(folder.resolve() for folder in found))
 
 
-def _headers(c: Map, folders: Sequence[Path]) -> None:
+def _headers(c: CMap, folders: Sequence[Path]) -> None:
     """Name a header that is nowhere before the compiler does: it does not say which there are."""
     for header in c.header:
         if not (header.startswith("<") or any((folder / header).is_file() for folder in folders)):

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from checker.adapters.child import PowerUp, Refused
+from checker.adapters.child import PowerUp, RefusedStep
 from checker.adapters.implementation import Value, Values
 from spec_model.lang.domain import exact
 
@@ -23,7 +23,7 @@ ROUND: Mapping[str, Callable[[Fraction], int]] = {
 
 
 @dataclass(frozen=True)
-class Held:
+class HeldPointer:
     """A signal, where it is held, and how: as in the mapping file, with the numbers of its constants."""
 
     signal: str
@@ -40,10 +40,12 @@ class Held:
         return self.type in INTEGERS
 
 
-class Library:
+class CLibrary:
     """A compiled supervisor at power-up."""
 
-    def __init__(self, library: ctypes.CDLL, inputs: Sequence[Held], outputs: Sequence[Held]) -> None:
+    def __init__(
+        self, library: ctypes.CDLL, inputs: Sequence[HeldPointer], outputs: Sequence[HeldPointer]
+    ) -> None:
         self._library, self._inputs = library, inputs
         self._names = [held.signal for held in inputs]
         self._put = [(n, _putting(held)) for n, held in enumerate(inputs) if not _as_it_is(held)]
@@ -60,7 +62,7 @@ class Library:
             numbers[index] = put(numbers[index])
         self._in[:] = numbers
         if wrong := self._call(self._in, self._out):
-            raise Refused(_unfit(self._inputs[wrong - 1], inputs, numbers[wrong - 1]))
+            raise RefusedStep(_unfit(self._inputs[wrong - 1], inputs, numbers[wrong - 1]))
         return {name: get(value) for (name, get), value in zip(self._get, self._out, strict=True)}
 
     def end(self) -> None:
@@ -75,32 +77,32 @@ def made(library: str, before: str, inputs: Sequence[Any], outputs: Sequence[Any
             ctypes.CDLL(before)
         loaded = ctypes.CDLL(library)
     except OSError as error:
-        raise Refused(f"the library cannot be loaded: {error}") from None
+        raise RefusedStep(f"the library cannot be loaded: {error}") from None
     loaded.rovercheck_constant.restype = ctypes.c_double
     loaded.rovercheck_input_type.restype = loaded.rovercheck_output_type.restype = ctypes.c_char_p
     constants = iter(range(sum(len(place["values"]) for place in (*inputs, *outputs))))
 
-    def held(place: Mapping[str, Any], kind: bytes) -> Held:
+    def held(place: Mapping[str, Any], kind: bytes) -> HeldPointer:
         values = [(int(n), loaded.rovercheck_constant(next(constants))) for n in place["values"]]
-        return Held(**{**place, "values": values, "type": kind.decode()})
+        return HeldPointer(**{**place, "values": values, "type": kind.decode()})
 
     ins = [held(place, loaded.rovercheck_input_type(n)) for n, place in enumerate(inputs)]
     outs = [held(place, loaded.rovercheck_output_type(n)) for n, place in enumerate(outputs)]
-    return lambda: Library(loaded, ins, outs)
+    return lambda: CLibrary(loaded, ins, outs)
 
 
-def _as_it_is(held: Held) -> bool:
+def _as_it_is(held: HeldPointer) -> bool:
     return not held.values and (held.scale, held.offset, held.rounding) == (1.0, 0.0, "")
 
 
-def _putting(held: Held) -> Callable[[float], float]:
+def _putting(held: HeldPointer) -> Callable[[float], float]:
     """What a place holds for a value."""
     numbers, scale, offset = dict(held.values), exact(held.scale), exact(held.offset)
 
     def put(value: float) -> float:
         if numbers:
             if value not in numbers:
-                raise Refused(f"{held.signal} = {value:g}: the mapping file gives no C value for it")
+                raise RefusedStep(f"{held.signal} = {value:g}: the mapping file gives no C value for it")
             return numbers[int(value)]
         if not math.isfinite(value):
             return value
@@ -110,7 +112,7 @@ def _putting(held: Held) -> Callable[[float], float]:
     return put
 
 
-def _getting(held: Held) -> Callable[[float], Value]:
+def _getting(held: HeldPointer) -> Callable[[float], Value]:
     """The value for what a place holds."""
     meanings = {raw: number for number, raw in held.values}
     scale, offset = exact(held.scale), exact(held.offset)
@@ -118,7 +120,9 @@ def _getting(held: Held) -> Callable[[float], Value]:
     def get(raw: float) -> Value:
         if meanings:
             if raw not in meanings:
-                raise Refused(f"{held.signal}: {held.at} is {raw:g}, which the mapping file does not explain")
+                raise RefusedStep(
+                    f"{held.signal}: {held.at} is {raw:g}, which the mapping file does not explain"
+                )
             raw = meanings[raw]
         elif held.type == "float":
             raw = _single(raw)
@@ -137,7 +141,7 @@ def _single(raw: float) -> float:
     return next((value for value in near if ctypes.c_float(value).value == raw), raw)
 
 
-def _unfit(held: Held, inputs: Values, raw: float) -> str:
+def _unfit(held: HeldPointer, inputs: Values, raw: float) -> str:
     """Why a value cannot be held, and what to write."""
     given = f"{held.signal} = {inputs[held.signal]}"
     scaled = "" if _as_it_is(held) else f" (held as {raw:g})"

@@ -12,7 +12,7 @@ from spec_model.lang.errors import did_you_mean
 
 if TYPE_CHECKING:
     from spec_model.abstraction import Board
-    from spec_model.abstraction.board import Signal
+    from spec_model.abstraction.board import BoardSignal
 
 ROUNDINGS = ("nearest", "floor", "truncate")
 PLACE_KEYS = ("at", "scale", "offset", "rounding", "values")
@@ -21,7 +21,7 @@ KEYS = (*LISTS, "declarations", "constants", "inputs", "outputs")
 
 
 @dataclass(frozen=True)
-class Place:
+class CPlace:
     """Where a signal is held: an expression of C, which for an input can be assigned to.
 
     The signal is what is held times ``scale`` plus ``offset``.  ``values`` gives the C constant of each
@@ -38,12 +38,12 @@ class Place:
 
 
 @dataclass(frozen=True)
-class Map:
+class CMap:
     """A mapping file as read; names of files are relative to its folder."""
 
     file: Path
-    inputs: tuple[Place, ...]
-    outputs: tuple[Place, ...]
+    inputs: tuple[CPlace, ...]
+    outputs: tuple[CPlace, ...]
     step: tuple[str, ...]
     initialize: tuple[str, ...] = ()
     terminate: tuple[str, ...] = ()
@@ -55,7 +55,7 @@ class Map:
     constants: Mapping[str, str] = field(default_factory=dict)
 
 
-def read(file: Path, board: "Board") -> Map:
+def read(file: Path, board: "Board") -> CMap:
     """The mapping file.  Raises ``ImplementationError`` for one that cannot be read or has no meaning."""
     try:
         found = tomllib.loads(file.read_text(encoding="utf-8"))
@@ -73,13 +73,13 @@ class _Reader:
     file: Path
     found: Mapping[str, Any]
 
-    def map(self, board: "Board") -> Map:
+    def map(self, board: "Board") -> CMap:
         self._known("", self.found, KEYS)
         texts = {key: self._texts(key) for key in LISTS}
         if not texts["step"]:
             raise self._wrong("step is missing; write the function that executes one step")
         outputs = {o.name: o.signal for o in board.outputs}
-        return Map(
+        return CMap(
             file=self.file,
             inputs=self._places("inputs", {s.name: s for s in board.inputs}, board.name),
             outputs=self._places("outputs", outputs, board.name),
@@ -88,7 +88,7 @@ class _Reader:
             **texts,
         )
 
-    def _places(self, section: str, signals: Mapping[str, "Signal"], board: str) -> tuple[Place, ...]:
+    def _places(self, section: str, signals: Mapping[str, "BoardSignal"], board: str) -> tuple[CPlace, ...]:
         table = self._table(section)
         if not table:
             raise self._wrong(f'[{section}] is missing; write SIGNAL = "where.it.is.held" for each signal')
@@ -98,7 +98,7 @@ class _Reader:
                 raise self._wrong(f"[{section}] {name}: {board} has no {section[:-1]} of this name. {hint}")
         return tuple(self._place(f"[{section}] {name}", signals[name], at) for name, at in table.items())
 
-    def _place(self, where: str, signal: "Signal", written: object) -> Place:
+    def _place(self, where: str, signal: "BoardSignal", written: object) -> CPlace:
         table: Mapping[str, Any] = (
             {"at": written} if isinstance(written, str) else self._is_table(where, written)
         )
@@ -107,7 +107,7 @@ class _Reader:
             raise self._wrong(f"{where}: values says it all; leave scale, offset and rounding out")
         if table.get("rounding", "nearest") not in ROUNDINGS:
             raise self._wrong(f"{where}: rounding is one of {', '.join(ROUNDINGS)}")
-        return Place(
+        return CPlace(
             signal=signal.name,
             at=self._expression(where, table.get("at")),
             scale=self._number(where, "scale", table.get("scale", 1.0)),
@@ -117,7 +117,7 @@ class _Reader:
             boolean=signal.domain.sort.__class__.__name__ == "Bool",
         )
 
-    def _values(self, where: str, signal: "Signal", written: object) -> dict[int, str]:
+    def _values(self, where: str, signal: "BoardSignal", written: object) -> dict[int, str]:
         sort = signal.domain.sort
         members = dict(sort.members) if isinstance(sort, Enum) else {"false": 0, "true": 1}
         found: dict[int, str] = {}

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from checker.adapters.c_map import Map, Place
+from checker.adapters.c_map import CMap, CPlace
 
 OWN = "rovercheck.c"
 """What the compiler calls the lines that are not of the mapping file."""
@@ -30,17 +30,17 @@ PRELUDE = """\
 """
 
 
-def shim(c: Map) -> str:
+def shim(c: CMap) -> str:
     """The source, in C11."""
     return "\n".join(_lines(c)) + "\n"
 
 
-def constants(c: Map) -> list[tuple[Place, int, str]]:
+def constants(c: CMap) -> list[tuple[CPlace, int, str]]:
     """Every constant of an enumeration: its place, the signal's number, its C expression."""
     return [(place, n, value) for place in (*c.inputs, *c.outputs) for n, value in place.values.items()]
 
 
-def _lines(c: Map) -> Iterator[str]:
+def _lines(c: CMap) -> Iterator[str]:
     yield f"/* Written by rovercheck from {c.file.name}. */"
     for header in c.header:
         yield from (
@@ -65,7 +65,7 @@ def _lines(c: Map) -> Iterator[str]:
     yield "return 0; }"
 
 
-def _types(c: Map, what: str, places: tuple[Place, ...]) -> Iterator[str]:
+def _types(c: CMap, what: str, places: tuple[CPlace, ...]) -> Iterator[str]:
     """The type of each place; one that cannot be assigned to, or is no number, is refused here."""
     yield f"const char *rovercheck_{what}_type(int number) {{ switch (number) {{"
     for number, place in enumerate(places):
@@ -75,14 +75,14 @@ def _types(c: Map, what: str, places: tuple[Place, ...]) -> Iterator[str]:
     yield 'default: return ""; } }'
 
 
-def _constants(c: Map) -> Iterator[str]:
+def _constants(c: CMap) -> Iterator[str]:
     yield "double rovercheck_constant(int number) { switch (number) {"
     for number, (place, _, value) in enumerate(constants(c)):
         yield from (_at(c, f"values of {place.signal}"), f"case {number}: return (double)({value});")
     yield "default: return 0; } }"
 
 
-def _function(c: Map, name: str, key: str, calls: tuple[str, ...]) -> Iterator[str]:
+def _function(c: CMap, name: str, key: str, calls: tuple[str, ...]) -> Iterator[str]:
     yield f"void {name}(void) {{"
     for call in calls:
         yield from (_at(c, key), _statement(call))
@@ -95,7 +95,7 @@ def _statement(call: str) -> str:
     return f"{call}();" if call.isidentifier() else f"{call};"
 
 
-def _at(c: Map, where: str) -> str:
+def _at(c: CMap, where: str) -> str:
     """Have the compiler name the entry of the mapping file."""
     file = str(c.file).replace("\\", "/").replace('"', "'")
     return f'#line 1 "{file}, {where}"'

@@ -25,7 +25,7 @@ PAUSE = 0.005
 """Seconds between two looks whether it has ended."""
 
 
-class Broken(Exception):
+class BrokenChannel(Exception):
     """No answer, and none will come; the message says why, for a person, after "the process"."""
 
 
@@ -51,23 +51,23 @@ class Channel:
         self._over = False
 
     def send(self, lines: bytes) -> None:
-        """Have lines written, without waiting.  Raises ``Broken`` if it said something unasked."""
+        """Have lines written, without waiting.  Raises ``BrokenChannel`` if it said something unasked."""
         if not self._outbox and (self._inbox or (not self._over and self._moved(0) and self._inbox)):
-            raise Broken(f"said {shown(bytes(self._inbox))} without being asked")
+            raise BrokenChannel(f"said {shown(bytes(self._inbox))} without being asked")
         self._outbox += lines
         self._write()
 
     def receive(self, seconds: float) -> bytes:
-        """The next line of the process.  Raises ``Broken`` if none comes in time."""
+        """The next line of the process.  Raises ``BrokenChannel`` if none comes in time."""
         end = time.monotonic() + seconds
         while (length := self._inbox.find(b"\n")) < 0:
             if len(self._inbox) > LONGEST:
-                raise Broken(f"answered more than {LONGEST:,} bytes without an end of line")
+                raise BrokenChannel(f"answered more than {LONGEST:,} bytes without an end of line")
             if self._over:
-                raise Broken(self._cause())
+                raise BrokenChannel(self._cause())
             left = end - time.monotonic()
             if left <= 0 or not self._moved(left):
-                raise Broken(f"did not answer within {seconds:g} s")
+                raise BrokenChannel(f"did not answer within {seconds:g} s")
         line = bytes(self._inbox[:length])
         del self._inbox[: length + 1]
         return line

@@ -52,7 +52,7 @@ class Lines:
         return line
 
 
-class Refused(Exception):
+class RefusedStep(Exception):
     """An implementation that cannot be run, or a step that has no meaning; the message is for a person."""
 
 

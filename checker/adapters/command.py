@@ -5,7 +5,7 @@ import shutil
 from functools import partial
 from typing import TYPE_CHECKING
 
-from checker.adapters import LIMITS, Limits
+from checker.adapters import LIMITS, AdapterLimits
 from checker.adapters.implementation import Implementation, ImplementationError
 from checker.adapters.process import Process, theirs
 
@@ -17,7 +17,7 @@ FORM = "command:CMD ARGS"
 SUMMARY = "a program that answers JSON lines with JSON lines"
 
 
-def start(what: str, board: "Board", limits: Limits = LIMITS) -> Implementation:
+def start(what: str, board: "Board", limits: AdapterLimits = LIMITS) -> Implementation:
     """The program, run without a shell.  Raises ``ImplementationError`` if it cannot be started."""
     address = f"{KIND}:{what}"
     try:

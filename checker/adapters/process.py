@@ -7,8 +7,8 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from checker.adapters import Limits, launch, lines
-from checker.adapters.channel import Broken, Channel
+from checker.adapters import AdapterLimits, launch, lines
+from checker.adapters.channel import BrokenChannel, Channel
 from checker.adapters.implementation import ImplementationError, Value, Values
 from spec_model.lang.errors import did_you_mean
 
@@ -16,7 +16,7 @@ RESET = lines.encoded({"reset": True})
 MAIN = "from rovercheck import claim; claim(); from checker.adapters.child import main; main()"
 
 
-class Reported(Broken):
+class Reported(BrokenChannel):
     """What the implementation itself reports, or what it answers without meaning; the message is whole."""
 
 
@@ -32,7 +32,7 @@ class Process:
         address: str,
         connect: Callable[[], Channel],
         names: Collection[str],
-        limits: Limits,
+        limits: AdapterLimits,
         notes: Sequence[str] = (),
     ) -> None:
         self.notes = notes
@@ -51,7 +51,7 @@ class Process:
         with self._speaking() as channel:
             channel.send(RESET)
             if found := self._answer(channel, self._limits.start if fresh else self._limits.step):
-                raise Broken(f"answered {lines.shown(found)} to the reset; write {{}}")
+                raise BrokenChannel(f"answered {lines.shown(found)} to the reset; write {{}}")
 
     def step(self, inputs: Values) -> dict[str, Value]:
         """Execute one step.  Raises ``ImplementationError`` with its number, counted from the reset."""
@@ -90,7 +90,7 @@ class Process:
         try:
             self._channel = self._channel or self._connect()
             yield self._channel
-        except (Broken, ValueError, OSError) as error:
+        except (BrokenChannel, ValueError, OSError) as error:
             raise self._failed(error) from None
         except BaseException:
             self._stopped()
@@ -132,7 +132,7 @@ def failure(address: str, step: int, what: str, more: str = "") -> Implementatio
     )
 
 
-def ours(module: str, options: Mapping[str, object], limits: Limits) -> Channel:
+def ours(module: str, options: Mapping[str, object], limits: AdapterLimits) -> Channel:
     """A process of ours in which ``module.made(**options)`` makes what carries out steps."""
     order = json.dumps({"module": module, "options": options, "memory": limits.memory})
     path = os.pathsep.join(filter(None, sys.path))
@@ -143,7 +143,7 @@ def ours(module: str, options: Mapping[str, object], limits: Limits) -> Channel:
     )
 
 
-def theirs(command: Sequence[str], limits: Limits) -> Channel:
+def theirs(command: Sequence[str], limits: AdapterLimits) -> Channel:
     """A process of the user's, confined as ours are."""
     program = str(Path(launch.__file__))
     return Channel([sys.executable, "-I", "-S", program, str(limits.memory), *command])

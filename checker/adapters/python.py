@@ -5,7 +5,7 @@ from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING
 
-from checker.adapters import LIMITS, Limits, python_calls
+from checker.adapters import LIMITS, AdapterLimits, python_calls
 from checker.adapters.child import PowerUp, Running, reason
 from checker.adapters.implementation import Implementation, Value, Values
 from checker.adapters.process import Process, check_names, failure, ours
@@ -18,7 +18,9 @@ FORM = "python:MODULE:CLASS"
 SUMMARY = "a Python class with step(inputs) -> outputs"
 
 
-def start(what: str, board: "Board", limits: Limits = LIMITS, *, isolated: bool = True) -> Implementation:
+def start(
+    what: str, board: "Board", limits: AdapterLimits = LIMITS, *, isolated: bool = True
+) -> Implementation:
     """The class at an address, in a process of its own unless ``isolated`` is false.
 
     In this process nothing is limited, and what the class keeps in its module survives a reset.  Raises

@@ -11,7 +11,7 @@ from types import ModuleType
 from typing import Any, get_type_hints
 
 from checker.adapters import firmware
-from checker.adapters.child import PowerUp, Refused
+from checker.adapters.child import PowerUp, RefusedStep
 from checker.adapters.implementation import Value, Values
 from checker.adapters.lines import plain
 from checker.adapters.records import builder, reader
@@ -34,7 +34,7 @@ class Instance:
             return self._reader(type(found))(found)
         if isinstance(found, Mapping):
             return {name: plain(name, value) for name, value in found.items()}
-        raise Refused(f"step returned {found!r:.80}; return a dict of outputs by name, or a dataclass")
+        raise RefusedStep(f"step returned {found!r:.80}; return a dict of outputs by name, or a dataclass")
 
     def _reader(self, record: type) -> Callable[[Any], dict[str, Value]]:
         if record not in self._readers:
@@ -48,20 +48,20 @@ class Instance:
 def made(target: str) -> PowerUp:
     """Instances of ``module:Class`` or ``path/file.py:Class``, or what a function called so returns.
 
-    Raises ``Refused`` if there is none.
+    Raises ``RefusedStep`` if there is none.
     """
     where, colon, name = target.rpartition(":")
     if not colon or not where or not name:
-        raise Refused(f"{target!r} names no class; write module:Class or path/file.py:Class")
+        raise RefusedStep(f"{target!r} names no class; write module:Class or path/file.py:Class")
     module = _file(Path(where)) if where.endswith(".py") else _module(where)
     if not hasattr(module, name):
         known = [n for n, thing in vars(module).items() if isinstance(thing, type)]
-        raise Refused(f"{where} has no {name!r}. {did_you_mean(name, known)}")
+        raise RefusedStep(f"{where} has no {name!r}. {did_you_mean(name, known)}")
     make = getattr(module, name)
     if not callable(make):
-        raise Refused(f"{target} is no class; it is {make!r:.80}")
+        raise RefusedStep(f"{target} is no class; it is {make!r:.80}")
     if isinstance(make, type) and not hasattr(make, "step"):
-        raise Refused(f"{target} has no method 'step'; write step(self, inputs) -> outputs")
+        raise RefusedStep(f"{target} has no method 'step'; write step(self, inputs) -> outputs")
     return lambda: Instance(make)
 
 
@@ -71,14 +71,14 @@ def _module(name: str) -> ModuleType:
     except ModuleNotFoundError as error:
         if error.name is None or not f"{name}.".startswith(f"{error.name}."):
             raise
-        raise Refused(
+        raise RefusedStep(
             f"there is no module {error.name!r} in the current folder or among the installed"
         ) from None
 
 
 def _file(path: Path) -> ModuleType:
     if not path.is_file():
-        raise Refused(f"there is no file {path}")
+        raise RefusedStep(f"there is no file {path}")
     sys.path.append(str(path.resolve().parent))
     name = f"user_{path.stem}"  # a file called json.py does not hide the module
     spec = spec_from_file_location(name, path)
@@ -92,6 +92,6 @@ def _asked(step: Callable[..., Any]) -> type[Any] | None:
     """The dataclass with which ``step`` is annotated, if it is."""
     first = next(iter(signature(step).parameters), None)
     if first is None:
-        raise Refused("step takes no argument; it is given the inputs of the step")
+        raise RefusedStep("step takes no argument; it is given the inputs of the step")
     hint = get_type_hints(step).get(first)
     return hint if isinstance(hint, type) and is_dataclass(hint) else None

@@ -8,14 +8,14 @@ secret can make entries go missing, nothing else.  The same holds for a folder f
 from checker.cache.entries import ENDING, MOST_BYTES, opened, read, remove, sealed, write
 from checker.cache.places import VARIABLE, Unsafe, chosen, usable
 from checker.cache.secret_file import SECRET, secret, secret_place
-from checker.cache.telling import Refused, Taken, listening
+from checker.cache.telling import CacheRefused, Taken, listening
 
 __all__ = [
     "ENDING",
     "MOST_BYTES",
     "SECRET",
     "VARIABLE",
-    "Refused",
+    "CacheRefused",
     "Taken",
     "Unsafe",
     "chosen",

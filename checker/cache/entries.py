@@ -14,7 +14,7 @@ from pathlib import Path
 from checker.cache import running
 from checker.cache.places import Unsafe, carefully, chosen, usable
 from checker.cache.secret_file import secret
-from checker.cache.telling import Refused, Taken, anew, heard, tell
+from checker.cache.telling import CacheRefused, Taken, anew, heard, tell
 
 ENDING = ".o"
 MOST_BYTES = 256 << 20
@@ -48,7 +48,7 @@ def read(name: str) -> bytes | None:
             return None
         contents = opened(name, carefully(path, MOST_BYTES)[1], key)
     except Unsafe as unsafe:
-        tell(Refused(str(unsafe)))
+        tell(CacheRefused(str(unsafe)))
         return None
     except OSError:
         return None
@@ -77,7 +77,7 @@ def write(name: str, contents: bytes) -> None:
             raise
         _written(folder, len(whole))
     except Unsafe as unsafe:
-        tell(Refused(str(unsafe)))
+        tell(CacheRefused(str(unsafe)))
     except OSError:
         pass
 

@@ -13,13 +13,13 @@ class Taken:
 
 
 @dataclass(frozen=True)
-class Refused:
+class CacheRefused:
     """The cache is not used because it would not be safe; ``why`` says what was found and what to do."""
 
     why: str
 
 
-Hear = Callable[[Taken | Refused], None]
+Hear = Callable[[Taken | CacheRefused], None]
 
 
 @dataclass
@@ -32,11 +32,11 @@ class _Listening:
 _now = _Listening()
 
 
-def tell(what: Taken | Refused) -> None:
+def tell(what: Taken | CacheRefused) -> None:
     """Say it to who listens; why the cache is refused is said once."""
-    if _now.hear is None or (isinstance(what, Refused) and what.why in _now.refused):
+    if _now.hear is None or (isinstance(what, CacheRefused) and what.why in _now.refused):
         return
-    if isinstance(what, Refused):
+    if isinstance(what, CacheRefused):
         _now.refused.add(what.why)
     _now.hear(what)
 

@@ -8,9 +8,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.certify.diagram import Column, Diagram, Node, Nodes, positions
+from checker.certify.diagram import CertifiedDiagram, CertifiedNode, Column, Nodes, positions
 from checker.certify.invariant import Conjuncts, Invariant, conjuncts
-from checker.certify.question import Question, question
+from checker.certify.question import CertifyQuestion, question
 from checker.certify.reduction import diagram
 from checker.certify.terms import TRUTH, Malformed, definitions
 from checker.certify.tick import conjuncts as parts
@@ -33,7 +33,7 @@ MOST = 1 << 31
 class Certificate:
     """One answer of an engine: the goals it ``claims`` are never true, and an invariant that shows it.
 
-    ``kept``, ``about`` and ``text`` as in ``Question``; ``found`` says what the engine counted.
+    ``kept``, ``about`` and ``text`` as in ``CertifyQuestion``; ``found`` says what the engine counted.
     """
 
     system: str
@@ -100,7 +100,9 @@ def _about(because: Evidence) -> tuple[str, ...]:
     return tuple(place.var.name for place in because.closed.places)
 
 
-def _certificate(system: TransitionSystem, asked: Question, because: Evidence, engine: str) -> Certificate:
+def _certificate(
+    system: TransitionSystem, asked: CertifyQuestion, because: Evidence, engine: str
+) -> Certificate:
     found: dict[str, int]
     if isinstance(because, Inductive):
         invariant: Invariant = conjuncts(because, asked.tick.frozen, asked.tick.variables)
@@ -141,7 +143,7 @@ def document(certificate: Certificate) -> dict[str, object]:
 
 
 def _invariant(invariant: Invariant) -> dict[str, object]:
-    if isinstance(invariant, Diagram):
+    if isinstance(invariant, CertifiedDiagram):
         nodes = [[n.variable, *(number for edge in n.edges for number in edge)] for n in invariant.nodes]
         return {"variables": list(invariant.variables), "nodes": nodes, "root": invariant.root}
     return {
@@ -176,16 +178,16 @@ def certificate(found: Any) -> Certificate:
 def _read(found: Any) -> Invariant:
     if "nodes" in found:
         nodes = Nodes.of(_node(_numbers(n)) for n in found["nodes"])
-        return Diagram(_strings(found["variables"]), nodes, _number(found["root"]))
+        return CertifiedDiagram(_strings(found["variables"]), nodes, _number(found["root"]))
     if not isinstance(found["simple"], bool):
         raise Malformed("simple must be true or false")
     texts = _strings(found["definitions"]), _strings(found["conjuncts"])
     return Conjuncts(*texts, _number(found["ticks"]), found["simple"])
 
 
-def _node(numbers: tuple[int, ...]) -> Node:
+def _node(numbers: tuple[int, ...]) -> CertifiedNode:
     edges = tuple(zip(numbers[1::3], numbers[2::3], numbers[3::3], strict=True))
-    return Node(numbers[0], edges)
+    return CertifiedNode(numbers[0], edges)
 
 
 def _text(found: Any) -> str:
@@ -211,9 +213,9 @@ def _numbers(found: Any) -> tuple[int, ...]:
 # --- meaning something ---------------------------------------------------------------------------
 
 
-def meaningful(invariant: Invariant, asked: Question) -> None:
+def meaningful(invariant: Invariant, asked: CertifyQuestion) -> None:
     """Raises ``Malformed`` unless the invariant speaks of valuations of the question and of nothing else."""
-    if isinstance(invariant, Diagram):
+    if isinstance(invariant, CertifiedDiagram):
         _diagram(invariant, asked)
         return
     _, sorts = definitions(invariant.definitions, asked.spoken)
@@ -223,7 +225,7 @@ def meaningful(invariant: Invariant, asked: Question) -> None:
         raise Malformed(f"{unknown or invariant.ticks} is no conjunct, or no number of ticks")
 
 
-def _diagram(found: Diagram, asked: Question) -> None:
+def _diagram(found: CertifiedDiagram, asked: CertifyQuestion) -> None:
     domains = {v.name: v.domain for v in asked.state}
     if not set(found.variables) <= domains.keys() or len(set(found.variables)) < len(found.variables):
         raise Malformed("the diagram asks for a variable twice, or for one that is not in the question")
@@ -243,7 +245,7 @@ def _edges(nodes: Nodes) -> tuple[Column, ...]:
     return nodes.low, nodes.high, nodes.to, nodes.owner
 
 
-def _orderly(found: Diagram, domains: Mapping[str, Domain]) -> NDArray[np.bool_]:
+def _orderly(found: CertifiedDiagram, domains: Mapping[str, Domain]) -> NDArray[np.bool_]:
     """Which edges have values of the domain, more than the edge before, and lead to a node after theirs."""
     low, high, to, owner = _edges(found.nodes)
     asking = found.nodes.variable[owner]

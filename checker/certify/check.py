@@ -6,12 +6,12 @@ from enum import StrEnum
 
 from checker.certify import solver
 from checker.certify.certificate import Certificate, meaningful
-from checker.certify.diagram import Diagram, size
+from checker.certify.diagram import CertifiedDiagram, size
 from checker.certify.enumeration import enumerated
 from checker.certify.invariant import Invariant
 from checker.certify.obligations import Obligation, obligations, too_long
 from checker.certify.outcome import Accepted, Outcome, Rejected, TooMuch, Undecided, told
-from checker.certify.question import Question, question
+from checker.certify.question import CertifyQuestion, question
 from checker.certify.sweep import swept
 from checker.certify.terms import Malformed
 from checker.certify.tick import Executed, executed
@@ -35,14 +35,14 @@ class By(StrEnum):
 
 
 @dataclass(frozen=True)
-class Effort:
+class CheckEffort:
     """Who checks, and the wall seconds that the solver may take for one certificate (None: no bound)."""
 
     by: By = By.BOTH
     seconds: float | None = 600
 
 
-def rebuilt(certificate: Certificate, step: Executed) -> Question | Rejected:
+def rebuilt(certificate: Certificate, step: Executed) -> CertifyQuestion | Rejected:
     """The question of the certificate put to the system as it is now, if that is still the same one."""
     try:
         asked = question(step, certificate.claims, certificate.kept, certificate.about)
@@ -62,7 +62,7 @@ def rebuilt(certificate: Certificate, step: Executed) -> Question | Rejected:
     return asked
 
 
-def check(certificate: Certificate, system: TransitionSystem, effort: Effort) -> Outcome:
+def check(certificate: Certificate, system: TransitionSystem, effort: CheckEffort) -> Outcome:
     """Whether the certificate proves that the system never makes a claimed goal true."""
     asked = rebuilt(certificate, executed(system))
     if isinstance(asked, Rejected):
@@ -74,7 +74,9 @@ def check(certificate: Certificate, system: TransitionSystem, effort: Effort) ->
         return Rejected("invariant", str(error))
 
 
-def _checked(certificate: Certificate, system: TransitionSystem, asked: Question, effort: Effort) -> Outcome:
+def _checked(
+    certificate: Certificate, system: TransitionSystem, asked: CertifyQuestion, effort: CheckEffort
+) -> Outcome:
     """By enumeration where that is feasible, and by the solver."""
     tried = _tried(certificate.invariant, system, asked, effort)
     if effort.by is By.ENUMERATION or (effort.by is By.BOTH and _large(certificate.invariant)):
@@ -87,21 +89,21 @@ def _checked(certificate: Certificate, system: TransitionSystem, asked: Question
 
 
 def _tried(
-    invariant: Invariant, system: TransitionSystem, asked: Question, effort: Effort
+    invariant: Invariant, system: TransitionSystem, asked: CertifyQuestion, effort: CheckEffort
 ) -> Accepted | Rejected | TooMuch:
     """By enumeration, slow and obvious, or on all valuations at once where that is what is left."""
     if effort.by is By.SOLVER:
         return TooMuch("only the solver is asked")
     tried = enumerated(system, asked, invariant)
-    fast = isinstance(invariant, Diagram) and (effort.by is By.ENUMERATION or _large(invariant))
-    if isinstance(tried, TooMuch) and isinstance(invariant, Diagram) and fast:
+    fast = isinstance(invariant, CertifiedDiagram) and (effort.by is By.ENUMERATION or _large(invariant))
+    if isinstance(tried, TooMuch) and isinstance(invariant, CertifiedDiagram) and fast:
         return swept(asked, invariant)
     return tried
 
 
 def _large(invariant: Invariant) -> bool:
     """Whether a solver would take long over it."""
-    return isinstance(invariant, Diagram) and size(invariant) > LARGE
+    return isinstance(invariant, CertifiedDiagram) and size(invariant) > LARGE
 
 
 def _together(outcomes: Sequence[Outcome]) -> Outcome:
@@ -113,26 +115,26 @@ def _together(outcomes: Sequence[Outcome]) -> Outcome:
     return Accepted(" and ".join(accepted)) if accepted else outcomes[-1]
 
 
-def solved(asked: Question, wanted: Sequence[Obligation], seconds: float | None) -> Outcome:
+def solved(asked: CertifyQuestion, wanted: Sequence[Obligation], seconds: float | None) -> Outcome:
     """What the solver says of the obligations."""
     symbols = [[s for at in range(o.ticks + 1) for s in _symbols(asked, at, o.ticks)] for o in wanted]
     for decided in solver.decide(wanted, symbols, seconds):
         match decided:
-            case solver.Broken(name, values):
+            case solver.BrokenSolver(name, values):
                 ticks = next(o.ticks for o in wanted if o.name == name)
                 return Rejected(name, _words(asked, ticks, values))
-            case solver.Late(name, reason):
+            case solver.SolverLate(name, reason):
                 return Undecided(f"{name}: {reason}")
     return Accepted(f"{len(wanted)} obligations by {solver.name()}")
 
 
-def _symbols(asked: Question, at: int, ticks: int) -> list[str]:
+def _symbols(asked: CertifyQuestion, at: int, ticks: int) -> list[str]:
     names = [v.name for v in (asked.state if not at else asked.tick.variables)]
     names += [v.name for v in asked.tick.inputs] if at < ticks else []
     return [asked.symbols(at)[name] for name in names]
 
 
-def _words(asked: Question, ticks: int, values: solver.Values) -> str:
+def _words(asked: CertifyQuestion, ticks: int, values: solver.Values) -> str:
     """The valuations and inputs, tick by tick."""
     parts = []
     for at in range(ticks + 1):

@@ -28,7 +28,7 @@ Edge = tuple[int, int, int]
 
 
 @dataclass(frozen=True)
-class Node:
+class CertifiedNode:
     """A question: the position of its variable, and edges with ascending values."""
 
     variable: int
@@ -36,7 +36,7 @@ class Node:
 
 
 @dataclass(frozen=True, eq=False)
-class Nodes(Sequence[Node]):
+class Nodes(Sequence[CertifiedNode]):
     """Nodes as columns, for there may be millions: number i is at place i - 1.
 
     ``variable`` has a place for each node, ``owner`` (the place of the node), ``low``, ``high`` and ``to``
@@ -50,7 +50,7 @@ class Nodes(Sequence[Node]):
     to: Column
 
     @classmethod
-    def of(cls, nodes: Iterable[Node]) -> "Nodes":
+    def of(cls, nodes: Iterable[CertifiedNode]) -> "Nodes":
         """The same nodes.  Raises ``OverflowError`` for a number of more than 64 bits."""
         if isinstance(nodes, Nodes):
             return nodes
@@ -60,23 +60,26 @@ class Nodes(Sequence[Node]):
         return cls(np.array([n.variable for n in nodes], dtype=np.int64), owner, *edges.T)
 
     @overload
-    def __getitem__(self, at: int) -> Node: ...
+    def __getitem__(self, at: int) -> CertifiedNode: ...
     @overload
-    def __getitem__(self, at: slice) -> tuple[Node, ...]: ...
-    def __getitem__(self, at: int | slice) -> Node | tuple[Node, ...]:
+    def __getitem__(self, at: slice) -> tuple[CertifiedNode, ...]: ...
+    def __getitem__(self, at: int | slice) -> CertifiedNode | tuple[CertifiedNode, ...]:
         if isinstance(at, slice):
             return tuple(self)[at]
         first, last = np.searchsorted(self.owner, at), np.searchsorted(self.owner, at, "right")
         columns = (column[first:last].tolist() for column in (self.low, self.high, self.to))
-        return Node(int(self.variable[at]), tuple(zip(*columns, strict=True)))
+        return CertifiedNode(int(self.variable[at]), tuple(zip(*columns, strict=True)))
 
     def __len__(self) -> int:
         return len(self.variable)
 
-    def __iter__(self) -> Iterator[Node]:
+    def __iter__(self) -> Iterator[CertifiedNode]:
         edges = zip(self.low.tolist(), self.high.tolist(), self.to.tolist(), strict=True)
         sizes = np.bincount(self.owner, minlength=len(self)).tolist()
-        return (Node(v, tuple(islice(edges, n))) for v, n in zip(self.variable.tolist(), sizes, strict=True))
+        return (
+            CertifiedNode(v, tuple(islice(edges, n)))
+            for v, n in zip(self.variable.tolist(), sizes, strict=True)
+        )
 
     def __eq__(self, other: object) -> bool:
         return isinstance(other, Nodes) and all(map(np.array_equal, self._columns, other._columns))
@@ -89,7 +92,7 @@ class Nodes(Sequence[Node]):
 
 
 @dataclass(frozen=True)
-class Diagram:
+class CertifiedDiagram:
     """A set of valuations of ``variables``, asked in this order.
 
     ``nodes[i - 1]`` is the node with number i; edges lead to lower numbers.  A variable that a path does
@@ -113,12 +116,12 @@ class Diagram:
         return True
 
 
-def size(diagram: Diagram) -> int:
+def size(diagram: CertifiedDiagram) -> int:
     """The number of nodes and edges."""
     return len(diagram.nodes) + len(diagram.nodes.to)
 
 
-def count(diagram: Diagram, domains: Sequence[Domain]) -> int:
+def count(diagram: CertifiedDiagram, domains: Sequence[Domain]) -> int:
     """How many valuations belong to the set, the variables having these domains."""
     nodes, sizes = diagram.nodes, [len(domain) for domain in domains]
     level = positions(diagram)
@@ -143,12 +146,12 @@ EXACT = 2.0**53
 """Whole numbers below this are exact as floating-point numbers."""
 
 
-def positions(diagram: Diagram) -> Column:
+def positions(diagram: CertifiedDiagram) -> Column:
     """The position of the variable that each node asks, by number; after all others for the end."""
     return np.concatenate([[len(diagram.variables)], diagram.nodes.variable])
 
 
-def counted(diagram: Diagram, domains: Sequence[Domain]) -> int:
+def counted(diagram: CertifiedDiagram, domains: Sequence[Domain]) -> int:
     """The same with numbers of any size."""
     sizes = [len(domain) for domain in domains]
     total, level = [1], [len(domains)]
@@ -168,13 +171,13 @@ def _between(values: Sequence[int], low: int, high: int) -> int:
     return bisect_right(values, high) - bisect_left(values, low)
 
 
-def members(diagram: Diagram, domains: Sequence[Domain]) -> Iterator[dict[str, int]]:
+def members(diagram: CertifiedDiagram, domains: Sequence[Domain]) -> Iterator[dict[str, int]]:
     """The valuations of the set, one after the other."""
     return _members(diagram, domains, diagram.root, 0)
 
 
 def _members(
-    diagram: Diagram, domains: Sequence[Domain], number: int, position: int
+    diagram: CertifiedDiagram, domains: Sequence[Domain], number: int, position: int
 ) -> Iterator[dict[str, int]]:
     """Values for the variables from ``position`` on that lead from a node to the end."""
     if position == len(domains):

@@ -7,10 +7,10 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import product
 from math import prod
 
-from checker.certify.diagram import Diagram, count, members
+from checker.certify.diagram import CertifiedDiagram, count, members
 from checker.certify.invariant import Conjuncts, Invariant
 from checker.certify.outcome import Accepted, Rejected, TooMuch, told
-from checker.certify.question import Question
+from checker.certify.question import CertifyQuestion
 from checker.certify.smtlib import width
 from checker.certify.terms import Value, definitions, evaluate
 from checker.certify.tick import conjuncts
@@ -31,7 +31,7 @@ Member = Callable[[Valuation], bool]
 Tried = Accepted | Rejected | TooMuch
 
 
-def enumerated(system: TransitionSystem, asked: Question, invariant: Invariant) -> Tried:
+def enumerated(system: TransitionSystem, asked: CertifyQuestion, invariant: Invariant) -> Tried:
     """Whether the invariant meets its obligations, shown by trying all there is."""
     if isinstance(invariant, Conjuncts) and invariant.ticks > 1:
         return TooMuch("the enumeration tries single ticks, not k-induction")
@@ -55,7 +55,7 @@ def enumerated(system: TransitionSystem, asked: Question, invariant: Invariant) 
 
 
 def _broken(
-    system: TransitionSystem, asked: Question, member: Member, before: Valuation, inputs: Valuation
+    system: TransitionSystem, asked: CertifyQuestion, member: Member, before: Valuation, inputs: Valuation
 ) -> Rejected | None:
     """What is wrong with a tick.  What is outside the question has any value: it does not matter."""
     at = {v.name: v.init for v in (*system.variables, *system.frozen)} | dict(before)
@@ -72,7 +72,7 @@ def _broken(
     return None if member(after) else Rejected("consecution", words)
 
 
-def _words(asked: Question, before: Valuation, inputs: Valuation) -> str:
+def _words(asked: CertifyQuestion, before: Valuation, inputs: Valuation) -> str:
     here = told(asked.state, before)
     return f"{here}; inputs {told(asked.tick.inputs, inputs)}" if inputs else here
 
@@ -80,32 +80,36 @@ def _words(asked: Question, before: Valuation, inputs: Valuation) -> str:
 # --- the valuations of an invariant ----------------------------------------------------------------
 
 
-def _size(asked: Question, invariant: Invariant) -> int:
+def _size(asked: CertifyQuestion, invariant: Invariant) -> int:
     """How many valuations are looked at."""
     own, rest = _split(asked, invariant)
-    found = count(invariant, [v.domain for v in own]) if isinstance(invariant, Diagram) else _choices(own)
+    found = (
+        count(invariant, [v.domain for v in own])
+        if isinstance(invariant, CertifiedDiagram)
+        else _choices(own)
+    )
     return found * _choices(rest)
 
 
-def _valuations(asked: Question, invariant: Invariant) -> Iterator[Valuation]:
+def _valuations(asked: CertifyQuestion, invariant: Invariant) -> Iterator[Valuation]:
     """All of the invariant, perhaps among others."""
     own, rest = _split(asked, invariant)
     domains = [v.domain for v in own]
-    found = members(invariant, domains) if isinstance(invariant, Diagram) else _vectors(own)
+    found = members(invariant, domains) if isinstance(invariant, CertifiedDiagram) else _vectors(own)
     return ({**a, **b} for a in found for b in _vectors(rest))
 
 
-def _split(asked: Question, invariant: Invariant) -> tuple[list[Var], list[Var]]:
+def _split(asked: CertifyQuestion, invariant: Invariant) -> tuple[list[Var], list[Var]]:
     """The variables of the invariant, in its order, and others that a tick reads."""
     by_name = {v.name: v for v in asked.state}
-    names = invariant.variables if isinstance(invariant, Diagram) else asked.about
+    names = invariant.variables if isinstance(invariant, CertifiedDiagram) else asked.about
     own = [by_name.pop(name) for name in names]
     read = variables(*asked.tick.next.values(), *asked.tick.assume)
     return own, [v for v in by_name.values() if v.name in read]
 
 
-def _member(asked: Question, invariant: Invariant) -> Member:
-    if isinstance(invariant, Diagram):
+def _member(asked: CertifyQuestion, invariant: Invariant) -> Member:
+    if isinstance(invariant, CertifiedDiagram):
         return invariant.__contains__
     symbols = asked.symbols(0)
     own = [v for v in asked.state if v.name in asked.about]

@@ -19,7 +19,7 @@ LARGE = 1 << 17
 
 
 @dataclass(frozen=True)
-class Origin:
+class CertificateOrigin:
     """Where the questions come from: what to check again to ask them again.
 
     ``proved`` are those of the searched ``properties`` whose verdicts rest on the certificates; the others
@@ -43,11 +43,11 @@ class Unwritable(Exception):
 class Written:
     """What a file holds."""
 
-    origin: Origin
+    origin: CertificateOrigin
     certificates: tuple[Certificate, ...]
 
 
-def write(folder: Path, origin: Origin, certificates: Sequence[Certificate]) -> Path:
+def write(folder: Path, origin: CertificateOrigin, certificates: Sequence[Certificate]) -> Path:
     """Write the file of one search, ``<system>-<first property>.json``, with ``.gz`` where it is large.
 
     Raises ``Unwritable``; what was there before is then still there.
@@ -65,7 +65,7 @@ def write(folder: Path, origin: Origin, certificates: Sequence[Certificate]) -> 
     return target
 
 
-def _document(origin: Origin, certificates: Sequence[Certificate]) -> dict[str, object]:
+def _document(origin: CertificateOrigin, certificates: Sequence[Certificate]) -> dict[str, object]:
     return {
         "schema": SCHEMA,
         "tool": f"rovercheck {_version()}",
@@ -105,7 +105,7 @@ def read(path: Path) -> Written:
     return Written(_origin(found.get("origin")), tuple(map(certificate, found["certificates"])))
 
 
-def _origin(found: Any) -> Origin:
+def _origin(found: Any) -> CertificateOrigin:
     try:
         texts = [str(found[name]) for name in ("system", "repair", "timers")]
         lists = [tuple(map(str, found[name])) for name in ("properties", "proved", "without")]
@@ -116,4 +116,4 @@ def _origin(found: Any) -> Origin:
         raise Malformed("its origin names no property, or proves one that was not searched")
     if any(len(set(named)) < len(named) for named in lists):
         raise Malformed("its origin names something twice")
-    return Origin(texts[0], lists[0], lists[1], readings, texts[1], lists[2], texts[2])
+    return CertificateOrigin(texts[0], lists[0], lists[1], readings, texts[1], lists[2], texts[2])

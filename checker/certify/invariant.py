@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Union
 
-from checker.certify.diagram import Diagram, Node
-from checker.certify.question import Question
+from checker.certify.diagram import CertifiedDiagram, CertifiedNode
+from checker.certify.question import CertifyQuestion
 from checker.certify.smtlib import Printer, among, define, joined, own, quoted
 from checker.results.verdict import Inductive
 from spec_model.lang.expr import Var
@@ -25,7 +25,7 @@ class Conjuncts:
     simple: bool = False
 
 
-Invariant = Union[Conjuncts, Diagram]
+Invariant = Union[Conjuncts, CertifiedDiagram]
 
 
 def conjuncts(found: Inductive, frozen: Sequence[Var], variables: Sequence[Var]) -> Conjuncts:
@@ -36,15 +36,15 @@ def conjuncts(found: Inductive, frozen: Sequence[Var], variables: Sequence[Var])
     return Conjuncts(tuple(printer.lines), written, found.ticks, found.simple)
 
 
-def holds(invariant: Invariant, question: Question, at: int) -> list[str]:
+def holds(invariant: Invariant, question: CertifyQuestion, at: int) -> list[str]:
     """Definitions up to that of the invariant after ``at`` ticks."""
-    if isinstance(invariant, Diagram):
+    if isinstance(invariant, CertifiedDiagram):
         return _diagram(invariant, question, at)
     whole = define(own("invariant", 0), "Bool", joined("and", invariant.conjuncts))
     return [line.replace("@0|", f"@{at}|") for line in (*invariant.definitions, whole)]
 
 
-def _diagram(diagram: Diagram, question: Question, at: int) -> list[str]:
+def _diagram(diagram: CertifiedDiagram, question: CertifyQuestion, at: int) -> list[str]:
     symbols = question.symbols(at)
     domains = {v.name: v.domain for v in question.state}
     nodes = ["true", *(own(f"n{number}", at) for number in range(1, len(diagram.nodes) + 1))]
@@ -56,7 +56,7 @@ def _diagram(diagram: Diagram, question: Question, at: int) -> list[str]:
     return [*lines, define(own("invariant", at), "Bool", nodes[diagram.root])]
 
 
-def _leads(node: Node) -> Mapping[int, list[tuple[int, int]]]:
+def _leads(node: CertifiedNode) -> Mapping[int, list[tuple[int, int]]]:
     """The intervals that lead to each node."""
     found: dict[int, list[tuple[int, int]]] = {}
     for low, high, to in node.edges:

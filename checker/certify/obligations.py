@@ -19,7 +19,7 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from checker.certify.invariant import Conjuncts, Invariant, holds
-from checker.certify.question import Question
+from checker.certify.question import CertifyQuestion
 from checker.certify.smtlib import joined, own, quoted
 
 LONGEST = 1 << 30
@@ -35,7 +35,7 @@ class Obligation:
     ticks: int
 
 
-def obligations(question: Question, invariant: Invariant) -> Iterator[Obligation]:
+def obligations(question: CertifyQuestion, invariant: Invariant) -> Iterator[Obligation]:
     """All obligations of a certificate."""
     valuation, first = question.valuation(), question.one_tick(0)
     here, there = holds(invariant, question, 0), holds(invariant, question, 1)
@@ -54,7 +54,7 @@ def obligations(question: Question, invariant: Invariant) -> Iterator[Obligation
         yield _obligation("safety", 1, tick, before, reached)
 
 
-def too_long(question: Question, invariant: Invariant) -> bool:
+def too_long(question: CertifyQuestion, invariant: Invariant) -> bool:
     """Whether the number of ticks is out of all reason: a file may say anything."""
     if not isinstance(invariant, Conjuncts):
         return False
@@ -63,7 +63,7 @@ def too_long(question: Question, invariant: Invariant) -> bool:
     return invariant.ticks * len(question.text) + pairs * apart > LONGEST
 
 
-def _induction(question: Question, invariant: Conjuncts, claim: str) -> Iterator[Obligation]:
+def _induction(question: CertifyQuestion, invariant: Conjuncts, claim: str) -> Iterator[Obligation]:
     k = invariant.ticks
     ticks = [line for at in range(k) for line in question.one_tick(at)]
     start = [*question.valuation(), *question.initial(), *ticks]
@@ -79,7 +79,7 @@ def _induction(question: Question, invariant: Conjuncts, claim: str) -> Iterator
     yield _obligation(f"step of {claim}", k, lines, before, quoted(claim, k))
 
 
-def _apart(question: Question, k: int) -> list[str]:
+def _apart(question: CertifyQuestion, k: int) -> list[str]:
     """No two of the valuations before the k ticks are the same."""
     names = [v.name for v in question.tick.variables]
     return [

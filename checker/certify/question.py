@@ -11,12 +11,12 @@ from hashlib import sha256
 
 from checker.certify.smtlib import Printer, among, define, joined, own, quoted, sort, sort_bits, within
 from checker.certify.terms import Sort
-from checker.certify.tick import Executed, Tick
+from checker.certify.tick import CertifiedTick, Executed
 from spec_model.lang.expr import Var
 
 
 @dataclass(frozen=True)
-class Question:
+class CertifyQuestion:
     """Claimed goals of a system, and the part of the system that decides them.
 
     ``kept`` are the positions of the conjuncts of the assumption that the proof uses: what holds with
@@ -26,7 +26,7 @@ class Question:
     claims: tuple[str, ...]
     kept: tuple[int, ...]
     about: tuple[str, ...]
-    tick: Tick
+    tick: CertifiedTick
 
     @cached_property
     def text(self) -> str:
@@ -86,10 +86,12 @@ class Question:
         ]
 
 
-def question(step: Executed, claims: Sequence[str], kept: Sequence[int], about: Sequence[str]) -> Question:
+def question(
+    step: Executed, claims: Sequence[str], kept: Sequence[int], about: Sequence[str]
+) -> CertifyQuestion:
     """The question whether the claimed goals are ever true after a tick.
 
     Raises ``KeyError`` for a name that is no variable of the system, ``IndexError`` for a position that is
     none of a conjunct of its assumption.
     """
-    return Question(tuple(claims), tuple(kept), tuple(about), step.cone([*claims, *about], kept))
+    return CertifyQuestion(tuple(claims), tuple(kept), tuple(about), step.cone([*claims, *about], kept))

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
 from checker.certify.certificate import Certificate
-from checker.certify.diagram import Diagram
+from checker.certify.diagram import CertifiedDiagram
 from checker.certify.outcome import Accepted, Outcome
 from checker.engines import Limits, Progress
 from checker.results.verdict import Answer, Exhausted, Inductive, Open, Unreachable
@@ -19,7 +19,7 @@ Checked = Callable[[Certificate, TransitionSystem], Outcome]
 
 
 @dataclass
-class Reader:
+class CertificateReader:
     """Answers from certificates, each checked against every system of its name that is asked about.
 
     ``outcomes`` has what came of each that was checked, by its position; one system that accepts it will do.
@@ -48,7 +48,7 @@ class Reader:
 
 
 def _unreachable(one: Certificate) -> Unreachable:
-    if isinstance(one.invariant, Diagram):
+    if isinstance(one.invariant, CertifiedDiagram):
         counted = one.found.get("valuations", 0), 0, one.found.get("depth", 0)
         return Unreachable(Exhausted(*counted, one.invariant.variables))
     return Unreachable(Inductive((), one.invariant.ticks, one.invariant.simple))

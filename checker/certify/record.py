@@ -11,7 +11,7 @@ from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 
 
-class Asked(Protocol):
+class CertifyRequest(Protocol):
     """A question to an engine (``checker.verify.portfolio.Question``)."""
 
     @property
@@ -30,7 +30,7 @@ class Recorder:
 
     made: list[Certificate] = field(default_factory=list)
 
-    def answered(self, asked: Asked, found: Mapping[str, tuple[Answer, str]]) -> None:
+    def answered(self, asked: CertifyRequest, found: Mapping[str, tuple[Answer, str]]) -> None:
         """Answers to a question, each with the name of the engine that gave it."""
         for engine in sorted({by for _, by in found.values()}):
             own = {name: answer for name, (answer, by) in found.items() if by == engine}

@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.certify.diagram import TRUE, Diagram, Nodes
-from checker.results.closed import ClosedSet, Place
+from checker.certify.diagram import TRUE, CertifiedDiagram, Nodes
+from checker.results.closed import BitPlace, ClosedSet
 
 Codes = NDArray[np.signedinteger[Any]]
 Words = NDArray[np.uint64]
@@ -17,10 +17,10 @@ LARGE = 1 << 20
 """Valuations from which on one order is tried."""
 
 
-def diagram(closed: ClosedSet) -> Diagram:
+def diagram(closed: ClosedSet) -> CertifiedDiagram:
     """The diagram of the set in that one of a few orders of its variables in which it is smallest."""
     if not closed.places:  # the goals depend on inputs alone
-        return Diagram((), Nodes.of(()), TRUE)
+        return CertifiedDiagram((), Nodes.of(()), TRUE)
     codes = [_codes(place, closed.words) for place in closed.places]
     found = (
         reduced([closed.places[i] for i in order], [codes[i] for i in order]) for order in _orders(codes)
@@ -44,13 +44,13 @@ def _orders(codes: Sequence[Codes]) -> Iterator[list[int]]:
         yield everyone[::-1]
 
 
-def _codes(place: Place, words: Words) -> Codes:
+def _codes(place: BitPlace, words: Words) -> Codes:
     column = words[:, place.word] >> np.uint64(place.shift) & np.uint64((1 << place.bits) - 1)
     return column.astype(np.int16 if place.bits < 16 else np.int32 if place.bits < 32 else np.int64)
 
 
 @dataclass(frozen=True)
-class Level:
+class ReductionLevel:
     """The nodes of one variable: the ends of their edges and where these lead, node after node.
 
     ``sizes`` are the numbers of edges of each node.
@@ -67,8 +67,8 @@ class Level:
 class Reduced:
     """The levels of a diagram, the last variable first."""
 
-    places: tuple[Place, ...]
-    levels: tuple[Level, ...]
+    places: tuple[BitPlace, ...]
+    levels: tuple[ReductionLevel, ...]
     root: int
 
     @property
@@ -77,22 +77,22 @@ class Reduced:
         return sum(len(level.sizes) + len(level.to) for level in self.levels)
 
     @property
-    def diagram(self) -> Diagram:
+    def diagram(self) -> CertifiedDiagram:
         """The diagram."""
         sizes = np.concatenate([level.sizes for level in self.levels])
         variable = np.repeat([n.position for n in self.levels], [len(n.sizes) for n in self.levels])
         owner = np.repeat(np.arange(len(sizes)), sizes)
         edges = (np.concatenate(c) for c in zip(*((n.low, n.high, n.to) for n in self.levels), strict=True))
         nodes = Nodes(variable, owner, *edges)
-        return Diagram(tuple(p.var.name for p in self.places), nodes, self.root)
+        return CertifiedDiagram(tuple(p.var.name for p in self.places), nodes, self.root)
 
 
-def reduced(places: Sequence[Place], codes: Sequence[Codes]) -> Reduced:
+def reduced(places: Sequence[BitPlace], codes: Sequence[Codes]) -> Reduced:
     """The diagram of distinct rows, one column of codes for each variable, in this order."""
     order = np.lexsort(codes[::-1])
     changed = _first_difference([column[order] for column in codes])
     child = np.zeros(len(order), dtype=np.int64)
-    made: list[Level] = []
+    made: list[ReductionLevel] = []
     known = 0
     for level in reversed(range(len(places))):
         starts = np.flatnonzero(changed < level)
@@ -114,8 +114,8 @@ def _first_difference(columns: Sequence[Codes]) -> NDArray[np.int32]:
 
 
 def _level(
-    place: Place, level: int, values: Codes, child: Codes, starts: Codes, known: int
-) -> tuple[Codes, Level]:
+    place: BitPlace, level: int, values: Codes, child: Codes, starts: Codes, known: int
+) -> tuple[Codes, ReductionLevel]:
     """The node of each group of rows that begins at ``starts``, and the nodes that are new.
 
     Groups with the same values and children share a node; none is needed where every value leads to the same
@@ -139,7 +139,7 @@ def _level(
     kept = needed[owner]
     made = np.where(needed, known + np.cumsum(needed), to[begins])
     count = np.bincount(owner, minlength=len(sizes))[needed]
-    return made[numbers], Level(level, count, low[edges][kept], low[ends][kept], to[edges][kept])
+    return made[numbers], ReductionLevel(level, count, low[edges][kept], low[ends][kept], to[edges][kept])
 
 
 def _rows(starts: Codes, sizes: Codes) -> tuple[Codes, Codes]:

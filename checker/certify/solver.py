@@ -27,7 +27,7 @@ class Met:
 
 
 @dataclass(frozen=True)
-class Broken:
+class BrokenSolver:
     """The obligation is not met: values of the symbols asked for that show it."""
 
     name: str
@@ -35,7 +35,7 @@ class Broken:
 
 
 @dataclass(frozen=True)
-class Late:
+class SolverLate:
     """Nothing is known of the obligation, and why."""
 
     name: str
@@ -49,7 +49,7 @@ class Ill:
     reason: str
 
 
-Decided = Met | Broken | Late
+Decided = Met | BrokenSolver | SolverLate
 
 
 def name() -> str:
@@ -81,15 +81,15 @@ def decide(
     except Stopped as stopped:
         ended = str(stopped)
     if waiting:
-        yield Late(waiting[0], ended)
+        yield SolverLate(waiting[0], ended)
 
 
 def _decided(name: str, message: object) -> Decided:
     if isinstance(message, Ill):
         raise Malformed(message.reason)
     if isinstance(message, dict):
-        return Broken(name, message)
-    return Met(name) if message is True else Late(name, str(message))
+        return BrokenSolver(name, message)
+    return Met(name) if message is True else SolverLate(name, str(message))
 
 
 # --- in the child --------------------------------------------------------------------------------

@@ -16,9 +16,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.certify.diagram import Diagram, count, positions
+from checker.certify.diagram import CertifiedDiagram, count, positions
 from checker.certify.outcome import Accepted, Rejected, TooMuch, told
-from checker.certify.question import Question
+from checker.certify.question import CertifyQuestion
 from checker.system.intervals import intervals, postorder
 from spec_model.lang.domain import Bool, Domain
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var
@@ -39,7 +39,7 @@ Columns = Mapping[str, Column]
 Member = Callable[[Columns], NDArray[np.bool_]]
 
 
-def swept(asked: Question, diagram: Diagram) -> Accepted | Rejected | TooMuch:
+def swept(asked: CertifyQuestion, diagram: CertifiedDiagram) -> Accepted | Rejected | TooMuch:
     """Whether the closed set meets its obligations, shown on all of its valuations."""
     domains = {v.name: v.domain for v in asked.state}
     roots = (*asked.tick.next.values(), *asked.tick.assume)
@@ -60,7 +60,7 @@ def swept(asked: Question, diagram: Diagram) -> Accepted | Rejected | TooMuch:
         if initial not in diagram:
             return Rejected("initiation", told(asked.state, initial))
     try:
-        rows = Rows(diagram, domains, size)
+        rows = SweepRows(diagram, domains, size)
     except DeadEnd:
         return TooMuch("the diagram has paths that lead to no valuation")
     for at in rows:
@@ -70,7 +70,7 @@ def swept(asked: Question, diagram: Diagram) -> Accepted | Rejected | TooMuch:
     return Accepted(f"{size:,} valuations and {choices:,} vectors of inputs tried")
 
 
-def _broken(asked: Question, formulas: "Formulas", member: Member, at: Columns) -> Rejected | None:
+def _broken(asked: CertifyQuestion, formulas: "Formulas", member: Member, at: Columns) -> Rejected | None:
     """What is wrong with the ticks from some valuations."""
     rows = len(next(iter(at.values())))
     for here, allowed, following in formulas.each(at):
@@ -86,7 +86,7 @@ def _broken(asked: Question, formulas: "Formulas", member: Member, at: Columns) 
     return None
 
 
-def _wrong(asked: Question, member: Member, after: Columns) -> dict[str, NDArray[np.bool_]]:
+def _wrong(asked: CertifyQuestion, member: Member, after: Columns) -> dict[str, NDArray[np.bool_]]:
     """Which rows break which obligation."""
     outside = [~_inside(v.domain, after[v.name]) for v in asked.tick.variables]
     reached = [after[claim] != 0 for claim in asked.claims]
@@ -110,7 +110,7 @@ class DeadEnd(Exception):
     """A diagram has more paths than valuations."""
 
 
-class Rows:
+class SweepRows:
     """The valuations of a diagram packed into words, among which others are looked up.
 
     The code of a value is its place in the domain.  Each variable has its bits in one of the words; those
@@ -118,7 +118,7 @@ class Rows:
     there are more than ``size`` paths, which only a diagram has that was made by hand.
     """
 
-    def __init__(self, diagram: Diagram, domains: Mapping[str, Domain], size: int) -> None:
+    def __init__(self, diagram: CertifiedDiagram, domains: Mapping[str, Domain], size: int) -> None:
         self._size = size
         values_of = (np.array(domains[name].values, dtype=np.int64) for name in diagram.variables)
         self._columns = list(zip(diagram.variables, values_of, strict=True))
@@ -161,7 +161,7 @@ class Rows:
             found &= known[number] == wanted
         return found
 
-    def _edges(self, diagram: Diagram) -> "Edges":
+    def _edges(self, diagram: CertifiedDiagram) -> "Edges":
         nodes = diagram.nodes
         sizes = nodes.high - nodes.low + 1
         edge = np.repeat(np.arange(len(sizes)), sizes)

@@ -19,7 +19,7 @@ Store = dict[str, Expr]
 
 
 @dataclass(frozen=True)
-class Tick:
+class CertifiedTick:
     """One tick of the part of a system that some variables depend on (their cone of influence).
 
     ``next`` gives each of ``variables`` after the tick, by name; ``assume`` are the conjuncts of the
@@ -41,7 +41,7 @@ class Executed:
     next: Mapping[str, Expr]
     assume: tuple[Expr, ...]
 
-    def cone(self, roots: Iterable[str], kept: Sequence[int]) -> Tick:
+    def cone(self, roots: Iterable[str], kept: Sequence[int]) -> CertifiedTick:
         """The part that the named variables, and the kept conjuncts of the assumption, depend on.
 
         Raises ``KeyError`` for a variable that the system does not have, ``IndexError`` for a conjunct.
@@ -54,7 +54,7 @@ class Executed:
             own = [self.next[n] for n in fresh if n in self.next or not self._given(n)]
             fresh = variables(*own).keys() - found
         own_variables = tuple(v for v in self.system.variables if v.name in found)
-        return Tick(
+        return CertifiedTick(
             tuple(v for v in self.system.inputs if v.name in found),
             tuple(v for v in self.system.frozen if v.name in found),
             own_variables,

@@ -7,7 +7,7 @@ from functools import cache
 from itertools import pairwise, product
 
 from spec_model.abstraction import Board, Value
-from spec_model.abstraction.board import Raw, Signal, computed
+from spec_model.abstraction.board import BoardSignal, Raw, computed
 from spec_model.abstraction.signals import plain
 from spec_model.lang.action import Action, Assign, each_action, expressions
 from spec_model.lang.chart import Component, Enabled
@@ -210,7 +210,7 @@ def _replace(expr: Expr, name: str, value: Expr) -> Expr:
     return expr
 
 
-def _of(signal: Signal, var: Var, node: Apply, stamps: Mapping[str, str]) -> Iterator[Boundary]:
+def _of(signal: BoardSignal, var: Var, node: Apply, stamps: Mapping[str, str]) -> Iterator[Boundary]:
     """The boundaries of one input in a comparison, for every choice of what else it reads."""
     assert isinstance(var.sort, Num)
     others = [v for v in variables(node).values() if v.name != var.name]
@@ -253,7 +253,7 @@ def _distance(other: Var, var: Var) -> bool:
     )
 
 
-def _roots(signal: Signal, var: Var, node: Apply, at: Mapping[str, int]) -> Iterator[Fraction]:
+def _roots(signal: BoardSignal, var: Var, node: Apply, at: Mapping[str, int]) -> Iterator[Fraction]:
     """Where the two sides of the comparison are equal, and not so on both sides of it."""
     assert isinstance(var.sort, Num)
     ends = (Fraction(str(signal.low)), Fraction(str(signal.high)))

@@ -6,7 +6,7 @@ from functools import cache
 from math import isclose
 
 from checker.adapters.implementation import Implementation, Value, Values, run
-from checker.compare.stimulus import Player, Stimulus
+from checker.compare.stimulus import Stimulus, StimulusPlayer
 from spec_model.abstraction import Board
 from spec_model.lang.chart import parts
 from spec_model.lang.domain import Num
@@ -20,7 +20,7 @@ BATCH = 200
 
 
 @dataclass(frozen=True)
-class Step:
+class ComparedStep:
     """The inputs of a step, the outputs that the charts require, and the arrows that they took."""
 
     inputs: Mapping[str, Value]
@@ -29,7 +29,7 @@ class Step:
 
 
 @dataclass(frozen=True)
-class Difference:
+class StepDifference:
     """An output that is not as the charts require; ``actual`` is None where it is missing."""
 
     name: str
@@ -38,15 +38,15 @@ class Difference:
 
 
 @dataclass(frozen=True)
-class Mismatch:
+class StepMismatch:
     """A run whose last step, and no other, has outputs that the charts do not allow.
 
     The first difference is that of the component that executes first.
     """
 
     board: Board
-    steps: tuple[Step, ...]
-    differences: tuple[Difference, ...]
+    steps: tuple[ComparedStep, ...]
+    differences: tuple[StepDifference, ...]
     origin: str = ""
 
     @property
@@ -69,7 +69,7 @@ class Mismatch:
         return (self.board.name, first, arrows[-1] if arrows else None)
 
 
-class Charts:
+class SteppedCharts:
     """The charts of a board, run on concrete inputs from power-up."""
 
     def __init__(self, board: Board) -> None:
@@ -81,25 +81,27 @@ class Charts:
         """Everything that the charts hold."""
         return self._interpreter.valuation()
 
-    def step(self, inputs: Values) -> Step:
+    def step(self, inputs: Values) -> ComparedStep:
         """One execution.  Raises ``ModelError`` for inputs that the charts give no meaning to."""
         fired = self._interpreter.step(self._reader.step(inputs))
-        return Step(inputs, self._board.expected(self._interpreter.valuation()), fired)
+        return ComparedStep(inputs, self._board.expected(self._interpreter.valuation()), fired)
 
 
-def played(board: Board, fields: Mapping[str, tuple[str, ...]], stimulus: Stimulus) -> list[Step]:
+def played(board: Board, fields: Mapping[str, tuple[str, ...]], stimulus: Stimulus) -> list[ComparedStep]:
     """What the charts do under a stimulus."""
-    charts = Charts(board)
-    return [charts.step(inputs) for inputs in Player(board, fields, charts).steps(stimulus)]
+    charts = SteppedCharts(board)
+    return [charts.step(inputs) for inputs in StimulusPlayer(board, fields, charts).steps(stimulus)]
 
 
-def rerun(board: Board, inputs: Iterable[Values]) -> list[Step]:
+def rerun(board: Board, inputs: Iterable[Values]) -> list[ComparedStep]:
     """What the charts do under concrete inputs."""
-    charts = Charts(board)
+    charts = SteppedCharts(board)
     return [charts.step(one) for one in inputs]
 
 
-def compared(board: Board, steps: Sequence[Step], implementation: Implementation) -> Mismatch | None:
+def compared(
+    board: Board, steps: Sequence[ComparedStep], implementation: Implementation
+) -> StepMismatch | None:
     """The first step in which an implementation differs, starting at power-up.
 
     Raises ``ImplementationError``.
@@ -113,7 +115,7 @@ def compared(board: Board, steps: Sequence[Step], implementation: Implementation
         for number, (step, actual) in enumerate(zip(part, found, strict=True), start + 1):
             if differs(step.expected, actual, seen):
                 different = differences(board, step.expected, actual, seen)
-                return Mismatch(board, tuple(steps[:number]), different)
+                return StepMismatch(board, tuple(steps[:number]), different)
     return None
 
 
@@ -126,11 +128,11 @@ def differs(expected: Values, actual: Values, seen: set[str]) -> bool:
     return False
 
 
-def differences(board: Board, expected: Values, actual: Values, seen: set[str]) -> tuple[Difference, ...]:
+def differences(board: Board, expected: Values, actual: Values, seen: set[str]) -> tuple[StepDifference, ...]:
     """All outputs that are not as required, those of what executes first at the beginning."""
     numbers = {o.name for o in board.outputs if isinstance(o.signal.domain.sort, Num)}
     found = [
-        Difference(name, value, actual.get(name))
+        StepDifference(name, value, actual.get(name))
         for name, value in expected.items()
         if name in actual or name in seen
         if not (_close(value, actual.get(name)) if name in numbers else actual.get(name) == value)

@@ -8,12 +8,12 @@ from pathlib import Path
 
 from checker.adapters import start
 from checker.adapters.implementation import Implementation
-from checker.compare.beside import Mismatch, compared, played, rerun
+from checker.compare.beside import StepMismatch, compared, played, rerun
 from checker.compare.environment import Environment
 from checker.compare.fixed import fixed
 from checker.compare.recorded import counterexamples, tests
-from checker.compare.result import ALLOWED, Allowance, Result
-from checker.compare.search import Progress, Run, Search, effort
+from checker.compare.result import ALLOWED, Allowance, CompareResult
+from checker.compare.search import CompareSearch, Progress, Run, effort
 from checker.compare.smaller import BUDGET
 from checker.compare.stimulus import Stimulus
 from checker.compare.strategy import ENVIRONMENTS
@@ -38,7 +38,7 @@ def cross_check(
     allowance: Allowance = ALLOWED,
     progress: Progress = lambda search: None,
     charts: Board | None = None,
-) -> Result:
+) -> CompareResult:
     """Compare an implementation of ``board1`` or ``board2`` with the charts.
 
     ``profile`` is ``ci`` or ``nightly``; ``examples`` and ``seed`` replace what it says.  With ``stop_early``
@@ -48,7 +48,7 @@ def cross_check(
     they require.
     """
     env = ENVIRONMENTS[board] if charts is None else replace(ENVIRONMENTS[board], board=charts)
-    search = Search(
+    search = CompareSearch(
         env,
         implementation,
         effort(profile, examples, seed),
@@ -62,7 +62,7 @@ def cross_check(
 
 def quick_check(
     board: str, implementation: Implementation, profile: str = "ci", *, examples: int | None = None
-) -> Mismatch | None:
+) -> StepMismatch | None:
     """The first difference in the runs of a profile, or None if there is none.
 
     The charts go through the runs at the first call only.  Raises ``ImplementationError``.
@@ -78,7 +78,7 @@ def recorded_suite(board: str, profile: str = "ci", examples: int | None = None)
 
 def replay(
     board: str, address: str, stimulus: Stimulus, readings: Mapping[str, str] = AS_READ, repair: str = ""
-) -> Mismatch | None:
+) -> StepMismatch | None:
     """Run the implementation at an address ``KIND:WHAT`` and the charts under one stimulus.
 
     The charts are those under ``readings``, with a repair if one is named.

@@ -6,7 +6,7 @@ from fractions import Fraction
 from functools import cache
 
 from checker.compare.aims import aims
-from checker.compare.beside import Step
+from checker.compare.beside import ComparedStep
 from spec_model.abstraction import Board
 from spec_model.lang.chart import Chart, Path, Transition
 from spec_model.lang.expr import Const
@@ -18,7 +18,7 @@ NEAR_SHARE = Fraction(1, 100)
 
 
 @dataclass(frozen=True, order=True)
-class Arrow:
+class CoveredArrow:
     """A complete path of a chart from state to state, with its label as drawn; ``order`` as in ``Fired``."""
 
     chart: str
@@ -33,28 +33,28 @@ class Arrow:
         return f"{self.chart}: {start}{'.'.join(self.target)}{number}{' ' + self.label if self.label else ''}"
 
 
-def taken(fired: Fired) -> Arrow:
+def taken(fired: Fired) -> CoveredArrow:
     """The arrow that fired."""
-    return Arrow(fired.chart, fired.source, fired.order, fired.target, fired.label)
+    return CoveredArrow(fired.chart, fired.source, fired.order, fired.target, fired.label)
 
 
-def arrows(board: Board) -> frozenset[Arrow]:
+def arrows(board: Board) -> frozenset[CoveredArrow]:
     """All arrows of a board, those left out that no reading of a sentence lets fire."""
     return _arrows(board.name, board)
 
 
 @cache
-def _arrows(name: str, board: Board) -> frozenset[Arrow]:
+def _arrows(name: str, board: Board) -> frozenset[CoveredArrow]:
     return frozenset(a for chart in board.system.charts for a in _of(chart))
 
 
-def _of(chart: Chart) -> Iterator[Arrow]:
+def _of(chart: Chart) -> Iterator[CoveredArrow]:
     for path, state in chart.states.items():
         for target, segments in _paths(chart, path, state.default):
-            yield Arrow(chart.name, (), 0, target, path_label(segments))
+            yield CoveredArrow(chart.name, (), 0, target, path_label(segments))
         for order, arrow in enumerate(state.transitions, 1):
             for target, segments in _paths(chart, path[:-1], (arrow,)):
-                yield Arrow(chart.name, path, order, target, path_label(segments))
+                yield CoveredArrow(chart.name, path, order, target, path_label(segments))
 
 
 def _paths(
@@ -76,17 +76,17 @@ def _paths(
 
 
 @dataclass
-class Coverage:
+class ArrowCoverage:
     """Arrows and values met so far."""
 
     board: Board
-    taken: set[Arrow] = field(default_factory=set)
+    taken: set[CoveredArrow] = field(default_factory=set)
     steps: int = 0
     runs: int = 0
     _fired: set[Fired] = field(default_factory=set)
     _values: dict[str, set[float]] = field(default_factory=dict)
 
-    def add(self, steps: list[Step]) -> None:
+    def add(self, steps: list[ComparedStep]) -> None:
         """A run."""
         self.runs += 1
         self.steps += len(steps)
@@ -99,7 +99,7 @@ class Coverage:
         self.taken = {taken(fired) for fired in self._fired}
 
     @property
-    def missing(self) -> tuple[Arrow, ...]:
+    def missing(self) -> tuple[CoveredArrow, ...]:
         """The arrows that no run took."""
         return tuple(sorted(arrows(self.board) - self.taken))
 

@@ -6,11 +6,11 @@ from functools import cached_property
 
 from hypothesis import strategies as st
 
-from checker.compare.stimulus import Block, Change, Every
+from checker.compare.stimulus import Change, Every, InputBlock
 from checker.compare.values import Values
 from spec_model.abstraction import Board, Value
 
-Blocks = list[Block]
+Blocks = list[InputBlock]
 Phase = Callable[["Environment"], st.SearchStrategy[Blocks]]
 """A few blocks that belong together, such as a half turn or the loss of a source."""
 

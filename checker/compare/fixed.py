@@ -5,7 +5,7 @@ from itertools import combinations, groupby, pairwise, zip_longest
 
 from checker.compare.aims import formulas
 from checker.compare.environment import AROUND, Blocks, Environment
-from checker.compare.stimulus import SILENT, Block, Change, Every, Stimulus
+from checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus
 from spec_model.abstraction import Value
 from spec_model.abstraction.board import computed
 from spec_model.abstraction.signals import plain
@@ -42,7 +42,7 @@ def fixed(env: Environment) -> Iterator[Labelled]:
 
 def _in_runs(env: Environment, label: str, begin: Blocks, parts: list[Blocks]) -> Iterator[Labelled]:
     """The parts one after another, in as many runs as their length asks for."""
-    opening = [Block(2, env.at_rest), *begin]
+    opening = [InputBlock(2, env.at_rest), *begin]
     blocks = list(opening)
     for part in parts:
         if sum(b.steps for b in blocks) > LONG:
@@ -60,14 +60,20 @@ def _first_steps(env: Environment) -> Iterator[Labelled]:
     calm = dict(env.at_rest)
     for values in zip_longest(*(env.values.aimed[name] for name in names)):
         chosen = tuple((n, calm[n] if v is None else v) for n, v in zip(names, values, strict=True))
-        yield "first step", Stimulus((Block(1, (*stamps, *chosen)), Block(2, env.at_rest)))
+        yield "first step", Stimulus((InputBlock(1, (*stamps, *chosen)), InputBlock(2, env.at_rest)))
     for late_ms in LATE_MS:
-        yield "late first step", Stimulus((Block(3), Block(3, env.at_rest)), late_ms)
+        yield "late first step", Stimulus((InputBlock(3), InputBlock(3, env.at_rest)), late_ms)
     for flags in combinations(_flags(env), 2):
-        yield "first step", Stimulus((Block(1, (*env.at_rest, *((f, not calm[f]) for f in flags))), Block(2)))
+        yield (
+            "first step",
+            Stimulus((InputBlock(1, (*env.at_rest, *((f, not calm[f]) for f in flags))), InputBlock(2))),
+        )
     for one in env.values.stamps:
-        yield "first step", Stimulus((Block(30, (*env.at_rest, (one, SILENT))), Block(5, env.at_rest)))
-    yield "silence", Stimulus((Block(max(env.timers)), Block(max(env.timers), env.at_rest)))
+        yield (
+            "first step",
+            Stimulus((InputBlock(30, (*env.at_rest, (one, SILENT))), InputBlock(5, env.at_rest))),
+        )
+    yield "silence", Stimulus((InputBlock(max(env.timers)), InputBlock(max(env.timers), env.at_rest)))
 
 
 def _flags(env: Environment) -> list[str]:
@@ -78,7 +84,7 @@ def _each_value(env: Environment) -> Iterator[Blocks]:
     calm = dict(env.at_rest)
     for name, values in env.values.aimed.items():
         for value in values:
-            yield [Block(2, ((name, value),)), Block(1, ((name, calm[name]),))]
+            yield [InputBlock(2, ((name, value),)), InputBlock(1, ((name, calm[name]),))]
 
 
 def _pairs(env: Environment) -> Iterator[Blocks]:
@@ -87,7 +93,7 @@ def _pairs(env: Environment) -> Iterator[Blocks]:
     for a, b in combinations(_flags(env), 2):
         tour = ((1, 0), (1, 1), (0, 1), (1, 0), (0, 1), (0, 0), (1, 1), (0, 0))
         at_rest = (bool(calm[a]), bool(calm[b]))
-        yield [Block(1, ((a, bool(x) != at_rest[0]), (b, bool(y) != at_rest[1]))) for x, y in tour]
+        yield [InputBlock(1, ((a, bool(x) != at_rest[0]), (b, bool(y) != at_rest[1]))) for x, y in tour]
 
 
 def _silences(env: Environment) -> Iterator[Blocks]:
@@ -95,8 +101,8 @@ def _silences(env: Environment) -> Iterator[Blocks]:
     for stamp in env.values.stamps:
         for rhythm in env.lags:
             for length in env.silences(stamp):
-                yield [Block(2, ((stamp, rhythm),)), Block(length, ((stamp, SILENT),))]
-        yield [Block(3, ((stamp, Every()),))]
+                yield [InputBlock(2, ((stamp, rhythm),)), InputBlock(length, ((stamp, SILENT),))]
+        yield [InputBlock(3, ((stamp, Every()),))]
 
 
 def _rhythms(env: Environment) -> Iterator[Blocks]:
@@ -105,8 +111,8 @@ def _rhythms(env: Environment) -> Iterator[Blocks]:
         if env.values.aims.silences.get(stamp, (99,))[0] < 20:  # whose mean gap is watched
             for rhythm in env.rhythms:
                 gaps = max(len(rhythm.gaps), 11)
-                yield [Block(gaps * sum(rhythm.gaps) // len(rhythm.gaps) + 1, ((stamp, rhythm),))]
-                yield [Block(11, ((stamp, Every()),))]
+                yield [InputBlock(gaps * sum(rhythm.gaps) // len(rhythm.gaps) + 1, ((stamp, rhythm),))]
+                yield [InputBlock(11, ((stamp, Every()),))]
 
 
 def _aging(env: Environment) -> Iterator[Blocks]:
@@ -114,7 +120,11 @@ def _aging(env: Environment) -> Iterator[Blocks]:
     for boundary, value in env.values.aging:
         if abs(float(value) - float(boundary.value)) <= CLOSE:
             fresh: tuple[tuple[str, Change], ...] = ((boundary.signal, value), (boundary.source, Every()))
-            yield [Block(2, fresh), Block(boundary.steps + 1, ((boundary.source, SILENT),)), Block(1, fresh)]
+            yield [
+                InputBlock(2, fresh),
+                InputBlock(boundary.steps + 1, ((boundary.source, SILENT),)),
+                InputBlock(1, fresh),
+            ]
 
 
 def _held(env: Environment) -> Iterator[Blocks]:
@@ -127,9 +137,15 @@ def _held(env: Environment) -> Iterator[Blocks]:
             for name in sorted(names):
                 for value in _at_the_ends(env, name, word):
                     for more in AROUND:
-                        yield [Block(ticks + more, ((name, value),)), Block(2, ((name, calm[name]),))]
+                        yield [
+                            InputBlock(ticks + more, ((name, value),)),
+                            InputBlock(2, ((name, calm[name]),)),
+                        ]
                 for value in _beside_the_limits(env, name, word):
-                    yield [Block(ticks + max(AROUND), ((name, value),)), Block(2, ((name, calm[name]),))]
+                    yield [
+                        InputBlock(ticks + max(AROUND), ((name, value),)),
+                        InputBlock(2, ((name, calm[name]),)),
+                    ]
 
 
 def _at_the_ends(env: Environment, name: str, word: Temporal) -> list[Value]:

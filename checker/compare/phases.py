@@ -5,7 +5,7 @@ from collections.abc import Callable, Sequence
 from hypothesis import strategies as st
 
 from checker.compare.environment import SHORT, Blocks, Environment
-from checker.compare.stimulus import SILENT, Block, Change, Turning
+from checker.compare.stimulus import SILENT, Change, InputBlock, Turning
 from checker.compare.values import PARTS
 from spec_model.abstraction import Value
 
@@ -51,10 +51,10 @@ def changes(draw: st.DrawFn, env: Environment, most: int = 4) -> tuple[tuple[str
 def disturb(draw: st.DrawFn, env: Environment) -> Blocks:
     """A few inputs change and stay so for a while; perhaps they return."""
     changed = draw(changes(env))
-    blocks = [Block(draw(steps(env)), changed)]
+    blocks = [InputBlock(draw(steps(env)), changed)]
     if draw(st.booleans()):
         calm = dict(env.at_rest)
-        blocks.append(Block(draw(steps(env)), tuple((name, calm[name]) for name, _ in changed)))
+        blocks.append(InputBlock(draw(steps(env)), tuple((name, calm[name]) for name, _ in changed)))
     return blocks
 
 
@@ -62,7 +62,7 @@ def disturb(draw: st.DrawFn, env: Environment) -> Blocks:
 def flicker(draw: st.DrawFn, env: Environment) -> Blocks:
     """Inputs that change in every step or two."""
     count = draw(st.integers(1, 12))
-    return [Block(draw(st.sampled_from((1, 1, 1, 2))), draw(changes(env, 2))) for _ in range(count)]
+    return [InputBlock(draw(st.sampled_from((1, 1, 1, 2))), draw(changes(env, 2))) for _ in range(count)]
 
 
 @st.composite
@@ -75,10 +75,13 @@ def lose(draw: st.DrawFn, env: Environment) -> Blocks:
         rhythm = draw(st.sampled_from(env.lags))
         silent = draw(st.one_of(st.sampled_from(lengths), st.sampled_from(lengths), steps(env)))
         blocks += [
-            Block(draw(short()), tuple((s, rhythm) for s in stamps)),
-            Block(silent, tuple((s, SILENT) for s in stamps)),
+            InputBlock(draw(short()), tuple((s, rhythm) for s in stamps)),
+            InputBlock(silent, tuple((s, SILENT) for s in stamps)),
         ]
-    return [*blocks, Block(draw(steps(env)), tuple((s, draw(st.sampled_from(env.lags))) for s in stamps))]
+    return [
+        *blocks,
+        InputBlock(draw(steps(env)), tuple((s, draw(st.sampled_from(env.lags))) for s in stamps)),
+    ]
 
 
 @st.composite
@@ -87,9 +90,9 @@ def rhythm(draw: st.DrawFn, env: Environment) -> Blocks:
     stamp = draw(st.sampled_from(env.values.stamps))
     chosen = draw(st.sampled_from(env.rhythms))
     average = max(1, round(sum(chosen.gaps) / len(chosen.gaps)))
-    blocks = [Block(average * draw(st.integers(9, 14)), ((stamp, chosen),))]
+    blocks = [InputBlock(average * draw(st.integers(9, 14)), ((stamp, chosen),))]
     if draw(st.booleans()):
-        blocks.append(Block(draw(steps(env)), ((stamp, draw(st.sampled_from(env.lags))),)))
+        blocks.append(InputBlock(draw(steps(env)), ((stamp, draw(st.sampled_from(env.lags))),)))
     return blocks
 
 
@@ -102,9 +105,9 @@ def age(draw: st.DrawFn, env: Environment) -> Blocks:
     boundary, measured = draw(st.sampled_from(young))
     rhythm = draw(st.sampled_from(env.lags))
     return [
-        Block(2, ((boundary.signal, measured), (boundary.source, rhythm))),
-        Block(boundary.steps + draw(st.sampled_from((-1, 0, 1, 3))), ((boundary.source, SILENT),)),
-        Block(draw(short()), ((boundary.source, rhythm),)),
+        InputBlock(2, ((boundary.signal, measured), (boundary.source, rhythm))),
+        InputBlock(boundary.steps + draw(st.sampled_from((-1, 0, 1, 3))), ((boundary.source, SILENT),)),
+        InputBlock(draw(short()), ((boundary.source, rhythm),)),
     ]
 
 
@@ -114,19 +117,19 @@ def head(draw: st.DrawFn, env: Environment) -> Blocks:
     signal, toward = draw(st.sampled_from(env.values.relative))
     rate = draw(st.sampled_from((0.0, 0.0, 0.0, 1.25, -1.25, 7.5, -7.5, 0.125)))
     turning: tuple[tuple[str, Change], ...] = ((signal, Turning(rate)),) if rate else ()
-    return [Block(1, ((signal, toward),)), Block(draw(short()), turning)]
+    return [InputBlock(1, ((signal, toward),)), InputBlock(draw(short()), turning)]
 
 
 @st.composite
 def wait(draw: st.DrawFn, env: Environment) -> Blocks:
     """Nothing changes for about as long as a timer."""
-    return [Block(draw(st.sampled_from(env.timers)))]
+    return [InputBlock(draw(st.sampled_from(env.timers)))]
 
 
 @st.composite
 def rest(draw: st.DrawFn, env: Environment) -> Blocks:
     """Everything calm again."""
-    return [Block(draw(steps(env)), env.at_rest)]
+    return [InputBlock(draw(steps(env)), env.at_rest)]
 
 
 @st.composite
@@ -135,15 +138,17 @@ def combination(draw: st.DrawFn, env: Environment, buttons: tuple[str, str], axe
     pressed = draw(st.sampled_from(("1122", "1122", "1122", "1122", "112", "1222", "1212", "11122")))
     near = [n for n in env.timers if n <= min(env.timers[-1], 60)]
     blocks = [
-        Block(draw(st.integers(1, 3)), ((axes[0], 0), (axes[1], 0), (buttons[0], False), (buttons[1], False)))
+        InputBlock(
+            draw(st.integers(1, 3)), ((axes[0], 0), (axes[1], 0), (buttons[0], False), (buttons[1], False))
+        )
     ]
     for one in pressed:
         name = buttons[int(one) - 1]
         down = draw(st.sampled_from((1, 1, 2, 5)))
         between = draw(st.one_of(short(), short(), short(), st.sampled_from(near)))
-        blocks += [Block(down, ((name, True),)), Block(max(1, between - down), ((name, False),))]
+        blocks += [InputBlock(down, ((name, True),)), InputBlock(max(1, between - down), ((name, False),))]
     moves = draw(st.booleans())
-    return blocks + ([Block(draw(short()), ((axes[1], draw(value(env, axes[1]))),))] if moves else [])
+    return blocks + ([InputBlock(draw(short()), ((axes[1], draw(value(env, axes[1]))),))] if moves else [])
 
 
 def one_after_another(parts: Sequence[Blocks]) -> Blocks:

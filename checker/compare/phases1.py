@@ -20,7 +20,7 @@ from checker.compare.phases import (
     wait,
 )
 from checker.compare.scenes import combinations
-from checker.compare.stimulus import SILENT, Block, Change, Every, Toward
+from checker.compare.stimulus import SILENT, Change, Every, InputBlock, Toward
 from spec_model.abstraction import boards
 from spec_model.signals.board1 import WHEELS
 from spec_model.signals.common import COMMAND
@@ -43,14 +43,14 @@ FIELDS = {
 @st.composite
 def manoeuvre(draw: st.DrawFn, env: Environment) -> Blocks:
     """A command, or several, while the stick is pushed forward."""
-    blocks = [Block(draw(short()), (("cmd", NORMAL), ("y_norm", draw(st.sampled_from((1, 0.5, 0.8))))))]
+    blocks = [InputBlock(draw(short()), (("cmd", NORMAL), ("y_norm", draw(st.sampled_from((1, 0.5, 0.8))))))]
     for _ in range(draw(st.integers(1, 4))):
         changed: list[tuple[str, Change]] = [("cmd", draw(st.sampled_from(COMMANDS)))]
         if draw(st.booleans()):
             changed.append(("y_norm", draw(value(env, "y_norm"))))
         if draw(st.booleans()):
             changed.append(("x_norm", draw(value(env, "x_norm"))))
-        blocks.append(Block(draw(short()), tuple(changed)))
+        blocks.append(InputBlock(draw(short()), tuple(changed)))
     return blocks
 
 
@@ -63,15 +63,18 @@ def half_turn(draw: st.DrawFn, env: Environment) -> Blocks:
     )
     if draw(st.booleans()):
         begin += (("current_yaw", draw(value(env, "current_yaw"))),)
-    blocks = [Block(draw(st.integers(1, 3)), (("y_norm", 0), ("cmd", NORMAL))), Block(draw(short()), begin)]
+    blocks = [
+        InputBlock(draw(st.integers(1, 3)), (("y_norm", 0), ("cmd", NORMAL))),
+        InputBlock(draw(short()), begin),
+    ]
     for _ in range(draw(st.integers(1, 4))):
         blocks += draw(head(env))
         if draw(st.booleans()):
             name = draw(st.sampled_from(("y_norm", "x_norm", "cmd", "crit_mask_b2", "degr_mask_b2")))
-            blocks.append(Block(draw(short()), ((name, draw(value(env, name))),)))
+            blocks.append(InputBlock(draw(short()), ((name, draw(value(env, name))),)))
     if draw(st.booleans()):
-        blocks.append(Block(draw(st.integers(1, 4)), (("current_yaw", Toward("targetAngle180", 0.0)),)))
-        blocks.append(Block(draw(short()), (("y_norm", draw(value(env, "y_norm"))),)))
+        blocks.append(InputBlock(draw(st.integers(1, 4)), (("current_yaw", Toward("targetAngle180", 0.0)),)))
+        blocks.append(InputBlock(draw(short()), (("y_norm", draw(value(env, "y_norm"))),)))
     return blocks
 
 
@@ -91,20 +94,20 @@ def stop(draw: st.DrawFn, env: Environment) -> Blocks:
     wheels = [f"wheel_speed_rpm_{w}" for w in WHEELS]
     rolling = draw(st.sampled_from((0, 2.5, 2.499, 60)))
     blocks = [
-        Block(draw(st.integers(1, 4)), FORWARD),
-        Block(draw(short()), (*cause, *((w, rolling) for w in wheels))),
+        InputBlock(draw(st.integers(1, 4)), FORWARD),
+        InputBlock(draw(short()), (*cause, *((w, rolling) for w in wheels))),
     ]
     for _ in range(draw(st.integers(1, 3))):
         speeds = tuple((w, draw(st.sampled_from((0, 0, 2.4, 2.499, 2.5)))) for w in wheels)
-        blocks.append(Block(draw(steps(env)), speeds))
+        blocks.append(InputBlock(draw(steps(env)), speeds))
         if draw(st.booleans()):
-            blocks.append(Block(draw(short()), ((draw(st.sampled_from(wheels)), 2.5),)))
+            blocks.append(InputBlock(draw(short()), ((draw(st.sampled_from(wheels)), 2.5),)))
     over = tuple((name, calm[name]) for name, _ in cause)
     return [
         *blocks,
-        Block(draw(st.sampled_from((50, 51, 52, 53))), tuple((w, 0) for w in wheels)),
-        Block(draw(short()), over if draw(st.booleans()) else ()),
-        Block(draw(short()), over),
+        InputBlock(draw(st.sampled_from((50, 51, 52, 53))), tuple((w, 0) for w in wheels)),
+        InputBlock(draw(short()), over if draw(st.booleans()) else ()),
+        InputBlock(draw(short()), over),
     ]
 
 
@@ -113,13 +116,13 @@ def hand_over(draw: st.DrawFn, env: Environment) -> Blocks:
     """Board 2 falls silent, Board 1 gives the motors away, and takes them back after about 3 s without."""
     stamps = draw(st.sampled_from(((FRAMES, HEARTBEATS), (HEARTBEATS,), (FRAMES,))))
     silent, back = tuple((s, SILENT) for s in stamps), tuple((s, Every()) for s in stamps)
-    blocks = [Block(draw(st.sampled_from((7, 8, 9, 20))), silent)]
+    blocks = [InputBlock(draw(st.sampled_from((7, 8, 9, 20))), silent)]
     if draw(st.booleans()):
-        blocks.append(Block(draw(st.sampled_from((10, 140, 149, 150))), back))
-        blocks.append(Block(draw(st.sampled_from((6, 7, 8))), silent))
-    blocks.append(Block(draw(short()), (*back, *draw(manoeuvre(env))[-1].changes)))
-    blocks.append(Block(draw(st.sampled_from((144, 148, 149, 150, 151, 152, 153)))))
-    return [*blocks, Block(draw(short()), FORWARD)]
+        blocks.append(InputBlock(draw(st.sampled_from((10, 140, 149, 150))), back))
+        blocks.append(InputBlock(draw(st.sampled_from((6, 7, 8))), silent))
+    blocks.append(InputBlock(draw(short()), (*back, *draw(manoeuvre(env))[-1].changes)))
+    blocks.append(InputBlock(draw(st.sampled_from((144, 148, 149, 150, 151, 152, 153)))))
+    return [*blocks, InputBlock(draw(short()), FORWARD)]
 
 
 @st.composite
@@ -140,12 +143,12 @@ BOARD1 = Environment(
     calm={"temperature_degC": 25, "battery_pct": 80},
     themes={
         "anything": ([], (disturb, flicker, rest, lose)),
-        "driving": ([Block(2, FORWARD)], (manoeuvre, manoeuvre, half_turn, disturb, flicker, rest)),
+        "driving": ([InputBlock(2, FORWARD)], (manoeuvre, manoeuvre, half_turn, disturb, flicker, rest)),
         "turning": ([], (half_turn, half_turn, toggle, disturb)),
         "buttons": ([], (toggle, toggle, manoeuvre, half_turn)),
-        "stopping": ([Block(2, FORWARD)], (stop, stop, half_turn, disturb, rest)),
+        "stopping": ([InputBlock(2, FORWARD)], (stop, stop, half_turn, disturb, rest)),
         "sources": ([], (lose, rhythm, rhythm, age, disturb, wait)),
-        "relay": ([Block(2, FORWARD)], (hand_over, hand_over, toggle, half_turn, stop, disturb)),
+        "relay": ([InputBlock(2, FORWARD)], (hand_over, hand_over, toggle, half_turn, stop, disturb)),
         "sensors": ([], (disturb, age, wait, lose)),
     },
     means=(2,),

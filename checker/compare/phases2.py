@@ -20,7 +20,7 @@ from checker.compare.phases import (
 )
 from checker.compare.scenes import braking, combinations, recovering, resuming, rotating, turning
 from checker.compare.scenes import passing as passing_in_time
-from checker.compare.stimulus import SILENT, Block, Change, Every, Toward
+from checker.compare.stimulus import SILENT, Change, Every, InputBlock, Toward
 from spec_model.abstraction import boards
 from spec_model.signals.board1 import WHEELS
 
@@ -66,12 +66,12 @@ def passing(draw: st.DrawFn, env: Environment) -> Blocks:
         gap = draw(st.one_of(short(), short(), st.sampled_from([n for n in env.timers if 140 < n < 160])))
         then = draw(st.sampled_from((NO_ECHO, NO_ECHO, 301, 100, 71)))
         blocks += [
-            Block(draw(short()), ((f"d{first}", near),)),
-            Block(gap, ((f"d{first}", then),)),
-            Block(draw(short()), ((f"d{second}", draw(st.sampled_from((near, 101, 300, 100)))),)),
+            InputBlock(draw(short()), ((f"d{first}", near),)),
+            InputBlock(gap, ((f"d{first}", then),)),
+            InputBlock(draw(short()), ((f"d{second}", draw(st.sampled_from((near, 101, 300, 100)))),)),
         ]
         if draw(st.booleans()):
-            blocks.append(Block(draw(short()), ((f"d{second}", NO_ECHO),)))
+            blocks.append(InputBlock(draw(short()), ((f"d{second}", NO_ECHO),)))
         blocks += draw(deviate(env))
     return blocks
 
@@ -79,12 +79,15 @@ def passing(draw: st.DrawFn, env: Environment) -> Blocks:
 @st.composite
 def deviate(draw: st.DrawFn, env: Environment) -> Blocks:
     """The heading during a deviation, to its end or beside it; sometimes a stop in between."""
-    blocks = [Block(draw(st.sampled_from((1, 2, 5, 23, 24, 25, 26))))]
+    blocks = [InputBlock(draw(st.sampled_from((1, 2, 5, 23, 24, 25, 26))))]
     if draw(st.booleans()):
         stopping = draw(st.sampled_from(SONARS))
-        blocks += [Block(draw(short()), ((stopping, 70),)), Block(draw(short()), ((stopping, NO_ECHO),))]
+        blocks += [
+            InputBlock(draw(short()), ((stopping, 70),)),
+            InputBlock(draw(short()), ((stopping, NO_ECHO),)),
+        ]
     offset = draw(st.sampled_from((0.0, 0.125, -0.125, 1.0, -1.0, 45.0, -45.0, 180.0)))
-    return [*blocks, Block(draw(short()), (("yaw", Toward("B2.targetAngle", offset)),))]
+    return [*blocks, InputBlock(draw(short()), (("yaw", Toward("B2.targetAngle", offset)),))]
 
 
 @st.composite
@@ -95,20 +98,20 @@ def degrade(draw: st.DrawFn, env: Environment) -> Blocks:
     )
     sonar = draw(st.sampled_from(SONARS))
     return [
-        Block(draw(short()), ((name, bits),)),
-        Block(draw(short()), ((sonar, draw(value(env, sonar))),)),
-        Block(draw(steps(env)), ((name, 0),)),
+        InputBlock(draw(short()), ((name, bits),)),
+        InputBlock(draw(short()), ((sonar, draw(value(env, sonar))),)),
+        InputBlock(draw(steps(env)), ((name, 0),)),
     ]
 
 
 @st.composite
 def drive(draw: st.DrawFn, env: Environment) -> Blocks:
     """Board 2 drives by the stick; faults of Board 1 and obstacles come and go."""
-    blocks = [Block(draw(st.integers(1, 4)), DRIVE)]
+    blocks = [InputBlock(draw(st.integers(1, 4)), DRIVE)]
     for _ in range(draw(st.integers(1, 4))):
         names = ("ay_norm", "ay_norm", "bx_norm", "d2", "crit_mask_b1", "yaw")
         name = draw(st.sampled_from(names))
-        blocks.append(Block(draw(short()), ((name, draw(value(env, name))),)))
+        blocks.append(InputBlock(draw(short()), ((name, draw(value(env, name))),)))
     return blocks
 
 
@@ -119,17 +122,17 @@ def half_turn(draw: st.DrawFn, env: Environment) -> Blocks:
     if draw(st.booleans()):
         begin += (("yaw", draw(value(env, "yaw"))),)
     pulled = draw(st.sampled_from((-1, -0.6, -0.501)))
-    blocks = [Block(draw(st.integers(1, 4)), begin), Block(draw(short()), (("ay_norm", pulled),))]
+    blocks = [InputBlock(draw(st.integers(1, 4)), begin), InputBlock(draw(short()), (("ay_norm", pulled),))]
     for _ in range(draw(st.integers(1, 4))):
         blocks += draw(head(env))
         if draw(st.booleans()):
             name = draw(st.sampled_from(("ay_norm", "bx_norm", "crit_mask_b1", "d1")))
-            blocks.append(Block(draw(short()), ((name, draw(value(env, name))),)))
+            blocks.append(InputBlock(draw(short()), ((name, draw(value(env, name))),)))
     if draw(st.booleans()):
-        blocks.append(Block(draw(st.sampled_from((96, 97, 98, 99, 100, 101, 102)))))
+        blocks.append(InputBlock(draw(st.sampled_from((96, 97, 98, 99, 100, 101, 102)))))
     if draw(st.booleans()):
-        blocks.append(Block(draw(st.integers(1, 4)), (("yaw", Toward("B2.targetAngle180", 0.0)),)))
-        blocks.append(Block(draw(short()), (("ay_norm", draw(value(env, "ay_norm"))),)))
+        blocks.append(InputBlock(draw(st.integers(1, 4)), (("yaw", Toward("B2.targetAngle180", 0.0)),)))
+        blocks.append(InputBlock(draw(short()), (("ay_norm", draw(value(env, "ay_norm"))),)))
     return blocks
 
 
@@ -139,17 +142,17 @@ def stop(draw: st.DrawFn, env: Environment) -> Blocks:
     cause = draw(st.sampled_from(CAUSES))
     over: dict[str, Change] = {"d2": NO_ECHO, "crit_mask_b1": SWITCH, JOYSTICK: Every()}
     blocks = [
-        Block(draw(st.integers(2, 4)), DRIVE),
-        Block(draw(st.sampled_from((1, 2, 8, 12))), (*cause, *((w, 60) for w in SPEEDS))),
+        InputBlock(draw(st.integers(2, 4)), DRIVE),
+        InputBlock(draw(st.sampled_from((1, 2, 8, 12))), (*cause, *((w, 60) for w in SPEEDS))),
     ]
     for _ in range(draw(st.integers(1, 3))):
         speeds = tuple((w, draw(st.sampled_from((0, 0, 2.4, 2.499, 2.5)))) for w in SPEEDS)
-        blocks.append(Block(draw(steps(env)), speeds))
+        blocks.append(InputBlock(draw(steps(env)), speeds))
     return [
         *blocks,
-        Block(draw(st.sampled_from((49, 50, 51, 52, 53))), tuple((w, 0) for w in SPEEDS)),
-        Block(draw(st.sampled_from((1, 2, 50, 51, 52))), tuple((name, over[name]) for name, _ in cause)),
-        Block(draw(short()), DRIVE),
+        InputBlock(draw(st.sampled_from((49, 50, 51, 52, 53))), tuple((w, 0) for w in SPEEDS)),
+        InputBlock(draw(st.sampled_from((1, 2, 50, 51, 52))), tuple((name, over[name]) for name, _ in cause)),
+        InputBlock(draw(short()), DRIVE),
     ]
 
 
@@ -158,14 +161,14 @@ def take_over(draw: st.DrawFn, env: Environment) -> Blocks:
     """Board 2 is asked to drive, or must, and gives back after about 3 s without a reason."""
     asked = draw(st.sampled_from((SWITCH, SWITCH_TOO)))
     reason, gone = draw(st.sampled_from((((("crit_mask_b1", asked),), HEALTHY), *LOSSES)))
-    blocks = [Block(draw(st.sampled_from((1, 2, 8, 9, 12))), reason), *draw(drive(env))[1:]]
+    blocks = [InputBlock(draw(st.sampled_from((1, 2, 8, 9, 12))), reason), *draw(drive(env))[1:]]
     if draw(st.booleans()):
         blocks += [
-            Block(draw(st.sampled_from((100, 148, 149, 150))), gone),
-            Block(draw(st.integers(1, 9)), reason),
+            InputBlock(draw(st.sampled_from((100, 148, 149, 150))), gone),
+            InputBlock(draw(st.integers(1, 9)), reason),
         ]
-    blocks.append(Block(draw(short()), (*gone, ("crit_mask_b1", 0))))
-    return [*blocks, Block(draw(st.sampled_from((148, 149, 150, 151, 152, 153))))]
+    blocks.append(InputBlock(draw(short()), (*gone, ("crit_mask_b1", 0))))
+    return [*blocks, InputBlock(draw(st.sampled_from((148, 149, 150, 151, 152, 153))))]
 
 
 @st.composite
@@ -174,14 +177,14 @@ def rotate(draw: st.DrawFn, env: Environment) -> Blocks:
     rate = draw(value(env, "gz_dps"))
     left, right = draw(st.sampled_from(((0, 0), (0, 0), (20, 10), (2.5, 0), (60, 0), (0, 60), (7.25, 0))))
     wheels = tuple(zip(SPEEDS, (left, right, left, right), strict=True))
-    blocks = [Block(draw(steps(env)), (("gz_dps", rate), *wheels))]
+    blocks = [InputBlock(draw(steps(env)), (("gz_dps", rate), *wheels))]
     if draw(st.booleans()):
         stamp = draw(st.sampled_from((HEARTBEATS, IMU)))
         blocks.append(
-            Block(draw(st.integers(1, 12)), ((stamp, draw(st.sampled_from((SILENT, *env.rhythms)))),))
+            InputBlock(draw(st.integers(1, 12)), ((stamp, draw(st.sampled_from((SILENT, *env.rhythms)))),))
         )
-        blocks.append(Block(draw(steps(env)), ((stamp, Every()),)))
-    return blocks + ([Block(draw(short()), (("gz_dps", 0),))] if draw(st.booleans()) else [])
+        blocks.append(InputBlock(draw(steps(env)), ((stamp, Every()),)))
+    return blocks + ([InputBlock(draw(short()), (("gz_dps", 0),))] if draw(st.booleans()) else [])
 
 
 @st.composite
@@ -193,7 +196,7 @@ def toggle(draw: st.DrawFn, env: Environment) -> Blocks:
 def scenes(env: Environment) -> Iterator[tuple[str, Blocks, Blocks]]:
     """Sequences in which one step counts."""
     rolling: Changes = tuple((speed, 60) for speed in SPEEDS)
-    driving = [Block(4, DRIVE)]
+    driving = [InputBlock(4, DRIVE)]
     for scene in combinations(env, ("btn1", "btn2"), ("bx_norm", "ay_norm")):
         yield "presses", driving, scene
     for scene in passing_in_time(env, SONARS, ((1, 2), (2, 1), (2, 3), (3, 2))):
@@ -217,9 +220,9 @@ BOARD2 = Environment(
     themes={
         "anything": ([], (disturb, flicker, rest, lose)),
         "obstacles": ([], (passing, passing, degrade, disturb, rest)),
-        "driving": ([Block(4, DRIVE)], (drive, drive, half_turn, stop, disturb)),
-        "turning": ([Block(4, DRIVE)], (half_turn, half_turn, toggle, drive)),
-        "buttons": ([Block(4, DRIVE)], (toggle, toggle, drive, half_turn)),
+        "driving": ([InputBlock(4, DRIVE)], (drive, drive, half_turn, stop, disturb)),
+        "turning": ([InputBlock(4, DRIVE)], (half_turn, half_turn, toggle, drive)),
+        "buttons": ([InputBlock(4, DRIVE)], (toggle, toggle, drive, half_turn)),
         "sources": ([], (lose, rhythm, rhythm, disturb, wait)),
         "authority": ([], (take_over, take_over, drive, toggle, stop)),
         "coherence": ([], (rotate, rotate, rotate, lose, rhythm)),

@@ -9,10 +9,10 @@ from pathlib import Path
 from typing import cast
 
 from checker.adapters.implementation import Value
-from checker.compare.beside import Step, played, rerun
+from checker.compare.beside import ComparedStep, played, rerun
 from checker.compare.search import Run
 from checker.compare.smaller import columns
-from checker.compare.stimulus import SILENT, Block, Change, Every, Stimulus
+from checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus
 from checker.io.files import csv_plain
 from spec_model.abstraction import Board
 from spec_model.lang.errors import ModelError
@@ -29,7 +29,7 @@ _Blocks = Sequence[tuple[int, Mapping[str, Value | None]]]
 
 
 @dataclass(frozen=True)
-class Kept:
+class KeptSuite:
     """A stimulus, and where it comes from."""
 
     origin: str
@@ -43,12 +43,12 @@ def counterexamples(board: Board) -> Iterator[Run]:
         yield kept.origin, played(board, {}, kept.stimulus)
 
 
-def kept(origin: str, board: Board, run: Iterable[Mapping[str, int]]) -> Kept:
+def kept(origin: str, board: Board, run: Iterable[Mapping[str, int]]) -> KeptSuite:
     """A run of the model as concrete inputs of a board."""
-    return Kept(origin, columns(board, list(board.run(iter(run)))).stimulus())
+    return KeptSuite(origin, columns(board, list(board.run(iter(run)))).stimulus())
 
 
-def encoded(runs: Mapping[str, Sequence[Kept]]) -> str:
+def encoded(runs: Mapping[str, Sequence[KeptSuite]]) -> str:
     """The runs of each board as JSON, one run a line."""
     parts = []
     for name, of_board in runs.items():
@@ -57,7 +57,7 @@ def encoded(runs: Mapping[str, Sequence[Kept]]) -> str:
     return "{\n" + ",\n".join(parts) + "\n}\n"
 
 
-def _plain(one: Kept) -> dict[str, object]:
+def _plain(one: KeptSuite) -> dict[str, object]:
     blocks = [[b.steps, {name: _encoded(c) for name, c in b.changes}] for b in one.stimulus.blocks]
     return {"origin": one.origin, "blocks": blocks}
 
@@ -69,15 +69,15 @@ def _encoded(change: Change) -> object:
     return change
 
 
-def decoded(text: Mapping[str, Sequence[Mapping[str, object]]], board: Board) -> Iterator[Kept]:
+def decoded(text: Mapping[str, Sequence[Mapping[str, object]]], board: Board) -> Iterator[KeptSuite]:
     """The runs of one board."""
     stamps = {s.name for s in board.inputs if s.stamp}
     for one in text.get(board.name, ()):
         blocks = []
         for steps, changes in cast(_Blocks, one["blocks"]):
             changed = tuple((name, _change(name in stamps, value)) for name, value in changes.items())
-            blocks.append(Block(steps, changed))
-        yield Kept(str(one["origin"]), Stimulus(tuple(blocks), TICK_MS))
+            blocks.append(InputBlock(steps, changed))
+        yield KeptSuite(str(one["origin"]), Stimulus(tuple(blocks), TICK_MS))
 
 
 def _change(stamp: bool, value: Value | None) -> Change:
@@ -117,7 +117,7 @@ def _table(text: str) -> list[dict[str, object]]:
     return [dict(zip(map(csv_plain, names), row, strict=False)) for row in rows if row]
 
 
-def _steps(file: Path, board: Board, rows: Sequence[Mapping[str, object]]) -> list[Step]:
+def _steps(file: Path, board: Board, rows: Sequence[Mapping[str, object]]) -> list[ComparedStep]:
     inputs = []
     for number, row in enumerate(rows, 1):
         try:

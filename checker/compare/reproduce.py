@@ -4,10 +4,10 @@ from collections.abc import Iterator, Mapping
 from hashlib import sha256
 from json import dumps
 
-from checker.compare.beside import Mismatch
+from checker.compare.beside import StepMismatch
 from checker.compare.result import Failure
 from checker.compare.smaller import columns
-from checker.compare.stimulus import SILENT, Block, Change, Every, Stimulus
+from checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus
 
 WIDTH = 100
 AS_READ: Mapping[str, str] = {}
@@ -35,24 +35,24 @@ def test_{board}_{output}() -> None:
 '''
 
 
-def stimulus_of(found: Mismatch | Failure) -> Stimulus:
+def stimulus_of(found: StepMismatch | Failure) -> Stimulus:
     """The inputs of a mismatch or a failure in held blocks."""
     return columns(found.board, [step.inputs for step in found.steps]).stimulus()
 
 
-def file_name(found: Mismatch | Failure) -> str:
+def file_name(found: StepMismatch | Failure) -> str:
     """``crosscheck_board1_0a1b2c3d.py``: the same name for the same inputs and output."""
     text = repr((stimulus_of(found), _subject(found)))
     return f"crosscheck_{found.board.name}_{sha256(text.encode()).hexdigest()[:8]}.py"
 
 
-def _subject(found: Mismatch | Failure) -> str:
+def _subject(found: StepMismatch | Failure) -> str:
     """The output that differs first, or that there is no answer."""
-    return found.differences[0].name if isinstance(found, Mismatch) else "answers"
+    return found.differences[0].name if isinstance(found, StepMismatch) else "answers"
 
 
 def pytest_file(
-    found: Mismatch | Failure, address: str, readings: Mapping[str, str] = AS_READ, repair: str = ""
+    found: StepMismatch | Failure, address: str, readings: Mapping[str, str] = AS_READ, repair: str = ""
 ) -> str:
     """The text of the test.
 
@@ -60,7 +60,7 @@ def pytest_file(
     charts.
     """
     stimulus = stimulus_of(found)
-    what = "is not what the charts require" if isinstance(found, Mismatch) else "fail"
+    what = "is not what the charts require" if isinstance(found, StepMismatch) else "fail"
     blocks = "\n".join(_block(block) for block in stimulus.blocks)
     names = ["Block", "Stimulus", "replay"]
     names += [word for word in ("SILENT", "Every") if word in blocks]
@@ -83,7 +83,7 @@ def _charts(readings: Mapping[str, str], repair: str) -> str:
     return "".join(f", {part}" for part in parts)
 
 
-def _told(found: Mismatch | Failure) -> Iterator[str]:
+def _told(found: StepMismatch | Failure) -> Iterator[str]:
     """What must be, and what was."""
     if isinstance(found, Failure):
         yield ascii(found.message.splitlines()[0])[1:-1]
@@ -94,7 +94,7 @@ def _told(found: Mismatch | Failure) -> Iterator[str]:
         yield f"Step {found.tick}: {d.name} must be {signal[d.name].show(d.expected)}, and was {was}."
 
 
-def _block(block: Block) -> str:
+def _block(block: InputBlock) -> str:
     pairs = [f"({dumps(name)}, {_change(change)})" for name, change in block.changes]
     one_line = f"        Block({block.steps}, ({', '.join(pairs)}{',' * (len(pairs) == 1)})),"
     if len(one_line) <= WIDTH:

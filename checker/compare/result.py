@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from checker.compare.beside import Mismatch, Step
-from checker.compare.coverage import Arrow, Coverage, arrows
+from checker.compare.beside import ComparedStep, StepMismatch
+from checker.compare.coverage import ArrowCoverage, CoveredArrow, arrows
 from spec_model.abstraction import Board
 
 FIXED, RANDOM = "fixed runs", "random runs"
@@ -25,7 +25,7 @@ ALLOWED = Allowance()
 
 
 @dataclass(frozen=True)
-class Stage:
+class CompareStage:
     """How many runs of a kind were tried, of how many (None: not counted), and why not all, if not all."""
 
     kind: str
@@ -44,7 +44,7 @@ class Failure:
     board: Board
     origin: str
     message: str
-    steps: tuple[Step, ...] = ()
+    steps: tuple[ComparedStep, ...] = ()
 
     @property
     def tick(self) -> int:
@@ -53,7 +53,7 @@ class Failure:
 
 
 @dataclass(frozen=True)
-class Result:
+class CompareResult:
     """One cross-check of one implementation.
 
     ``mismatches`` are the distinct ones, by output and arrow; the first ``small`` of them are made small.
@@ -62,8 +62,8 @@ class Result:
     """
 
     board: Board
-    coverage: Coverage
-    mismatches: tuple[Mismatch, ...] = ()
+    coverage: ArrowCoverage
+    mismatches: tuple[StepMismatch, ...] = ()
     small: int = 0
     failures: tuple[Failure, ...] = ()
     uncompared: tuple[str, ...] = ()
@@ -71,7 +71,7 @@ class Result:
     examples: int = 0
     seed: int = 0
     interrupted: bool = False
-    stages: tuple[Stage, ...] = ()
+    stages: tuple[CompareStage, ...] = ()
     compared: int = 0
     allowance: Allowance = ALLOWED
 
@@ -97,6 +97,6 @@ class Result:
         return len(self.coverage.taken), len(arrows(self.board))
 
     @property
-    def missing(self) -> tuple[Arrow, ...]:
+    def missing(self) -> tuple[CoveredArrow, ...]:
         """Arrows that the charts took in no run."""
         return self.coverage.missing

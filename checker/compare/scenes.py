@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from checker.compare.environment import Blocks, Environment
-from checker.compare.stimulus import SILENT, Block, Change, Every, Toward
+from checker.compare.stimulus import SILENT, Change, Every, InputBlock, Toward
 
 QUICK = 3
 """Steps from one press of a button to the next, where nothing waits for them."""
@@ -14,17 +14,17 @@ PRESSES = (0, 0, 1, 1)
 
 def combinations(env: Environment, buttons: Sequence[str], axes: Sequence[str]) -> Iterator[Blocks]:
     """The presses that toggle backward mode: each in turn nearly too late, or after the stick has moved."""
-    centred = Block(2, tuple((axis, 0) for axis in axes))
-    over = Block(max(SECOND), (*((axis, 0) for axis in axes), *((button, False) for button in buttons)))
+    centred = InputBlock(2, tuple((axis, 0) for axis in axes))
+    over = InputBlock(max(SECOND), (*((axis, 0) for axis in axes), *((button, False) for button in buttons)))
     late = [n for n in env.timers if n in SECOND]
     for stage in range(1, len(PRESSES)):
         for gap in (QUICK, *late):
             yield [centred, *_pressed(buttons, {stage: gap}), over]
         for axis in axes:
             first, rest = _pressed(buttons[:1], {}, PRESSES[:1]), _pressed(buttons, {}, PRESSES[1:])
-            yield [centred, *first, Block(1, ((axis, 0.5),)), centred, *rest, over]
+            yield [centred, *first, InputBlock(1, ((axis, 0.5),)), centred, *rest, over]
             pressed = _pressed(buttons, {})
-            moved = [Block(1, ((axis, -0.25),)), centred]
+            moved = [InputBlock(1, ((axis, -0.25),)), centred]
             yield [centred, *pressed[: 2 * stage], *moved, *pressed[2 * stage :], over]
 
 
@@ -34,8 +34,8 @@ def _pressed(buttons: Sequence[str], gaps: dict[int, int], presses: Sequence[int
     for number, press in enumerate(presses, 1):
         name = buttons[press]
         blocks += [
-            Block(1, ((name, True),)),
-            Block(max(1, gaps.get(number, QUICK) - 1), ((name, False),)),
+            InputBlock(1, ((name, True),)),
+            InputBlock(max(1, gaps.get(number, QUICK) - 1), ((name, False),)),
         ]
     return blocks
 
@@ -47,11 +47,11 @@ def passing(env: Environment, sonars: Sequence[str], pairs: Sequence[tuple[int, 
         left, seen = f"d{first}", f"d{second}"
         for gap in range(window - 6, window + 1):
             yield [
-                Block(QUICK, ((left, 200),)),
-                Block(gap, ((left, 301),)),
-                Block(QUICK, ((seen, 200),)),
-                Block(30, tuple((sonar, 301) for sonar in sonars)),
-                Block(QUICK, (("yaw", Toward("B2.targetAngle", 0.0)),)),
+                InputBlock(QUICK, ((left, 200),)),
+                InputBlock(gap, ((left, 301),)),
+                InputBlock(QUICK, ((seen, 200),)),
+                InputBlock(30, tuple((sonar, 301) for sonar in sonars)),
+                InputBlock(QUICK, (("yaw", Toward("B2.targetAngle", 0.0)),)),
             ]
 
 
@@ -63,12 +63,12 @@ def turning(sonars: Sequence[str]) -> Iterator[Blocks]:
     ):
         for heading in headings:
             yield [
-                Block(2, (("yaw", heading), *((sonar, 301) for sonar in sonars))),
-                Block(QUICK, ((first, 200),)),
-                Block(QUICK, ((first, 301),)),
-                Block(QUICK, ((second, 200),)),
-                *(Block(2, (("yaw", Toward("B2.targetAngle", ahead * off)),)) for off in (30, 15, 0)),
-                Block(QUICK, ((second, 301),)),
+                InputBlock(2, (("yaw", heading), *((sonar, 301) for sonar in sonars))),
+                InputBlock(QUICK, ((first, 200),)),
+                InputBlock(QUICK, ((first, 301),)),
+                InputBlock(QUICK, ((second, 200),)),
+                *(InputBlock(2, (("yaw", Toward("B2.targetAngle", ahead * off)),)) for off in (30, 15, 0)),
+                InputBlock(QUICK, ((second, 301),)),
             ]
 
 
@@ -80,10 +80,10 @@ def recovering(env: Environment) -> Iterator[Blocks]:
             slow = limits[-1]  # as rarely as is still tolerated
             for quick in range(min(SECOND) + 1, min(SECOND) + 16):
                 yield [
-                    Block(6 * slow, ((stamp, Every((slow,))),)),
-                    Block(quick, ((stamp, Every()),)),
-                    Block(limits[-1] + 5, ((stamp, SILENT),)),
-                    Block(2 * max(SECOND), ((stamp, Every()),)),  # until it is sound again
+                    InputBlock(6 * slow, ((stamp, Every((slow,))),)),
+                    InputBlock(quick, ((stamp, Every()),)),
+                    InputBlock(limits[-1] + 5, ((stamp, SILENT),)),
+                    InputBlock(2 * max(SECOND), ((stamp, Every()),)),  # until it is sound again
                 ]
 
 
@@ -93,11 +93,11 @@ def braking(
     """A stop from motion with the link lost before: nobody measures whether the wheels stand."""
     for before in (1, 9, 20, 30, 40, 50):
         yield [
-            Block(4, (*drive, *rolling, (lost, Every()))),
-            Block(before, ((lost, SILENT),)),
-            Block(wait + 12, (("d2", 300),)),
-            Block(5, (("d2", 301),)),
-            Block(60, (*((name, 0) for name, _ in rolling), (lost, Every()))),
+            InputBlock(4, (*drive, *rolling, (lost, Every()))),
+            InputBlock(before, ((lost, SILENT),)),
+            InputBlock(wait + 12, (("d2", 300),)),
+            InputBlock(5, (("d2", 301),)),
+            InputBlock(60, (*((name, 0) for name, _ in rolling), (lost, Every()))),
         ]
 
 
@@ -110,16 +110,16 @@ def rotating(speeds: Sequence[str], wheels: str, imu: str) -> Iterator[Blocks]:
     fresh: tuple[tuple[str, Change], ...] = ((wheels, Every()), (imu, Every()), ("gz_dps", 0), *still)
     front, _, rear, _ = speeds
     for one, other in ((1.816, 1.816), (1.816, 1.817), (1.817, 1.817), (7, 2), (1, 0)):
-        yield [Block(310, (*fresh, (front, one), (rear, other)))]
+        yield [InputBlock(310, (*fresh, (front, one), (rear, other)))]
     for speed in (0, 0.004, 0.005, 0.006):
-        yield [Block(80, (*fresh, ("gz_dps", 10), (front, speed), (rear, speed)))]
+        yield [InputBlock(80, (*fresh, ("gz_dps", 10), (front, speed), (rear, speed)))]
     for speed, rate in ((80, 147), (-80, -147), (136, 249)):  # on the spot, as fast as can be told
         sides = zip(speeds, (speed, -speed, speed, -speed), strict=True)
-        yield [Block(310, (*fresh, *sides, ("gz_dps", rate)))]
+        yield [InputBlock(310, (*fresh, *sides, ("gz_dps", rate)))]
     for gap in (4, 5, 6):
         for rate in (60, 250):
-            yield [Block(320, (*fresh, ("gz_dps", rate), (imu, Every((gap,)))))]
-        yield [Block(320, (*fresh, *((name, 60) for name in speeds[::2]), (wheels, Every((gap,)))))]
+            yield [InputBlock(320, (*fresh, ("gz_dps", rate), (imu, Every((gap,)))))]
+        yield [InputBlock(320, (*fresh, *((name, 60) for name in speeds[::2]), (wheels, Every((gap,)))))]
 
 
 def resuming(
@@ -127,4 +127,4 @@ def resuming(
 ) -> Iterator[Blocks]:
     """Driving, a pause for as long as it takes to give the motors back, and driving again."""
     for before in (QUICK, 2 * QUICK, 30):
-        yield [Block(before, drive), Block(pause + QUICK, over), Block(30, drive)]
+        yield [InputBlock(before, drive), InputBlock(pause + QUICK, over), InputBlock(30, drive)]

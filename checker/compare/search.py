@@ -8,10 +8,10 @@ from random import SystemRandom
 from hypothesis import HealthCheck, Phase, given, seed, settings
 
 from checker.adapters.implementation import Implementation, ImplementationError, Values, notes, run
-from checker.compare.beside import Mismatch, Step, compared, played
-from checker.compare.coverage import Coverage
+from checker.compare.beside import ComparedStep, StepMismatch, compared, played
+from checker.compare.coverage import ArrowCoverage
 from checker.compare.environment import Environment
-from checker.compare.result import ALLOWED, FIXED, RANDOM, Allowance, Failure, Result, Stage
+from checker.compare.result import ALLOWED, FIXED, RANDOM, Allowance, CompareResult, CompareStage, Failure
 from checker.compare.smaller import BUDGET, Budget, smaller
 from checker.compare.stimulus import Stimulus
 from checker.compare.strategy import stimuli
@@ -22,18 +22,18 @@ NIGHTLY = 20
 
 
 @dataclass(frozen=True)
-class Effort:
+class CompareEffort:
     """How many random runs, and from which seed they are drawn."""
 
     examples: int
     seed: int
 
 
-def effort(profile: str, examples: int | None = None, seed: int | None = None) -> Effort:
+def effort(profile: str, examples: int | None = None, seed: int | None = None) -> CompareEffort:
     """The effort of a profile, ``ci`` or ``nightly``, changed as told.  CI draws the same runs every time."""
     ci = profile == "ci"
     drawn = CI_SEED if ci else SystemRandom().getrandbits(32)
-    return Effort(
+    return CompareEffort(
         examples=examples if examples is not None else CI_EXAMPLES * (1 if ci else NIGHTLY),
         seed=seed if seed is not None else drawn,
     )
@@ -41,8 +41,8 @@ def effort(profile: str, examples: int | None = None, seed: int | None = None) -
 
 CI_EXAMPLES = 240
 
-Run = tuple[str, list[Step]]
-Progress = Callable[["Search"], None]
+Run = tuple[str, list[ComparedStep]]
+Progress = Callable[["CompareSearch"], None]
 
 
 class Enough(BaseException):
@@ -50,19 +50,19 @@ class Enough(BaseException):
 
 
 @dataclass
-class Search:
+class CompareSearch:
     """One cross-check under way."""
 
     env: Environment
     implementation: Implementation
-    effort: Effort
+    effort: CompareEffort
     stop_early: bool = False
     allowance: Allowance = ALLOWED
     budget: int = BUDGET
     progress: Progress = lambda search: None
-    record: Callable[[str, list[Step]], None] = lambda origin, steps: None
-    coverage: Coverage = field(init=False)
-    found: dict[tuple[object, ...], Mismatch] = field(default_factory=dict)
+    record: Callable[[str, list[ComparedStep]], None] = lambda origin, steps: None
+    coverage: ArrowCoverage = field(init=False)
+    found: dict[tuple[object, ...], StepMismatch] = field(default_factory=dict)
     failures: list[Failure] = field(default_factory=list)
     doing: str = FIXED
     tried: dict[str, int] = field(default_factory=lambda: {FIXED: 0, RANDOM: 0})
@@ -70,12 +70,12 @@ class Search:
     interrupted: bool = False
 
     def __post_init__(self) -> None:
-        self.coverage = Coverage(self.env.board)
+        self.coverage = ArrowCoverage(self.env.board)
         self._seen: set[str] = set()
         self._complete = False
-        self._small: dict[tuple[object, ...], Mismatch] = {}
+        self._small: dict[tuple[object, ...], StepMismatch] = {}
 
-    def run(self, runs: Iterable[Run] = ()) -> Result:
+    def run(self, runs: Iterable[Run] = ()) -> CompareResult:
         """Try these runs, then random ones; what was found so far also after Ctrl-C."""
         try:
             with suppress(Enough):
@@ -87,10 +87,10 @@ class Search:
             self.interrupted = True
         return self._result()
 
-    def _result(self) -> Result:
+    def _result(self) -> CompareResult:
         small = sorted(self._small.values(), key=_length)
         others = sorted((m for key, m in self.found.items() if key not in self._small), key=_length)
-        return Result(
+        return CompareResult(
             self.env.board,
             self.coverage,
             (*small, *others),
@@ -106,7 +106,7 @@ class Search:
             self.allowance,
         )
 
-    def _stages(self) -> tuple[Stage, ...]:
+    def _stages(self) -> tuple[CompareStage, ...]:
         """How much of each kind of runs was tried, and why not all of it."""
         if self.interrupted:
             why = "interrupted"
@@ -116,8 +116,8 @@ class Search:
             why = "only the first mismatch was wanted" if self.stop_early else "no more could be drawn"
         drawn = self.tried[RANDOM]
         return (
-            Stage(FIXED, self.tried[FIXED], None, "" if self._complete else why),
-            Stage(RANDOM, drawn, self.effort.examples, "" if drawn >= self.effort.examples else why),
+            CompareStage(FIXED, self.tried[FIXED], None, "" if self._complete else why),
+            CompareStage(RANDOM, drawn, self.effort.examples, "" if drawn >= self.effort.examples else why),
         )
 
     @property
@@ -137,12 +137,12 @@ class Search:
             self._try(origin, steps)
         self._complete = True
 
-    def _try(self, origin: str, steps: list[Step]) -> None:
+    def _try(self, origin: str, steps: list[ComparedStep]) -> None:
         self.tried[self.doing] += 1
         self.attempt(origin, steps)
         self.progress(self)
 
-    def attempt(self, origin: str, steps: list[Step]) -> Mismatch | None:
+    def attempt(self, origin: str, steps: list[ComparedStep]) -> StepMismatch | None:
         """Compare one run.  Raises ``Enough`` when the search is over."""
         self.coverage.add(steps)
         self.record(origin, steps)
@@ -158,10 +158,12 @@ class Search:
             raise Enough
         return mismatch
 
-    def _compared(self, steps: list[Step]) -> Mismatch | None:
+    def _compared(self, steps: list[ComparedStep]) -> StepMismatch | None:
         return compared(self.env.board, steps, _Listening(self.implementation, self._seen))
 
-    def _failed(self, origin: str, steps: list[Step], error: ImplementationError) -> Mismatch | None:
+    def _failed(
+        self, origin: str, steps: list[ComparedStep], error: ImplementationError
+    ) -> StepMismatch | None:
         """Keep the failure; what differs in the steps before it, whose outputs were lost."""
         failed = tuple(steps[: error.step])
         self.failures.append(Failure(self.env.board, origin, str(error), failed))
@@ -169,7 +171,7 @@ class Search:
             return self._compared(steps[: error.step - 1]) if error.step > 1 else None
         return None
 
-    def _keep(self, mismatch: Mismatch) -> Mismatch:
+    def _keep(self, mismatch: StepMismatch) -> StepMismatch:
         known = self.found.get(mismatch.key)
         if known is None or mismatch.tick < known.tick:
             self.found[mismatch.key] = mismatch
@@ -198,7 +200,7 @@ class Search:
         seed(self.effort.seed)(drawing(given(stimuli(self.env))(one)))()
 
 
-def _length(mismatch: Mismatch) -> tuple[int, str]:
+def _length(mismatch: StepMismatch) -> tuple[int, str]:
     """The order in which mismatches are told."""
     return mismatch.tick, str(mismatch.key)
 

@@ -8,9 +8,9 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 from checker.adapters.implementation import Implementation, ImplementationError, Value, Values
-from checker.compare.beside import Mismatch, compared, rerun
+from checker.compare.beside import StepMismatch, compared, rerun
 from checker.compare.environment import Environment
-from checker.compare.stimulus import NOW, SILENT, Block, Change, Every, Stimulus, clocked
+from checker.compare.stimulus import NOW, SILENT, Change, Every, InputBlock, Stimulus, clocked
 from spec_model.abstraction import Board
 from spec_model.abstraction.stamps import CLOCK, since
 from spec_model.lang.errors import ModelError
@@ -23,7 +23,7 @@ Column = tuple[Value | None, ...]
 
 
 @dataclass(frozen=True)
-class Columns:
+class InputColumns:
     """A run of concrete inputs, column by column; ``stamps`` are those that hold lags."""
 
     start_ms: int
@@ -50,15 +50,15 @@ class Columns:
 
     def stimulus(self) -> Stimulus:
         """The same run in held blocks."""
-        blocks: list[Block] = []
+        blocks: list[InputBlock] = []
         before: dict[str, Change] = {}
         for k in range(len(self)):
             now = {name: self._change(name, column[k]) for name, column in self.columns.items()}
             changed = tuple((name, value) for name, value in now.items() if k == 0 or before[name] != value)
             if k and not changed:
-                blocks[-1] = Block(blocks[-1].steps + 1, blocks[-1].changes)
+                blocks[-1] = InputBlock(blocks[-1].steps + 1, blocks[-1].changes)
             else:
-                blocks.append(Block(1, changed))
+                blocks.append(InputBlock(1, changed))
             before = now
         return Stimulus(tuple(blocks), self.start_ms)
 
@@ -68,16 +68,16 @@ class Columns:
             return value
         return SILENT if value is None else Every((1,), (int(value),))
 
-    def with_column(self, name: str, column: Column) -> "Columns":
-        return Columns(self.start_ms, self.stamps, {**self.columns, name: column})
+    def with_column(self, name: str, column: Column) -> "InputColumns":
+        return InputColumns(self.start_ms, self.stamps, {**self.columns, name: column})
 
-    def without(self, first: int, count: int) -> "Columns":
+    def without(self, first: int, count: int) -> "InputColumns":
         """Some steps left out."""
         kept = {name: c[:first] + c[first + count :] for name, c in self.columns.items()}
-        return Columns(self.start_ms, self.stamps, kept)
+        return InputColumns(self.start_ms, self.stamps, kept)
 
 
-def columns(board: Board, inputs: Sequence[Values]) -> Columns:
+def columns(board: Board, inputs: Sequence[Values]) -> InputColumns:
     """Concrete inputs taken apart.
 
     Raises ``ModelError`` for steps that are not 20 ms apart: the charts count steps.
@@ -95,7 +95,7 @@ def columns(board: Board, inputs: Sequence[Values]) -> Columns:
     }
     for name in stamps:
         found[name] = _lags(inputs, name)
-    return Columns(start, stamps, {s.name: found[s.name] for s in board.inputs if s.name != NOW})
+    return InputColumns(start, stamps, {s.name: found[s.name] for s in board.inputs if s.name != NOW})
 
 
 def _lags(inputs: Sequence[Values], name: str) -> Column:
@@ -120,8 +120,8 @@ class Budget:
 
 
 def smaller(
-    env: Environment, mismatch: Mismatch, implementation: Implementation, budget: Budget | None = None
-) -> Mismatch:
+    env: Environment, mismatch: StepMismatch, implementation: Implementation, budget: Budget | None = None
+) -> StepMismatch:
     """A mismatch with the same key in a run that is as small as the budget allows to find."""
     work = _Work(env, mismatch, implementation, budget or Budget(BUDGET))
     before = None
@@ -142,7 +142,7 @@ class _Work:
     """The smallest run so far."""
 
     def __init__(
-        self, env: Environment, mismatch: Mismatch, implementation: Implementation, budget: Budget
+        self, env: Environment, mismatch: StepMismatch, implementation: Implementation, budget: Budget
     ) -> None:
         self.env, self.best, self.budget = env, mismatch, budget
         self._implementation = implementation
@@ -157,7 +157,7 @@ class _Work:
         assert isinstance(calm, bool | int | float)
         return calm
 
-    def accepts(self, run: Columns) -> bool:
+    def accepts(self, run: InputColumns) -> bool:
         """Take the run over if it has the same mismatch."""
         if run == self.run:
             return True
@@ -170,13 +170,15 @@ class _Work:
         self.run = columns(self.env.board, [step.inputs for step in found.steps])
         return True
 
-    def _compared(self, run: Columns) -> Mismatch | None:
+    def _compared(self, run: InputColumns) -> StepMismatch | None:
         board = self.env.board
         try:
             found = compared(board, rerun(board, run.inputs(board)), self._implementation)
         except (ImplementationError, ModelError):  # not the difference that is looked for
             return None
-        return None if found is None else Mismatch(board, found.steps, found.differences, self.best.origin)
+        return (
+            None if found is None else StepMismatch(board, found.steps, found.differences, self.best.origin)
+        )
 
 
 def _calm_together(work: _Work) -> None:

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from itertools import cycle
 from typing import Protocol
 
-from spec_model.abstraction import Board, Signal, Value
+from spec_model.abstraction import Board, BoardSignal, Value
 from spec_model.abstraction.stamps import CLOCK
 from spec_model.lang.domain import Num
 from spec_model.lang.expr import Var
@@ -50,7 +50,7 @@ Change = Value | Every | Toward | Turning
 
 
 @dataclass(frozen=True)
-class Block:
+class InputBlock:
     """What changes at its start, and the number of steps for which it then holds."""
 
     steps: int
@@ -61,20 +61,20 @@ class Block:
 class Stimulus:
     """The time of the first step, and the blocks from power-up on."""
 
-    blocks: tuple[Block, ...]
+    blocks: tuple[InputBlock, ...]
     start_ms: int = TICK_MS
 
     def __len__(self) -> int:
         return sum(block.steps for block in self.blocks)
 
 
-class Charts(Protocol):
+class ChartsView(Protocol):
     """What a stimulus reads of the charts while they run."""
 
     def valuation(self) -> dict[str, int]: ...
 
 
-class Source:
+class StimulusSource:
     """A stamp, the fields that arrive with it, and its rhythm."""
 
     def __init__(self, stamp: str, fields: tuple[str, ...]) -> None:
@@ -97,18 +97,20 @@ class Source:
         return next(self._lags)
 
 
-class Player:
+class StimulusPlayer:
     """Turns one stimulus into inputs; ``fields`` names what arrives with each stamp.
 
     A field changes in the steps in which its stamp does, and what arrives with none at once.
     """
 
-    def __init__(self, board: Board, fields: Mapping[str, tuple[str, ...]], charts: Charts) -> None:
+    def __init__(self, board: Board, fields: Mapping[str, tuple[str, ...]], charts: ChartsView) -> None:
         self._charts = charts
         self._data = {**board.system.written, **board.system.inputs}
         self._inputs = board.at_power_up()
         self._wanted = {s.name: s.initial for s in board.inputs if not s.stamp}
-        self._sources = {s.name: Source(s.name, fields.get(s.name, ())) for s in board.inputs if clocked(s)}
+        self._sources = {
+            s.name: StimulusSource(s.name, fields.get(s.name, ())) for s in board.inputs if clocked(s)
+        }
         arriving = {name for s in self._sources.values() for name in s.fields}
         self._free = [name for name in self._wanted if name not in arriving]
 
@@ -123,7 +125,7 @@ class Player:
                 yield self._step(now)
                 now = (now + TICK_MS) % CLOCK
 
-    def _begin(self, block: Block) -> dict[str, float]:
+    def _begin(self, block: InputBlock) -> dict[str, float]:
         turning: dict[str, float] = {}
         for name, change in block.changes:
             match change:
@@ -152,7 +154,7 @@ class Player:
         return dict(inputs)
 
 
-def clocked(signal: Signal) -> bool:
+def clocked(signal: BoardSignal) -> bool:
     """Whether the signal is the stamp of a source."""
     return signal.stamp and signal.name != NOW
 

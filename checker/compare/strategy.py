@@ -8,7 +8,7 @@ from checker.compare.environment import Blocks, Environment
 from checker.compare.phases import changes, one_after_another, short, steps
 from checker.compare.phases1 import BOARD1
 from checker.compare.phases2 import BOARD2
-from checker.compare.stimulus import Block, Stimulus
+from checker.compare.stimulus import InputBlock, Stimulus
 from spec_model.abstraction.stamps import CLOCK
 from spec_model.lang.system import TICK_MS
 
@@ -23,14 +23,14 @@ LONGEST = 1500
 @st.composite
 def openings(draw: st.DrawFn, env: Environment) -> tuple[int, Blocks]:
     """Time and blocks from power-up to calm: at once, after silence, or just before the clock wraps."""
-    calm = Block(draw(short()), env.at_rest)
+    calm = InputBlock(draw(short()), env.at_rest)
     kind = draw(st.sampled_from(("calm", "calm", "calm", "calm", "silent", "some", "wrap")))
     if kind == "silent":
-        return TICK_MS, [Block(draw(steps(env))), calm]
+        return TICK_MS, [InputBlock(draw(steps(env))), calm]
     if kind == "some":
         stamps = draw(st.lists(st.sampled_from(env.values.stamps), unique=True))
         first = (*draw(changes(env)), *((stamp, draw(st.sampled_from(env.lags))) for stamp in stamps))
-        return TICK_MS, [Block(draw(short()), first), Block(draw(short())), calm]
+        return TICK_MS, [InputBlock(draw(short()), first), InputBlock(draw(short())), calm]
     if kind == "wrap":  # every stamp is new in the first step, or it would be as old as the clock
         return CLOCK - TICK_MS * draw(st.integers(1, 60)), [calm]
     return TICK_MS, [calm]
@@ -52,6 +52,6 @@ def cut(blocks: Blocks) -> Blocks:
     for block in blocks:
         if left <= 0:
             break
-        kept.append(Block(min(block.steps, left), block.changes))
+        kept.append(InputBlock(min(block.steps, left), block.changes))
         left -= block.steps
     return kept

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 from checker.adapters.implementation import Implementation, Value, Values
-from checker.compare.beside import Mismatch, Step, differences, differs, rerun
+from checker.compare.beside import ComparedStep, StepMismatch, differences, differs, rerun
 from checker.compare.environment import Environment
-from checker.compare.search import Effort, Run, Search
+from checker.compare.search import CompareEffort, CompareSearch, Run
 from spec_model.abstraction import Board
 
 Changes = Mapping[str, Value | None]
@@ -18,7 +18,7 @@ NOTHING: Changes = {}
 
 
 @dataclass(frozen=True)
-class Recorded:
+class RecordedSuite:
     """A run: where it comes from, and the changes of inputs and required outputs in each step.
 
     An output that changes to None is not required any more.
@@ -42,14 +42,14 @@ class Suite:
     """The runs of an effort on a board, those that take new arrows first."""
 
     board: Board
-    runs: tuple[Recorded, ...]
+    runs: tuple[RecordedSuite, ...]
 
     @property
     def steps(self) -> int:
         """Steps of all runs."""
         return sum(len(run.steps) for run in self.runs)
 
-    def first_mismatch(self, implementation: Implementation) -> Mismatch | None:
+    def first_mismatch(self, implementation: Implementation) -> StepMismatch | None:
         """The first difference in any of the runs.  Raises ``ImplementationError``."""
         for run in self.runs:
             mismatch = _first(self.board, run, implementation)
@@ -58,17 +58,17 @@ class Suite:
         return None
 
 
-def suite(env: Environment, effort: Effort, runs: Iterable[Run]) -> Suite:
+def suite(env: Environment, effort: CompareEffort, runs: Iterable[Run]) -> Suite:
     """Record what a search would try with an implementation that conforms."""
-    made: list[tuple[int, Recorded]] = []
+    made: list[tuple[int, RecordedSuite]] = []
     known: set[object] = set()
 
-    def keep(origin: str, steps: list[Step]) -> None:
+    def keep(origin: str, steps: list[ComparedStep]) -> None:
         arrows = {(f.chart, f.source, f.target, f.label) for step in steps for f in step.fired}
-        made.append((-len(arrows - known), Recorded(origin, tuple(_changes(steps)))))
+        made.append((-len(arrows - known), RecordedSuite(origin, tuple(_changes(steps)))))
         known.update(arrows)
 
-    Search(env, _Nothing(), effort, record=keep).run(runs)
+    CompareSearch(env, _Nothing(), effort, record=keep).run(runs)
     made.sort(key=lambda pair: pair[0])
     return Suite(env.board, tuple(run for _, run in made))
 
@@ -84,7 +84,7 @@ class _Nothing:
     def close(self) -> None: ...
 
 
-def _first(board: Board, recorded: Recorded, implementation: Implementation) -> Mismatch | None:
+def _first(board: Board, recorded: RecordedSuite, implementation: Implementation) -> StepMismatch | None:
     implementation.reset()
     seen: set[str] = set()
     given: list[dict[str, Value]] = []
@@ -94,11 +94,11 @@ def _first(board: Board, recorded: Recorded, implementation: Implementation) -> 
         seen.update(actual)
         if differs(expected, actual, seen):
             steps = tuple(rerun(board, given))
-            return Mismatch(board, steps, differences(board, expected, actual, seen))
+            return StepMismatch(board, steps, differences(board, expected, actual, seen))
     return None
 
 
-def _changes(steps: list[Step]) -> Iterator[tuple[Changes, Changes]]:
+def _changes(steps: list[ComparedStep]) -> Iterator[tuple[Changes, Changes]]:
     inputs: dict[str, Value] = {}
     expected: dict[str, Value] = {}
     for step in steps:

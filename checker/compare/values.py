@@ -10,7 +10,7 @@ import numpy as np
 
 from checker.compare.aims import Aims, Boundary, aims
 from checker.compare.stimulus import NOW, Toward, clocked
-from spec_model.abstraction import Board, Signal, Value
+from spec_model.abstraction import Board, BoardSignal, Value
 from spec_model.abstraction.board import units
 from spec_model.lang.domain import Num, Unit
 
@@ -34,7 +34,7 @@ class Values:
         return aims(self.board)
 
     @cached_property
-    def signals(self) -> dict[str, Signal]:
+    def signals(self) -> dict[str, BoardSignal]:
         """The inputs that are no stamps, by name."""
         return {s.name: s for s in self.board.inputs if not s.stamp}
 
@@ -97,7 +97,7 @@ class Values:
         )
 
 
-def around(signal: Signal, boundary: Fraction) -> Iterable[Value]:
+def around(signal: BoardSignal, boundary: Fraction) -> Iterable[Value]:
     """The boundary and values beside it, as far as firmware can hold them."""
     for distance in _beside(signal):
         value = boundary + distance
@@ -105,7 +105,7 @@ def around(signal: Signal, boundary: Fraction) -> Iterable[Value]:
             yield _concrete(signal, value)
 
 
-def nearest(signal: Signal, boundary: Fraction) -> Iterable[Value]:
+def nearest(signal: BoardSignal, boundary: Fraction) -> Iterable[Value]:
     """The numbers of single precision next to a boundary on both sides, as far as firmware can hold them.
 
     Firmware may compute in single precision, to which the neighbours in double precision are the boundary
@@ -124,7 +124,7 @@ def nearest(signal: Signal, boundary: Fraction) -> Iterable[Value]:
             yield value
 
 
-def _beside(signal: Signal) -> tuple[Fraction, ...]:
+def _beside(signal: BoardSignal) -> tuple[Fraction, ...]:
     """Distances from a boundary, those on one side after those on the other."""
     if signal.whole:
         steps: tuple[Fraction, ...] = (Fraction(1), Fraction(2))
@@ -135,11 +135,11 @@ def _beside(signal: Signal) -> tuple[Fraction, ...]:
     return (Fraction(0), *(-s for s in steps), *steps)
 
 
-def _is_heading(signal: Signal) -> bool:
+def _is_heading(signal: BoardSignal) -> bool:
     return isinstance(signal.domain.sort, Num) and signal.domain.sort.unit == DEGREES
 
 
-def _top(signal: Signal) -> Fraction:
+def _top(signal: BoardSignal) -> Fraction:
     return TOP if _is_heading(signal) else Fraction(str(signal.high))
 
 
@@ -152,11 +152,11 @@ def _exact_in_binary(value: Fraction) -> bool:
     return value.denominator <= 1024 and value.denominator & (value.denominator - 1) == 0
 
 
-def _concrete(signal: Signal, value: Fraction) -> Value:
+def _concrete(signal: BoardSignal, value: Fraction) -> Value:
     return round(value) if signal.whole or value.denominator == 1 else float(value)
 
 
-def _representatives(signal: Signal) -> Iterable[Value]:
+def _representatives(signal: BoardSignal) -> Iterable[Value]:
     """The values that the model gives the input; of a mask each bit alone, none, all and a few."""
     sort = signal.domain.sort
     if isinstance(sort, Num) and signal.whole and signal.low == 0 and len(signal.domain) == signal.high + 1:

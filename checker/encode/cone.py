@@ -7,7 +7,7 @@ conjuncts does not restrict the rest, provided it can be satisfied at all, which
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from checker.encode.symbolic import Transition
+from checker.encode.symbolic import SymbolicTransition
 from checker.encode.terms import Terms
 from checker.system.intervals import Interval, postorder
 from checker.system.slice import sliced
@@ -33,7 +33,7 @@ class Slice:
     loose: tuple[Expr, ...]
 
 
-def cone(transition: Transition, goals: Iterable[str]) -> Slice:
+def cone(transition: SymbolicTransition, goals: Iterable[str]) -> Slice:
     """The cone of influence of some variables."""
     system, following = transition.system, transition.next
     tight, loose = _split(transition.assume, goals, following, {v.name for v in system.inputs})
@@ -48,7 +48,7 @@ def cone(transition: Transition, goals: Iterable[str]) -> Slice:
     )
 
 
-def by_cone(transition: Transition, goals: Iterable[str]) -> list[list[str]]:
+def by_cone(transition: SymbolicTransition, goals: Iterable[str]) -> list[list[str]]:
     """Goals that depend on the same variables, inputs and frozen variables, apart from goals."""
     found: dict[frozenset[str], list[str]] = {}
     wanted = list(goals)
@@ -59,7 +59,7 @@ def by_cone(transition: Transition, goals: Iterable[str]) -> list[list[str]]:
     return list(found.values())
 
 
-def folded(transition: Transition, fixed: Mapping[str, int] | None = None) -> Transition:
+def folded(transition: SymbolicTransition, fixed: Mapping[str, int] | None = None) -> SymbolicTransition:
     """The transition with variables that never change (``fixed``, as in ``constants``) and inputs that the
     assumption leaves one value replaced by these values.  The assumption still says so of the inputs."""
     fixed = constants(transition) if fixed is None else fixed
@@ -69,7 +69,7 @@ def folded(transition: Transition, fixed: Mapping[str, int] | None = None) -> Tr
     return replace(transition, next=following, assume=tuple(map(assumed, transition.assume)))
 
 
-def constants(transition: Transition) -> dict[str, int]:
+def constants(transition: SymbolicTransition) -> dict[str, int]:
     """Variables that keep their initial value in every run: the greatest set that justifies itself."""
     inputs, fixed = settled(transition), transition.system.init
     while True:
@@ -80,7 +80,7 @@ def constants(transition: Transition) -> dict[str, int]:
         fixed = kept
 
 
-def settled(transition: Transition) -> dict[str, int]:
+def settled(transition: SymbolicTransition) -> dict[str, int]:
     """Inputs to which a conjunct of the assumption gives their value: ``i``, ``~i`` or ``i == 3``."""
     inputs = {v.name for v in transition.system.inputs}
     pairs = (_settles(conjunct) for conjunct in transition.assume)
@@ -183,7 +183,7 @@ def as_written(system: TransitionSystem, goals: Iterable[str]) -> tuple[Var, ...
     return tuple(v for v in system.variables if v.name in read or v.name in assumed)
 
 
-def straying(transition: Transition, among: Iterable[Var]) -> dict[str, Expr]:
+def straying(transition: SymbolicTransition, among: Iterable[Var]) -> dict[str, Expr]:
     """For the variables that might leave their domain, the condition under which a tick takes them out of
     it; a value between two members of a domain with gaps is outside, too."""
     terms = transition.terms

@@ -40,7 +40,7 @@ class Atom:
 
 
 @dataclass(frozen=True)
-class Cube:
+class TemplateCube:
     """Valuations that agree with one of them on the variables named."""
 
     valuation: Mapping[str, int]
@@ -192,7 +192,7 @@ class Candidates:
 
     # --- from a valuation that no run visits -----------------------------------------------------
 
-    def excluding(self, cube: Cube, order: np.random.Generator) -> Expr | None:
+    def excluding(self, cube: TemplateCube, order: np.random.Generator) -> Expr | None:
         """A clause over few conditions that is false in the cube and true in the whole sample.
 
         Conditions that hold in the cube are dropped one by one, in a random order, while no sampled
@@ -203,7 +203,7 @@ class Candidates:
         kept = _least_unmet(shuffled) if shuffled else None
         return None if kept is None else self._never(*(shuffled[i].expr for i in kept))
 
-    def _met_by(self, cube: Cube) -> Iterator[Atom]:
+    def _met_by(self, cube: TemplateCube) -> Iterator[Atom]:
         inside = [v for v in self._scope if v.name in cube.names]
         for var in inside:
             values, own = self.sample[var.name], cube.valuation[var.name]
@@ -227,7 +227,7 @@ class Candidates:
         yield Atom(x, self.terms.at_most(limit, difference), gap >= own)
 
 
-class Pool:
+class TemplatePool:
     """Candidates to choose from, by what they exclude."""
 
     def __init__(self, candidates: Iterable[Expr]) -> None:
@@ -242,7 +242,7 @@ class Pool:
         found, self._left = list(self._left.values()), {}
         return found
 
-    def take(self, cube: Cube) -> list[Expr]:
+    def take(self, cube: TemplateCube) -> list[Expr]:
         """The candidates that exclude the whole cube; they are taken out."""
         inside = [c for key, c in self._left.items() if self._names[key] <= cube.names]
         if not inside:

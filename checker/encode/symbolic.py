@@ -18,16 +18,16 @@ from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 
 
-class Store(dict[str, Expr]):
+class SymbolicStore(dict[str, Expr]):
     """The value of each variable; in a branch only what is written there, on top of the store ``below``."""
 
-    def __init__(self, below: "Store | None" = None) -> None:
+    def __init__(self, below: "SymbolicStore | None" = None) -> None:
         super().__init__()
         self._below = below
 
     def find(self, name: str) -> Expr | None:
         """The value of a variable; None for a temporary without one."""
-        store: Store | None = self
+        store: SymbolicStore | None = self
         while store is not None:
             if (value := store.get(name)) is not None:
                 return value
@@ -36,7 +36,7 @@ class Store(dict[str, Expr]):
 
 
 @dataclass(frozen=True)
-class Transition:
+class SymbolicTransition:
     """One tick as functions.
 
     ``next`` gives every variable, by name, after the tick; ``assume`` are conjuncts on the valuation
@@ -49,19 +49,19 @@ class Transition:
     terms: Terms
 
 
-def transition(system: TransitionSystem, terms: Terms | None = None) -> Transition:
+def transition(system: TransitionSystem, terms: Terms | None = None) -> SymbolicTransition:
     """Execute the step symbolically, with formulas of a table of their own, or of that of another system.
 
     Raises ``ModelError`` on a temporal word.
     """
     terms = terms or Terms()
-    store = Store()
+    store = SymbolicStore()
     store.update({v.name: terms.var(v) for v in (*system.variables, *system.inputs, *system.frozen)})
     executor, facts = _Executor(terms), Facts(terms.range)
     assume = executor.value(system.assume, store, facts)
     executor.run(system.step, store, facts)
     parts = tuple(_conjuncts(assume, terms))
-    return Transition(system, {v.name: store[v.name] for v in system.variables}, parts, terms)
+    return SymbolicTransition(system, {v.name: store[v.name] for v in system.variables}, parts, terms)
 
 
 def _conjuncts(expr: Expr, terms: Terms) -> Iterator[Expr]:
@@ -82,7 +82,7 @@ class _Executor:
     def __init__(self, terms: Terms) -> None:
         self._terms = terms
 
-    def run(self, program: Sequence[Action], store: Store, facts: Facts) -> None:
+    def run(self, program: Sequence[Action], store: SymbolicStore, facts: Facts) -> None:
         """Run the statements, updating the store in place."""
         for statement in program:
             if isinstance(statement, Assign):
@@ -92,12 +92,12 @@ class _Executor:
             else:
                 raise ModelError(f"`{statement}` is left in the step; lower the chart first.")
 
-    def _branch(self, statement: If, store: Store, facts: Facts) -> None:
+    def _branch(self, statement: If, store: SymbolicStore, facts: Facts) -> None:
         test = self.value(statement.condition, store, facts)
         if isinstance(test, Const):
             self.run(statement.then if test.value else statement.otherwise, store, facts)
             return
-        then, other = Store(store), Store(store)
+        then, other = SymbolicStore(store), SymbolicStore(store)
         self.run(statement.then, then, facts.assuming(test, True))
         self.run(statement.otherwise, other, facts.assuming(test, False))
         # A temporary written in one branch only is read later under the same condition only.
@@ -107,14 +107,14 @@ class _Executor:
             assert value is not None and alternative is not None, "it is written in one of the branches"
             store[name] = value if value is alternative else self._terms.ite(test, value, alternative)
 
-    def value(self, expr: Expr, store: Store, facts: Facts) -> Expr:
+    def value(self, expr: Expr, store: SymbolicStore, facts: Facts) -> Expr:
         """The value of an expression in a store."""
         done: dict[int, Expr] = {}
         for node in postorder(expr):
             done[id(node)] = self._known(self._node(node, store, done), facts)
         return done[id(expr)]
 
-    def _node(self, node: Expr, store: Store, done: Mapping[int, Expr]) -> Expr:
+    def _node(self, node: Expr, store: SymbolicStore, done: Mapping[int, Expr]) -> Expr:
         match node:
             case Const(raw, sort):
                 return self._terms.const(raw, sort)

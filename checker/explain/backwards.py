@@ -14,7 +14,7 @@ from checker.encode.bits.inputs import InputCut
 from checker.encode.bits.order import orders
 from checker.engines import Progress
 from checker.engines.bdd.relation import relation
-from checker.engines.bdd.space import DDMemoryError, Function, Overdrawn, Space, Store, meets
+from checker.engines.bdd.space import DDMemoryError, Function, NodeStore, Overdrawn, Space, meets
 from checker.explain.unrolled import Over, Place, never
 from checker.explain.widening import widest
 from checker.results.verdict import Run
@@ -30,7 +30,7 @@ Values = dict[str, frozenset[int]]
 """The values that the needed inputs of a tick may have, by name."""
 
 
-class TooLarge(Exception):
+class ExplanationTooLarge(Exception):
     """The sets of valuations do not fit into the nodes that they may take."""
 
 
@@ -40,20 +40,20 @@ def backwards(
     """The needed inputs of a run with the values that they may have, and whether none can be left out.
 
     When the time is ``over``, all inputs of the ticks not yet looked at are kept as they are.  Raises
-    ``TooLarge``, and ``ReplayError`` if the inputs of the run do not force its end.
+    ``ExplanationTooLarge``, and ``ReplayError`` if the inputs of the run do not force its end.
     """
     try:
         search = _Search(_Ticks(made, goal, run), cells, over)
         needed = search.needed(progress)
     except (DDMemoryError, Overdrawn) as error:
-        raise TooLarge(str(error)) from error
+        raise ExplanationTooLarge(str(error)) from error
     return {(tick, name): values for tick, at in needed for name, values in at.items()}, search.minimal
 
 
 @cache
-def _store() -> Store:
+def _store() -> NodeStore:
     """The nodes of this process: there can be one store only."""
-    return Store(NODES)
+    return NodeStore(NODES)
 
 
 class _Ticks:

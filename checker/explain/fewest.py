@@ -15,7 +15,7 @@ from pysat.card import ITotalizer
 from pysat.solvers import Minisat22
 
 from checker.encode.bits import Circuit
-from checker.encode.bits.simulate import Simulation, Values
+from checker.encode.bits.simulate import BitSimulation, Values
 from checker.explain.unrolled import CONFLICTS, LANES, Over, Place, Unrolled
 from checker.results.verdict import Run
 from checker.system.partition import Partition
@@ -145,7 +145,7 @@ def simulated(made: Circuit, goal: str, run: Run, changes: Sequence[Change]) -> 
 
     A run that takes a variable out of its domain counts as one that does, whatever comes after that.
     """
-    simulation = Simulation(made, len(changes), run.frozen)
+    simulation = BitSimulation(made, len(changes), run.frozen)
     admissible, left, hit = simulation.full, 0, 0
     for values in _changed(run, changes, {bit.var.name for bit in (*made.inputs, *made.others)}):
         simulation.given(values)

@@ -13,7 +13,7 @@ from functools import partial
 
 from checker.encode.bits import Circuit, circuit
 from checker.engines import Progress, quiet
-from checker.explain.backwards import TooLarge, backwards
+from checker.explain.backwards import ExplanationTooLarge, backwards
 from checker.explain.fewest import fewest, indispensable, simulated
 from checker.explain.unrolled import Over, Place, Unrolled, never
 from checker.explain.widening import widened
@@ -71,7 +71,7 @@ def _searched(
 ) -> tuple[dict[Place, frozenset[int]], bool, bool]:
     """The needed inputs with the values that do, whether none can be left out, and whether none are fewer."""
     if len(made.aig) < WIDE and len(made.aig) * len(run) > LARGE:
-        with suppress(TooLarge):
+        with suppress(ExplanationTooLarge):
             found, minimal = backwards(made, goal, run, cells, progress, over)
             progress("looking for a smaller set of inputs")
             sure = indispensable(found, run, cells, partial(simulated, made, goal, run), over)

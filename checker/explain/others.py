@@ -12,12 +12,11 @@ from checker.engines import Limits, Progress, quiet
 from checker.process.isolate import Send, Stopped, messages
 from checker.results.trace import Trace, counted_ticks
 from checker.results.verdict import Answer, Open, Reached, Run, Unreachable
-from checker.system.instrument.goals import Goal as Arrow
-from checker.system.instrument.goals import Kind, Watched
+from checker.system.instrument.goals import CoverGoal, GoalKind, Watched
 from checker.system.instrument.watch import watched
 from checker.system.lowered import lowered
-from checker.verify.decide import Asking
-from checker.verify.portfolio import Hint, Told
+from checker.verify.decide import EngineCall
+from checker.verify.portfolio import Callbacks, Hint
 from checker.verify.portfolio.question import light
 from checker.verify.result import check_domains
 from checker.verify.runs.calm import calmed
@@ -67,7 +66,7 @@ class Others:
 
     def __init__(self, first: Trace, prop: Property, system: System, looked: Watched | None = None) -> None:
         self._plain = reduce(lowered(system), [replace(prop, on=system.name)])
-        looked = looked or watched(system, (Kind.ARROWS,))
+        looked = looked or watched(system, (GoalKind.ARROWS,))
         self.arrows = tuple(arrow for arrow in looked.goals if arrow.part in first.charts)
         question = reduce(lowered(looked.system), [replace(prop, on=system.name)])
         self._question, self._memories = _remembering(question, self.arrows)
@@ -143,7 +142,9 @@ def _some(arrows: Sequence[str]) -> str:
     return ", ".join(arrows[:MOST]) + (f" and {more} more" if more > 0 else "")
 
 
-def _remembering(question: Question, arrows: Sequence[Arrow]) -> tuple[Question, list[tuple[Arrow, Var]]]:
+def _remembering(
+    question: Question, arrows: Sequence[CoverGoal]
+) -> tuple[Question, list[tuple[CoverGoal, Var]]]:
     """The question with a variable for each arrow that tells whether it was taken so far."""
     memories = [(a, Var(f"taken {a.id}", boolean, 0, f"{a.text} so far", hidden=True)) for a in arrows]
     system = replace(
@@ -159,7 +160,7 @@ def _run_of(trace: Trace, question: Question) -> Run:
     return Run(frozen, tuple(tick.inputs for tick in trace.ticks))
 
 
-def _named(arrow: Arrow) -> str:
+def _named(arrow: CoverGoal) -> str:
     return f"{arrow.part}: {arrow.text}"
 
 
@@ -181,6 +182,6 @@ def answered(system: TransitionSystem, goal: Var, engine: str, limits: Limits, p
 
 
 def _search(send: Send, system: TransitionSystem, goal: Var, engine: str, limits: Limits) -> None:
-    found = Asking(engine, limits, Told(send))(system, [goal], Hint.SHORT)
+    found = EngineCall(engine, limits, Callbacks(send))(system, [goal], Hint.SHORT)
     check_domains(system, found)
     send(light(found[goal.name][0]))

@@ -6,7 +6,7 @@ Aina Niemetz, Mathias Preiner, Clifford Wolf, Armin Biere: BTOR2, BtorMC and Boo
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.export.machine import Machine, machine, meaning
+from checker.export.machine import ExportMachine, machine, meaning
 from checker.export.names import one_line, symbols
 from checker.export.problem import Problem
 from checker.system.intervals import Interval, interval, postorder
@@ -44,7 +44,7 @@ def bits_of(var: Var) -> int:
 class _Writer:
     """Lines of a file; equal nodes are written once."""
 
-    def __init__(self, made: Machine) -> None:
+    def __init__(self, made: ExportMachine) -> None:
         self.lines: list[str] = []
         self._known: dict[str, int] = {}
         self._value: dict[int, int] = {}
@@ -98,7 +98,7 @@ class _Writer:
 
     # --- the machine -------------------------------------------------------------------------------
 
-    def machine(self, made: Machine) -> None:
+    def machine(self, made: ExportMachine) -> None:
         """Write everything; a frozen variable is a state that starts anywhere and keeps its value."""
         for var in made.states:  # readers want the value of an init before its state
             self.const(var.init, bits_of(var))

@@ -18,15 +18,15 @@ ZERO = Interval(0, 0)
 
 
 @dataclass
-class Flow:
+class ExportFlow:
     """The interval of every variable at a place in the program."""
 
     at: dict[str, Interval]
 
-    def copy(self) -> "Flow":
-        return Flow(dict(self.at))
+    def copy(self) -> "ExportFlow":
+        return ExportFlow(dict(self.at))
 
-    def join(self, one: "Flow", other: "Flow") -> None:
+    def join(self, one: "ExportFlow", other: "ExportFlow") -> None:
         """Become what is so after either of two branches."""
         self.at = {name: one.at[name] | other.at[name] for name in one.at}
 
@@ -35,7 +35,7 @@ class Flow:
         return self.at[var.name].within(Interval(var.domain.low, var.domain.high))
 
 
-class Reach:
+class ExportReach:
     """What every variable and formula of a step can be; collects the hulls for whole variables."""
 
     def __init__(self, system: TransitionSystem) -> None:
@@ -44,11 +44,11 @@ class Reach:
         self._start |= {v.name: Interval(v.domain.low, v.domain.high) for v in ours}
         self._hull = {name: ends | ZERO for name, ends in self._start.items()}
 
-    def start(self) -> Flow:
+    def start(self) -> ExportFlow:
         """What is so before a tick: variables lie in their domains, and what passes with a tick is 0."""
-        return Flow(dict(self._start))
+        return ExportFlow(dict(self._start))
 
-    def intervals(self, expr: Expr, flow: Flow) -> dict[int, Interval]:
+    def intervals(self, expr: Expr, flow: ExportFlow) -> dict[int, Interval]:
         """The interval of every node of a formula, by ``id``.  Raises ``ModelError`` past 32 bits."""
         known: dict[int, Interval] = {}
         for node in postorder(expr):
@@ -60,7 +60,7 @@ class Reach:
                 )
         return known
 
-    def assign(self, var: Var, value: Interval, flow: Flow) -> None:
+    def assign(self, var: Var, value: Interval, flow: ExportFlow) -> None:
         """Note that a variable gets a value."""
         flow.at[var.name] = value
         self._hull[var.name] |= value

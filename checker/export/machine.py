@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from checker.encode.cone import Slice, as_written, cone, folded, straying
-from checker.encode.symbolic import Transition, transition
+from checker.encode.symbolic import SymbolicTransition, transition
 from checker.export.problem import LEAVES, Problem
 from spec_model.lang.domain import Bool, Num
 from spec_model.lang.expr import Expr, Var, flag
@@ -12,7 +12,7 @@ from spec_model.lang.walk import variables
 
 
 @dataclass(frozen=True)
-class Machine:
+class ExportMachine:
     """A synchronous machine, cut to the cone of influence of its bad states.
 
     All formulas speak of ``states`` and ``frozen`` before a tick and of its ``inputs``: ``next`` of every
@@ -32,7 +32,7 @@ class Machine:
         return (*self.next.values(), *self.assume, *(formula for _, formula in self.bad))
 
 
-def machine(problem: Problem) -> Machine:
+def machine(problem: Problem) -> ExportMachine:
     """The machine of a problem.  Raises ``ModelError`` on a temporal word."""
     whole, goals = demanded(problem)
     part = cone(whole, goals)
@@ -40,10 +40,12 @@ def machine(problem: Problem) -> Machine:
     states = tuple(v for v in part.variables if v.name in names)
     following = {v.name: part.next[v.name] for v in states}
     bad = tuple((name, part.next[name]) for name in goals)
-    return Machine(states, part.frozen, whole.system.inputs, following, (*part.assume, *part.loose), bad)
+    return ExportMachine(
+        states, part.frozen, whole.system.inputs, following, (*part.assume, *part.loose), bad
+    )
 
 
-def demanded(problem: Problem) -> tuple[Transition, tuple[str, ...]]:
+def demanded(problem: Problem) -> tuple[SymbolicTransition, tuple[str, ...]]:
     """The transition of the system of a problem, and the names of its bad states.
 
     One more of these says that some variable leaves its domain, if that may be.  Of the inputs, those are

@@ -6,7 +6,7 @@ violation is a shortest one.
 
 from collections.abc import Iterator, Sequence
 
-from checker.export.flow import Flow, Reach
+from checker.export.flow import ExportFlow, ExportReach
 from checker.export.machine import meaning
 from checker.export.names import identifiers, one_line
 from checker.export.problem import Problem
@@ -57,7 +57,7 @@ class _Process:
         self._variables = [*system.frozen, *system.variables, *system.inputs, *self._passing]
         own = [v.name for v in self._variables]
         self._names = identifiers(own, KEYWORDS | {n for n in own if n.isupper()})
-        self._reach = Reach(system)
+        self._reach = ExportReach(system)
         self._text = Text(self._names, self._reach)
 
     def lines(self) -> Iterator[str]:
@@ -121,7 +121,7 @@ class _Process:
         ):
             yield f"{name} = 0;"
 
-    def _domains(self, flow: Flow) -> Iterator[str]:
+    def _domains(self, flow: ExportFlow) -> Iterator[str]:
         """What must hold after a tick for variables that the text does not show to be in their domains."""
         for var in self._system.variables:
             name, domain = self._names[var.name], var.domain

@@ -6,7 +6,7 @@ Roberto Cavada et al.: The nuXmv Symbolic Model Checker, CAV 2014.
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
-from checker.export.machine import Machine, machine, meaning
+from checker.export.machine import ExportMachine, machine, meaning
 from checker.export.names import identifiers, one_line
 from checker.export.problem import Problem
 from checker.system.intervals import intervals, postorder
@@ -53,7 +53,7 @@ def export(problem: Problem) -> str:
 class _Module:
     """The sections of the file."""
 
-    def __init__(self, made: Machine) -> None:
+    def __init__(self, made: ExportMachine) -> None:
         self._made = made
         names = [v.name for v in (*made.frozen, *made.states, *made.inputs)]
         bad = [f"bad {name}" for name, _ in made.bad]

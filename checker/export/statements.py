@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import count
 
-from checker.export.flow import INT, Flow, Reach
+from checker.export.flow import INT, ExportFlow, ExportReach
 from checker.system.intervals import Interval, postorder
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.errors import ModelError
@@ -23,12 +23,12 @@ class Text:
     variable of ``scratch``: formulas are total, so that this changes nothing.  Statements share these.
     """
 
-    def __init__(self, names: Mapping[str, str], reach: Reach) -> None:
+    def __init__(self, names: Mapping[str, str], reach: ExportReach) -> None:
         self._names, self._reach = names, reach
         self._taken = frozenset(names.values())
         self.scratch: list[str] = []
 
-    def program(self, program: Sequence[Action], flow: Flow) -> Iterator[str]:
+    def program(self, program: Sequence[Action], flow: ExportFlow) -> Iterator[str]:
         """The statements, a line each; ``flow`` is brought to where the program ends."""
         for statement in program:
             if isinstance(statement, Assign):
@@ -42,7 +42,7 @@ class Text:
             else:
                 raise ModelError(f"`{statement}` is left in the step; lower the chart first.")
 
-    def _branch(self, statement: If, flow: Flow) -> Iterator[str]:
+    def _branch(self, statement: If, flow: ExportFlow) -> Iterator[str]:
         before, test = self.value(statement.condition, flow)
         then, other = flow.copy(), flow.copy()
         yield from before
@@ -53,7 +53,7 @@ class Text:
         yield "fi;"
         flow.join(then, other)
 
-    def value(self, expr: Expr, flow: Flow) -> tuple[list[str], str]:
+    def value(self, expr: Expr, flow: ExportFlow) -> tuple[list[str], str]:
         """Statements to run first, and the text of a formula."""
         return self._value(expr, self._reach.intervals(expr, flow))
 

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from functools import cache
 
 from checker.logs.choosing import Choice, choose
-from checker.logs.cones import Cone, cones
+from checker.logs.cones import LogCone, cones
 from checker.logs.signals import Vocabulary
 from properties.catalogue import catalogue, expected
 from properties.forms import Property
@@ -29,7 +29,7 @@ class Against:
         self.expected = expected
         self._boards, self._properties, self._systems = boards, properties, systems
         self._vocabularies: dict[str, Vocabulary] = {}
-        self._cones: dict[tuple[str, frozenset[str], frozenset[str]], tuple[Cone, ...]] = {}
+        self._cones: dict[tuple[str, frozenset[str], frozenset[str]], tuple[LogCone, ...]] = {}
         self._choices: dict[tuple[str, frozenset[str]], Choice] = {}
 
     def vocabulary(self, board: str) -> Vocabulary:
@@ -38,7 +38,7 @@ class Against:
             self._vocabularies[board] = Vocabulary(self._boards[board])
         return self._vocabularies[board]
 
-    def cones(self, board: str, seen: frozenset[str], logged: frozenset[str]) -> tuple[Cone, ...]:
+    def cones(self, board: str, seen: frozenset[str], logged: frozenset[str]) -> tuple[LogCone, ...]:
         """The parts of a board of which these inputs are seen and these outputs logged."""
         key = board, seen, logged
         if key not in self._cones:

@@ -6,11 +6,11 @@ from itertools import permutations
 
 from checker.logs.belief import differs
 from checker.logs.cells import Raw
-from checker.logs.cones import Cone
+from checker.logs.cones import LogCone
 from checker.logs.deviations import Deviation, Grouping, always_late, swapped
-from checker.logs.log import Block, Cells
-from checker.logs.mismatch import Mismatch
-from checker.logs.tracker import Row, Tracker, Undecided
+from checker.logs.log import Cells, LogBlock
+from checker.logs.mismatch import LogMismatch
+from checker.logs.tracker import TrackedRow, Tracker, UndecidedRow
 
 Column = Sequence[Raw | None]
 
@@ -25,7 +25,7 @@ class Behaviour:
     """
 
     deviations: tuple[Deviation, ...]
-    undecided: tuple[Undecided, ...]
+    undecided: tuple[UndecidedRow, ...]
     compared: tuple[str, ...]
     left_out: tuple[str, ...]
     inferred: tuple[str, ...]
@@ -35,7 +35,11 @@ class Follow:
     """Follows all parts of a board through a log."""
 
     def __init__(
-        self, parts: Sequence[Cone], tolerance: Mapping[str, float], seen: frozenset[str], from_power_up: bool
+        self,
+        parts: Sequence[LogCone],
+        tolerance: Mapping[str, float],
+        seen: frozenset[str],
+        from_power_up: bool,
     ) -> None:
         self._trackers = [Tracker(cone, tolerance, from_power_up) for cone in parts]
         self._outputs = {o.var.name: o.name for cone in parts for o in cone.outputs}
@@ -48,7 +52,7 @@ class Follow:
         self._changes = _OnTime()
         self._swaps = _Swaps(parts)
 
-    def block(self, block: Block, seen: Mapping[str, Cells]) -> None:
+    def block(self, block: LogBlock, seen: Mapping[str, Cells]) -> None:
         """The rows of a block; ``seen`` are the inputs of the charts."""
         columns = {name: block.values[signal] for name, signal in self._outputs.items()}
         fetches = [self._fetch(t.cone, columns, seen) for t in self._trackers]
@@ -56,7 +60,7 @@ class Follow:
         for i in range(len(block)):
             self._row(i, block, fetches, columns, outputs[i])
 
-    def _fetch(self, cone: Cone, columns: Mapping[str, Column], seen: Mapping[str, Cells]) -> "_Fetch":
+    def _fetch(self, cone: LogCone, columns: Mapping[str, Column], seen: Mapping[str, Cells]) -> "_Fetch":
         inputs = [
             (v.name, v.name in cone.before, seen.get(v.name) or columns.get(v.name))
             for v in cone.system.inputs
@@ -66,7 +70,7 @@ class Follow:
     def _row(
         self,
         i: int,
-        block: Block,
+        block: LogBlock,
         fetches: Sequence["_Fetch"],
         columns: Mapping[str, Column],
         outputs: tuple[Raw | None, ...],
@@ -75,12 +79,12 @@ class Follow:
         if missing:
             self._before = dict.fromkeys(self._before, (None,))
         now: dict[str, tuple[Raw | None, ...]] = {}
-        found: list[Mismatch] = []
+        found: list[LogMismatch] = []
         for tracker, fetch in zip(self._trackers, fetches, strict=True):
             inputs = fetch.inputs(i, self._before, now)
             logged = tuple([c[i] for c in fetch.outputs])
             before = tracker.required
-            mismatch = tracker.step(Row(tick, block.lines[i], missing, inputs, logged))
+            mismatch = tracker.step(TrackedRow(tick, block.lines[i], missing, inputs, logged))
             self._changes.note(tracker, before, mismatch)
             if mismatch is not None:
                 found.append(mismatch)
@@ -135,7 +139,7 @@ class _OnTime:
     def __init__(self) -> None:
         self.on_time: set[str] = set()
 
-    def note(self, tracker: Tracker, before: Sequence[Raw | None], mismatch: Mismatch | None) -> None:
+    def note(self, tracker: Tracker, before: Sequence[Raw | None], mismatch: LogMismatch | None) -> None:
         if before == tracker.required or not before or not tracker.required:
             return
         wrong = mismatch.outputs if mismatch is not None else ()
@@ -147,7 +151,7 @@ class _OnTime:
 class _Swaps:
     """Pairs of outputs that in every tick hold what is required of the other one."""
 
-    def __init__(self, parts: Sequence[Cone]) -> None:
+    def __init__(self, parts: Sequence[LogCone]) -> None:
         self._places = {o.name: (p, i) for p, cone in enumerate(parts) for i, o in enumerate(cone.outputs)}
         domains = {o.name: o.var.domain for cone in parts for o in cone.outputs}
         self._alive = {(a, b) for a, b in permutations(domains, 2) if a < b and domains[a] == domains[b]}

@@ -5,8 +5,8 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from checker.logs.cells import Raw
-from checker.logs.cones import Cone
-from checker.logs.program import Known, Needed
+from checker.logs.cones import LogCone
+from checker.logs.program import Known, NeededInputs
 from spec_model.lang.domain import Num
 
 MOST_VALUATIONS = 512
@@ -22,7 +22,7 @@ NEARLY = 1e-6
 
 
 @dataclass(frozen=True)
-class Outcome:
+class BeliefOutcome:
     """What a step may lead to: the valuations before and after it, and the outputs it requires."""
 
     before: Known
@@ -37,7 +37,7 @@ class TooMany(Exception):
 class Follower:
     """Takes the steps of one part of a board, from sets of valuations."""
 
-    def __init__(self, cone: Cone, tolerance: Mapping[str, float]) -> None:
+    def __init__(self, cone: LogCone, tolerance: Mapping[str, float]) -> None:
         self.cone = cone
         self.incomplete: set[str] = set()
         self.runs_left = FIRST_RUNS
@@ -45,7 +45,7 @@ class Follower:
         self._state = [v.name for v in cone.system.variables]
         self._inputs = [v.name for v in cone.system.inputs]
         self._apart = [_apart(o.signal.domain.sort, tolerance.get(o.name)) for o in cone.outputs]
-        self._remembered: dict[tuple[Known, Known], tuple[tuple[Outcome, ...], frozenset[str]]] = {}
+        self._remembered: dict[tuple[Known, Known], tuple[tuple[BeliefOutcome, ...], frozenset[str]]] = {}
         self._asked: Counter[str] = Counter()
         self._guessed: set[str] = set()
 
@@ -57,29 +57,29 @@ class Follower:
         """Every valuation in which these variables have these values."""
         return (tuple(told.get(name) for name in self._state),)
 
-    def outcomes(self, valuations: Sequence[Known], inputs: Known) -> list[Outcome]:
+    def outcomes(self, valuations: Sequence[Known], inputs: Known) -> list[BeliefOutcome]:
         """What one step may lead to.  Raises ``TooMany``."""
         return [outcome for v in valuations for outcome in self._after(v, inputs)]
 
-    def explains(self, outcome: Outcome, logged: Known) -> bool:
+    def explains(self, outcome: BeliefOutcome, logged: Known) -> bool:
         """Whether the outputs are those of the log; what is not logged may be anything."""
         if outcome.outputs == logged:
             return True
         return not self.differing(outcome, logged)
 
-    def differing(self, outcome: Outcome, logged: Known) -> list[int]:
+    def differing(self, outcome: BeliefOutcome, logged: Known) -> list[int]:
         """Positions of the outputs that are not as the charts require."""
         rows = zip(outcome.outputs, logged, self._apart, strict=True)
         return [i for i, (wanted, got, apart) in enumerate(rows) if differs(wanted, got, apart)]
 
-    def kept(self, outcomes: Sequence[Outcome]) -> tuple[Known, ...]:
+    def kept(self, outcomes: Sequence[BeliefOutcome]) -> tuple[Known, ...]:
         """The valuations after the step, each once.  Raises ``TooMany``."""
         found = tuple(dict.fromkeys(o.after for o in outcomes))
         if len(found) > MOST_VALUATIONS:
             raise self._too_many()
         return found
 
-    def _after(self, valuation: Known, inputs: Known) -> tuple[Outcome, ...]:
+    def _after(self, valuation: Known, inputs: Known) -> tuple[BeliefOutcome, ...]:
         key = (valuation, inputs)
         if key not in self._remembered:
             if len(self._remembered) > MOST_REMEMBERED:
@@ -91,7 +91,7 @@ class Follower:
         self.incomplete |= guessed
         return found
 
-    def _tried(self, valuation: Known, inputs: Known) -> Iterator[Outcome]:
+    def _tried(self, valuation: Known, inputs: Known) -> Iterator[BeliefOutcome]:
         """Steps with values for what they turn out to need."""
         waiting, seen = [(valuation, inputs)], set[tuple[Known, Known]]()
         while waiting:
@@ -101,12 +101,12 @@ class Follower:
                 raise self._too_many()
             try:
                 after, outputs = self._step(before, given)
-            except Needed as needed:
+            except NeededInputs as needed:
                 waiting += self._with_values(needed.name, before, given)
                 continue
             if (after, outputs) not in seen:
                 seen.add((after, outputs))
-                yield Outcome(before, after, outputs)
+                yield BeliefOutcome(before, after, outputs)
 
     def _with_values(self, name: str, before: Known, given: Known) -> list[tuple[Known, Known]]:
         values = self.cone.values(name)

@@ -6,7 +6,7 @@ from math import isfinite, isnan
 
 from checker.logs.errors import SHORT, LogError, shortened
 from checker.logs.mapping import Column, conversion
-from spec_model.abstraction import Signal
+from spec_model.abstraction import BoardSignal
 from spec_model.lang.domain import Bool, Enum, Num, exact
 from spec_model.lang.errors import ModelError, did_you_mean
 
@@ -52,7 +52,7 @@ class Convert:
         return found
 
 
-def converter(column: Column, signal: Signal, an_input: bool, comma: bool) -> Convert:
+def converter(column: Column, signal: BoardSignal, an_input: bool, comma: bool) -> Convert:
     """The converter of one column.  Raises ``LogError`` for what the map says that the signal does not have.
 
     An input must be one that firmware can hold; an output may be any number, which then is a deviation.
@@ -92,7 +92,7 @@ def converter(column: Column, signal: Signal, an_input: bool, comma: bool) -> Co
     return Convert(read, most)
 
 
-def _expected(column: Column, signal: Signal, an_input: bool) -> str:
+def _expected(column: Column, signal: BoardSignal, an_input: bool) -> str:
     """What the model knows of the signal, in a sentence."""
     sort, unit = signal.domain.sort, _unit(signal)
     in_unit = f" {unit}" if unit else ""
@@ -154,22 +154,22 @@ def _times(texts: Sequence[str], most: float) -> list[Raw | None] | None:
     return [*times] if max(times, default=0) <= most else None
 
 
-def _unit(signal: Signal) -> str:
+def _unit(signal: BoardSignal) -> str:
     sort = signal.domain.sort
     return str(sort.unit) if isinstance(sort, Num) else ""
 
 
-def _resolution(signal: Signal) -> Fraction:
+def _resolution(signal: BoardSignal) -> Fraction:
     sort = signal.domain.sort
     return sort.resolution if isinstance(sort, Num) else Fraction(1)
 
 
-def _names(signal: Signal) -> dict[str, Raw]:
+def _names(signal: BoardSignal) -> dict[str, Raw]:
     sort = signal.domain.sort
     return dict(sort.members) if isinstance(sort, Enum) else {}
 
 
-def _own_names(column: Column, signal: Signal) -> dict[str, Raw]:
+def _own_names(column: Column, signal: BoardSignal) -> dict[str, Raw]:
     """The names that the map gives the values."""
     found: dict[str, Raw] = {}
     for text, meaning in column.names.items():
@@ -217,7 +217,7 @@ Meaning = Callable[[Fraction], Raw]
 """The raw value of a number in the unit of a signal."""
 
 
-def _meaning(column: Column, signal: Signal, an_input: bool) -> Meaning:
+def _meaning(column: Column, signal: BoardSignal, an_input: bool) -> Meaning:
     """How the numbers of a column are read.  Raises ``LogError`` for options without meaning for it."""
     sort = signal.domain.sort
     if column.nonzero and not isinstance(sort, Bool):
@@ -233,12 +233,12 @@ def _meaning(column: Column, signal: Signal, an_input: bool) -> Meaning:
     return lambda number: read(min(max(number, low), high))
 
 
-def in_bits(signal: Signal) -> bool:
+def in_bits(signal: BoardSignal) -> bool:
     """Whether the number is a mask, of which charts read single bits."""
     return signal.whole and "mask" in signal.name
 
 
-def _output(signal: Signal) -> Meaning:
+def _output(signal: BoardSignal) -> Meaning:
     resolution = _resolution(signal)
     if resolution != 1:
         return lambda number: _whole(number / resolution)
@@ -251,7 +251,7 @@ def _output(signal: Signal) -> Meaning:
     return read
 
 
-def _input(signal: Signal, kind: str) -> Meaning:
+def _input(signal: BoardSignal, kind: str) -> Meaning:
     """What firmware can hold; ``_NoValue`` for anything else."""
     sort = signal.domain.sort
     if kind == "age":
@@ -269,14 +269,14 @@ def _age(number: Fraction) -> Raw:
     return _whole(number)
 
 
-def _time(number: Fraction, signal: Signal) -> Raw:
+def _time(number: Fraction, signal: BoardSignal) -> Raw:
     time = round(number)
     if not 0 <= time <= signal.high:
         raise _NoValue(f"{float(number):g} ms is no time of a 32-bit clock (0..{signal.high:.0f}).")
     return time
 
 
-def _measurement(signal: Signal, unit: str) -> Meaning:
+def _measurement(signal: BoardSignal, unit: str) -> Meaning:
     low, high, raw = exact(signal.low), exact(signal.high), _output(signal)
     in_unit = f" {unit}".rstrip()
 
@@ -292,7 +292,7 @@ def _measurement(signal: Signal, unit: str) -> Meaning:
     return read
 
 
-def _member(number: Fraction, signal: Signal) -> Raw:
+def _member(number: Fraction, signal: BoardSignal) -> Raw:
     if number.denominator == 1 and int(number) in signal.domain:
         return int(number)
     more = "; write nonzero = true in the map if it is true" if isinstance(signal.domain.sort, Bool) else ""

@@ -9,9 +9,9 @@ from checker.logs.against import Against, as_drawn
 from checker.logs.behaviour import Behaviour, Follow
 from checker.logs.choosing import Choice
 from checker.logs.invalid import Invalid
-from checker.logs.log import Block, Layout, Log, open_log
-from checker.logs.mapping import Map
-from checker.logs.monitors import Monitors, Verdict
+from checker.logs.log import Log, LogBlock, LogLayout, open_log
+from checker.logs.mapping import ColumnMap
+from checker.logs.monitors import LogMonitors, Verdict
 from checker.logs.sight import Eyes
 from properties.forms import Reachable
 from spec_model.lang.system import TICK_MS
@@ -29,14 +29,14 @@ class Gap:
 
 
 @dataclass(frozen=True)
-class Result:
+class LogResult:
     """What was found in one log; ``gaps`` are the first ones, ``missing`` the steps lost in all.
 
     ``invalid``: cells without meaning; their values are unknown in all the rest.
     """
 
     name: str
-    layout: Layout
+    layout: LogLayout
     rows: int
     ticks: int
     start: str
@@ -73,7 +73,7 @@ def as_on_record(verdict: Verdict) -> bool:
     return not violated if isinstance(verdict.prop.form, Reachable) else violated
 
 
-def examine(path: Path, how: Map, system: str = "", against: Against | None = None) -> Result:
+def examine(path: Path, how: ColumnMap, system: str = "", against: Against | None = None) -> LogResult:
     """Check one log, against the charts as specified unless told otherwise.
 
     Raises ``LogError`` for a file that is no log of the board, or not up to its end.
@@ -99,13 +99,13 @@ class _Run:
         seen, logged = self._eyes.seen, layout.signals - vocabulary.inputs
         known = seen | {o.var.name for o in vocabulary.board.outputs if o.name in logged}
         self._choice = against.choice(layout.board, known)
-        self._monitors = Monitors(vocabulary, self._choice, known, from_power_up)
+        self._monitors = LogMonitors(vocabulary, self._choice, known, from_power_up)
         parts = against.cones(layout.board, seen, logged)
         self._follow = Follow(parts, _tolerance(layout), seen, from_power_up)
         self._rows = self._ticks = self._missing = 0
         self._gaps: list[Gap] = []
 
-    def block(self, block: Block) -> None:
+    def block(self, block: LogBlock) -> None:
         seen = self._eyes.look(block)
         self._monitors.block(block, self._monitors.columns(block, seen))
         self._follow.block(block, seen)
@@ -117,8 +117,8 @@ class _Run:
         )
         self._gaps += [gap for gap, _ in zip(found, range(MOST_GAPS - len(self._gaps)), strict=False)]
 
-    def result(self) -> Result:
-        return Result(
+    def result(self) -> LogResult:
+        return LogResult(
             self._log.name,
             self._log.layout,
             self._rows,
@@ -137,5 +137,5 @@ class _Run:
         return verdict
 
 
-def _tolerance(layout: Layout) -> Mapping[str, float]:
+def _tolerance(layout: LogLayout) -> Mapping[str, float]:
     return {c.signal: c.tolerance for c in layout.stated.values() if c.tolerance is not None}

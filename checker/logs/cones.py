@@ -28,7 +28,7 @@ SOME = 24
 
 
 @dataclass(frozen=True)
-class Part:
+class LogPart:
     """A component of the board with the conditions under which it executes."""
 
     component: Chart | Block
@@ -51,7 +51,7 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Cone:
+class LogCone:
     """A part of a board that is checked on its own.
 
     ``before``: inputs that are the logged outputs of the tick before.  ``between``: inputs that are not
@@ -107,7 +107,7 @@ def _representatives(var: Var, roots: Sequence[Expr]) -> tuple[tuple[int, ...], 
     return tuple(sorted(some)), False
 
 
-def cones(board: Board, seen: frozenset[str], logged: frozenset[str]) -> tuple[Cone, ...]:
+def cones(board: Board, seen: frozenset[str], logged: frozenset[str]) -> tuple[LogCone, ...]:
     """The parts of a board in the order of execution.
 
     ``seen``: inputs of the charts that the log tells.  ``logged``: names of the outputs in the log.
@@ -125,20 +125,20 @@ def cones(board: Board, seen: frozenset[str], logged: frozenset[str]) -> tuple[C
     return tuple(cone for cone in made if cone is not None)
 
 
-def parts_of(board: Board) -> tuple[Part, ...]:
+def parts_of(board: Board) -> tuple[LogPart, ...]:
     """The charts and blocks of a board in the order of execution."""
     return tuple(_parts(board.system.components, ()))
 
 
-def _parts(components: Sequence[Component], enabled: tuple[Expr, ...]) -> Iterator[Part]:
+def _parts(components: Sequence[Component], enabled: tuple[Expr, ...]) -> Iterator[LogPart]:
     for component in components:
         if isinstance(component, Enabled):
             yield from _parts(component.components, (*enabled, component.by))
         else:
-            yield Part(component, enabled)
+            yield LogPart(component, enabled)
 
 
-def _cut(output: Output, parts: Sequence[Part]) -> bool:
+def _cut(output: Output, parts: Sequence[LogPart]) -> bool:
     """Whether the log tells the value of the variable exactly, in every tick, to whoever reads it."""
     sort = output.var.domain.sort
     always = isinstance(output.unless, Const) and not output.unless.value
@@ -146,7 +146,7 @@ def _cut(output: Output, parts: Sequence[Part]) -> bool:
     return always and whole and sum(output.var.name in p.writes for p in parts) == 1
 
 
-def _groups(parts: Sequence[Part], seen: frozenset[str], cuts: Iterable[str]) -> list[list[int]]:
+def _groups(parts: Sequence[LogPart], seen: frozenset[str], cuts: Iterable[str]) -> list[list[int]]:
     """Indexes of the parts that share what is not told."""
     told = seen | frozenset(cuts)
     groups: list[tuple[set[str], list[int]]] = []
@@ -160,16 +160,16 @@ def _groups(parts: Sequence[Part], seen: frozenset[str], cuts: Iterable[str]) ->
     return sorted((group for _, group in groups), key=max)
 
 
-def _writer(name: str, parts: Sequence[Part]) -> int:
+def _writer(name: str, parts: Sequence[LogPart]) -> int:
     return next(i for i, p in enumerate(parts) if name in p.writes)
 
 
-def _read_before(name: str, group: Sequence[Part], parts: Sequence[Part]) -> bool:
+def _read_before(name: str, group: Sequence[LogPart], parts: Sequence[LogPart]) -> bool:
     """Whether the group reads the variable before it is renewed."""
     return any(name in p.reads and parts.index(p) < _writer(name, parts) for p in group)
 
 
-def _read_twice(group: Sequence[int], parts: Sequence[Part], cuts: Iterable[str]) -> Iterator[str]:
+def _read_twice(group: Sequence[int], parts: Sequence[LogPart], cuts: Iterable[str]) -> Iterator[str]:
     """Cut variables that the group reads both before and after they are renewed."""
     for name in cuts:
         writer = _writer(name, parts)
@@ -180,12 +180,12 @@ def _read_twice(group: Sequence[int], parts: Sequence[Part], cuts: Iterable[str]
 
 def _cone(
     board: Board,
-    group: Sequence[Part],
-    parts: Sequence[Part],
+    group: Sequence[LogPart],
+    parts: Sequence[LogPart],
     outputs: Sequence[Output],
     seen: frozenset[str],
     cuts: set[str],
-) -> Cone | None:
+) -> LogCone | None:
     written = frozenset(name for part in group for name in part.writes)
     own = tuple(o for o in outputs if o.var.name in written)
     if not own:
@@ -199,7 +199,7 @@ def _cone(
     least = _least(lowered, own)
     before = frozenset(v.name for v in least.inputs if v.name in cuts and _read_before(v.name, group, parts))
     charts = tuple(p.component for p in group if isinstance(p.component, Chart))
-    return Cone(least, own, charts, before, _between(least, told), tuple(sorted(free)))
+    return LogCone(least, own, charts, before, _between(least, told), tuple(sorted(free)))
 
 
 def _least(system: TransitionSystem, outputs: Sequence[Output]) -> TransitionSystem:
@@ -239,4 +239,4 @@ def _computed_with(expr: Expr, found: set[str]) -> None:
         _computed_with(child, found)
 
 
-__all__ = ["Cone", "Part", "cones", "measured", "parts_of"]
+__all__ = ["LogCone", "LogPart", "cones", "measured", "parts_of"]

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from checker.logs.mismatch import Difference, Mismatch
+from checker.logs.mismatch import LogDifference, LogMismatch
 
 Key = tuple[object, ...]
 
@@ -21,11 +21,11 @@ class Deviation:
     """
 
     kind: str
-    first: Mismatch
+    first: LogMismatch
     last: int
     count: int
     times: int
-    differences: tuple[Difference, ...]
+    differences: tuple[LogDifference, ...]
 
     @property
     def outputs(self) -> tuple[str, ...]:
@@ -37,11 +37,11 @@ class Grouping:
 
     def __init__(self) -> None:
         self._groups: dict[Key, Deviation] = {}
-        self._late: dict[str, Mismatch] = {}
+        self._late: dict[str, LogMismatch] = {}
         self._running: dict[str, tuple[int, Key, Key]] = {}
-        self._frozen: list[Mismatch] = []
+        self._frozen: list[LogMismatch] = []
 
-    def tick(self, tick: int, found: Sequence[Mismatch], any_output_changed: bool) -> None:
+    def tick(self, tick: int, found: Sequence[LogMismatch], any_output_changed: bool) -> None:
         """The mismatches of a tick; every tick must be given, also those without."""
         if any_output_changed:
             self._thaw()
@@ -63,7 +63,7 @@ class Grouping:
         self._thaw()
         return tuple(sorted(self._groups.values(), key=lambda d: (d.first.tick, d.first.part)))
 
-    def _one(self, mismatch: Mismatch) -> None:
+    def _one(self, mismatch: LogMismatch) -> None:
         waiting = self._late.pop(mismatch.part, None)
         if waiting is not None and mismatch.late:
             self._add(waiting, "late")
@@ -74,7 +74,7 @@ class Grouping:
         else:
             self._settle(mismatch)
 
-    def _settle(self, mismatch: Mismatch) -> None:
+    def _settle(self, mismatch: LogMismatch) -> None:
         """Not late: either one of several outputs that stay, or a wrong value."""
         if mismatch.stuck:
             self._frozen.append(mismatch)
@@ -97,7 +97,7 @@ class Grouping:
         first = replace(stayed[0], part="")
         self._join(key, Deviation("frozen", first, max(ticks), len(ticks), 1, tuple(every.values())))
 
-    def _add(self, mismatch: Mismatch, kind: str) -> None:
+    def _add(self, mismatch: LogMismatch, kind: str) -> None:
         """A series of one value for another is one deviation, whatever the charts do meanwhile."""
         last, pairs, key = self._running.get(mismatch.part, (0, (), ()))
         goes_on = kind == "value" and last == mismatch.tick - 1 and pairs == mismatch.key

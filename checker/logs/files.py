@@ -15,8 +15,8 @@ from typing import Any
 
 from checker.io.files import csv_plain
 from checker.logs.errors import LogError, at, shortened
-from checker.logs.limits import MOST_COLUMNS, MOST_GROUP, MOST_TEXT, Bounded, Guarded, LimitError
-from checker.logs.mapping import Map
+from checker.logs.limits import MOST_COLUMNS, MOST_GROUP, MOST_TEXT, BoundedReader, Guarded, LimitError
+from checker.logs.mapping import ColumnMap
 
 SEPARATORS = ",;\t|"
 BLOCK = 1024
@@ -39,7 +39,7 @@ class Texts:
 
 
 @dataclass(frozen=True)
-class Rows:
+class FileRows:
     """A log: the names of its columns, and its rows in the order of the file."""
 
     header: tuple[str, ...]
@@ -48,7 +48,7 @@ class Rows:
     decimal_comma: bool = False
 
 
-def opened(path: Path, how: Map) -> Rows:
+def opened(path: Path, how: ColumnMap) -> FileRows:
     """The rows of a file, read as they are asked for.  Raises ``LogError``, also while rows are read."""
     try:
         with path.open("rb") as file:
@@ -71,7 +71,7 @@ def _unpacked(path: Path) -> Guarded:
     return Guarded(gzip.GzipFile(fileobj=packed), packed)
 
 
-def _text(data: Guarded, how: Map) -> Rows:
+def _text(data: Guarded, how: ColumnMap) -> FileRows:
     file = io.TextIOWrapper(io.BufferedReader(data, BUFFER), "utf-8-sig", newline="")
     try:
         return _table(_lines(file, data), how, file.close)
@@ -120,7 +120,7 @@ def _some(file: io.TextIOWrapper, data: Guarded) -> tuple[list[str], str]:
     return lines[:damaged], "there are zero bytes, which no text has: the file is damaged."
 
 
-def _table(lines: Iterator[list[str]], how: Map, close: Callable[[], None]) -> Rows:
+def _table(lines: Iterator[list[str]], how: ColumnMap, close: Callable[[], None]) -> FileRows:
     first = next(lines, [])
     ahead = first[:HEAD]
     skipped = next((i for i, line in enumerate(ahead) if line.strip() and line[0] != "#"), len(ahead))
@@ -138,7 +138,7 @@ def _table(lines: Iterator[list[str]], how: Map, close: Callable[[], None]) -> R
     comma = how.decimal == "," or (
         not how.decimal and separator != "," and _commas(ahead[skipped + 1 :], separator)
     )
-    return Rows(header, blocks, close, comma)
+    return FileRows(header, blocks, close, comma)
 
 
 def _header(reader: "_Reader", before: int) -> tuple[str, ...]:
@@ -195,7 +195,7 @@ class _Reader:
     """Reads rows one by one, also such with line ends in their cells."""
 
     def __init__(self, lines: Iterable[str], separator: str) -> None:
-        self._lines = Bounded(iter(lines))
+        self._lines = BoundedReader(iter(lines))
         self._rows = csv.reader(self._lines, delimiter=separator, skipinitialspace=True)
 
     @property
@@ -243,7 +243,7 @@ def _rows(reader: _Reader, width: int, before: int) -> Iterator[tuple[int, list[
 # --- Parquet -------------------------------------------------------------------------------------
 
 
-def _parquet(path: Path) -> Rows:
+def _parquet(path: Path) -> FileRows:
     if find_spec("pyarrow") is None:
         raise LogError("is Parquet, which pyarrow reads; install it (pip install pyarrow), or write CSV.")
     parquet = import_module("pyarrow.parquet")
@@ -265,7 +265,7 @@ def _parquet(path: Path) -> Rows:
     except LogError:
         file.close()
         raise
-    return Rows(header, _texts_of(_batches(file, arrow.ArrowException, len(header)), header), file.close)
+    return FileRows(header, _texts_of(_batches(file, arrow.ArrowException, len(header)), header), file.close)
 
 
 def _batches(file: Any, wrong: type[Exception], width: int) -> Iterator[dict[str, list[object]]]:

@@ -63,7 +63,7 @@ def _blank(node: Expr) -> int:
 
 
 @dataclass
-class Rows:
+class FormulaRows:
     """Successive rows: a column for each variable, and what was computed of them.
 
     ``rounded``: variables that the firmware computed with floats, so that their values are not exact.

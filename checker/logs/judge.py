@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from checker.logs.formula import Array, Past, Rows, run_lengths, shifted
+from checker.logs.formula import Array, FormulaRows, Past, run_lengths, shifted
 from properties.forms import (
     Always,
     EntersOnlyIf,
@@ -50,7 +50,7 @@ class Judge:
         self._waits, self._left, self._open = 0, 0, False
         self.rows = max(self.rows, self.property.from_tick)
 
-    def advance(self, rows: Rows) -> tuple[Array, Array]:
+    def advance(self, rows: FormulaRows) -> tuple[Array, Array]:
         """Where the property is broken, and where it was put to the test."""
         ticks = np.arange(self.rows + 1, self.rows + rows.count + 1)
         armed = ticks >= self.property.from_tick

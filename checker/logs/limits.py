@@ -78,7 +78,7 @@ class Guarded(io.RawIOBase):
         super().close()
 
 
-class Bounded(Iterator[str]):
+class BoundedReader(Iterator[str]):
     """Lines for a reader of rows, of which one row may take only so many characters."""
 
     def __init__(self, lines: Iterator[str]) -> None:

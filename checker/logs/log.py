@@ -8,11 +8,11 @@ from pathlib import Path
 from checker.io.printable import one_line
 from checker.logs.cells import Convert, Raw, converter
 from checker.logs.errors import LogError, at, shortened
-from checker.logs.files import Rows, opened
+from checker.logs.files import FileRows, opened
 from checker.logs.invalid import Invalid, InvalidCell
-from checker.logs.mapping import Column, Map
+from checker.logs.mapping import Column, ColumnMap
 from checker.logs.signals import TIME, Vocabulary
-from spec_model.abstraction import Signal, boards
+from spec_model.abstraction import BoardSignal, boards
 from spec_model.lang.domain import boolean
 from spec_model.lang.errors import did_you_mean
 from spec_model.lang.system import TICK_MS
@@ -30,11 +30,11 @@ SOME = 8
 """Columns that are named where none has a meaning."""
 
 Cells = list[Raw | None]
-_FLAG = Signal("update", boolean, False)
+_FLAG = BoardSignal("update", boolean, False)
 
 
 @dataclass(frozen=True)
-class Block:
+class LogBlock:
     """Successive rows: the line and the step of each, from 1, and its values by signal.
 
     ``missing[i]`` steps lie between row i and the one before it.
@@ -50,7 +50,7 @@ class Block:
 
 
 @dataclass(frozen=True)
-class Layout:
+class LogLayout:
     """What the columns of a log are: of which board, which signal in which column, what is left over.
 
     ``stated``: every column with a meaning, by its name in the log.
@@ -77,21 +77,21 @@ class Log:
     """
 
     name: str
-    layout: Layout
-    rows: Rows
-    how: Map
+    layout: LogLayout
+    rows: FileRows
+    how: ColumnMap
     start: str = ""
     converters: list[tuple[int, str, Convert]] = field(default_factory=list)
     invalid: Invalid = field(default_factory=Invalid)
 
-    def blocks(self) -> Generator[Block, None, None]:
+    def blocks(self) -> Generator[LogBlock, None, None]:
         """The steps, block by block.  Raises ``LogError`` with the line of what is wrong."""
         try:
             yield from self._blocks()
         finally:
             self.rows.close()
 
-    def _blocks(self) -> Iterator[Block]:
+    def _blocks(self) -> Iterator[LogBlock]:
         clock, stamps = _Clock(self.how.start), _Stamps(self.layout)
         time = next((self.rows.header[i] for i, signal, _ in self.converters if signal == TIME), TIME)
         while (read := self._read()).lines:
@@ -104,7 +104,7 @@ class Log:
                 self.start = clock.start
             self._note(timed, ticks)
             if timed.lines:
-                yield stamps.of(Block(timed.lines, ticks, missing, timed.values))
+                yield stamps.of(LogBlock(timed.lines, ticks, missing, timed.values))
         if not self.start and not self.invalid:
             raise LogError("has column names but no rows.")
         if not self.start:
@@ -230,11 +230,11 @@ class _Clock:
 class _Stamps:
     """Updates and ages turned into the stamps they stand for."""
 
-    def __init__(self, layout: Layout) -> None:
+    def __init__(self, layout: LogLayout) -> None:
         self._told = [c for c in layout.stated.values() if c.kind != "value"]
         self._latest: dict[str, Raw] = {}
 
-    def of(self, block: Block) -> Block:
+    def of(self, block: LogBlock) -> LogBlock:
         values = dict(block.values)
         for column in self._told:
             make = self._from_updates if column.kind == "update" else self._from_ages
@@ -259,7 +259,7 @@ class _Stamps:
 # --- opening --------------------------------------------------------------------------------------
 
 
-def open_log(path: Path, how: Map, system: str = "") -> Log:
+def open_log(path: Path, how: ColumnMap, system: str = "") -> Log:
     """The log of a file.  Raises ``LogError`` for what is no log of a board."""
     rows = opened(path, how)
     try:
@@ -269,7 +269,7 @@ def open_log(path: Path, how: Map, system: str = "") -> Log:
         raise
 
 
-def _log(name: str, rows: Rows, how: Map, system: str) -> Log:
+def _log(name: str, rows: FileRows, how: ColumnMap, system: str) -> Log:
     layout = _layout(rows.header, how, system or how.system)
     vocabulary = Vocabulary(boards()[layout.board])
     log = Log(name, layout, rows, how)
@@ -287,7 +287,7 @@ def _converter(column: Column, vocabulary: Vocabulary, comma: bool) -> Convert:
     return converter(column, signal, signal.name in vocabulary.inputs, comma)
 
 
-def _layout(header: Sequence[str], how: Map, system: str) -> Layout:
+def _layout(header: Sequence[str], how: ColumnMap, system: str) -> LogLayout:
     names = set(header)
     for name in how.columns:
         if name not in names:
@@ -303,13 +303,13 @@ def _layout(header: Sequence[str], how: Map, system: str) -> Layout:
         outputs = ", ".join(o.name for o in vocabulary.board.outputs[:6])
         raise LogError(f"holds no output of {board}: {outputs} ...; rename a column, or write a map.")
     ignored = tuple(name for name in header if name not in stated)
-    layout = Layout(board, stated, ignored)
+    layout = LogLayout(board, stated, ignored)
     if any(c.kind != "value" for c in stated.values()) and not layout.timed:
         raise LogError(f"holds updates or ages but not the time of the step; map a column to {TIME}.")
     return layout
 
 
-def _stated(header: Sequence[str], how: Map, vocabulary: Vocabulary) -> dict[str, Column]:
+def _stated(header: Sequence[str], how: ColumnMap, vocabulary: Vocabulary) -> dict[str, Column]:
     for name, column in how.columns.items():
         if column.signal not in vocabulary.signals:
             near = did_you_mean(column.signal, vocabulary.signals)
@@ -336,7 +336,7 @@ def _named(header: Sequence[str]) -> str:
     return ", ".join(shortened(one_line(name)) for name in header[:SOME]) + rest
 
 
-def _board_of(header: Sequence[str], how: Map) -> str:
+def _board_of(header: Sequence[str], how: ColumnMap) -> str:
     names = {how.columns[name].signal if name in how.columns else name for name in header}
     scores = {n: len(names & Vocabulary(b).signals.keys() - {TIME}) for n, b in boards().items()}
     best = max(scores, key=lambda name: scores[name])

@@ -57,7 +57,7 @@ class Column:
 
 
 @dataclass(frozen=True)
-class Map:
+class ColumnMap:
     """How a log is written; what is left out is found in the log itself.
 
     ``start``: ``power-up`` if the first row is the first step after power-up, ``any`` if the log begins
@@ -71,7 +71,7 @@ class Map:
     columns: Mapping[str, Column] = field(default_factory=dict)
 
 
-def read_map(path: Path) -> Map:
+def read_map(path: Path) -> ColumnMap:
     """The map of a file.  Raises ``LogError`` for what is no map."""
     try:
         text = path.read_text(encoding="utf-8")
@@ -109,7 +109,7 @@ def _quoted(key: str) -> str:
     return key if plain else f'"{shortened(one_line(key))}"'
 
 
-def _map(table: Mapping[str, Any]) -> Map:
+def _map(table: Mapping[str, Any]) -> ColumnMap:
     _known("entry", table, ("system", "log", "columns"))
     log = _table(table, "log")
     texts = _within(("log",), _of_log, log)
@@ -117,7 +117,7 @@ def _map(table: Mapping[str, Any]) -> Map:
         name: _within(("columns", name), _column, name, row) for name, row in _table(table, "columns").items()
     }
     _one_each(columns)
-    return Map(_text("system", table.get("system", "")), columns=columns, **texts)
+    return ColumnMap(_text("system", table.get("system", "")), columns=columns, **texts)
 
 
 def _of_log(log: Mapping[str, Any]) -> dict[str, str]:

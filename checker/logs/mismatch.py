@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.logs.belief import Outcome
+from checker.logs.belief import BeliefOutcome
 from checker.logs.cells import Raw
-from checker.logs.cones import Cone
+from checker.logs.cones import LogCone
 from checker.logs.program import Known
 from spec_model.abstraction import Output
 from spec_model.lang.chart import Chart
@@ -16,7 +16,7 @@ MOST_EXPECTED = 8
 
 
 @dataclass(frozen=True)
-class Difference:
+class LogDifference:
     """An output that is none of the values that the charts allow."""
 
     output: Output
@@ -41,7 +41,7 @@ class Difference:
 
 
 @dataclass(frozen=True)
-class Mismatch:
+class LogMismatch:
     """One tick of one part of the board that no behaviour explains.
 
     ``moves``: the arrows that the charts took or the states they stayed in, where they leave no choice.
@@ -51,7 +51,7 @@ class Mismatch:
     tick: int
     line: int
     part: str
-    differences: tuple[Difference, ...]
+    differences: tuple[LogDifference, ...]
     moves: tuple[str, ...]
     inputs: Mapping[str, str]
     late: bool = False
@@ -67,8 +67,8 @@ class Mismatch:
 
 
 def differences(
-    cone: Cone, best: Sequence[Outcome], logged: Known, places: Sequence[int]
-) -> tuple[Difference, ...]:
+    cone: LogCone, best: Sequence[BeliefOutcome], logged: Known, places: Sequence[int]
+) -> tuple[LogDifference, ...]:
     """The outputs at these places, with every value that the best outcomes allow."""
     found = []
     for i in places:
@@ -76,7 +76,7 @@ def differences(
         expected = sorted(v for v in allowed if v is not None)[:MOST_EXPECTED]
         got = logged[i]
         assert got is not None, "what is not logged differs from nothing"
-        found.append(Difference(cone.outputs[i], tuple(expected), got))
+        found.append(LogDifference(cone.outputs[i], tuple(expected), got))
     return tuple(found)
 
 
@@ -90,14 +90,14 @@ def shown(domain: Domain, raw: Raw) -> str:
 # --- what the charts did --------------------------------------------------------------------------
 
 
-def moves(cone: Cone, best: Sequence[Outcome]) -> tuple[str, ...]:
+def moves(cone: LogCone, best: Sequence[BeliefOutcome]) -> tuple[str, ...]:
     """The moves of each chart of the part, if every best outcome agrees on them."""
     names = [v.name for v in cone.system.variables]
     told = {tuple(_moves(cone, names, outcome)) for outcome in best}
     return told.pop() if len(told) == 1 else ()
 
 
-def _moves(cone: Cone, names: Sequence[str], outcome: Outcome) -> Iterator[str]:
+def _moves(cone: LogCone, names: Sequence[str], outcome: BeliefOutcome) -> Iterator[str]:
     before = dict(zip(names, outcome.before, strict=True))
     after = dict(zip(names, outcome.after, strict=True))
     for chart in cone.charts:

@@ -8,9 +8,9 @@ import numpy as np
 
 from checker.logs.choosing import Choice, Chosen, Wires
 from checker.logs.cones import measured
-from checker.logs.formula import Array, Rows
+from checker.logs.formula import Array, FormulaRows
 from checker.logs.judge import Judge
-from checker.logs.log import Block, Cells
+from checker.logs.log import Cells, LogBlock
 from checker.logs.mismatch import shown
 from checker.logs.signals import Vocabulary
 from properties.forms import (
@@ -34,7 +34,7 @@ from spec_model.lang.walk import plain, variables
 
 
 @dataclass(frozen=True)
-class Broken:
+class BrokenAt:
     """Where a property was first broken (or reached): its parts that are false, and the values there."""
 
     tick: int
@@ -52,7 +52,7 @@ class Verdict:
     """
 
     prop: Property
-    first: Broken | None = None
+    first: BrokenAt | None = None
     count: int = 0
     tested: int = 0
     judged: int = 0
@@ -66,7 +66,7 @@ class Verdict:
         return "violated" if self.count else "satisfied" if self.tested else "never triggered"
 
 
-class Monitors:
+class LogMonitors:
     """All monitors of one log."""
 
     def __init__(
@@ -83,12 +83,12 @@ class Monitors:
     def verdicts(self) -> tuple[Verdict, ...]:
         return tuple(verdict for _, _, verdict in self._judges)
 
-    def columns(self, block: Block, seen: Mapping[str, Cells]) -> dict[str, Array]:
+    def columns(self, block: LogBlock, seen: Mapping[str, Cells]) -> dict[str, Array]:
         """The values of all variables that are known, as numbers; not a number where a cell is empty."""
         found = {name: np.array(cells, dtype=np.float64) for name, cells in seen.items()}
         for name, output in self._outputs.items():
             found[output.var.name] = np.array(block.values[name], dtype=np.float64)
-        rows = Rows(found, len(block), self._rounded)
+        rows = FormulaRows(found, len(block), self._rounded)
         past = Judge(_NOTHING).past
         for wire in self._wires:
             value = np.broadcast_to(rows.value(wire.value, past), (len(block),)).astype(np.float64)
@@ -99,7 +99,7 @@ class Monitors:
         self._leave_open(found, rows)
         return found
 
-    def _leave_open(self, found: dict[str, Array], rows: Rows) -> None:
+    def _leave_open(self, found: dict[str, Array], rows: FormulaRows) -> None:
         """What the charts give up says nothing."""
         past = Judge(_NOTHING).past
         for output in self._outputs.values():
@@ -107,7 +107,7 @@ class Monitors:
                 given_up = rows.truth(output.unless, past)
                 found[output.var.name] = np.where(given_up, np.nan, found[output.var.name])
 
-    def block(self, block: Block, columns: Mapping[str, Array]) -> None:
+    def block(self, block: LogBlock, columns: Mapping[str, Array]) -> None:
         """Judge the rows of a block."""
         unknown = {name: missing for name, values in columns.items() if (missing := np.isnan(values)).any()}
         gaps = [i for i, missing in enumerate(block.missing) if missing]
@@ -127,7 +127,9 @@ class Monitors:
                 if rows.count:
                     self._judge(judge, verdict, rows, places, stretch)
 
-    def _judge(self, judge: Judge, verdict: Verdict, rows: Rows, places: Array, stretch: "_Stretch") -> None:
+    def _judge(
+        self, judge: Judge, verdict: Verdict, rows: FormulaRows, places: Array, stretch: "_Stretch"
+    ) -> None:
         bad, tested = judge.advance(rows)
         verdict.judged += rows.count
         verdict.tested += int(np.count_nonzero(np.broadcast_to(tested, (rows.count,))))
@@ -143,7 +145,7 @@ class _Stretch:
 
     def __init__(
         self,
-        block: Block,
+        block: LogBlock,
         columns: Mapping[str, Array],
         unknown: Mapping[str, Array],
         rounded: frozenset[str],
@@ -153,9 +155,9 @@ class _Stretch:
         self._rounded = rounded
         self.block, self.start, self.end = block, start, end
         self._columns, self._unknown = columns, unknown
-        self._rows: dict[int, tuple[Rows, Array]] = {}
+        self._rows: dict[int, tuple[FormulaRows, Array]] = {}
 
-    def runs(self, chosen: Chosen) -> list[tuple[bool, Rows, Array]]:
+    def runs(self, chosen: Chosen) -> list[tuple[bool, FormulaRows, Array]]:
         """The steps in which the charts of a property execute, cut where something it reads is not known.
 
         Each run tells whether there is such a hole in front of it; the last may be empty.
@@ -171,7 +173,7 @@ class _Stretch:
             known.append((len(hole), len(hole)))
         return [(a > 0, *self._taken(gate, a, b)) for a, b in known]
 
-    def _all(self, gate: Expr | None) -> tuple[Rows, Array]:
+    def _all(self, gate: Expr | None) -> tuple[FormulaRows, Array]:
         key = 0 if gate is None else id(gate)
         if key not in self._rows:
             self._rows[key] = self._taken(self._gate(gate), 0, self.end - self.start)
@@ -182,15 +184,15 @@ class _Stretch:
         if gate is None:
             return np.ones(count, dtype=np.bool_)
         here = {name: self._columns[name][self.start : self.end] for name in variables(gate)}
-        return Rows(here, count).truth(gate, Judge(_NOTHING).past)
+        return FormulaRows(here, count).truth(gate, Judge(_NOTHING).past)
 
-    def _taken(self, gate: Array, start: int, end: int) -> tuple[Rows, Array]:
+    def _taken(self, gate: Array, start: int, end: int) -> tuple[FormulaRows, Array]:
         places = np.flatnonzero(gate[start:end]) + start + self.start
         if len(places) == self.end - self.start:
             taken = {name: values[self.start : self.end] for name, values in self._columns.items()}
         else:
             taken = _Taken(self._columns, places)
-        return Rows(taken, len(places), self._rounded), places
+        return FormulaRows(taken, len(places), self._rounded), places
 
 
 class _Taken(dict[str, Array]):
@@ -211,12 +213,12 @@ _NOTHING = Property("", "", Never(FALSE), (), "")
 # --- what is false ---------------------------------------------------------------------------------
 
 
-def _broken(judge: Judge, rows: Rows, row: int, block: Block, place: int) -> Broken:
+def _broken(judge: Judge, rows: FormulaRows, row: int, block: LogBlock, place: int) -> BrokenAt:
     wanted, negated = required(judge.property.form)
     false = [p for p in _conjuncts(wanted) if bool(rows.truth(p, judge.past)[row]) == negated]
     read = variables(wanted)
     values = {name: _shown(var, rows.columns[name][row]) for name, var in read.items()}
-    return Broken(block.ticks[place], block.lines[place], tuple(text(p) for p in false), values)
+    return BrokenAt(block.ticks[place], block.lines[place], tuple(text(p) for p in false), values)
 
 
 def required(form: Form) -> tuple[Expr, bool]:

@@ -16,11 +16,11 @@ Known = tuple[Raw | None, ...]
 Step = Callable[[Known, Known], tuple[Known, Known]]
 """From a valuation and inputs to the valuation after the step and the outputs (``None``: nothing required).
 
-Raises ``Needed`` when it must read a value that is not known.
+Raises ``NeededInputs`` when it must read a value that is not known.
 """
 
 
-class Needed(Exception):
+class NeededInputs(Exception):
     """The step reads a value that is not known: the name of the state or input that it stems from.
 
     It is always one that the step is given: of a copy it is the variable that was copied.
@@ -57,7 +57,7 @@ def compiled(system: TransitionSystem, outputs: Sequence[Shown]) -> Step:
 
 
 def _need(name: str) -> Raw:
-    raise Needed(name)
+    raise NeededInputs(name)
 
 
 class _Names:

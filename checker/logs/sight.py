@@ -4,13 +4,13 @@ from collections.abc import Callable, Mapping
 from fractions import Fraction
 
 from checker.logs.cells import Raw
-from checker.logs.log import Block, Cells
+from checker.logs.log import Cells, LogBlock
 from checker.logs.signals import TIME, Sight, Vocabulary
 from spec_model.abstraction.board1 import MEAN_MS
 from spec_model.abstraction.stamps import CLOCK, MeanOfTen
 from spec_model.lang.system import TICK_MS
 
-See = Callable[[Block], Cells]
+See = Callable[[LogBlock], Cells]
 
 
 class Eyes:
@@ -27,7 +27,7 @@ class Eyes:
         """The inputs of the charts that are known."""
         return frozenset(self._see)
 
-    def look(self, block: Block) -> dict[str, Cells]:
+    def look(self, block: LogBlock) -> dict[str, Cells]:
         """The raw values of the known inputs, row by row; ``None`` where they are not known."""
         return {name: see(block) for name, see in self._see.items()}
 
@@ -39,7 +39,7 @@ def _sample(sight: Sight, _from_power_up: bool) -> See:
 def _age(sight: Sight, _from_power_up: bool) -> See:
     ages = _Ages()
 
-    def see(block: Block) -> Cells:
+    def see(block: LogBlock) -> Cells:
         stamps, now = block.values[sight.signal.name], block.values[TIME]
         return [None if t is None or s is None else ages[t - s] for t, s in zip(now, stamps, strict=True)]
 
@@ -63,7 +63,7 @@ class _Advance:
         self._only_whether = sight.how == "update"
         self._before: Raw | None = 0 if from_power_up else None
 
-    def __call__(self, block: Block) -> Cells:
+    def __call__(self, block: LogBlock) -> Cells:
         before, found = self._before, list[Raw | None]()
         for missing, stamp in zip(block.missing, block.values[self._name], strict=True):
             if stamp == before:
@@ -87,7 +87,7 @@ class _Slow:
         self._slow: Raw | None = 0
         self._wanted = 0 if from_power_up else 11
 
-    def __call__(self, block: Block) -> Cells:
+    def __call__(self, block: LogBlock) -> Cells:
         rows = zip(block.missing, block.values[self._name], strict=True)
         return [
             self._slow if stamp == self._before and not missing and self._wanted <= 0

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from spec_model.abstraction import Board, Signal, board1, board2, gaps
+from spec_model.abstraction import Board, BoardSignal, board1, board2, gaps
 from spec_model.lang.expr import Var
 
 TIME = "now_ms"
@@ -17,7 +17,7 @@ class Sight:
 
     var: Var
     how: str
-    signal: Signal
+    signal: BoardSignal
 
 
 @dataclass(frozen=True)
@@ -27,7 +27,7 @@ class Vocabulary:
     board: Board
 
     @cached_property
-    def signals(self) -> dict[str, Signal]:
+    def signals(self) -> dict[str, BoardSignal]:
         """Every signal by name, inputs first."""
         return {s.name: s for s in (*self.board.inputs, *(o.signal for o in self.board.outputs))}
 

@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from itertools import product
 from math import prod
 
-from checker.logs.belief import FIRST_RUNS, MORE_RUNS, Follower, Outcome, TooMany
+from checker.logs.belief import FIRST_RUNS, MORE_RUNS, BeliefOutcome, Follower, TooMany
 from checker.logs.cells import Raw
-from checker.logs.cones import Cone
-from checker.logs.mismatch import Mismatch, differences, moves, shown
+from checker.logs.cones import LogCone
+from checker.logs.mismatch import LogMismatch, differences, moves, shown
 from checker.logs.program import Known
 
 MOST_LOST = 20
@@ -21,7 +21,7 @@ MOST_OPTIONS = 16
 
 
 @dataclass(frozen=True)
-class Row:
+class TrackedRow:
     """What one row tells one part: inputs, each with every value it may have had, and logged outputs."""
 
     tick: int
@@ -32,7 +32,7 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Undecided:
+class UndecidedRow:
     """From this tick on a part is not decided, and why."""
 
     tick: int
@@ -47,9 +47,9 @@ class Tracker:
     one either, from any valuation that has the logged outputs.
     """
 
-    def __init__(self, cone: Cone, tolerance: Mapping[str, float], from_power_up: bool) -> None:
+    def __init__(self, cone: LogCone, tolerance: Mapping[str, float], from_power_up: bool) -> None:
         self.cone = cone
-        self.undecided: Undecided | None = None
+        self.undecided: UndecidedRow | None = None
         self.given_up = False
         self._follow = Follower(cone, tolerance)
         self._now = self._follow.power_up() if from_power_up else self._follow.anything({})
@@ -63,7 +63,7 @@ class Tracker:
         )
         """The outputs of the charts' own run in the tick before, where they leave no choice."""
 
-    def step(self, row: Row) -> Mismatch | None:
+    def step(self, row: TrackedRow) -> LogMismatch | None:
         """Take one row; what differs, if no behaviour explains it."""
         if self.given_up:
             return None
@@ -77,7 +77,7 @@ class Tracker:
             logged = zip(self._told, row.logged, strict=True)
             self._last = {name: value for name, value in logged if value is not None}
 
-    def _step(self, row: Row) -> Mismatch | None:
+    def _step(self, row: TrackedRow) -> LogMismatch | None:
         if row.missing:
             self._skip(row.missing)
         found, fits = self._fitting(self._now, row)
@@ -89,12 +89,14 @@ class Tracker:
         self._goes_on(row, fits)
         return None
 
-    def _fitting(self, valuations: Sequence[Known], row: Row) -> tuple[list[Outcome], list[Outcome]]:
+    def _fitting(
+        self, valuations: Sequence[Known], row: TrackedRow
+    ) -> tuple[list[BeliefOutcome], list[BeliefOutcome]]:
         """All outcomes, and those that explain the row."""
         found = [o for given in _combined(row.inputs) for o in self._follow.outcomes(valuations, given)]
         return found, [o for o in found if self._follow.explains(o, row.logged)]
 
-    def _goes_on(self, row: Row, fits: Sequence[Outcome]) -> None:
+    def _goes_on(self, row: TrackedRow, fits: Sequence[BeliefOutcome]) -> None:
         same = self._own is self._now
         self._now = self._follow.kept(fits)
         self._lost = False
@@ -104,13 +106,13 @@ class Tracker:
         else:
             self._own_goes_on(row)
 
-    def _from_own(self, row: Row) -> list[Outcome]:
+    def _from_own(self, row: TrackedRow) -> list[BeliefOutcome]:
         """Outcomes of the charts' own run that explain the row."""
         if self._own is None or self._own is self._now:
             return []
         return self._fitting(self._own, row)[1]
 
-    def _own_goes_on(self, row: Row) -> None:
+    def _own_goes_on(self, row: TrackedRow) -> None:
         if self._own is None:
             self.required = ()
             return
@@ -121,7 +123,7 @@ class Tracker:
         if self._own == self._now:
             self._own = self._now
 
-    def _differs(self, row: Row, found: Sequence[Outcome]) -> Mismatch | None:
+    def _differs(self, row: TrackedRow, found: Sequence[BeliefOutcome]) -> LogMismatch | None:
         if self._follow.incomplete:
             names = ", ".join(sorted(self._follow.incomplete))
             self._undecided(row, f"{names} not logged, and not all values of it can be tried")
@@ -135,16 +137,18 @@ class Tracker:
         self._stay(row, best)
         told = moves(self.cone, best)
         wrong = differences(self.cone, best, row.logged, at)
-        return Mismatch(row.tick, row.line, self.cone.name, wrong, told, self._inputs(row), late, stuck)
+        return LogMismatch(row.tick, row.line, self.cone.name, wrong, told, self._inputs(row), late, stuck)
 
-    def _nearest(self, found: Sequence[Outcome], logged: Known) -> tuple[list[Outcome], list[int]]:
+    def _nearest(
+        self, found: Sequence[BeliefOutcome], logged: Known
+    ) -> tuple[list[BeliefOutcome], list[int]]:
         """The outcomes with the fewest outputs that differ, and the places of these."""
         places = [self._follow.differing(outcome, logged) for outcome in found]
         fewest = min(map(len, places))
         best = [(o, at) for o, at in zip(found, places, strict=True) if len(at) == fewest]
         return [o for o, _ in best], sorted({i for _, at in best for i in at})
 
-    def _stay(self, row: Row, best: Sequence[Outcome]) -> None:
+    def _stay(self, row: TrackedRow, best: Sequence[BeliefOutcome]) -> None:
         """The charts go on from where they are, whatever the log says."""
         same = self._own is self._now
         self._now, self._lost = self._follow.kept(best), True
@@ -154,11 +158,11 @@ class Tracker:
         else:
             self._own_goes_on(row)
 
-    def _inputs(self, row: Row) -> dict[str, str]:
+    def _inputs(self, row: TrackedRow) -> dict[str, str]:
         rows = zip(self.cone.system.inputs, row.inputs, strict=True)
         return {v.name: "not logged" if given[0] is None else shown(v.domain, given[0]) for v, given in rows}
 
-    def _outputs(self, row: Row) -> dict[str, Raw]:
+    def _outputs(self, row: TrackedRow) -> dict[str, Raw]:
         rows = zip(self._told, row.logged, strict=True)
         return {name: value for name, value in rows if value is not None}
 
@@ -179,7 +183,7 @@ class Tracker:
             self._now = self._follow.anything({})
         self._follow.runs_left = left
 
-    def _lose(self, row: Row, what: str) -> None:
+    def _lose(self, row: TrackedRow, what: str) -> None:
         self._undecided(row, f"too many valuations; what multiplies them: {what}")
         self._now, self._own, self._lost, self.required = (
             self._follow.anything(self._outputs(row)),
@@ -188,14 +192,14 @@ class Tracker:
             (),
         )
 
-    def _undecided(self, row: Row, because: str) -> None:
+    def _undecided(self, row: TrackedRow, because: str) -> None:
         self._times_lost += 1
         self.given_up = self._times_lost >= MOST_LOST
         if self.undecided is None:
-            self.undecided = Undecided(row.tick, self.cone.name, because)
+            self.undecided = UndecidedRow(row.tick, self.cone.name, because)
 
 
-def _agreed(outcomes: Sequence[Outcome]) -> tuple[Raw | None, ...]:
+def _agreed(outcomes: Sequence[BeliefOutcome]) -> tuple[Raw | None, ...]:
     """The outputs on which all outcomes agree, ``None`` elsewhere."""
     columns = zip(*(o.outputs for o in outcomes), strict=True)
     return tuple(c[0] if all(v == c[0] for v in c) else None for c in columns)

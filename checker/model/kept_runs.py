@@ -29,7 +29,7 @@ MOST_TICKS = 1_000_000
 
 
 @dataclass(frozen=True)
-class Kept:
+class KeptRun:
     """A run of the system of that name, with the fault of that id in it if there is one."""
 
     system: str
@@ -45,14 +45,14 @@ def file_of(model: Model, kind: str = PREMISES) -> Path:
     return table.with_name(f"{table.name.removesuffix('baseline.toml')}{kind}.json")
 
 
-def read(file: Path, kind: str = PREMISES) -> dict[str, Kept]:
+def read(file: Path, kind: str = PREMISES) -> dict[str, KeptRun]:
     """The runs in a file by the id of their property or mutant, none if there is no file.
 
     Raises ``ModelError`` for a file that holds something else.
     """
 
-    def runs(rows: Any) -> dict[str, Kept]:
-        left, found = MOST_TICKS, dict[str, Kept]()
+    def runs(rows: Any) -> dict[str, KeptRun]:
+        left, found = MOST_TICKS, dict[str, KeptRun]()
         for id, row in rows.items():
             found[id] = _kept(row, left)
             left -= len(found[id].run)
@@ -79,7 +79,7 @@ def contents(file: Path, kind: str, what: str, made: Callable[[Any], dict[str, T
         raise ModelError(f"{shown(file)} holds no {what}: {why}. {again}") from error
 
 
-def text(runs: Mapping[str, Kept], kind: str = PREMISES) -> str:
+def text(runs: Mapping[str, KeptRun], kind: str = PREMISES) -> str:
     """The runs as JSON, one a line; of a tick the inputs that differ from the one before."""
     return lines(kind, "runs", {id: _row(kept) for id, kept in runs.items()})
 
@@ -91,7 +91,7 @@ def lines(kind: str, what: str, rows: Mapping[str, object]) -> str:
     return f'{{"schema": {schema}, {json.dumps(what)}: {{\n' + ",\n".join(ordered) + "\n}}\n"
 
 
-def _row(kept: Kept) -> dict[str, object]:
+def _row(kept: KeptRun) -> dict[str, object]:
     blocks: list[tuple[int, dict[str, int]]] = []
     before: Mapping[str, int] = {}
     for inputs in kept.run.inputs:
@@ -105,7 +105,7 @@ def _row(kept: Kept) -> dict[str, object]:
     return {"system": kept.system, **mutant, "frozen": dict(kept.run.frozen), "blocks": blocks}
 
 
-def _kept(row: Mapping[str, Any], most: int) -> Kept:
+def _kept(row: Mapping[str, Any], most: int) -> KeptRun:
     inputs: list[dict[str, int]] = []
     at: dict[str, int] = {}
     for ticks, changed in row["blocks"]:
@@ -113,7 +113,9 @@ def _kept(row: Mapping[str, Any], most: int) -> Kept:
             raise ValueError(f"{ticks!r} is no number of ticks, or there are more than {MOST_TICKS:,} in all")
         at = at | _numbers(changed)
         inputs += [at] * ticks
-    return Kept(str(row["system"]), Run(_numbers(row["frozen"]), tuple(inputs)), str(row.get("mutant", "")))
+    return KeptRun(
+        str(row["system"]), Run(_numbers(row["frozen"]), tuple(inputs)), str(row.get("mutant", ""))
+    )
 
 
 def _numbers(values: Mapping[str, Any]) -> dict[str, int]:
@@ -128,7 +130,7 @@ __all__ = [
     "KILLS",
     "MUTANTS",
     "PREMISES",
-    "Kept",
+    "KeptRun",
     "contents",
     "file_of",
     "lines",

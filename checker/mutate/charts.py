@@ -16,7 +16,7 @@ from spec_model.lang.walk import plain, variables
 
 
 @dataclass(frozen=True)
-class Fault:
+class ChartFault:
     """A chart or block with one fault: where, by which operator, in words, and what the place was to say."""
 
     site: str
@@ -38,14 +38,14 @@ class _Arrows:
     default: bool = False
 
 
-def block_faults(block: Block, step_ms: int) -> Iterator[Fault]:
+def block_faults(block: Block, step_ms: int) -> Iterator[ChartFault]:
     """Every fault of a function block."""
     for slip in action_slips(block.do, step_ms, paired(block.do)):
         changed = Block(block.name, slip.whole, text=block.text, place=block.place)
-        yield Fault("block", slip.operator, slip.text, block.place, changed)
+        yield ChartFault("block", slip.operator, slip.text, block.place, changed)
 
 
-def chart_faults(chart: Chart, step_ms: int) -> Iterator[Fault]:
+def chart_faults(chart: Chart, step_ms: int) -> Iterator[ChartFault]:
     """Every fault of a chart."""
     fields = paired(chart.all_actions)
     for arrows in _arrows(chart):
@@ -54,14 +54,14 @@ def chart_faults(chart: Chart, step_ms: int) -> Iterator[Fault]:
             site = f"{arrows.site}.{number + 1}"
             meant = "" if segment.guard is None else str(segment.guard)
             for operator, text, new in _segment(chart, arrows, segment, step_ms):
-                yield Fault(site, operator, text, segment.place, put(new), meant)
+                yield ChartFault(site, operator, text, segment.place, put(new), meant)
             for kind in ("do", "then"):
                 actions: tuple[Action, ...] = getattr(segment, kind)
                 for slip in action_slips(actions, step_ms, fields):
                     new = (
                         replace(segment, do=slip.whole) if kind == "do" else replace(segment, then=slip.whole)
                     )
-                    yield Fault(site, slip.operator, slip.text, segment.place, put(new), meant)
+                    yield ChartFault(site, slip.operator, slip.text, segment.place, put(new), meant)
         yield from _priorities(arrows)
     for path, state in chart.states.items():
         yield from _in_state(chart, path, state, step_ms)
@@ -142,15 +142,15 @@ def _sibling(chart: Chart, level: Path, target: str) -> str | None:
     return next((n for n in names if wanted != path and chart.resolve(level, n) == wanted), None)
 
 
-def _priorities(arrows: _Arrows) -> Iterator[Fault]:
+def _priorities(arrows: _Arrows) -> Iterator[ChartFault]:
     """Two arrows that follow each other, tested in the other order."""
     for number, (one, two) in enumerate(zip(arrows.segments, arrows.segments[1:], strict=False)):
         new = [*arrows.segments[:number], two, one, *arrows.segments[number + 2 :]]
         text = f"the arrows {number + 1} and {number + 2} are tested in the other order"
-        yield Fault(f"{arrows.site}.{number + 1}", "priority", text, one.place, arrows.changed(new))
+        yield ChartFault(f"{arrows.site}.{number + 1}", "priority", text, one.place, arrows.changed(new))
 
 
-def _in_state(chart: Chart, path: Path, state: State, step_ms: int) -> Iterator[Fault]:
+def _in_state(chart: Chart, path: Path, state: State, step_ms: int) -> Iterator[ChartFault]:
     for kind in ("entry", "during", "exit"):
         actions: tuple[Action, ...] = getattr(state, kind)
         for slip in action_slips(actions, step_ms, paired(chart.all_actions)):
@@ -165,10 +165,10 @@ def _in_state(chart: Chart, path: Path, state: State, step_ms: int) -> Iterator[
                         return replace(old, exit=new)
 
             site = f"state/{'.'.join(path)}/{kind}"
-            yield Fault(site, slip.operator, slip.text, state.place, edit_at(chart, path, put))
+            yield ChartFault(site, slip.operator, slip.text, state.place, edit_at(chart, path, put))
 
 
-def _regions(chart: Chart, path: Path, state: State) -> Iterator[Fault]:
+def _regions(chart: Chart, path: Path, state: State) -> Iterator[ChartFault]:
     """Two regions that follow each other and share data, executed in the other order."""
     for number, (one, two) in enumerate(zip(state.states, state.states[1:], strict=False)):
         if not _shared(one, two):
@@ -180,7 +180,7 @@ def _regions(chart: Chart, path: Path, state: State) -> Iterator[Fault]:
 
         text = f"the regions {one.name} and {two.name} are executed in the other order"
         site = "/".join(filter(None, ("regions", ".".join(path))))
-        yield Fault(f"{site}.{number + 1}", "order", text, two.place, edit_at(chart, path, put))
+        yield ChartFault(f"{site}.{number + 1}", "order", text, two.place, edit_at(chart, path, put))
 
 
 def _shared(one: State, two: State) -> bool:
@@ -199,4 +199,4 @@ def _data(region: State) -> tuple[set[str], set[str]]:
     return set(reads(actions)) | set(variables(*guards)), set(writes(actions))
 
 
-__all__ = ["Fault", "block_faults", "chart_faults"]
+__all__ = ["ChartFault", "block_faults", "chart_faults"]

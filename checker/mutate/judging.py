@@ -6,14 +6,14 @@ from enum import StrEnum
 from time import monotonic
 
 from checker.engines import AUTO, Limits, Progress
-from checker.mutate.observing import Difference, difference, observable
+from checker.mutate.observing import MutantDifference, difference, observable
 from checker.mutate.product import Product, at_the_fault, described, product, same
 from checker.mutate.step_equality import equal_in_every_step
 from checker.results.trace import Trace
 from checker.results.verdict import Open, Proved, Reached, Run, Unknown, Unreachable, Violated
 from checker.system.lowered import lowered
 from checker.verify.decide import decide
-from checker.verify.portfolio import Question, Told, answers
+from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
 from checker.verify.portfolio.question import stays
 from checker.verify.result import Result, check_domains
 from checker.verify.runs.domains import LeavesDomain
@@ -64,13 +64,13 @@ class Judged:
     why: str = ""
     asked: int = 0
     open: int = 0
-    difference: Difference | None = None
+    difference: MutantDifference | None = None
     run: Run | None = None
     """The run that violates ``killer``, to be tried on other mutants."""
 
 
 @dataclass(frozen=True)
-class Case:
+class MutantCase:
     """A mutant in one system, with the properties to ask and whether each is proved of the original.
 
     ``sure``: that was found out, and not only read from a record.  ``named`` are the variables that
@@ -98,7 +98,7 @@ class Case:
 
 
 def judged(
-    cases: Sequence[Case],
+    cases: Sequence[MutantCase],
     limits: Limits,
     progress: Progress,
     before: Judged | None = None,
@@ -150,7 +150,7 @@ class _Hunt:
     """Asks properties about a mutant until one notices it."""
 
     def __init__(
-        self, cases: Sequence[Case], limits: Limits, deadline: float | None, progress: Progress
+        self, cases: Sequence[MutantCase], limits: Limits, deadline: float | None, progress: Progress
     ) -> None:
         self._cases = cases
         self._limits = limits
@@ -183,7 +183,7 @@ class _Hunt:
                 self.gone = self.gone or judged
         return None
 
-    def _tried(self, case: Case) -> Judged | None:
+    def _tried(self, case: MutantCase) -> Judged | None:
         by_id = {p.id: p for p in case.properties}
         still = self._still.setdefault(case.mutant.name, set())
         runs = (*case.killers, *case.runs.values(), *case.tries)
@@ -198,7 +198,7 @@ class _Hunt:
         self.asked += len(still)
         return None
 
-    def _tasks(self) -> Iterator[tuple[Case, Task]]:
+    def _tasks(self) -> Iterator[tuple[MutantCase, Task]]:
         for case in self._cases:
             self.on = case.mutant.name
             still = self._still[case.mutant.name]
@@ -208,7 +208,7 @@ class _Hunt:
             for task in sorted(found, key=lambda t: min(place[p.id] for p in t.properties)):
                 yield case, task
 
-    def _found(self, case: Case, task: Task) -> Iterator[Result]:
+    def _found(self, case: MutantCase, task: Task) -> Iterator[Result]:
         """Each verdict, by the engine that proved it of the original if it decides the mutant, too."""
         by: dict[str, list[Property]] = {}
         for prop in task.properties:
@@ -232,7 +232,7 @@ class _Hunt:
             task, {task.system.name: task.system}, engine, limits, self._progress, None, deadline
         )
 
-    def _judged(self, case: Case, result: Result) -> Judged | None:
+    def _judged(self, case: MutantCase, result: Result) -> Judged | None:
         """What one verdict means: a kill, a finding that is gone, or nothing."""
         prop, verdict = result.property, result.verdict
         if isinstance(verdict, Unknown):
@@ -246,7 +246,7 @@ class _Hunt:
         asked, known = self.asked, run_of(verdict)
         return Judged(fate, prop.id, case.mutant.name, ticks, shortest, asked=asked, run=known)
 
-    def _confirmed(self, case: Case, prop: Property) -> bool:
+    def _confirmed(self, case: MutantCase, prop: Property) -> bool:
         """Whether the verdict on the original is as it is on record."""
         if case.sure:
             return True
@@ -270,7 +270,7 @@ def _still(before: Judged, hunt: _Hunt) -> Judged:
     return replace(before, fate=Fate.UNKNOWN, why=why, asked=asked, open=left)
 
 
-def _compared(case: Case, hunt: _Hunt, limits: Limits, progress: Progress) -> Judged:
+def _compared(case: MutantCase, hunt: _Hunt, limits: Limits, progress: Progress) -> Judged:
     """The fate of a mutant that no property kills."""
     original, mutant, deadline = lowered(case.original), lowered(case.mutant), limits.deadline()
     asked, left = hunt.asked, len(hunt.open)
@@ -287,7 +287,9 @@ def _compared(case: Case, hunt: _Hunt, limits: Limits, progress: Progress) -> Ju
     never = _never(at_the_fault(original, mutant), _share(limits, deadline), progress)
     if never is not None:
         return equivalent(f"the fault never computes anything else; {never}")
-    found = answers(Question(both.system, (both.goal,)), AUTO, limits.until(deadline), Told(progress))
+    found = answers(
+        PortfolioQuestion(both.system, (both.goal,)), AUTO, limits.until(deadline), Callbacks(progress)
+    )
     answer, by = found[both.goal.name]
     if not isinstance(answer, Reached):
         check_domains(both.system, found)
@@ -316,12 +318,12 @@ def _never(both: Product | None, limits: Limits, progress: Progress) -> str | No
     """The proof that the goal of a product is never reached; None if there is none within the limits."""
     if both is None:
         return None
-    question = Question(both.system, (both.goal,))
-    found = answers(question, AUTO, limits, Told(progress))
+    question = PortfolioQuestion(both.system, (both.goal,))
+    found = answers(question, AUTO, limits, Callbacks(progress))
     match found[both.goal.name]:
         case Unreachable(because), by if stays(question, found):
             return f"{by}: {because.how}"
     return None
 
 
-__all__ = ["Case", "Fate", "Judged", "judged"]
+__all__ = ["Fate", "Judged", "MutantCase", "judged"]

@@ -14,7 +14,7 @@ from spec_model.lang.system import System, TransitionSystem
 
 
 @dataclass(frozen=True)
-class Difference:
+class MutantDifference:
     """A run that tells a mutant from the original, both of which were run by the interpreter of the charts.
 
     ``inputs`` are those of each tick, ``original`` and ``mutant`` the values after the last tick of what
@@ -59,7 +59,7 @@ def observable(system: System, named: Collection[str] = (), abroad: Collection[s
 
 def difference(
     original: TransitionSystem, mutant: TransitionSystem, both: Product, run: Run, shortest: bool
-) -> Difference:
+) -> MutantDifference:
     """What a run of the product shows, when both systems were run again.
 
     Raises ``ReplayError`` if they do the same, and if the interpreter of the charts does something else.
@@ -81,7 +81,7 @@ def difference(
     def shown(values: Mapping[str, int], wanted: Collection[str]) -> dict[str, str]:
         return {n: tables[n].domain.show(values[n]) for n in wanted if n in tables}
 
-    return Difference(
+    return MutantDifference(
         tuple(shown(tick, tick.keys()) for tick in ours.inputs),
         shown(ours.frozen, ours.frozen.keys()),
         shown(one[-1].after, unlike) if unlike else {},
@@ -119,4 +119,4 @@ def _places(system: TransitionSystem, ticks: tuple[Tick, ...]) -> dict[str, str]
     return {v.name: v.domain.show(at[v.name]) for c in charts for v in c.locations if v.name in at}
 
 
-__all__ = ["Difference", "difference", "observable"]
+__all__ = ["MutantDifference", "difference", "observable"]

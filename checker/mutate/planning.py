@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from checker.mutate.asked import Cone, as_it_is, concerned, cones
-from checker.mutate.judging import Case, Fate, Judged
+from checker.mutate.judging import Fate, Judged, MutantCase
 from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.tries import ROUNDS, RandomRuns, tried
 from checker.results.verdict import Proved, Run, Unknown
@@ -31,7 +31,7 @@ class Planned:
     """A mutant, and the cases in which it is looked at, its own system first."""
 
     mutant: Mutant
-    cases: tuple[Case, ...]
+    cases: tuple[MutantCase, ...]
 
 
 @dataclass
@@ -94,11 +94,11 @@ class Plan:
         proved = {id: is_so for id, is_so in known.items() if is_so is not None}
         properties = tuple(p for p in self._stated(name) if p.id in proved)
         original = as_it_is(self.systems[name])
-        return Planned(mutant, (Case(original, same.system, same.parts, properties, proved),))
+        return Planned(mutant, (MutantCase(original, same.system, same.parts, properties, proved),))
 
     def elsewhere(self, mutant: Mutant, name: str) -> Planned:
         """The same fault in all other systems with the part, those with the smallest cones first."""
-        found: list[tuple[int, Case]] = []
+        found: list[tuple[int, MutantCase]] = []
         for other in self.systems:
             if other == name or not self._stated(other) or not self._has(other, mutant.parts):
                 continue
@@ -143,7 +143,7 @@ class Plan:
     def _listed(self, name: str) -> tuple[Run, ...]:
         return tuple(tried(self.on_record.get(name, ())))
 
-    def _case(self, mutant: Mutant, name: str, sure: bool) -> Case:
+    def _case(self, mutant: Mutant, name: str, sure: bool) -> MutantCase:
         original = as_it_is(self.systems[name])
         proved = {p.id: self.proved.get(p.id, self.recorded[p.id]) for p in self._stated(name)}
         known = {
@@ -151,7 +151,7 @@ class Plan:
         }
         asked = concerned({name: self._known(name)}, original, mutant.system, mutant.parts)
         properties = tuple(c.property for c in asked if c.property.id in known)
-        return Case(
+        return MutantCase(
             original, mutant.system, mutant.parts, properties, known, sure,
             self._named, self._abroad(original), self._runs(properties),
         )  # fmt: skip

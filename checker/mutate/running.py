@@ -6,18 +6,18 @@ from dataclasses import dataclass, replace
 
 from checker.cache.telling import listening
 from checker.engines import Limits
-from checker.mutate.judging import Case, Fate, Judged
+from checker.mutate.judging import Fate, Judged, MutantCase
 from checker.mutate.mutants import Mutant
 from checker.mutate.planning import Planned
 from checker.process.faults import Fault, described, is_fault, tell
 from checker.process.faults import listening as attending
 from checker.process.isolate import Send
-from checker.process.pool import Event, Granted, Order, Pool
+from checker.process.pool import Granted, Order, Pool, PoolEvent
 from checker.verify.searches import SLACK, cores
 
 
 @dataclass(frozen=True)
-class Doing:
+class MutantProgress:
     """One line on what is being done about a mutant."""
 
     mutant: Mutant
@@ -25,7 +25,7 @@ class Doing:
 
 
 @dataclass(frozen=True)
-class Told:
+class MutantJudged:
     """A mutant and its fate."""
 
     mutant: Mutant
@@ -38,7 +38,7 @@ def fates(
     jobs: int | None = None,
     before: Mapping[str, Judged] | None = None,
     search: bool = True,
-) -> Generator[Doing | Told, None, None]:
+) -> Generator[MutantProgress | MutantJudged, None, None]:
     """The fate of each mutant as it is found; the time of ``limits`` is for each of them.
 
     Without ``search`` it is unknown where no run that is known and no single query decides it.
@@ -64,13 +64,13 @@ def fates(
                 case Judged() as heard:
                     found[event.number] = heard
                 case str(line):
-                    yield Doing(mutant, line)
+                    yield MutantProgress(mutant, line)
             if event.done:
                 judged = found.pop(event.number) if event.number in found else None
-                yield Told(mutant, judged or _ended(event, limits, known.get(mutant.id)))
+                yield MutantJudged(mutant, judged or _ended(event, limits, known.get(mutant.id)))
 
 
-def _ended(event: Event, limits: Limits, before: Judged | None) -> Judged:
+def _ended(event: PoolEvent, limits: Limits, before: Judged | None) -> Judged:
     """The fate of a mutant whose search ended without a word on it."""
     why = event.failure or "the search ended without a word on it"
     if event.late and limits.seconds is not None:
@@ -84,7 +84,7 @@ class _Judging:
     def __init__(self, limits: Limits, search: bool) -> None:
         self._limits, self._search = limits, search
 
-    def __call__(self, send: Send, id: str, cases: tuple[Case, ...], before: Judged | None) -> None:
+    def __call__(self, send: Send, id: str, cases: tuple[MutantCase, ...], before: Judged | None) -> None:
         from checker.mutate.judging import judged
         from checker.verify.portfolio import Disagreement
         from checker.verify.runs.replay import ReplayError
@@ -103,4 +103,4 @@ class _Judging:
             raise
 
 
-__all__ = ["Doing", "Told", "fates"]
+__all__ = ["MutantJudged", "MutantProgress", "fates"]

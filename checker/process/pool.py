@@ -31,7 +31,7 @@ class Order:
 
 
 @dataclass(frozen=True)
-class Event:
+class PoolEvent:
     """A message about the order of that number, or (``done``) its end and what went wrong, if anything.
 
     A failure that is not its end is a crash after which it is carried out once more.  ``late``: its time was
@@ -59,7 +59,7 @@ class Pool:
     hard: float = 1.1
     grace: float = 2.0
 
-    def run(self, orders: Sequence[Order], again: "Again | None" = None) -> Generator[Event, None, None]:
+    def run(self, orders: Sequence[Order], again: "Again | None" = None) -> Generator[PoolEvent, None, None]:
         """Have all orders carried out, the first ones first; yield what is heard of each.
 
         ``again`` is asked what a new child is to do when one has crashed over an order of that number.
@@ -115,7 +115,7 @@ class _AtWork:
         self._seats: dict[int, _Seat] = {}
         self._numbers = count()
 
-    def events(self) -> Iterator[Event]:
+    def events(self) -> Iterator[PoolEvent]:
         """What is heard, until every order is done."""
         for _ in range(min(self._pool.size, len(self._left))):
             self._hire()
@@ -148,7 +148,7 @@ class _AtWork:
                 if seat.hard is not None and seat.hard <= now:
                     yield key, Late(f"killed: it did not stop at the time limit of {seat.granted:g} s", True)
 
-    def _event(self, seat: _Seat, message: object) -> Event | None:
+    def _event(self, seat: _Seat, message: object) -> PoolEvent | None:
         assert seat.number is not None
         if isinstance(message, Granted):
             if seat.whole is None:
@@ -159,8 +159,8 @@ class _AtWork:
             order = self._again(seat.number) if message.crashed else None
             if order is not None:
                 self._left = {seat.number: order, **self._left}
-            return Event(seat.number, None, order is None, message.failure, isinstance(message, Late))
-        return Event(seat.number, message)
+            return PoolEvent(seat.number, None, order is None, message.failure, isinstance(message, Late))
+        return PoolEvent(seat.number, message)
 
     def _killed_at(self, granted: Granted) -> float | None:
         if granted.seconds is None:

@@ -24,7 +24,7 @@ ROVER = "rover"
 
 
 @dataclass
-class Source:
+class ModelSource:
     """Where a model comes from (None: the rover); it is read when first asked for."""
 
     path: Path | None
@@ -66,10 +66,10 @@ class Source:
 class Models:
     """The models of a session: those that are configured, and with ``patterns`` those met on the way."""
 
-    configured: Sequence[Source]
+    configured: Sequence[ModelSource]
     patterns: Sequence[str]
     decider: Decider
-    _met: dict[Path, Source] = field(default_factory=dict)
+    _met: dict[Path, ModelSource] = field(default_factory=dict)
 
     def hold(self, file: Path) -> bool:
         """Whether the file may belong to a model that is wanted."""
@@ -83,7 +83,7 @@ class Models:
                 mine = not whole(parent.config) and file in source.files
                 return _node(parent, file, source) if mine else None
         if any(map(file.match, self.patterns)):
-            source = self._met.setdefault(file, Source(file, self.decider))
+            source = self._met.setdefault(file, ModelSource(file, self.decider))
             return _node(parent, file, source)
         return None
 
@@ -104,17 +104,17 @@ def models_of(config: pytest.Config, named: Sequence[str], patterns: Sequence[st
     decider = Decider.of(config)
     base = config.inipath.parent if config.inipath else config.invocation_params.dir
     paths = [None if name == ROVER else base / name for name in dict.fromkeys(named)]
-    return Models([Source(path, decider) for path in paths], patterns, decider)
+    return Models([ModelSource(path, decider) for path in paths], patterns, decider)
 
 
-def _node(parent: pytest.Collector, file: Path, source: Source) -> pytest.Collector:
+def _node(parent: pytest.Collector, file: Path, source: ModelSource) -> pytest.Collector:
     return ModelNode.from_parent(parent, path=file, source=source)
 
 
 class ModelNode(pytest.File):
     """A file of a model."""
 
-    def __init__(self, *, source: Source, **rest: Any) -> None:
+    def __init__(self, *, source: ModelSource, **rest: Any) -> None:
         super().__init__(**rest)
         self.source = source
 
@@ -127,7 +127,7 @@ class ModelNode(pytest.File):
 class RoverNode(pytest.Collector):
     """The rover."""
 
-    def __init__(self, *, source: Source, **rest: Any) -> None:
+    def __init__(self, *, source: ModelSource, **rest: Any) -> None:
         super().__init__(**rest)
         self.source = source
 
@@ -138,7 +138,9 @@ class RoverNode(pytest.Collector):
         return _items(self, self.source, list(self.source.read.properties.values()))
 
 
-def _items(parent: pytest.Collector, source: Source, properties: Sequence[Property]) -> list[pytest.Item]:
+def _items(
+    parent: pytest.Collector, source: ModelSource, properties: Sequence[Property]
+) -> list[pytest.Item]:
     assert isinstance(source.read, Model)
     return [
         PropertyItem.from_parent(parent, name=p.id, prop=p, model=source.read, decider=source.decider)

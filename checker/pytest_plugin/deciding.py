@@ -21,7 +21,7 @@ Key = tuple[int, str]
 """A model, by identity, and a property of it."""
 
 
-class Failed(Exception):
+class NoVerdict(Exception):
     """There is no verdict; the message says why."""
 
 
@@ -36,7 +36,7 @@ class Decider:
     limits: Limits
     jobs: int | None = None
     apart: bool = False
-    _found: dict[Key, Compared | Failed] = field(default_factory=dict)
+    _found: dict[Key, Compared | NoVerdict] = field(default_factory=dict)
 
     @staticmethod
     def of(config: pytest.Config) -> "Decider":
@@ -56,12 +56,12 @@ class Decider:
         return Decider(engine, Limits(depth, seconds), 1 if worker else None, apart)
 
     def compared(self, item: "PropertyItem") -> Compared:
-        """The verdict of an item beside the one on record.  Raises ``Failed``."""
+        """The verdict of an item beside the one on record.  Raises ``NoVerdict``."""
         key = _key(item)
         if key not in self._found:
             self._decide([item] if self.apart else _together(item))
         found = self._found[key]
-        if isinstance(found, Failed):
+        if isinstance(found, NoVerdict):
             raise found
         return found
 
@@ -78,18 +78,18 @@ class Decider:
                     item = left.pop(one.property.id)
                     self._found[_key(item)] = Compared(one, model.expected(item.prop.id))
         except Exception as error:
-            self._found |= {_key(item): Failed(told(error)) for item in left.values()}
+            self._found |= {_key(item): NoVerdict(told(error)) for item in left.values()}
         if faults:
             self._found |= {_key(item): self._faulty(item, faults) for item in items}
 
-    def _faulty(self, item: "PropertyItem", faults: Sequence[Fault]) -> Failed:
+    def _faulty(self, item: "PropertyItem", faults: Sequence[Fault]) -> NoVerdict:
         """What is said of an item while whose system was decided an engine failed: its verdict, too."""
         found = self._found[_key(item)]
-        if isinstance(found, Failed):
+        if isinstance(found, NoVerdict):
             return found
         verdict = f"{item.prop.id} is {found.word}, on record is {recorded(found.expected)}"
         verdict += f": {evidence(found.result)}"
-        return Failed("\n".join([verdict, *dict.fromkeys(map(alarm, faults))]))
+        return NoVerdict("\n".join([verdict, *dict.fromkeys(map(alarm, faults))]))
 
 
 def _key(item: "PropertyItem") -> Key:

@@ -7,7 +7,7 @@ import pytest
 
 from checker.commands.check.run import Compared, evidence
 from checker.model import Model
-from checker.pytest_plugin.deciding import Decider, Failed
+from checker.pytest_plugin.deciding import Decider, NoVerdict
 from checker.pytest_plugin.telling import on_record, shown
 from properties.forms import Property
 from rovercheck import own
@@ -32,7 +32,7 @@ class PropertyItem(pytest.Item):
 
     @own()
     def runtest(self) -> None:
-        """Raises ``Different``, or ``Failed`` if there is no verdict at all."""
+        """Raises ``Different``, or ``NoVerdict`` if there is no verdict at all."""
         compared = self.decider.compared(self)
         for name, value in _properties(compared):
             self.user_properties.append((name, value))
@@ -43,7 +43,7 @@ class PropertyItem(pytest.Item):
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """What there is to read instead of a traceback of ours."""
-        if isinstance(excinfo.value, Different | Failed):
+        if isinstance(excinfo.value, Different | NoVerdict):
             return str(excinfo.value)
         return super().repr_failure(excinfo, style)
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from checker.render.durations import duration
-from checker.render.story import Event, Quiet, Row, rows
+from checker.render.story import Quiet, Row, StoryEvent, rows
 from checker.results.trace import Trace, counted_ticks
 
 TIMES = 2
@@ -67,7 +67,7 @@ def _repeated(kinds: Sequence[int], at: int) -> tuple[int, int]:
 def _kind(row: Row) -> object:
     """What two rows have in common of which one repeats the other; nothing, if no other can."""
     match row:
-        case Event():
+        case StoryEvent():
             return row.changes, row.arrows
         case Quiet():
             return row.count, row.counters
@@ -76,6 +76,6 @@ def _kind(row: Row) -> object:
 
 def _ticks(row: Row) -> tuple[int, int]:
     """The first and the last tick of a row."""
-    if isinstance(row, Event):
+    if isinstance(row, StoryEvent):
         return row.number, row.number
     return row.first, row.last

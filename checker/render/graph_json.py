@@ -3,7 +3,7 @@
 import json
 from typing import Any
 
-from checker.results.graph import Kind, StateGraph
+from checker.results.graph import ProjectionKind, StateGraph
 
 NAME = "json"
 KIND = "graph"
@@ -73,8 +73,8 @@ SCHEMA: dict[str, Any] = {
     "title": "rovercheck state graph",
     **_object(
         format={"const": "rovercheck-graph"}, version={"const": VERSION}, title=_TEXT, variables=_TEXTS,
-        kind={"enum": [str(kind) for kind in Kind]}, exact={"type": "boolean"}, because=_TEXTS, cut=_TEXT,
-        depth=_WHOLE, valuations=_WHOLE,
+        kind={"enum": [str(kind) for kind in ProjectionKind]}, exact={"type": "boolean"}, because=_TEXTS,
+        cut=_TEXT, depth=_WHOLE, valuations=_WHOLE,
         nodes={
             "type": "array",
             "items": _object(

@@ -28,7 +28,7 @@ class Curve:
 
 
 @dataclass(frozen=True)
-class Limit:
+class LaneLimit:
     """A value at which something changes."""
 
     value: float
@@ -36,14 +36,14 @@ class Limit:
 
 
 @dataclass(frozen=True)
-class Chart:
+class ChartLane:
     """Curves on one axis; ``low`` and ``high`` are shown at least."""
 
     title: str
     curves: Sequence[Curve]
     low: float
     high: float
-    limits: Sequence[Limit] = ()
+    limits: Sequence[LaneLimit] = ()
     ticks: Sequence[float] = ()
 
 
@@ -58,7 +58,7 @@ class Band:
 
 
 @dataclass(frozen=True)
-class Row:
+class LaneRow:
     """The states of one signal, one after the other."""
 
     name: str
@@ -66,11 +66,11 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Rows:
+class LaneRows:
     """Signals that belong together."""
 
     title: str
-    rows: Sequence[Row]
+    rows: Sequence[LaneRow]
 
 
 @dataclass(frozen=True)
@@ -90,5 +90,5 @@ class Lanes:
     title: str
     note: str
     end_s: float
-    lanes: Sequence[Chart | Rows]
+    lanes: Sequence[ChartLane | LaneRows]
     marks: Sequence[Mark] = ()

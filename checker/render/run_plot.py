@@ -5,7 +5,7 @@ from io import BytesIO
 from typing import TYPE_CHECKING
 from warnings import catch_warnings, simplefilter
 
-from checker.render.lanes import Band, Chart, Curve, Lanes, Limit, Mark, Rows, Tone
+from checker.render.lanes import Band, ChartLane, Curve, LaneLimit, LaneRows, Lanes, Mark, Tone
 from checker.render.run_style import (
     BOTTOM,
     BRIEF,
@@ -77,7 +77,7 @@ def draw(lanes: Lanes, suffix: str) -> bytes:
 def _figure(lanes: Lanes) -> "Figure":
     from matplotlib.figure import Figure
 
-    heights = [CHART if isinstance(lane, Chart) else ROW * len(lane.rows) for lane in lanes.lanes]
+    heights = [CHART if isinstance(lane, ChartLane) else ROW * len(lane.rows) for lane in lanes.lanes]
     below = BOTTOM + LINE * (len(legend(lanes.marks)) + 0.9)
     height = TOP + sum(heights) + GAP * len(heights) + below
     figure = Figure(figsize=(WIDTH, height))
@@ -86,7 +86,7 @@ def _figure(lanes: Lanes) -> "Figure":
         box = (LEFT / WIDTH, (top - tall) / height, (WIDTH - LEFT - RIGHT) / WIDTH, tall / height)
         axes = figure.add_axes(box)
         _frame(axes, lanes, last=place == len(heights) - 1)
-        if isinstance(lane, Chart):
+        if isinstance(lane, ChartLane):
             _chart(axes, lane)
         else:
             _rows(axes, lane, lanes.end_s)
@@ -113,7 +113,7 @@ def _frame(axes: "Axes", lanes: Lanes, *, last: bool) -> None:
         )
 
 
-def _chart(axes: "Axes", chart: Chart) -> None:
+def _chart(axes: "Axes", chart: ChartLane) -> None:
     values = [value for curve in chart.curves for value in curve.values]
     low, high = min([chart.low, *values]), max([chart.high, *values])
     room = (high - low) * 0.06
@@ -136,7 +136,7 @@ def _chart(axes: "Axes", chart: Chart) -> None:
     _key(axes, chart.curves)
 
 
-def _limits(axes: "Axes", limits: Sequence[Limit]) -> None:
+def _limits(axes: "Axes", limits: Sequence[LaneLimit]) -> None:
     """Lines across, named at the right; names that would meet are moved up."""
     bottom, top = axes.get_ylim()
     lowest = bottom
@@ -192,7 +192,7 @@ def _key(axes: "Axes", curves: Sequence[Curve]) -> None:
         axes.text(-1.36 / wide, y, curve.name, transform=axes.transAxes, va="center", fontsize=7.5)
 
 
-def _rows(axes: "Axes", lane: Rows, end_s: float) -> None:
+def _rows(axes: "Axes", lane: LaneRows, end_s: float) -> None:
     axes.set_ylim(len(lane.rows), 0)
     axes.set_yticks([place + 0.5 for place in range(len(lane.rows))], [row.name for row in lane.rows])
     axes.tick_params(axis="y", length=0, labelsize=7.5)

@@ -6,7 +6,7 @@ from functools import lru_cache
 from checker.render.drawing import svg
 from checker.render.drawing.highlight import Emphasis, emphasis
 from checker.render.drawing.nested import picture
-from checker.render.drawing.picture import Box, Piece, Spot
+from checker.render.drawing.picture import Box, PicturePiece, Spot
 from checker.render.drawing.scheme import arrows, explained
 from checker.render.drawing.text import LINE, width, wrap
 from checker.results.trace import Arrow
@@ -123,7 +123,7 @@ def _box(box: Box, shown: Emphasis) -> str:
     return svg.tag("g", "".join(parts), class_=classes, data_state=".".join(box.path))
 
 
-def _piece(piece: Piece, shown: Emphasis) -> str:
+def _piece(piece: PicturePiece, shown: Emphasis) -> str:
     parts = [svg.tag("path", d=svg.path(piece.points), class_="line")]
     if piece.ends:
         parts.append(svg.tag("path", d=svg.arrow_head(piece.points), class_="head"))
@@ -134,7 +134,7 @@ def _piece(piece: Piece, shown: Emphasis) -> str:
     return svg.tag("g", "".join(parts), class_=classes, data_arrow=piece.arrow.name)
 
 
-def _number(piece: Piece) -> str:
+def _number(piece: PicturePiece) -> str:
     """The priority beside the start of the line; beyond the slanting start at a junction."""
     (x, y), (x1, y1), *rest = piece.points
     if x1 != x and y1 != y and rest:

@@ -25,7 +25,7 @@ TIMER = re.compile(r"\.(after|duration\d*|held\d*)$")
 
 
 @dataclass(frozen=True)
-class Change:
+class StoryChange:
     """A value that differs from the tick before; ``old`` is empty for an input in the first tick.
 
     ``limit`` is what a guard compares a count with, and ``needed`` tells that the input had to be so.
@@ -44,12 +44,12 @@ class Change:
 
 
 @dataclass(frozen=True)
-class Event:
+class StoryEvent:
     """A tick in which something happened; ``ms`` is the time at its end, counted from the start."""
 
     number: int
     ms: int
-    changes: tuple[Change, ...]
+    changes: tuple[StoryChange, ...]
     arrows: tuple[Arrow, ...]
 
 
@@ -60,7 +60,7 @@ class Quiet:
     first: int
     last: int
     lasts: int
-    counters: tuple[Change, ...]
+    counters: tuple[StoryChange, ...]
 
     @property
     def count(self) -> int:
@@ -109,7 +109,7 @@ class Repeats:
         return f"from here on {span} for ever"
 
 
-Row = Event | Quiet | Repeats
+Row = StoryEvent | Quiet | Repeats
 
 
 def value(trace: Trace, name: str, raw: int) -> str:
@@ -198,29 +198,29 @@ class _Telling:
         counters = tuple(self._counted(n, start, end) for n in names)
         return Quiet(start + 1, end, self.trace.ms(end) - self.trace.ms(start), counters)
 
-    def event(self, i: int, arrows: tuple[Arrow, ...], names: list[str]) -> Event:
+    def event(self, i: int, arrows: tuple[Arrow, ...], names: list[str]) -> StoryEvent:
         changes = [self._change(n, i) for n in names]
         changes.sort(key=lambda change: not change.is_input)
         number = self.trace.ticks[i].number
-        return Event(number, self.trace.ms(number), tuple(changes), arrows)
+        return StoryEvent(number, self.trace.ms(number), tuple(changes), arrows)
 
-    def _change(self, name: str, i: int) -> Change:
+    def _change(self, name: str, i: int) -> StoryChange:
         trace, old, new = self.trace, self.at[i], self.at[i + 1]
         if TIMER.search(name) and name in old:
             return self._counted(name, i, i + 1)
         shown = value(trace, name, old[name]) if name in old else ""
         needed = (trace.ticks[i].number, name) in self._needed
-        return Change(name, shown, value(trace, name, new[name]), name in trace.inputs, needed=needed)
+        return StoryChange(name, shown, value(trace, name, new[name]), name in trace.inputs, needed=needed)
 
-    def _counted(self, name: str, start: int, end: int) -> Change:
+    def _counted(self, name: str, start: int, end: int) -> StoryChange:
         """A count that went on, with the limit that it has yet to pass; of a timer, as times."""
         old, new = self.at[start][name], self.at[end][name]
         known = timer(self.trace, name)
         if known is not None:
-            return Change(name, known.shown(old), known.shown(new), False, known.limit if new else "")
+            return StoryChange(name, known.shown(old), known.shown(new), False, known.limit if new else "")
         ahead = [text for raw, text in self._bounds.get(name, ()) if raw >= new > old]
         shown = value(self.trace, name, old), value(self.trace, name, new)
-        return Change(name, *shown, name in self.trace.inputs, ahead[0] if ahead else "")
+        return StoryChange(name, *shown, name in self.trace.inputs, ahead[0] if ahead else "")
 
 
 def start_values(trace: Trace) -> tuple[tuple[str, str], ...]:
@@ -282,7 +282,7 @@ def ending(trace: Trace) -> str:
     return ""
 
 
-def standstill(trace: Trace, event: Event) -> str:
+def standstill(trace: Trace, event: StoryEvent) -> str:
     """What there is to say of a tick of which nothing else is told; empty if something is."""
     if event.changes or event.arrows:
         return ""

@@ -7,7 +7,7 @@ see it (``Trace.concrete``); of a run of several boards, each is compiled by its
 from collections.abc import Iterable
 
 from checker.render.trace_pytest import required
-from checker.results.board_steps import BoardRun, Kind, Signal, Value, held
+from checker.results.board_steps import BoardRun, SignalKind, StepSignal, Value, held
 from checker.results.trace import Trace
 
 NAME = "c"
@@ -18,8 +18,8 @@ CONCRETE = True
 """Shows the run as the boards see it."""
 
 _TYPES = {
-    Kind.BOOL: "bool", Kind.WHOLE: "int32_t", Kind.NUMBER: "double",
-    Kind.CLOCK: "uint32_t", Kind.STAMP: "uint32_t",
+    SignalKind.BOOL: "bool", SignalKind.WHOLE: "int32_t", SignalKind.NUMBER: "double",
+    SignalKind.CLOCK: "uint32_t", SignalKind.STAMP: "uint32_t",
 }  # fmt: skip
 
 
@@ -65,7 +65,7 @@ def _interface(run: BoardRun) -> str:
     )
 
 
-def _member(signal: Signal) -> str:
+def _member(signal: StepSignal) -> str:
     return f"    {_TYPES[signal.kind]} {signal.name}; /* {_plain(signal.doc)} */\n"
 
 
@@ -100,15 +100,15 @@ def _apply(run: BoardRun) -> str:
     lines = []
     for number, signal in enumerate(run.inputs):
         match signal.kind:
-            case Kind.CLOCK:
+            case SignalKind.CLOCK:
                 lines.append(f"in->{signal.name} = now;")
-            case Kind.STAMP:
+            case SignalKind.STAMP:
                 lines.append(f"if (!isnan(at[{number}])) in->{signal.name} = now - (uint32_t)at[{number}];")
-            case Kind.BOOL:
+            case SignalKind.BOOL:
                 lines.append(f"in->{signal.name} = at[{number}] != 0.0;")
             case kind:
                 lines.append(f"in->{signal.name} = ({_TYPES[kind]})at[{number}];")
-    rest = ", ".join("NAN" if s.kind is Kind.STAMP else f"{float(s.initial)!r}" for s in run.inputs)
+    rest = ", ".join("NAN" if s.kind is SignalKind.STAMP else f"{float(s.initial)!r}" for s in run.inputs)
     return (
         f"static const double at_rest[INPUTS] = {{{rest}}};\n\n"
         "static void apply(const double *at, uint32_t now, struct inputs *in)\n{\n" + _indented(lines) + "}\n"

@@ -10,7 +10,7 @@ from io import StringIO
 
 from vcd.gtkw import GTKWColor, GTKWFlag, GTKWSave
 
-from checker.render.waves import Group, Sort, Wave, outcome, waves
+from checker.render.waves import Sort, Wave, WaveGroup, outcome, waves
 from checker.results.trace import Trace
 
 NAME = "gtkw"
@@ -23,7 +23,7 @@ BESIDE = "vcd"
 _WIDTH = 1200
 """Pixels that the whole run shall take at first sight."""
 _FORMATS = {Sort.WIRE: "bin", Sort.TEXT: "ascii", Sort.NUMBER: "real"}
-_FILTERED = Group.CHARTS, Group.INPUTS, Group.TIMERS, Group.VALUES
+_FILTERED = WaveGroup.CHARTS, WaveGroup.INPUTS, WaveGroup.TIMERS, WaveGroup.VALUES
 
 
 def render(trace: Trace, dump: str = "") -> str:
@@ -39,17 +39,17 @@ def render(trace: Trace, dump: str = "") -> str:
     found = waves(trace)
     for group in _FILTERED:
         _group(save, group.value, [w for w in found if w.group is group and _matters(trace, w)])
-    rest = [w for w in found if w.group is Group.HIDDEN or not _matters(trace, w)]
+    rest = [w for w in found if w.group is WaveGroup.HIDDEN or not _matters(trace, w)]
     _group(save, "not of the property", rest, closed=True)
     return out.getvalue()
 
 
 def _property(save: GTKWSave, trace: Trace) -> None:
-    with save.group(_plain(trace.property) or Group.PROPERTY.value):
+    with save.group(_plain(trace.property) or WaveGroup.PROPERTY.value):
         colour = GTKWColor.red if outcome(trace) == "violated" else GTKWColor.green
-        save.trace(f"{Group.PROPERTY}.{outcome(trace)}", color=colour, datafmt="bin")
+        save.trace(f"{WaveGroup.PROPERTY}.{outcome(trace)}", color=colour, datafmt="bin")
         if trace.loop is not None:
-            save.trace(f"{Group.PROPERTY}.repeats", color=GTKWColor.orange, datafmt="bin")
+            save.trace(f"{WaveGroup.PROPERTY}.repeats", color=GTKWColor.orange, datafmt="bin")
 
 
 def _group(save: GTKWSave, name: str, found: list[Wave], closed: bool = False) -> None:

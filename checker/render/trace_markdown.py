@@ -6,10 +6,10 @@ from checker.render.again import Again, folded
 from checker.render.reasons import forced, reasons
 from checker.render.story import (
     UNTOLD,
-    Event,
     Quiet,
     Repeats,
     Row,
+    StoryEvent,
     conjuncts,
     ending,
     heading,
@@ -57,7 +57,7 @@ def reasons_told(trace: Trace) -> list[str]:
 
 def _row(trace: Trace, row: Row | Again) -> str:
     match row:
-        case Event():
+        case StoryEvent():
             return _event(trace, row)
         case Quiet() | Again():
             return f"| … | | | *{_plain(row.what)}* | |"
@@ -65,7 +65,7 @@ def _row(trace: Trace, row: Row | Again) -> str:
             return f"| ↻ | | | **{_plain(row.what)}** | |"
 
 
-def _event(trace: Trace, event: Event) -> str:
+def _event(trace: Trace, event: StoryEvent) -> str:
     inputs = [_code(str(c)) + (" needed" if c.needed else "") for c in event.changes if c.is_input]
     others = [_code(str(c)) for c in event.changes if not c.is_input]
     others += [f"*{said}*"] if (said := standstill(trace, event)) else []

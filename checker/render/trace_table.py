@@ -11,10 +11,10 @@ from checker.render.hanging import hanging
 from checker.render.reasons import forced, reasons
 from checker.render.story import (
     UNTOLD,
-    Change,
     Conjunct,
-    Event,
     Repeats,
+    StoryChange,
+    StoryEvent,
     conjuncts,
     ending,
     heading,
@@ -75,7 +75,7 @@ def _parts(trace: Trace) -> Iterator[Part]:
 def _table(trace: Trace) -> Iterator[Part]:
     rows: list[tuple[str, str, list[Part]]] = [("tick", "ms", [_marked("what happened", "", "bold")])]
     for row in folded(trace):
-        if isinstance(row, Event):
+        if isinstance(row, StoryEvent):
             rows.append((str(row.number), str(row.ms), list(_event(trace, row))))
         else:
             style = "bold" if isinstance(row, Repeats) else "dim"
@@ -89,7 +89,7 @@ def _table(trace: Trace) -> Iterator[Part]:
             before = Text(" " * len(before))
 
 
-def _event(trace: Trace, event: Event) -> Iterator[Part]:
+def _event(trace: Trace, event: StoryEvent) -> Iterator[Part]:
     for needed in (True, False):
         given = [str(c) for c in event.changes if not c.old and c.needed is needed]
         if given:
@@ -101,7 +101,7 @@ def _event(trace: Trace, event: Event) -> Iterator[Part]:
         yield _marked(standstill(trace, event))
 
 
-def _changed(change: Change) -> Part:
+def _changed(change: StoryChange) -> Part:
     mark = (NEEDED if change.needed else INPUT) if change.is_input else "    "
     return _marked(str(change), mark, "cyan" if change.is_input else "")
 

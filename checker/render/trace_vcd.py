@@ -12,7 +12,7 @@ from unicodedata import normalize
 
 from vcd import VCDWriter
 
-from checker.render.waves import Group, Sort, Wave, outcome, waves
+from checker.render.waves import Sort, Wave, WaveGroup, outcome, waves
 from checker.results.trace import Trace
 from spec_model.lang.domain import Num
 
@@ -33,10 +33,10 @@ def render(trace: Trace) -> str:
     with VCDWriter(out, timescale="1 ms", date="", version="rovercheck", comment=_comment(trace)) as writer:
         found = [(w, writer.register_var(w.path[:-1], w.path[-1], w.sort.value, size=_size(w),
                                          init=_first(trace, w))) for w in waves(trace)]  # fmt: skip
-        mark = writer.register_var(Group.PROPERTY.value, outcome(trace), "wire", size=1, init=0)
+        mark = writer.register_var(WaveGroup.PROPERTY.value, outcome(trace), "wire", size=1, init=0)
         again = None
         if trace.loop is not None:
-            again = writer.register_var(Group.PROPERTY.value, "repeats", "wire", size=1, init=0)
+            again = writer.register_var(WaveGroup.PROPERTY.value, "repeats", "wire", size=1, init=0)
         for tick in trace.ticks:
             now = trace.ms(tick.number)
             at = {**tick.inputs, **tick.after}

@@ -10,7 +10,7 @@ from checker.results.trace import Trace
 from spec_model.lang.domain import Bool, Enum
 
 
-class Group(StrEnum):
+class WaveGroup(StrEnum):
     """What a wave belongs to: the scopes of a dump, and the groups in which a viewer shows them."""
 
     PROPERTY = "property"
@@ -34,7 +34,7 @@ class Wave:
     """A quantity, ``name`` in the trace, and the unique path of identifiers that it has in a dump."""
 
     name: str
-    group: Group
+    group: WaveGroup
     path: tuple[str, ...]
     sort: Sort
 
@@ -47,12 +47,12 @@ class Wave:
 def waves(trace: Trace) -> tuple[Wave, ...]:
     """Every variable of which the trace holds a value, group by group."""
     held = {*trace.before, *(n for t in trace.ticks for n in (*t.inputs, *t.after))}
-    groups = list(Group)
+    groups = list(WaveGroup)
     names = sorted(
         (n for n in trace.variables if n in held or n in trace.inputs),
         key=lambda n: groups.index(_group(trace, n)),
     )
-    taken: set[tuple[str, ...]] = {(Group.PROPERTY, word) for word in ("violated", "reached", "repeats")}
+    taken: set[tuple[str, ...]] = {(WaveGroup.PROPERTY, word) for word in ("violated", "reached", "repeats")}
     found = []
     for name in names:
         group = _group(trace, name)
@@ -66,17 +66,17 @@ def outcome(trace: Trace) -> str:
     return "violated" if trace.breaks() else "reached"
 
 
-def _group(trace: Trace, name: str) -> Group:
+def _group(trace: Trace, name: str) -> WaveGroup:
     sort = trace.variables[name].sort
     if name in trace.inputs:
-        return Group.INPUTS
+        return WaveGroup.INPUTS
     if trace.variables[name].hidden or name == trace.property:
-        return Group.HIDDEN
+        return WaveGroup.HIDDEN
     if TIMER.search(name):
-        return Group.TIMERS
+        return WaveGroup.TIMERS
     if isinstance(sort, Enum) and sort.name.startswith("states of "):
-        return Group.CHARTS
-    return Group.VALUES
+        return WaveGroup.CHARTS
+    return WaveGroup.VALUES
 
 
 def _sort(trace: Trace, name: str) -> Sort:

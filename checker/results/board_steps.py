@@ -7,7 +7,7 @@ from enum import StrEnum
 Value = bool | int | float
 
 
-class Kind(StrEnum):
+class SignalKind(StrEnum):
     """What a signal holds: a truth value, a whole number (also of an enumeration), a number, a time."""
 
     BOOL = "bool"
@@ -20,17 +20,17 @@ class Kind(StrEnum):
 
 
 @dataclass(frozen=True)
-class Signal:
+class StepSignal:
     """An input or output of a board; ``initial`` is its value before the first step."""
 
     name: str
-    kind: Kind
+    kind: SignalKind
     initial: Value
     doc: str = ""
 
 
 @dataclass(frozen=True)
-class Step:
+class BoardStep:
     """All inputs of one execution but the clock, and the outputs required after it; others may be anything.
 
     A stamp is given as the milliseconds that it lies before the step, or None where it is as before.
@@ -49,9 +49,9 @@ class BoardRun:
 
     board: str
     tick_ms: int
-    inputs: tuple[Signal, ...]
-    outputs: tuple[Signal, ...]
-    steps: tuple[Step, ...]
+    inputs: tuple[StepSignal, ...]
+    outputs: tuple[StepSignal, ...]
+    steps: tuple[BoardStep, ...]
     implementation: str
 
 
@@ -63,7 +63,9 @@ def held(run: BoardRun) -> list[Changes]:
     """The steps as few changes.  Before the first, inputs are as at power-up, stamps as they were, and
     outputs may be anything (None)."""
     inputs: Mapping[str, Value | None] = {
-        s.name: None if s.kind is Kind.STAMP else s.initial for s in run.inputs if s.kind is not Kind.CLOCK
+        s.name: None if s.kind is SignalKind.STAMP else s.initial
+        for s in run.inputs
+        if s.kind is not SignalKind.CLOCK
     }
     outputs: Mapping[str, Value | None] = {s.name: None for s in run.outputs}
     found: list[Changes] = []

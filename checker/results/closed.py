@@ -10,7 +10,7 @@ from spec_model.lang.expr import Var
 
 
 @dataclass(frozen=True)
-class Place:
+class BitPlace:
     """Where a variable lies in a packed valuation: ``(raw - low) / stride`` in ``bits`` bits of a word."""
 
     var: Var
@@ -28,7 +28,7 @@ class ClosedSet:
     Variables that have no place were sliced away: the goals do not depend on them.
     """
 
-    places: tuple[Place, ...]
+    places: tuple[BitPlace, ...]
     words: NDArray[np.uint64]
 
     def __len__(self) -> int:
@@ -43,7 +43,7 @@ def union(
     Each of the sets has a place for each of the ``variables``, whose domains may be wider than there.
     """
     further = list(more)
-    words, places = [np.empty(0, dtype=np.uint64)], list[Place]()
+    words, places = [np.empty(0, dtype=np.uint64)], list[BitPlace]()
     used = 64
     for var in variables:
         column = np.concatenate([*(_column(one, var.name) for one in sets), [v[var.name] for v in further]])
@@ -54,7 +54,7 @@ def union(
             words.append(np.zeros(len(column), dtype=np.uint64))
             used = 0
         words[-1] |= (column - low).astype(np.uint64) << np.uint64(used)
-        places.append(Place(var, len(words) - 2, used, bits, 1, low))
+        places.append(BitPlace(var, len(words) - 2, used, bits, 1, low))
         used += bits
     return ClosedSet(tuple(places), np.unique(np.stack(words[1:], axis=1), axis=0))
 

@@ -15,7 +15,7 @@ NONE, ALL = 0, 1
 
 
 @dataclass(frozen=True)
-class Node:
+class DiagramNode:
     """Asks for bit ``bit`` of the raw value of a variable, in two's complement, the lowest being bit 0.
 
     ``low`` and ``high`` are the numbers of the nodes to go on with where the bit is 0 and where it is 1.
@@ -35,7 +35,7 @@ class Diagram:
     no two nodes are alike.  Variables that no node asks may have any value.
     """
 
-    nodes: tuple[Node, ...]
+    nodes: tuple[DiagramNode, ...]
     root: int
 
     def __contains__(self, valuation: Mapping[str, int]) -> bool:

@@ -19,7 +19,7 @@ Values = tuple[int, ...]
 """Raw values of variables, in a fixed order."""
 
 
-class Kind(StrEnum):
+class ProjectionKind(StrEnum):
     """What a graph shows of the runs of the real system."""
 
     EXACT = "exact"
@@ -68,7 +68,7 @@ class GraphEdge:
 
 
 @dataclass(frozen=True)
-class Way:
+class GraphWay:
     """How to get to a node: a whole valuation behind it (a marked one, if any), and a shortest run to it."""
 
     valuation: tuple[tuple[str, str], ...]
@@ -103,7 +103,7 @@ class StateGraph:
     never: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     exact_with: tuple[tuple[tuple[str, ...], int], ...] = ()
     notes: tuple[str, ...] = ()
-    ways: Mapping[int, Way] = field(default_factory=dict, compare=False, repr=False)
+    ways: Mapping[int, GraphWay] = field(default_factory=dict, compare=False, repr=False)
 
     @cached_property
     def sure(self) -> frozenset[tuple[int, int]]:
@@ -117,17 +117,17 @@ class StateGraph:
         return frozenset(e.source for e in self.edges if (e.source, e.target) not in self.sure)
 
     @property
-    def kind(self) -> Kind:
+    def kind(self) -> ProjectionKind:
         """What the graph shows of the runs."""
         paths_are_runs, runs_are_paths = not (self.over or self.mixed), not (self.under or self.cut)
         if runs_are_paths:
-            return Kind.EXACT if paths_are_runs else Kind.OVER
-        return Kind.UNDER if paths_are_runs else Kind.NEITHER
+            return ProjectionKind.EXACT if paths_are_runs else ProjectionKind.OVER
+        return ProjectionKind.UNDER if paths_are_runs else ProjectionKind.NEITHER
 
     @property
     def exact(self) -> bool:
         """Whether its paths are the runs, no more and no fewer."""
-        return self.kind is Kind.EXACT
+        return self.kind is ProjectionKind.EXACT
 
     @property
     def dead_ends(self) -> frozenset[int]:
@@ -201,10 +201,10 @@ class StateGraph:
 
 
 _MEANS = {
-    Kind.EXACT: "every path is a run, and every run a path",
-    Kind.OVER: "every run is a path, but not every path need be a run",
-    Kind.UNDER: "every path is a run, but runs may be missing",
-    Kind.NEITHER: "runs may be missing, and not every path need be a run",
+    ProjectionKind.EXACT: "every path is a run, and every run a path",
+    ProjectionKind.OVER: "every run is a path, but not every path need be a run",
+    ProjectionKind.UNDER: "every path is a run, but runs may be missing",
+    ProjectionKind.NEITHER: "runs may be missing, and not every path need be a run",
 }
 
 

@@ -5,13 +5,21 @@ from dataclasses import dataclass, field
 from random import Random
 
 from checker.engines import Limits
-from checker.system.instrument.goals import Goal, Kind
+from checker.system.instrument.goals import CoverGoal, GoalKind
 from checker.system.instrument.watch import watched
-from checker.testgen.explore import Machine, explored, first_reached, shortened
-from checker.testgen.keep import Kept
+from checker.testgen.explore import RandomMachine, explored, first_reached, shortened
+from checker.testgen.keep import KeptTests
 from checker.testgen.replay import first_reached as replayed
 from checker.testgen.scripts import Script, steps
-from checker.testgen.search import Answer, Found, Open, Saying, Uncoverable, refuted, searched
+from checker.testgen.search import (
+    Answer,
+    OpenGoal,
+    SearchProgress,
+    TestsFound,
+    Uncoverable,
+    refuted,
+    searched,
+)
 from checker.verify.runs.replay import ReplayError
 from spec_model.abstraction import Board
 from spec_model.lang.system import System
@@ -22,7 +30,7 @@ SHORTENING = 3000
 
 
 @dataclass(frozen=True)
-class Effort:
+class TestgenEffort:
     """What a generation may spend: seconds for each search by engines, ticks of random runs, processes."""
 
     seconds: float = 20.0
@@ -32,18 +40,18 @@ class Effort:
 
 
 @dataclass
-class Coverage:
+class GoalCoverage:
     """What is known of each goal so far, and the scripts found."""
 
     board: Board
-    goals: tuple[Goal, ...]
+    goals: tuple[CoverGoal, ...]
     scripts: list[tuple[Script, dict[str, int]]] = field(default_factory=list)
     answers: dict[str, Answer] = field(default_factory=dict)
     before: Mapping[str, str] = field(default_factory=dict)
     """Why goals were unknown in an earlier generation."""
 
     def __post_init__(self) -> None:
-        self.machine = Machine(self.board, watched(self.board.system, {g.kind for g in self.goals}))
+        self.machine = RandomMachine(self.board, watched(self.board.system, {g.kind for g in self.goals}))
 
     @property
     def wanted(self) -> set[str]:
@@ -66,24 +74,24 @@ class Coverage:
     def shortest(self) -> set[str]:
         """The goals whose shortest run is known to be as short as any."""
         lengths = self.covered
-        exact = [a for a in self.answers.values() if isinstance(a, Found) and a.shortest]
+        exact = [a for a in self.answers.values() if isinstance(a, TestsFound) and a.shortest]
         return {a.goal for a in exact if lengths.get(a.goal) == len(a.script)}
 
     @property
     def settled(self) -> set[str]:
         """The goals of which nothing is left to find out: arrows also want a run as short as any."""
-        loose = {g.id for g in self.goals if g.kind is Kind.ARROWS} - self.shortest
+        loose = {g.id for g in self.goals if g.kind is GoalKind.ARROWS} - self.shortest
         return (self.covered.keys() - loose) | self.uncoverable.keys()
 
     @property
     def unknown(self) -> dict[str, str]:
         """The goals that are left, and why."""
         left = self.wanted - self.covered.keys() - self.uncoverable.keys()
-        reasons = {id: a.reason for id, a in self.answers.items() if isinstance(a, Open)}
+        reasons = {id: a.reason for id, a in self.answers.items() if isinstance(a, OpenGoal)}
         known = {**self.before, **reasons}
         return {g.id: known.get(g.id, NOT_TRIED) for g in self.goals if g.id in left}
 
-    def of(self, ids: Iterable[str]) -> list[Goal]:
+    def of(self, ids: Iterable[str]) -> list[CoverGoal]:
         """The goals with these ids, as drawn."""
         wanted = set(ids)
         return [g for g in self.goals if g.id in wanted]
@@ -93,7 +101,7 @@ class Coverage:
         if all(script != known for known, _ in self.scripts):
             self.scripts.append((script, first_reached(self.machine, script)))
 
-    def go_on(self, kept: Kept, charts: str) -> None:
+    def go_on(self, kept: KeptTests, charts: str) -> None:
         """Begin with the tests of an earlier generation; with what it proved, if the charts are the same."""
         for _, _, script in kept.tests:
             self.add(script)
@@ -103,12 +111,12 @@ class Coverage:
             self.answers |= {id: Uncoverable.of(id, how) for id, how in proved if id in self.wanted}
             self.answers |= {id: self._as_before(id) for id in sorted(shortest)}
 
-    def _as_before(self, goal: str) -> Found:
+    def _as_before(self, goal: str) -> TestsFound:
         length = self.covered[goal]
         script = next(script for script, reached in self.scripts if reached.get(goal) == length)
-        return Found(goal, script[:length], "kept", True)
+        return TestsFound(goal, script[:length], "kept", True)
 
-    def kept(self, charts: str = "") -> Kept:
+    def kept(self, charts: str = "") -> KeptTests:
         """Few tests that reach what is covered, and what is known of the other goals.
 
         Raises ``ReplayError`` if the interpreter does not confirm that a test reaches its goals.
@@ -117,14 +125,20 @@ class Coverage:
         _confirmed(self, tests)
         proved = {id: a.text for id, a in self.uncoverable.items()}
         shortest = self.shortest
-        return Kept(tests, tuple(g.id for g in self.goals if g.id in shortest), proved, self.unknown, charts)
+        return KeptTests(
+            tests, tuple(g.id for g in self.goals if g.id in shortest), proved, self.unknown, charts
+        )
 
 
 Tell = Callable[[str], None]
 
 
 def cover(
-    coverage: Coverage, model: System, effort: Effort, tell: Tell, only: Collection[str] | None = None
+    coverage: GoalCoverage,
+    model: System,
+    effort: TestgenEffort,
+    tell: Tell,
+    only: Collection[str] | None = None,
 ) -> None:
     """Search for the goals not settled: engines for short runs to arrows, random runs, engines for the rest.
 
@@ -132,7 +146,7 @@ def cover(
     holds what was found, also when this is interrupted.
     """
     asked = [g for g in coverage.goals if only is None or g.id in only]
-    arrows = [g for g in asked if g.kind is Kind.ARROWS and g.id in coverage.unknown]
+    arrows = [g for g in asked if g.kind is GoalKind.ARROWS and g.id in coverage.unknown]
     _by_engines(coverage, model, arrows, effort, tell)
     _by_weather(coverage, {g.id for g in asked}, effort, tell)
     left = [g for g in asked if g.id in coverage.unknown]
@@ -143,33 +157,37 @@ def cover(
     _by_engines(coverage, model, sorted(rest, key=lambda g: g not in left), effort, tell)
 
 
-def _by_engines(coverage: Coverage, model: System, goals: Sequence[Goal], effort: Effort, tell: Tell) -> None:
+def _by_engines(
+    coverage: GoalCoverage, model: System, goals: Sequence[CoverGoal], effort: TestgenEffort, tell: Tell
+) -> None:
     for answer in searched(coverage.board, model, goals, Limits(seconds=effort.seconds), effort.jobs):
         _note(coverage, answer, tell)
 
 
-def _note(coverage: Coverage, answer: Answer | Saying, tell: Tell) -> None:
+def _note(coverage: GoalCoverage, answer: Answer | SearchProgress, tell: Tell) -> None:
     match answer:
-        case Saying(line):
+        case SearchProgress(line):
             tell(line)
-        case Found():
+        case TestsFound():
             coverage.add(answer.script)
             coverage.answers[answer.goal] = answer if answer.goal in coverage.covered else _astray(answer)
         case Uncoverable():
             coverage.answers[answer.goal] = answer
-        case Open(goal, reason):
+        case OpenGoal(goal, reason):
             before = coverage.answers.get(goal)
-            said = f"{before.reason}; {reason}" if isinstance(before, Open) else reason
-            coverage.answers[goal] = Open(goal, said)
+            said = f"{before.reason}; {reason}" if isinstance(before, OpenGoal) else reason
+            coverage.answers[goal] = OpenGoal(goal, said)
 
 
-def _astray(found: Found) -> Open:
+def _astray(found: TestsFound) -> OpenGoal:
     """What is said of a run of the model that does not reach its goal on the board."""
     steps_ = len(found.script)
-    return Open(found.goal, f"a run of {steps_} ticks by {found.engine} misses it with the board's inputs")
+    return OpenGoal(
+        found.goal, f"a run of {steps_} ticks by {found.engine} misses it with the board's inputs"
+    )
 
 
-def _by_weather(coverage: Coverage, asked: Collection[str], effort: Effort, tell: Tell) -> None:
+def _by_weather(coverage: GoalCoverage, asked: Collection[str], effort: TestgenEffort, tell: Tell) -> None:
     known = [script for script, _ in coverage.scripts]
     wanted = coverage.unknown.keys() & asked
     for find in explored(coverage.machine, wanted, Random(effort.seed), effort.ticks, known):
@@ -180,7 +198,7 @@ def _by_weather(coverage: Coverage, asked: Collection[str], effort: Effort, tell
 # --- few tests -----------------------------------------------------------------------------------------
 
 
-def chosen(coverage: Coverage) -> Iterator[tuple[str, tuple[str, ...], Script]]:
+def chosen(coverage: GoalCoverage) -> Iterator[tuple[str, tuple[str, ...], Script]]:
     """Few scripts that together reach every goal covered: in turn that with most new goals for its length.
 
     Each has a name and the goals that it is the first to reach, and ends in the step that reaches the last.
@@ -189,7 +207,7 @@ def chosen(coverage: Coverage) -> Iterator[tuple[str, tuple[str, ...], Script]]:
         yield f"{coverage.board.name}_{number:03}", goals, script
 
 
-def _confirmed(coverage: Coverage, tests: Iterable[tuple[str, tuple[str, ...], Script]]) -> None:
+def _confirmed(coverage: GoalCoverage, tests: Iterable[tuple[str, tuple[str, ...], Script]]) -> None:
     for name, goals, script in tests:
         looked = watched(coverage.board.system, only=set(goals))
         reached = replayed(coverage.board, looked, steps(coverage.board, script))
@@ -198,7 +216,7 @@ def _confirmed(coverage: Coverage, tests: Iterable[tuple[str, tuple[str, ...], S
             raise ReplayError(f"{name} does not reach {', '.join(missed)} on the interpreter.")
 
 
-def _greedy(coverage: Coverage) -> Iterator[tuple[Script, tuple[str, ...]]]:
+def _greedy(coverage: GoalCoverage) -> Iterator[tuple[Script, tuple[str, ...]]]:
     left, scripts = set(coverage.covered), list(_as_short_as_known(coverage))
     while left:
         script, reached = max(scripts, key=lambda found: _worth(found[1], left))
@@ -208,7 +226,7 @@ def _greedy(coverage: Coverage) -> Iterator[tuple[Script, tuple[str, ...]]]:
         yield script[: reached[ordered[-1]]], ordered
 
 
-def _as_short_as_known(coverage: Coverage) -> Iterator[tuple[Script, dict[str, int]]]:
+def _as_short_as_known(coverage: GoalCoverage) -> Iterator[tuple[Script, dict[str, int]]]:
     """The scripts; a goal whose shortest run is known counts only for those that reach it as soon."""
     lengths = coverage.covered
     soonest = {id: lengths[id] for id in coverage.shortest}

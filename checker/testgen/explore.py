@@ -10,7 +10,7 @@ from checker.testgen.compiled import Step, compiled
 from checker.testgen.scripts import CLOCK, Moment, Script
 from checker.testgen.weather import Weather
 from spec_model.abstraction import Board, Value
-from spec_model.abstraction.board import Reader
+from spec_model.abstraction.board import BoardReader
 from spec_model.lang.lower import lower
 from spec_model.lang.system import TICK_MS
 
@@ -20,7 +20,7 @@ FROM_START = 0.2
 """Share of runs that begin at power-up."""
 
 
-class Machine:
+class RandomMachine:
     """A board whose charts were made one Python function: where runs start and how they go on."""
 
     def __init__(self, board: Board, watched: Watched) -> None:
@@ -32,23 +32,25 @@ class Machine:
 
 
 @dataclass
-class Place:
+class TriedPlace:
     """A run so far: the valuation, the clock and stamps, what the reader remembers, the inputs given."""
 
-    machine: Machine
+    machine: RandomMachine
     at: dict[str, int]
     stamps: dict[str, Value]
-    reader: Reader
+    reader: BoardReader
     given: list[Moment]
 
     @staticmethod
-    def power_up(machine: Machine) -> "Place":
+    def power_up(machine: RandomMachine) -> "TriedPlace":
         """Before the first step."""
         stamps = {s.name: s.initial for s in machine.board.inputs if s.stamp}
-        return Place(machine, dict(machine.start), stamps, machine.board.reader(), [])
+        return TriedPlace(machine, dict(machine.start), stamps, machine.board.reader(), [])
 
-    def copy(self) -> "Place":
-        return Place(self.machine, dict(self.at), dict(self.stamps), deepcopy(self.reader), list(self.given))
+    def copy(self) -> "TriedPlace":
+        return TriedPlace(
+            self.machine, dict(self.at), dict(self.stamps), deepcopy(self.reader), list(self.given)
+        )
 
     def now(self) -> Mapping[str, int]:
         """The valuation after the last step."""
@@ -74,7 +76,7 @@ class Find:
 
 
 def explored(
-    machine: Machine,
+    machine: RandomMachine,
     wanted: Collection[str],
     random: Random,
     ticks: int,
@@ -85,7 +87,7 @@ def explored(
     Reproducible.
     """
     left = set(wanted)
-    places = [Place.power_up(machine), *(_end(machine, script) for script in known)]
+    places = [TriedPlace.power_up(machine), *(_end(machine, script) for script in known)]
     weather = Weather(machine.board)
     while ticks > 0 and left:
         place = (places[0] if random.random() < FROM_START else _recent(random, places)).copy()
@@ -98,21 +100,21 @@ def explored(
                 yield Find(tuple(sorted(new)), tuple(place.given))
 
 
-def _end(machine: Machine, script: Script) -> Place:
-    place = Place.power_up(machine)
+def _end(machine: RandomMachine, script: Script) -> TriedPlace:
+    place = TriedPlace.power_up(machine)
     for moment in script:
         place.step(moment)
     return place
 
 
-def _recent(random: Random, places: Sequence[Place]) -> Place:
+def _recent(random: Random, places: Sequence[TriedPlace]) -> TriedPlace:
     """A place, later ones rather than earlier ones: they are deeper in what is hard to reach."""
     return places[-1 - int(len(places) * random.random() ** 2)] if len(places) > 1 else places[0]
 
 
-def first_reached(machine: Machine, script: Sequence[Moment]) -> dict[str, int]:
+def first_reached(machine: RandomMachine, script: Sequence[Moment]) -> dict[str, int]:
     """The first step, from 1, in which each goal is reached."""
-    place, found = Place.power_up(machine), dict[str, int]()
+    place, found = TriedPlace.power_up(machine), dict[str, int]()
     for number, moment in enumerate(script, start=1):
         for id in place.step(moment):
             found.setdefault(id, number)
@@ -122,7 +124,7 @@ def first_reached(machine: Machine, script: Sequence[Moment]) -> dict[str, int]:
 Reached = Mapping[str, int]
 
 
-def shortened(machine: Machine, script: Script, wanted: Collection[str], most: int = 60_000) -> Script:
+def shortened(machine: RandomMachine, script: Script, wanted: Collection[str], most: int = 60_000) -> Script:
     """A script that still reaches the wanted goals, without steps that can be left out.
 
     Groups of steps are left out in turn, half of them, then ever smaller groups; at most ``most`` ticks run.
@@ -143,7 +145,7 @@ def shortened(machine: Machine, script: Script, wanted: Collection[str], most: i
     return script
 
 
-def _ended(machine: Machine, script: Script, wanted: Collection[str]) -> Script:
+def _ended(machine: RandomMachine, script: Script, wanted: Collection[str]) -> Script:
     """The script up to the step in which the last of the goals is reached."""
     reached = first_reached(machine, script)
     return script[: max(reached[id] for id in wanted)]

@@ -3,11 +3,11 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from checker.system.instrument.goals import Goal, Kind
+from checker.system.instrument.goals import CoverGoal, GoalKind
 from checker.system.instrument.watch import watched
-from checker.testgen.formats import FORMATS, Expected
+from checker.testgen.formats import FORMATS, ExpectedTest
 from checker.testgen.formats.expected import expected
-from checker.testgen.keep import Kept
+from checker.testgen.keep import KeptTests
 from spec_model.abstraction import Board, boards
 from spec_model.lang.chart import parts
 from spec_model.lang.errors import ModelError, did_you_mean
@@ -18,10 +18,10 @@ class Aim:
     """A board, and the goals to be covered by tests of it."""
 
     board: Board
-    goals: tuple[Goal, ...]
+    goals: tuple[CoverGoal, ...]
 
 
-def aims(names: Sequence[str], kinds: Iterable[Kind]) -> list[Aim]:
+def aims(names: Sequence[str], kinds: Iterable[GoalKind]) -> list[Aim]:
     """The goals of boards and charts by name; of both boards if none is named.
 
     Tests are always of a whole board.  Raises ``ModelError`` for a name of no board, chart or block.
@@ -34,17 +34,17 @@ def aims(names: Sequence[str], kinds: Iterable[Kind]) -> list[Aim]:
     return [aim for aim in found if aim.goals]
 
 
-def _aim(board: Board, names: Sequence[str], kinds: frozenset[Kind]) -> Aim:
+def _aim(board: Board, names: Sequence[str], kinds: frozenset[GoalKind]) -> Aim:
     goals = watched(board.system, kinds).goals
     whole = not names or board.name in names
     return Aim(board, goals if whole else tuple(g for g in goals if g.part in names))
 
 
-def only(kept: Kept, goals: Iterable[Goal]) -> Kept:
+def only(kept: KeptTests, goals: Iterable[CoverGoal]) -> KeptTests:
     """What a set of tests says of some goals: tests that reach none of them are left out."""
     wanted = {g.id for g in goals}
     tests = [(name, tuple(g for g in reached if g in wanted), script) for name, reached, script in kept.tests]
-    return Kept(
+    return KeptTests(
         tuple(test for test in tests if test[1]),
         tuple(id for id in kept.shortest if id in wanted),
         {id: why for id, why in kept.uncoverable.items() if id in wanted},
@@ -52,11 +52,11 @@ def only(kept: Kept, goals: Iterable[Goal]) -> Kept:
     )
 
 
-def files(aim: Aim, kept: Kept, format: str) -> dict[str, str]:
+def files(aim: Aim, kept: KeptTests, format: str) -> dict[str, str]:
     """The tests as files of a format, by name, with the outputs that the interpreter requires."""
     return dict(FORMATS[format](aim.board, _tests(aim, kept)))
 
 
-def _tests(aim: Aim, kept: Kept) -> list[Expected]:
+def _tests(aim: Aim, kept: KeptTests) -> list[ExpectedTest]:
     texts = {g.id: f"{g.id}: {g.text}" for g in aim.goals}
     return [expected(aim.board, name, [texts[g] for g in goals], s) for name, goals, s in kept.tests]

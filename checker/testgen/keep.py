@@ -12,7 +12,7 @@ FORMAT = 1
 
 
 @dataclass(frozen=True)
-class Kept:
+class KeptTests:
     """What is kept of a generation: the tests, and what is known of the goals that none of them reaches.
 
     ``shortest`` are goals reached by a test after as few steps as any run needs; ``charts`` is the
@@ -26,7 +26,7 @@ class Kept:
     charts: str = ""
 
 
-def written(board: Board, kept: Kept) -> str:
+def written(board: Board, kept: KeptTests) -> str:
     """The text of a file: each test with its goals and rows of ``steps held, inputs that change``."""
     shown = []
     for name, goals, moments in kept.tests:
@@ -40,7 +40,7 @@ def written(board: Board, kept: Kept) -> str:
     return f'{{{head}, "tests": [\n{tests}\n]{more}}}\n'
 
 
-def kept_of(board: Board, text: str) -> Kept:
+def kept_of(board: Board, text: str) -> KeptTests:
     """What a file holds that ``written`` wrote.  Raises ``ModelError`` for any other."""
     try:
         document = json.loads(text)
@@ -49,7 +49,7 @@ def kept_of(board: Board, text: str) -> Kept:
         tests = [(t["name"], tuple(t["goals"]), unfolded(board, t["held"])) for t in document["tests"]]
         shortest = tuple(document["shortest"])
         proved, unknown = document["uncoverable"], document["unknown"]
-        return Kept(tuple(tests), shortest, proved, unknown, document.get("charts", ""))
+        return KeptTests(tuple(tests), shortest, proved, unknown, document.get("charts", ""))
     except (ValueError, KeyError, TypeError) as error:
         raise ModelError(
             f"These are no tests that rovercheck keeps: {error}. Generate them again."

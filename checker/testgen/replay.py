@@ -9,7 +9,7 @@ from spec_model.lang.interpret import Interpreter
 
 
 @dataclass(frozen=True)
-class Step:
+class ReplayedStep:
     """One step: its inputs, the outputs required (those left open are missing), the goals reached in it."""
 
     inputs: Mapping[str, Value]
@@ -17,7 +17,7 @@ class Step:
     reached: frozenset[str]
 
 
-class Player:
+class TestPlayer:
     """A board at power-up whose charts tell which goals they reach."""
 
     def __init__(self, board: Board, watched: Watched) -> None:
@@ -41,18 +41,18 @@ class Player:
         return self._board.expected(self._charts.data)
 
 
-def played(board: Board, watched: Watched, steps: Sequence[Mapping[str, Value]]) -> Iterator[Step]:
+def played(board: Board, watched: Watched, steps: Sequence[Mapping[str, Value]]) -> Iterator[ReplayedStep]:
     """Every step of a test, run on the interpreter from power-up."""
-    player = Player(board, watched)
+    player = TestPlayer(board, watched)
     for inputs in steps:
         reached = player.step(inputs)
-        yield Step(inputs, player.outputs(), reached)
+        yield ReplayedStep(inputs, player.outputs(), reached)
 
 
 def first_reached(board: Board, watched: Watched, steps: Sequence[Mapping[str, Value]]) -> dict[str, int]:
     """The first step, from 1, in which each goal is reached."""
     found: dict[str, int] = {}
-    player = Player(board, watched)
+    player = TestPlayer(board, watched)
     for number, inputs in enumerate(steps, start=1):
         for id in player.step(inputs):
             found.setdefault(id, number)

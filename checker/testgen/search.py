@@ -8,10 +8,10 @@ from itertools import groupby
 from checker.engines import AUTO, Limits
 from checker.results.trace import Trace
 from checker.results.verdict import Proved, Unknown, Verdict, Violated
-from checker.system.instrument.goals import Goal, Kind, Watched
+from checker.system.instrument.goals import CoverGoal, GoalKind, Watched
 from checker.system.instrument.watch import watched
 from checker.testgen.scripts import Script, script
-from checker.verify.searches import Doing, Over, Warned, searches
+from checker.verify.searches import Over, SearchDoing, Warned, searches
 from checker.verify.tasks import Task
 from properties.forms import Property, reachable
 from spec_model.abstraction import Board
@@ -27,7 +27,7 @@ SHORTEST_FIRST = ("bmc", "bdd", "explicit")
 
 
 @dataclass(frozen=True)
-class Found:
+class TestsFound:
     """A run that reaches a goal in its last tick, as a script; ``shortest``: no shorter one reaches it."""
 
     goal: str
@@ -59,43 +59,43 @@ class Uncoverable:
 
 
 @dataclass(frozen=True)
-class Open:
+class OpenGoal:
     """Not decided, and why."""
 
     goal: str
     reason: str
 
 
-Answer = Found | Uncoverable | Open
+Answer = TestsFound | Uncoverable | OpenGoal
 
 
 @dataclass(frozen=True)
-class Saying:
+class SearchProgress:
     """A sign of life of the search."""
 
     line: str
 
 
 def searched(
-    board: Board, system: System, goals: Sequence[Goal], limits: Limits, jobs: int | None = None
-) -> Iterator[Answer | Saying]:
+    board: Board, system: System, goals: Sequence[CoverGoal], limits: Limits, jobs: int | None = None
+) -> Iterator[Answer | SearchProgress]:
     """Ask the engines for goals on a system whose runs the board has: those of its model."""
     for goal, verdict in _verdicts(system, goals, limits, jobs):
         match verdict:
             case Proved(Trace() as trace, engine):
                 inputs = list(board.run({**t.after, **t.inputs} for t in trace.ticks))
-                yield Found(goal, script(board, inputs), engine, engine in SHORTEST_FIRST)
+                yield TestsFound(goal, script(board, inputs), engine, engine in SHORTEST_FIRST)
             case Violated(because, engine) if not isinstance(because, Trace):
                 yield Uncoverable(goal, system.name, engine, because.how)
             case Unknown(reason, _, _):
-                yield Open(goal, reason)
+                yield OpenGoal(goal, reason)
             case str(line):
-                yield Saying(line)
+                yield SearchProgress(line)
 
 
 def refuted(
-    board: Board, goals: Sequence[Goal], limits: Limits, jobs: int | None = None
-) -> Iterator[Uncoverable | Open | Saying]:
+    board: Board, goals: Sequence[CoverGoal], limits: Limits, jobs: int | None = None
+) -> Iterator[Uncoverable | OpenGoal | SearchProgress]:
     """The goals that no run reaches even if the part they are in has free inputs, all others left out.
 
     It has every run that the part has inside the board.  Says nothing of a part whose values leave their
@@ -110,15 +110,15 @@ def refuted(
                 if isinstance(verdict, Violated) and not isinstance(verdict.because, Trace):
                     yield Uncoverable(goal, system.name, verdict.engine, verdict.because.how)
                 elif isinstance(verdict, Proved) and isinstance(verdict.because, Trace):
-                    yield Open(goal, f"{part} alone reaches it in {len(verdict.because)} ticks")
+                    yield OpenGoal(goal, f"{part} alone reaches it in {len(verdict.because)} ticks")
                 elif isinstance(verdict, str):
-                    yield Saying(verdict)
+                    yield SearchProgress(verdict)
         except ModelError as error:
-            yield Saying(f"{part} alone says nothing: {error}")
+            yield SearchProgress(f"{part} alone says nothing: {error}")
 
 
 def _verdicts(
-    system: System, goals: Sequence[Goal], limits: Limits, jobs: int | None
+    system: System, goals: Sequence[CoverGoal], limits: Limits, jobs: int | None
 ) -> Iterator[tuple[str, Verdict | str]]:
     """What the engines say of each goal, by id, and what they are doing."""
     looked = _looked(system, goals)
@@ -132,7 +132,7 @@ def _verdicts(
     with closing(searches(todo, {system.name: looked.system}, AUTO, limits, jobs)) as heard:
         for one in heard:
             match one:
-                case Doing(task, line):
+                case SearchDoing(task, line):
                     yield "", f"{task.title}: {line}"
                 case Warned(text):
                     yield "", text
@@ -142,17 +142,17 @@ def _verdicts(
                     yield one.property.id, one.verdict
 
 
-def _together(goals: Sequence[Goal]) -> Iterator[Sequence[Goal]]:
+def _together(goals: Sequence[CoverGoal]) -> Iterator[Sequence[CoverGoal]]:
     """Some goals of one part at a time."""
     for _, found in groupby(goals, lambda g: g.part):
         mine = list(found)
         yield from (mine[first : first + TOGETHER] for first in range(0, len(mine), TOGETHER))
 
 
-def _looked(system: System, goals: Sequence[Goal]) -> Watched:
-    kinds: set[Kind] = {g.kind for g in goals}
+def _looked(system: System, goals: Sequence[CoverGoal]) -> Watched:
+    kinds: set[GoalKind] = {g.kind for g in goals}
     return watched(system, kinds, {g.id for g in goals})
 
 
-def _property(goal: Goal, system: System) -> Property:
+def _property(goal: CoverGoal, system: System) -> Property:
     return reachable(goal.id, goal.text, that=goal.flag, covers=["coverage"], on=system.name)

@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from random import Random
 
 from checker.testgen.scripts import CLOCK, Moment
-from spec_model.abstraction import Board, Signal, Value
+from spec_model.abstraction import Board, BoardSignal, Value
 from spec_model.abstraction.board import units
 from spec_model.lang.chart import Chart
 from spec_model.lang.domain import Num
@@ -69,17 +69,17 @@ class Weather:
         return {s.name for s in self._signals if random.random() < share}
 
 
-def _signals_read(chart: Chart, signals: Sequence[Signal]) -> list[str]:
+def _signals_read(chart: Chart, signals: Sequence[BoardSignal]) -> list[str]:
     """The signals that a chart reads itself, in the order of the board."""
     read = {v.name.rpartition(".")[2] for v in chart.read.values()}
     return [s.name for s in signals if s.name in read]
 
 
-def _well(signal: Signal) -> Value:
+def _well(signal: BoardSignal) -> Value:
     return True if signal.stamp else WELL.get(signal.name, signal.initial)
 
 
-def _next(random: Random, signal: Signal, now: Value, lively: bool, data: Data) -> Value:
+def _next(random: Random, signal: BoardSignal, now: Value, lively: bool, data: Data) -> Value:
     if not lively:
         return _well(signal) if random.random() < 0.3 else now
     if signal.stamp:
@@ -91,11 +91,11 @@ def _next(random: Random, signal: Signal, now: Value, lively: bool, data: Data) 
     return units(signal.domain, random.choice(signal.domain.values))
 
 
-def _heading(signal: Signal) -> bool:
+def _heading(signal: BoardSignal) -> bool:
     return isinstance(signal.domain.sort, Num) and str(signal.domain.sort.unit) == "°"
 
 
-def _near_a_heading(random: Random, signal: Signal, data: Mapping[str, int]) -> Value:
+def _near_a_heading(random: Random, signal: BoardSignal, data: Mapping[str, int]) -> Value:
     """A heading at or near one that the charts remember, or near a right or half turn from it."""
     targets = [raw for name, raw in data.items() if "target" in name]
     steps = random.choice((0, 0, 1, 2, 3, 4, 17, 18, 19, 53, 54, 55, 71, 72)) * random.choice((-1, 1))

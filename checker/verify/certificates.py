@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from checker.certify.certificate import Certificate
-from checker.certify.check import Effort, check
-from checker.certify.file import Origin, write
+from checker.certify.check import CheckEffort, check
+from checker.certify.file import CertificateOrigin, write
 from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
-from checker.certify.reader import Reader
+from checker.certify.reader import CertificateReader
 from checker.certify.record import rests_on_answers
 from checker.engines import Limits, Progress, Stage
 from checker.results.verdict import Exhausted, Unknown, Verdict
@@ -29,7 +29,7 @@ class Certifying:
     readings: Mapping[str, str] = field(default_factory=dict)
     repair: str = ""
     without: tuple[str, ...] = ()
-    effort: Effort = field(default_factory=Effort)
+    effort: CheckEffort = field(default_factory=CheckEffort)
 
     def written(
         self, task: Task, limits: Limits, results: Sequence[Result], made: Sequence[Certificate]
@@ -40,7 +40,7 @@ class Certifying:
             searched = tuple(p.id for p in task.properties)
             timers = limits.timers.value
             changed = self.readings, self.repair, self.without
-            write(self.folder, Origin(task.system.name, searched, proved, *changed, timers), made)
+            write(self.folder, CertificateOrigin(task.system.name, searched, proved, *changed, timers), made)
 
     def outcomes(
         self,
@@ -56,7 +56,7 @@ class Certifying:
         if not proved or not self.again:
             return {}
         progress(Stage(f"certifying {len(proved)} verdict{'s' * (len(proved) != 1)}"))
-        reader = Reader(made, self._checked)
+        reader = CertificateReader(made, self._checked)
         # All of the task: monitors that properties share are named after the first of them.
         again = {r.property.id: r for r in decide(task, systems, reader, limits, _staying(progress))}
         return {id: _outcome(first, again[id], reader) for id, first in proved.items()}
@@ -70,7 +70,7 @@ def _staying(progress: Progress) -> Progress:
     return lambda line: None if isinstance(line, Stage) else progress(line)
 
 
-def _outcome(first: Result, again: Result, reader: Reader) -> Outcome:
+def _outcome(first: Result, again: Result, reader: CertificateReader) -> Outcome:
     """Whether the certificates show what the engine has shown."""
     for outcome in reader.outcomes.values():
         if isinstance(outcome, Rejected):
@@ -82,7 +82,7 @@ def _outcome(first: Result, again: Result, reader: Reader) -> Outcome:
     return undecided[0] if undecided else Undecided(_lacking(first.verdict, again.verdict, reader))
 
 
-def _lacking(first: Verdict, again: Verdict, reader: Reader) -> str:
+def _lacking(first: Verdict, again: Verdict, reader: CertificateReader) -> str:
     """Why no certificate was checked."""
     if reader.certificates and isinstance(again, Unknown):
         return again.reason

@@ -12,8 +12,7 @@ from checker.system.initial import check_starts
 from checker.system.lowered import lowered
 from checker.verify.free_timers import freely
 from checker.verify.liveness.verdicts import unbounded
-from checker.verify.portfolio import Disagreement, Hint, Told, answers, as_found
-from checker.verify.portfolio import Question as Asked
+from checker.verify.portfolio import Callbacks, Disagreement, Hint, PortfolioQuestion, answers, as_found
 from checker.verify.result import Answers, Result, check_domains, result
 from checker.verify.runs.replay import ReplayError
 from checker.verify.runs.reproduce import not_reproducible, reproduced
@@ -30,7 +29,7 @@ def decide(
     engine: str | Engine,
     limits: Limits,
     progress: Progress,
-    told: Told | None = None,
+    told: Callbacks | None = None,
     deadline: float | None = None,
 ) -> Iterator[Result]:
     """A verdict for each property of the task, each as soon as it is known.
@@ -45,7 +44,7 @@ def decide(
     deadline = limits.deadline() if deadline is None else deadline
     progress(Stage(f"lowering {task.system.name}"))
     check_starts(lowered(task.system))
-    asking = Asking(engine, limits, told or Told(progress), deadline, task.recorded)
+    asking = EngineCall(engine, limits, told or Callbacks(progress), deadline, task.recorded)
     for prop in task.properties:
         if isinstance(prop.form, Unbounded):
             yield _unbounded(prop, systems, asking)
@@ -58,7 +57,7 @@ def decide(
 
 
 @dataclass(frozen=True)
-class Asking:
+class EngineCall:
     """Asks what the user chose: an engine, within limits until the deadline, telling those who listen.
 
     Engines in turn try what is ``recorded`` first, as far as it speaks of what the system still has.
@@ -66,19 +65,19 @@ class Asking:
 
     engine: str | Engine
     limits: Limits
-    told: Told
+    told: Callbacks
     deadline: float | None = None
     recorded: Sequence[Tree] | None = None
 
     def __call__(self, system: TransitionSystem, goals: Sequence[Var], hint: Hint = Hint.NONE) -> Answers:
         """An answer for each goal and for each check of the system."""
         engine = AUTO if hint is Hint.CONCRETE and self.engine != ALL else self.engine
-        question = Asked(system, tuple(goals), hint, self._candidates(system))
+        question = PortfolioQuestion(system, tuple(goals), hint, self._candidates(system))
         return self._late(question) or answers(question, engine, self._left(system), self.told)
 
     def as_found(self, system: TransitionSystem, goals: Sequence[Var]) -> Iterator[Answers]:
         """The same, each as soon as it is known."""
-        question = Asked(system, tuple(goals), candidates=self._candidates(system))
+        question = PortfolioQuestion(system, tuple(goals), candidates=self._candidates(system))
         if late := self._late(question):
             yield late
         else:
@@ -94,7 +93,7 @@ class Asking:
         self.told.progress(Stage(f"slicing {system.name}"))
         return self.limits.until(self.deadline)
 
-    def _late(self, question: Asked) -> Answers:
+    def _late(self, question: PortfolioQuestion) -> Answers:
         """What is answered when the time is over before a question is asked; nothing before that."""
         if self.deadline is None or monotonic() < self.deadline:
             return {}
@@ -102,7 +101,7 @@ class Asking:
         return {goal.name: (Open(reason, 0), "none") for goal in question.goals}
 
 
-def _unbounded(prop: Property, systems: Mapping[str, System], asking: Asking) -> Result:
+def _unbounded(prop: Property, systems: Mapping[str, System], asking: EngineCall) -> Result:
     """The result of one property about infinite runs; unknown where an error of ours ends its search."""
 
     def work() -> Result:
@@ -114,7 +113,7 @@ def _unbounded(prop: Property, systems: Mapping[str, System], asking: Asking) ->
     return found
 
 
-def _exactly(task: Task, systems: Mapping[str, System], asking: Asking) -> Iterator[Result]:
+def _exactly(task: Task, systems: Mapping[str, System], asking: EngineCall) -> Iterator[Result]:
     question = reduce(lowered(task.system), task.properties)
     by_goal = {g.var.name: g for g in question.goals}
     runs: dict[str, tuple[Reached, str]] = {}

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 from checker.results.verdict import Reached, Unreachable
 from checker.system.lowered import lowered
-from checker.verify.portfolio import Question
+from checker.verify.portfolio import PortfolioQuestion
 from checker.verify.portfolio.shape import shape
 from checker.verify.result import Answers, Result, result
 from checker.verify.runs.reproduce import moved
@@ -29,7 +29,7 @@ def freely(system: System, properties: Sequence[Property], ask: Ask) -> tuple[li
     if loose is system:
         return [], list(properties)
     here = reduce(lowered(system), properties)
-    if shape(Question(here.system, tuple(g.var for g in here.goals))).kind == "driven":
+    if shape(PortfolioQuestion(here.system, tuple(g.var for g in here.goals))).kind == "driven":
         return [], list(properties)  # free timers would be most of what is free
     there = reduce(lowered(loose), [replace(p, on=loose.name) for p in properties])
     found = ask(there.system, [g.var for g in there.goals])

@@ -26,7 +26,7 @@ class TooLarge(ModelError):
     """More valuations or ticks than the limits allow."""
 
 
-class Search:
+class ReachableSearch:
     """Yields each reachable valuation once, with its ticks, in breadth-first order."""
 
     def __init__(

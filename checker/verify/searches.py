@@ -8,13 +8,13 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from checker.cache.places import VARIABLE, chosen
-from checker.cache.telling import Refused, Taken, listening
+from checker.cache.telling import CacheRefused, Taken, listening
 from checker.certify.outcome import Outcome, Undecided
 from checker.engines import Engine, Limits, Stage
 from checker.process.faults import Fault, described, is_fault, tell
 from checker.process.faults import listening as attending
 from checker.process.isolate import Send
-from checker.process.pool import Event, Granted, Order, Pool
+from checker.process.pool import Granted, Order, Pool, PoolEvent
 from checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
 from checker.system.formula_json import Tree
 from checker.system.lowered import lowered
@@ -27,7 +27,7 @@ from spec_model.lang.system import System
 if TYPE_CHECKING:
     from checker.certify.certificate import Certificate
     from checker.verify.certificates import Certifying
-    from checker.verify.portfolio.question import Found, Question
+    from checker.verify.portfolio.question import Found, PortfolioQuestion
 
 SLACK = 2 << 30
 """Bytes of address space that a child needs besides what an engine may store: code, libraries, formulas."""
@@ -35,7 +35,7 @@ _PAUSE = 0.5
 
 
 @dataclass(frozen=True)
-class Doing:
+class SearchDoing:
     """One line on what the search of a task is doing."""
 
     task: Task
@@ -78,7 +78,7 @@ class Warned:
     text: str
 
 
-Heard = Doing | Over | Warned | Result
+Heard = SearchDoing | Over | Warned | Result
 
 
 def cores() -> int:
@@ -192,7 +192,7 @@ class _Returns:
         asked = self.task.system.name, self.task.properties, self.task.recorded, True
         return Order(asked, self.task.system.name)
 
-    def heard(self, event: Event) -> Iterator[Heard | _Stays]:
+    def heard(self, event: PoolEvent) -> Iterator[Heard | _Stays]:
         """What an event brings.  Raises the error that is one."""
         if event.done:
             return self.rest(event)
@@ -207,14 +207,14 @@ class _Returns:
                 raise error
             case str(line):
                 self._doing = line
-                yield Doing(self.task, line)
+                yield SearchDoing(self.task, line)
             case _Stays():
                 yield message
             case Fault():
                 tell(message)
             case Taken():
                 self._taken = True
-            case Refused(why):
+            case CacheRefused(why):
                 yield Warned(f"Compiled searches are compiled every time: there is no cache. {why}")
             case _Certified(id, outcome) if id in self._held:
                 yield self._tell(replace(self._held.pop(id), certificate=outcome))
@@ -245,7 +245,7 @@ class _Returns:
 
         return rests_on_answers(verdict)
 
-    def rest(self, end: Event) -> Iterator[Heard]:
+    def rest(self, end: PoolEvent) -> Iterator[Heard]:
         """What is left of a search that is over."""
         reason = end.failure or "the search ended without a word on it"
         if end.late and self._seconds is not None and self._doing:
@@ -327,7 +327,7 @@ class _Deciding:
     def _search(self, send: Send, task: Task) -> None:
         from checker.certify.record import Recorder
         from checker.verify.decide import decide
-        from checker.verify.portfolio import Told
+        from checker.verify.portfolio import Callbacks
         from checker.verify.portfolio.question import stays
 
         recorder, results, deadline = Recorder(), list[Result](), self._limits.deadline()
@@ -338,7 +338,7 @@ class _Deciding:
         ):
             send(_Stays())
 
-        def answered(question: "Question", found: "Found") -> None:
+        def answered(question: "PortfolioQuestion", found: "Found") -> None:
             if self._certifying is not None:
                 recorder.answered(question, found)
             if (
@@ -348,7 +348,7 @@ class _Deciding:
             ):
                 send(_Stays())
 
-        told = Told(_Calm(send), lambda seconds: send(Granted(seconds)), answered)
+        told = Callbacks(_Calm(send), lambda seconds: send(Granted(seconds)), answered)
         for one in decide(task, self._systems, self._engine, self._limits, told.progress, told, deadline):
             results.append(replace(one, verdict=_light(one.verdict)))
             send(_Decided(one.property.id, results[-1].verdict, one.system))

@@ -30,7 +30,7 @@ def computed(values: Mapping[str, Raw]) -> dict[str, int]:
 
 
 @dataclass(frozen=True)
-class Signal:
+class BoardSignal:
     """A concrete quantity of the firmware, by the document's name.
 
     ``domain`` has its sort, its unit and its representative values; firmware may hold every number from
@@ -99,7 +99,7 @@ class Output:
     ``unless``: where this holds after the step, the charts give the variable up and nothing is required.
     """
 
-    signal: Signal
+    signal: BoardSignal
     var: Var
     unless: Expr = FALSE
 
@@ -114,7 +114,7 @@ class Output:
         return units(self.var.domain, after[self.var.name])
 
 
-class Reader(Protocol):
+class BoardReader(Protocol):
     """The inputs of the charts from those of the firmware, step by step from power-up."""
 
     def step(self, inputs: Values) -> dict[str, int]:
@@ -144,9 +144,9 @@ class Board:
 
     name: str
     system: System
-    inputs: tuple[Signal, ...]
+    inputs: tuple[BoardSignal, ...]
     outputs: tuple[Output, ...]
-    reader: Callable[[], Reader]
+    reader: Callable[[], BoardReader]
     writer: Callable[[], Writer]
     grid_ms: int
 

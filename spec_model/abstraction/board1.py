@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from spec_model.abstraction.board import Board, Signal, Value, Values, computed, units
+from spec_model.abstraction.board import Board, BoardSignal, Value, Values, computed, units
 from spec_model.abstraction.signals import discrete, measured, outputs, stamp
 from spec_model.abstraction.stamps import MeanOfTen, Stamp, age
 from spec_model.board1 import SUPERVISOR
@@ -32,7 +32,7 @@ MEAN_MS = 40
 MASK = (b1.crit_mask_b2, b1.degr_mask_b2)
 
 now_ms = stamp("now_ms", "start of the step")
-SAMPLES: dict[Signal, Var] = {
+SAMPLES: dict[BoardSignal, Var] = {
     measured(b1.temperature_degC, -100, 200): b1.temperature_degC,
     measured(b1.battery_pct, 0, 100): b1.battery_pct,
     **{measured(w, -200, 200): w for w in b1.wheel_speed_rpm.values()},

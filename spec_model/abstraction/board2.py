@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from spec_model.abstraction.board import Board, Signal, Value, Values, computed, units
+from spec_model.abstraction.board import Board, BoardSignal, Value, Values, computed, units
 from spec_model.abstraction.gaps import advance, record_of_gaps
 from spec_model.abstraction.signals import discrete, measured, outputs, stamp
 from spec_model.abstraction.stamps import Stamp, Updates, age, since
@@ -28,7 +28,7 @@ AGES_MS = {name: b2.between_steps(source).age for name, source in SOURCES.items(
 COUNTED = (b2.SUP, b2.IMU)
 """Those whose updates the coherence counts in steps."""
 
-SAMPLES: dict[Signal, Var] = {
+SAMPLES: dict[BoardSignal, Var] = {
     **{measured(d, 0, 344, whole=True): d for d in SONARS},
     measured(motion.yaw, 0, 359.99): motion.yaw,
     measured(b2.gz_dps, -250, 250): b2.gz_dps,

@@ -9,19 +9,19 @@ from spec_model.lang.chart import Block
 from spec_model.lang.domain import integer
 from spec_model.lang.expr import Expr, Var, const, flag, var
 from spec_model.lang.words import minimum
-from spec_model.signals.board2_supervisor import COUNT, Source
+from spec_model.signals.board2_supervisor import COUNT, SourceSignals
 
 MILLISECONDS = integer(0, 1 << 40, "ms")
 
 
-def advance(source: Source) -> Var:
+def advance(source: SourceSignals) -> Var:
     """By how much the stamp has advanced since the step before."""
     return var(
         f"{source.name}_advance", MILLISECONDS, doc=f"by how much the stamp of {source.region} advanced"
     )
 
 
-def record_of_gaps(source: Source) -> Slow2:
+def record_of_gaps(source: SourceSignals) -> Slow2:
     """The record with its ten gaps; a question adds the time from the stamp at the latest question."""
     pending = _kept(f"{source.name}_pending_ms")
     last = [_kept(f"{source.name}_gap{i}_ms") for i in range(1, GAPS + 1)]

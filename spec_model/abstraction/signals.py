@@ -2,31 +2,31 @@
 
 from collections.abc import Iterable
 
-from spec_model.abstraction.board import Output, Signal, units
+from spec_model.abstraction.board import BoardSignal, Output, units
 from spec_model.lang.domain import Num, fixed
 from spec_model.lang.expr import FALSE, Expr, Var
 
 MILLISECONDS = fixed(0, (1 << 32) - 1, 1, "ms")
 
 
-def stamp(name: str, doc: str) -> Signal:
+def stamp(name: str, doc: str) -> BoardSignal:
     """A time of the board's clock, 0 at power-up."""
-    return Signal(name, MILLISECONDS, 0, doc, 0, MILLISECONDS.high, whole=True, stamp=True)
+    return BoardSignal(name, MILLISECONDS, 0, doc, 0, MILLISECONDS.high, whole=True, stamp=True)
 
 
-def measured(var: Var, low: float, high: float, *, whole: bool = False, name: str = "") -> Signal:
+def measured(var: Var, low: float, high: float, *, whole: bool = False, name: str = "") -> BoardSignal:
     """A number that firmware measures or receives as it comes."""
-    return Signal(name or plain(var), var.domain, units(var.domain, var.init), var.doc, low, high, whole)
+    return BoardSignal(name or plain(var), var.domain, units(var.domain, var.init), var.doc, low, high, whole)
 
 
-def discrete(var: Var, name: str = "") -> Signal:
+def discrete(var: Var, name: str = "") -> BoardSignal:
     """What firmware holds as values of the domain: a boolean, an enumeration, a mask, an output."""
     domain, initial = var.domain, units(var.domain, var.init)
     if isinstance(domain.sort, Num):
         resolution = domain.sort.resolution
         low, high = float(domain.low * resolution), float(domain.high * resolution)
-        return Signal(name or plain(var), domain, initial, var.doc, low, high, resolution == 1)
-    return Signal(name or plain(var), domain, initial, var.doc)
+        return BoardSignal(name or plain(var), domain, initial, var.doc, low, high, resolution == 1)
+    return BoardSignal(name or plain(var), domain, initial, var.doc)
 
 
 def outputs(produced: Iterable[Var], unless: Expr = FALSE) -> tuple[Output, ...]:

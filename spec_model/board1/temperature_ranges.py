@@ -27,7 +27,7 @@ assumed_T = named(
 
 
 @dataclass(frozen=True)
-class Side:
+class RangeSide:
     """The temperature that the limits on one side are compared with: ``T_hot >= 60``.
 
     ``reading`` says whether it stays the measured value while readings are absent, or is the estimate.
@@ -53,7 +53,7 @@ class Side:
         return choose(self.reading, {"MEASURED": measured, "ESTIMATED": estimated})
 
 
-T_hot, T_cold = Side("S11"), Side("S12")
+T_hot, T_cold = RangeSide("S11"), RangeSide("S12")
 
 too_hot, too_cold = T_hot >= 60, T_cold <= -15
 critical_range = named("T in ]-inf;-15] or [60;+inf[", too_cold | too_hot)

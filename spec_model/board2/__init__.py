@@ -25,7 +25,7 @@ from spec_model.board2.slow2 import Record, exact
 from spec_model.lang.chart import Component, Enabled
 from spec_model.signals.board2_supervisor import (
     SOURCES,
-    Source,
+    SourceSignals,
     autorized_to_send_command,
     crit_mask_b1,
     critical_mask,
@@ -59,7 +59,7 @@ DRIVING = Enabled(
 
 
 def supervisor(
-    record: Record = exact, heading: Heading = FREE, sources: Sequence[Source] = SOURCES
+    record: Record = exact, heading: Heading = FREE, sources: Sequence[SourceSignals] = SOURCES
 ) -> tuple[Component, ...]:
     """The whole supervisor of Board 2, exact or with over-approximated records and heading."""
     notes, monitor_sources = monitors(record, sources)

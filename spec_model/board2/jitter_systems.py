@@ -30,24 +30,24 @@ SUP, BLE, IMU, RX = SOURCES = tuple(b2.between_steps(source, env.LAG) for source
 b1_sup_age_ms = SUP.age
 
 
-def _lag(source: b2.Source) -> Expr:
+def _lag(source: b2.SourceSignals) -> Expr:
     assert source.phase is not None
     return source.phase
 
 
-def _stamped(source: b2.Source) -> Expr:
+def _stamped(source: b2.SourceSignals) -> Expr:
     """An alive counter is stamped with the step that sees it change, other data as they come."""
     return _lag(source) == 0 if source is SUP else _lag(source) < env.step_ms
 
 
-def _aged(source: b2.Source, record: Record) -> tuple[Component, ...]:
+def _aged(source: b2.SourceSignals, record: Record) -> tuple[Component, ...]:
     """The clock, the record and the region of a source."""
     notes, chart = monitors(record, [source])
     age = clock(f"{source.region}.age", source.update, _lag(source), source.age, env.step_ms)
     return (age, *notes, chart)
 
 
-def _monitor(source: b2.Source) -> System:
+def _monitor(source: b2.SourceSignals) -> System:
     return in_order(
         f"monitors_2_{source.region}_jitter",
         *_aged(source, forgotten),
@@ -60,7 +60,7 @@ def _monitor(source: b2.Source) -> System:
     )
 
 
-def _exact(source: b2.Source) -> System:
+def _exact(source: b2.SourceSignals) -> System:
     return in_order(
         f"monitors_2_{source.region}_jitter_exact",
         *_aged(source, exact_ms(env.step_ms)),
@@ -71,7 +71,7 @@ def _exact(source: b2.Source) -> System:
     )
 
 
-def _ageless(source: b2.Source) -> System:
+def _ageless(source: b2.SourceSignals) -> System:
     notes, chart = monitors(forgotten, [source])
     return in_order(
         f"monitors_2_{source.region}_jitter_free",

@@ -10,7 +10,7 @@ from spec_model.environment import clock
 from spec_model.lang.chart import Component
 from spec_model.lang.expr import Var, all_of
 from spec_model.lang.system import Note, System, in_order
-from spec_model.signals.board2_supervisor import SOURCES, Source
+from spec_model.signals.board2_supervisor import SOURCES, SourceSignals
 
 GRID = Note(
     "Time stamps lie on the 20 ms grid: an update carries the time of the step that sees it. "
@@ -26,7 +26,9 @@ FORGOTTEN = "The gaps are forgotten: the mean is free at each new gap (more runs
 ANY_STAMPS = "Alive counters may change without a frame."
 
 
-def watching(sources: Sequence[Source], record: Record, name: str = "Monitors_2") -> tuple[Component, ...]:
+def watching(
+    sources: Sequence[SourceSignals], record: Record, name: str = "Monitors_2"
+) -> tuple[Component, ...]:
     """Clocks, records and regions of some sources."""
     notes, chart = monitors(record, sources, name)
     return (*(clock(f"{s.region}.age of {name}", s.update, s.age) for s in sources), *notes, chart)
@@ -43,7 +45,7 @@ all_sources = in_order(
 )
 
 
-def _exact(source: Source) -> System:
+def _exact(source: SourceSignals) -> System:
     return in_order(
         f"monitors_2_{source.region}_exact",
         *watching([source], exact),
@@ -52,7 +54,7 @@ def _exact(source: Source) -> System:
     )
 
 
-def _rows(source: Source) -> System:
+def _rows(source: SourceSignals) -> System:
     return in_order(
         f"monitors_2_{source.region}",
         *watching([source], runs),
@@ -66,7 +68,7 @@ def _rows(source: Source) -> System:
 # --- two boards that share the stamps of one source --------------------------------------------------
 
 
-def twin(source: Source) -> Source:
+def twin(source: SourceSignals) -> SourceSignals:
     """The same source of a second Board 2."""
 
     def renamed(v: Var) -> Var:
@@ -85,13 +87,13 @@ def twin(source: Source) -> Source:
 twin_sup_status, twin_esp_status, twin_imu_status, twin_rx_status = (twin(s).status for s in SOURCES)
 
 
-def _twice(shared: Source, record: Record) -> tuple[Component, ...]:
+def _twice(shared: SourceSignals, record: Record) -> tuple[Component, ...]:
     """The monitors of two boards; the second sees the stamps of ``shared`` as the first does."""
     own = [replace(twin(s), update=s.update) if s is shared else twin(s) for s in SOURCES]
     return (*watching(SOURCES, record), *watching(own, record, "Twin_monitors_2"))
 
 
-def _twice_exact(shared: Source) -> System:
+def _twice_exact(shared: SourceSignals) -> System:
     return in_order(
         f"monitors_2_twice_{shared.region}_exact",
         *_twice(shared, exact),
@@ -100,7 +102,7 @@ def _twice_exact(shared: Source) -> System:
     )
 
 
-def _twice_free(shared: Source) -> System:
+def _twice_free(shared: SourceSignals) -> System:
     return in_order(
         f"monitors_2_twice_{shared.region}",
         *_twice(shared, forgotten),
@@ -112,7 +114,7 @@ def _twice_free(shared: Source) -> System:
     )
 
 
-def _apart(shared: Source) -> System:
+def _apart(shared: SourceSignals) -> System:
     others = [s for s in SOURCES if s is not shared]
     return in_order(
         f"monitors_2_apart_{shared.region}",

@@ -13,25 +13,25 @@ from spec_model.lang.expr import Expr
 from spec_model.lang.time import Span, sec
 from spec_model.lang.words import duration, named
 from spec_model.readings import choose
-from spec_model.signals.board2_supervisor import SOURCES, SUP, Source
+from spec_model.signals.board2_supervisor import SOURCES, SUP, SourceSignals
 
 
-def silent(source: Source) -> Expr:
+def silent(source: SourceSignals) -> Expr:
     """The stamp is older than the limit (strict)."""
     return named(f"now_ms - ts > {source.limit} ms", source.age > source.limit)
 
 
-def recovered(source: Source, rest: Span, at_once: Expr) -> Expr:
+def recovered(source: SourceSignals, rest: Span, at_once: Expr) -> Expr:
     """The gaps have been short enough for longer than ``rest``, or ``at_once`` (E29)."""
     return choose("E29", {"HYST": duration(~source.deg) > rest, "INSTANT": at_once})
 
 
-def from_critical(source: Source) -> Span:
+def from_critical(source: SourceSignals) -> Span:
     """How long a critical source must deliver: 2 s for the supervisor of Board 1, otherwise 1 s."""
     return 2 * sec if source.region == SUP.region else 1 * sec
 
 
-def _region(source: Source, slow2: Slow2) -> State:
+def _region(source: SourceSignals, slow2: Slow2) -> State:
     ok, degraded, critical = source.levels
     return State(source.region, default="OK", states=[
         State("OK", entry=[assign(source.status, ok)], during=slow2.ask, transitions=[
@@ -49,7 +49,7 @@ def _region(source: Source, slow2: Slow2) -> State:
 
 
 def monitors(
-    record: Record = exact, sources: Sequence[Source] = SOURCES, name: str = "Monitors_2"
+    record: Record = exact, sources: Sequence[SourceSignals] = SOURCES, name: str = "Monitors_2"
 ) -> tuple[tuple[Block, ...], Chart]:
     """What the records note in every step, and the chart with a region for each source.
 

@@ -20,7 +20,7 @@ from spec_model.lang.expr import Const, Expr, Var, const, flag, ite, var
 from spec_model.lang.system import TICK_MS
 from spec_model.lang.words import maximum, minimum
 from spec_model.readings import choose
-from spec_model.signals.board2_supervisor import COUNT, Source
+from spec_model.signals.board2_supervisor import COUNT, SourceSignals
 
 GAPS = 10
 """The mean is over the latest ten gaps."""
@@ -34,7 +34,7 @@ class Slow2:
     ask: tuple[Action, ...]
 
 
-Record = Callable[[Source], Slow2]
+Record = Callable[[SourceSignals], Slow2]
 
 
 def enough(gaps: Expr) -> Expr:
@@ -42,7 +42,7 @@ def enough(gaps: Expr) -> Expr:
     return choose("E26", {"FILL": gaps >= 1, "WAIT-10": gaps >= GAPS})
 
 
-def exact(source: Source) -> Slow2:
+def exact(source: SourceSignals) -> Slow2:
     """The record as it is written, with its ten gaps."""
     most = source.mean // TICK_MS
     # With nine other positive gaps the sum exceeds ten times ``most``, with fewer gaps all the more.
@@ -56,7 +56,7 @@ def exact_ms(step: Expr) -> Record:
     The ``phase`` of the source is how long before the step that sees it a stamp is set.
     """
 
-    def record(source: Source) -> Slow2:
+    def record(source: SourceSignals) -> Slow2:
         # With fewer gaps than ten the sum exceeds the mean of as many all the more.
         pending, note = _pending_ms(source, source.mean * GAPS + 1, step)
         return _ten(source, source.mean, pending, note)
@@ -64,7 +64,7 @@ def exact_ms(step: Expr) -> Record:
     return record
 
 
-def _ten(source: Source, most: int, pending: Var, note: Block) -> Slow2:
+def _ten(source: SourceSignals, most: int, pending: Var, note: Block) -> Slow2:
     last = [
         var(f"{source.name}_gap{i}", pending.domain, doc=f"gap {i}, latest first", hidden=True)
         for i in range(1, 11)
@@ -78,7 +78,7 @@ def _ten(source: Source, most: int, pending: Var, note: Block) -> Slow2:
     return Slow2(note, _question(source, pending, [*shift, assign(last[0], pending), one_more, answer]))
 
 
-def runs(source: Source) -> Slow2:
+def runs(source: SourceSignals) -> Slow2:
     """Over-approximation: only how many of the latest gaps in a row were all long, or all short.
 
     The answer is yes if all gaps of the record exceed the limit, no if none does, else the free
@@ -102,7 +102,7 @@ def runs(source: Source) -> Slow2:
     ]))  # fmt: skip
 
 
-def forgotten(source: Source) -> Slow2:
+def forgotten(source: SourceSignals) -> Slow2:
     """Over-approximation: at each new gap the free input ``<name>_mean_slow`` is the answer."""
     pending = flag(f"{source.name}_fresh", "the stamp changed since the latest question", hidden=True)
     note = Block(f"{source.name}.note", [when(source.update, [assign(pending, True)])],
@@ -115,12 +115,12 @@ def forgotten(source: Source) -> Slow2:
     ))  # fmt: skip
 
 
-def mean_slow(source: Source) -> Var:
+def mean_slow(source: SourceSignals) -> Var:
     """Free in every step: what the mean is where an over-approximation does not know."""
     return flag(f"{source.name}_mean_slow", f"free: whether the mean exceeds {source.mean} ms at this gap")
 
 
-def _pending(source: Source, longest: int) -> tuple[Var, Block]:
+def _pending(source: SourceSignals, longest: int) -> tuple[Var, Block]:
     """The ticks from ``prev`` to the stamp, 0 while they are equal, and the block that counts them."""
     ticks = integer(0, longest)
     since = var(f"{source.name}_since", ticks, doc="ticks since the stamp", hidden=True)
@@ -144,7 +144,7 @@ def _pending(source: Source, longest: int) -> tuple[Var, Block]:
     return pending, note
 
 
-def _pending_ms(source: Source, longest: int, step: Expr) -> tuple[Var, Block]:
+def _pending_ms(source: SourceSignals, longest: int, step: Expr) -> tuple[Var, Block]:
     """The same in ms, of a source with a phase."""
     if source.phase is None:
         raise ModelError(f"{source.name} has no phase; its gaps are counted in ticks.")
@@ -173,20 +173,20 @@ def _pending_ms(source: Source, longest: int, step: Expr) -> tuple[Var, Block]:
     return pending, note
 
 
-def gaps_of(source: Source) -> Var:
+def gaps_of(source: SourceSignals) -> Var:
     """How many gaps the record holds."""
     return var(f"{source.name}_gaps", COUNT, doc="gaps in the record", hidden=True)
 
 
-def _count(source: Source) -> tuple[Var, Action]:
+def _count(source: SourceSignals) -> tuple[Var, Action]:
     gaps = gaps_of(source)
     return gaps, assign(gaps, minimum(gaps + 1, GAPS))
 
 
-def _asked(source: Source) -> Var:
+def _asked(source: SourceSignals) -> Var:
     return flag(f"{source.name}_asked", "slow2 has been asked before, so that prev has a value", hidden=True)
 
 
-def _question(source: Source, pending: Var, at_gap: list[Action]) -> tuple[Action, ...]:
+def _question(source: SourceSignals, pending: Var, at_gap: list[Action]) -> tuple[Action, ...]:
     asked = _asked(source)
     return when(asked & (pending > 0), at_gap), assign(pending, 0), assign(asked, True)

@@ -30,7 +30,7 @@ from spec_model.lang.system import System, in_order
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
 from spec_model.signals.board2 import SONARS
-from spec_model.signals.board2_supervisor import Source
+from spec_model.signals.board2_supervisor import SourceSignals
 from spec_model.signals.rotation import TARGET
 
 FREE_STATUSES = (
@@ -247,7 +247,7 @@ FREE_HEADING = "The 45 degree test of the heading is a free input, false in the 
 targetAngle = var("B2.targetAngle", TARGET, 0, "heading at which a deviation from an obstacle ends")
 
 
-def _whole(sources: Sequence[Source]) -> tuple[Component, ...]:
+def _whole(sources: Sequence[SourceSignals]) -> tuple[Component, ...]:
     charts = supervisor(heading=measured(motion.yaw, targetAngle), sources=sources)
     return (*env.SNAPSHOTS, *env.clocks_of(sources), env.sonar_clock, *charts, ACTUATION)
 

@@ -13,7 +13,7 @@ from spec_model.board1.relay import relay
 from spec_model.board2.actuation import actuation
 from spec_model.board2.failure_check import check_board1
 from spec_model.composition.contracts import Contract
-from spec_model.composition.tasks import MILLISECOND, Task, clock, control_task, line, phases, task
+from spec_model.composition.tasks import MILLISECOND, RoverTask, clock, control_task, line, phases, task
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block, Component, Enabled
 from spec_model.lang.domain import fixed
@@ -34,7 +34,7 @@ NO_LOSS = "No frame of the chain is lost or corrupted (A02); a frame takes one m
 
 
 def _chain(
-    name: str, text: str, *components: Component, tasks: Sequence[Task], assume: Expr = TRUE,
+    name: str, text: str, *components: Component, tasks: Sequence[RoverTask], assume: Expr = TRUE,
     notes: Sequence[str] = (),
 ) -> System:  # fmt: skip
     """A chain whose timers of seconds may end at will: only its milliseconds are counted."""
@@ -268,12 +268,12 @@ stop_unconditional_fine = _stopping(
 # --- a critical fault of one board stops the other -------------------------------------------------
 
 
-def _board(supervisor: Task) -> str:
+def _board(supervisor: RoverTask) -> str:
     """The board whose supervisor this is."""
     return "Board 1" if supervisor is sup1 else "Board 2"
 
 
-def _critical(name: str, text: str, sender: Task, transmit: Task, receiver: Task) -> System:
+def _critical(name: str, text: str, sender: RoverTask, transmit: RoverTask, receiver: RoverTask) -> System:
     """From a critical cause in a step of the sender to the references of the receiver."""
     link = line(f"{name}.line", [(critical_sent, critical_received)], transmit.due, critical_frame)
     return _chain(

@@ -39,7 +39,7 @@ class Stamped:
     regions: Collection[str]
 
     @property
-    def _sources(self) -> list[b2.Source]:
+    def _sources(self) -> list[b2.SourceSignals]:
         return [b2.between_steps(s, PHASE_CLASS) if s.region in self.regions else s for s in b2.SOURCES]
 
     @property

@@ -26,34 +26,34 @@ clock = Block("Clock", [assign(now, modulo(now + 1, PERIOD))], text="A milliseco
 
 
 @dataclass(frozen=True)
-class Task:
+class RoverTask:
     """A periodic task: ``due`` is true in the ticks in which it executes."""
 
     due: Expr
     phase: Var | None = None
 
 
-def task(name: str, *, at_zero: bool = False) -> Task:
+def task(name: str, *, at_zero: bool = False) -> RoverTask:
     """A task of period 20 ms at an unknown constant phase, or at phase 0."""
     if at_zero:
-        return Task(named(f"{name} executes", now == 0))
+        return RoverTask(named(f"{name} executes", now == 0))
     phase = var(f"{name}_phase", integer(0, PERIOD - 1), doc=f"when {name} executes, in ms modulo 20")
-    return Task(named(f"{name} executes", now == phase), phase)
+    return RoverTask(named(f"{name} executes", now == phase), phase)
 
 
-def control_task(name: str) -> Task:
+def control_task(name: str) -> RoverTask:
     """A task of period 10 ms at an unknown constant phase."""
     phase = var(f"{name}_phase", integer(0, PERIOD // 2 - 1), doc=f"when {name} executes, in ms modulo 10")
-    return Task(named(f"{name} executes", modulo(now, PERIOD // 2) == phase), phase)
+    return RoverTask(named(f"{name} executes", modulo(now, PERIOD // 2) == phase), phase)
 
 
-def phases(*tasks: Task) -> tuple[Var, ...]:
+def phases(*tasks: RoverTask) -> tuple[Var, ...]:
     """The frozen variables of the tasks."""
     return tuple(t.phase for t in tasks if t.phase is not None)
 
 
 @dataclass(frozen=True)
-class Line:
+class FineLine:
     """A link in fine time: ``send`` at the transmit task, ``receive`` one tick later.
 
     ``intact`` is the input that says whether the frame on the line arrives whole.
@@ -65,7 +65,7 @@ class Line:
     busy: Var
 
 
-def line(name: str, payload: Sequence[tuple[Var, Var]], transmit: Expr, accepted: Var) -> Line:
+def line(name: str, payload: Sequence[tuple[Var, Var]], transmit: Expr, accepted: Var) -> FineLine:
     """A line that carries the first variable of each pair to the second; ``accepted`` tells of a frame."""
     busy = flag(f"{name}.busy", "a frame is on the line")
     intact = flag(f"{name}.intact", "the frame on the line is neither lost nor corrupted")
@@ -96,4 +96,4 @@ def line(name: str, payload: Sequence[tuple[Var, Var]], transmit: Expr, accepted
         ],
         text="The transmit task sends what the snapshots hold [seed §1.2].",
     )
-    return Line(receive, send, intact, busy)
+    return FineLine(receive, send, intact, busy)

@@ -18,8 +18,8 @@ from spec_model.composition.systems import SYNCHRONOUS, link12, link21
 from spec_model.composition.world import (
     BY_NAME,
     FAULTS,
-    Fault,
     There,
+    WorldFault,
     heading_by_motors,
     heading_constant,
     late12,
@@ -119,7 +119,7 @@ def _weather(
     )
 
 
-def alone(fault: Fault) -> System:
+def alone(fault: WorldFault) -> System:
     """The rover with this fault, whenever it begins and ends."""
     ends = flag(f"{fault.name}.ends", f"{fault.name} works again from this step on")
     spell = _turn(fault.name, ends if fault.ends else FALSE)
@@ -133,7 +133,7 @@ def alone(fault: Fault) -> System:
     )
 
 
-def steered(fault: Fault, *, turning: bool = False) -> System:
+def steered(fault: WorldFault, *, turning: bool = False) -> System:
     """The rover with this fault, for good from any step on, and a stick that moves at will.
 
     ``turning``: it turns as its motors do; else its heading is constant, and a half turn does not end.
@@ -148,7 +148,7 @@ def steered(fault: Fault, *, turning: bool = False) -> System:
     )
 
 
-def _only(fault: Fault) -> There:
+def _only(fault: WorldFault) -> There:
     return lambda name: SPELLS[fault.name] == "present" if name == fault.name else FALSE
 
 
@@ -166,7 +166,7 @@ def calm() -> System:
     )
 
 
-def with_another(fault: Fault, *only: str) -> System:
+def with_another(fault: WorldFault, *only: str) -> System:
     """The rover with this fault, for good, and any second one, or one of these, for good or for one step."""
     one = len(only) == 1
     second_text = BY_NAME[only[0]].text if one else "something else fails"

@@ -22,7 +22,7 @@ from spec_model.signals.board2 import SONARS
 
 
 @dataclass(frozen=True)
-class Fault:
+class WorldFault:
     """Something that fails; ``ends`` if it may work again.
 
     ``ages``: the region of Board 2, or ``RX_1`` of Board 1, whose data grow old then.  The phase of all
@@ -36,22 +36,22 @@ class Fault:
 
 
 FAULTS = (
-    Fault("joystick", "no joystick datum arrives", ages=b2.BLE.region),
-    Fault("imu", "no IMU datum arrives", ages=b2.IMU.region),
-    Fault("sonars", "no scan is published"),
-    Fault("temperature", "no temperature is read"),
-    Fault("battery", "no battery level is read"),
-    Fault("link12", "no frame of Board 1 arrives at Board 2", ages=b2.RX.region),
-    Fault("link21", "no frame of Board 2 arrives at Board 1", ages=RX_1),
-    Fault("supervisor1", "the supervisor of Board 1 executes no more", ends=False),
-    Fault("supervisor2", "the supervisor of Board 2 executes no more", ends=False),
-    Fault("power", "Board 1 has no power", ends=False, ages=b2.RX.region),
-    Fault("wheel", "one of the wheels gives no feedback"),
-    Fault("hot", "64 °C are measured"),
-    Fault("flat", "a battery level of 10 % is measured"),
-    Fault("near", "one of the sonars measures 70 cm"),
+    WorldFault("joystick", "no joystick datum arrives", ages=b2.BLE.region),
+    WorldFault("imu", "no IMU datum arrives", ages=b2.IMU.region),
+    WorldFault("sonars", "no scan is published"),
+    WorldFault("temperature", "no temperature is read"),
+    WorldFault("battery", "no battery level is read"),
+    WorldFault("link12", "no frame of Board 1 arrives at Board 2", ages=b2.RX.region),
+    WorldFault("link21", "no frame of Board 2 arrives at Board 1", ages=RX_1),
+    WorldFault("supervisor1", "the supervisor of Board 1 executes no more", ends=False),
+    WorldFault("supervisor2", "the supervisor of Board 2 executes no more", ends=False),
+    WorldFault("power", "Board 1 has no power", ends=False, ages=b2.RX.region),
+    WorldFault("wheel", "one of the wheels gives no feedback"),
+    WorldFault("hot", "64 °C are measured"),
+    WorldFault("flat", "a battery level of 10 % is measured"),
+    WorldFault("near", "one of the sonars measures 70 cm"),
 )
-BY_NAME: Mapping[str, Fault] = {fault.name: fault for fault in FAULTS}
+BY_NAME: Mapping[str, WorldFault] = {fault.name: fault for fault in FAULTS}
 
 There = Callable[[str], Expr]
 """Whether the fault of this name is there, in this step."""

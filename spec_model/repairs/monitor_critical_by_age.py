@@ -8,10 +8,10 @@ from spec_model.lang.chart import Chart
 from spec_model.lang.edit import guard, swap
 from spec_model.lang.expr import all_of
 from spec_model.repairs import Repair
-from spec_model.signals.board2_supervisor import SOURCES, Source
+from spec_model.signals.board2_supervisor import SOURCES, SourceSignals
 
 
-def looking_at_the_age(sources: Sequence[Source]) -> Callable[[Chart], Chart]:
+def looking_at_the_age(sources: Sequence[SourceSignals]) -> Callable[[Chart], Chart]:
     """The edit of a chart with a region for some of the sources."""
 
     def change(chart: Chart) -> Chart:
@@ -23,7 +23,7 @@ def looking_at_the_age(sources: Sequence[Source]) -> Callable[[Chart], Chart]:
     return change
 
 
-def _one_region(chart: Chart, source: Source) -> Chart:
+def _one_region(chart: Chart, source: SourceSignals) -> Chart:
     """The mean of the gaps stays short while no stamp comes, so that CRIT ends in the midst of a silence."""
     for level in ("OK", "DEG"):
         chart = swap(chart, f"{source.region}.{level}", 1, 2)

@@ -28,7 +28,7 @@ SENSOR_STATUS = enumeration("SensorStatus", ["OK", "DEGRADED", "CRITICAL"])
 
 
 @dataclass(frozen=True)
-class Source:
+class SourceSignals:
     """What a region of the monitors reads and writes: a time stamp, and the status that follows.
 
     ``name`` begins the names of the counters that belong to it.  ``update`` says that the stamp was
@@ -59,9 +59,11 @@ def age_until(limit: int, grid: int = 20) -> Domain:
     return fixed(0, (limit // grid + 1) * grid, grid, "ms")
 
 
-def source(region: str, name: str, deg: str, status: Var, stamp: str, *, mean: int, limit: int) -> Source:
+def source(
+    region: str, name: str, deg: str, status: Var, stamp: str, *, mean: int, limit: int
+) -> SourceSignals:
     """The signals of one monitored source; ``stamp`` is the document's name of its time stamp."""
-    return Source(
+    return SourceSignals(
         region,
         name,
         flag(f"{name}_update", f"{stamp} was set to now_ms since the last step"),
@@ -86,7 +88,7 @@ SOURCES = (SUP, BLE, IMU, RX)
 """In the order of the regions."""
 
 
-def between_steps(source: Source, phases: Domain = PHASE) -> Source:
+def between_steps(source: SourceSignals, phases: Domain = PHASE) -> SourceSignals:
     """The source with stamps that are set some ms before a step, always as many, and its age to the ms."""
     name, limit = source.name, source.limit
     age = var(f"{name}_age_ms", integer(0, limit + 1, "ms"), doc=f"{source.age.doc}; {limit + 1} ms: or more")

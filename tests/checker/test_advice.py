@@ -5,10 +5,10 @@ import re
 import pytest
 
 from checker.encode.counting import counters
-from checker.encode.native import NativeSearch, Task, layout, shifts
+from checker.encode.native import NativeSearch, NativeTask, layout, shifts
 from checker.engines import Limits, Timers, explicit, quiet
 from checker.engines.explicit.advice import Advisor
-from checker.engines.explicit.levels import Search
+from checker.engines.explicit.levels import LevelSearch
 from checker.engines.explicit.lines import LineSearch
 from checker.results.verdict import Open
 from checker.system.slice import sliced
@@ -24,14 +24,16 @@ from spec_model.lang.words import after, minimum
 end = flag("end")
 
 
-def searched(system: TransitionSystem) -> Search:
+def searched(system: TransitionSystem) -> LevelSearch:
     part = sliced(system, [end])
-    search = Search(NativeSearch.compile(Task(part, layout(part.variables), (end,))), Limits(), None, quiet)
+    search = LevelSearch(
+        NativeSearch.compile(NativeTask(part, layout(part.variables), (end,))), Limits(), None, quiet
+    )
     search.run()
     return search
 
 
-def multiplied(search: Search) -> tuple[str, float] | None:
+def multiplied(search: LevelSearch) -> tuple[str, float] | None:
     store, advisor = search.store, Advisor(search.native)
     most = advisor.multiplier(store.words, store.table, search["count"])
     return None if most is None else (most.field.var.name, most.factor)
@@ -114,7 +116,7 @@ def lines(system: TransitionSystem) -> NativeSearch:
     """The search that skips quiet ticks."""
     part = sliced(system, [end])
     packing = layout(part.variables)
-    return NativeSearch.compile(Task(part, packing, (end,), shifts(packing, counters(part))))
+    return NativeSearch.compile(NativeTask(part, packing, (end,), shifts(packing, counters(part))))
 
 
 def _waiting(again: Var) -> State:

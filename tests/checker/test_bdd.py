@@ -13,7 +13,7 @@ from checker.encode.bits.inputs import input_cut
 from checker.encode.bits.order import orders
 from checker.engines import Limits, bdd, engines, quiet
 from checker.engines.bdd import kept
-from checker.engines.bdd.events import Bound, Closed, Found, Stuck
+from checker.engines.bdd.events import BddBound, BddClosed, BddFound, BddStuck
 from checker.engines.bdd.search import search
 from checker.results.diagram import Diagram
 from checker.results.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
@@ -37,13 +37,13 @@ def searched(system: TransitionSystem, *names: str, most: int | None = None) -> 
     deep = dict.fromkeys(names, 0)
     for event in search(system, names, most, NODES):
         match event:
-            case Found(goal, run):
+            case BddFound(goal, run):
                 found[goal] = Reached(run)
-            case Closed(left, because):
+            case BddClosed(left, because):
                 found |= dict.fromkeys(left, Unreachable(because))
-            case Stuck(left, reason):
+            case BddStuck(left, reason):
                 found |= {g: Open(reason, deep[g]) for g in left}
-            case Bound(left, depth):
+            case BddBound(left, depth):
                 deep |= dict.fromkeys(left, depth)
     return {n: found.get(n, Open("", deep[n])) for n in names}
 
@@ -187,7 +187,7 @@ def test_a_node_limit_leaves_the_goal_open() -> None:
 
 
 def test_what_was_seen_before_the_time_was_over_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    cut_off(monkeypatch, bdd, Bound(("end",), 7, 100, 10))
+    cut_off(monkeypatch, bdd, BddBound(("end",), 7, 100, 10))
     answer = check(counters(3)[0], flag("end"), Limits())
     assert answer == Open(LIMIT, 7)
 

@@ -11,7 +11,7 @@ from hypothesis import Phase, given, settings
 from benchmarks.roverlite import roverlite
 from checker.encode.bits import TRUE, Circuit, Latch
 from checker.engines.bdd import groups, layers, relation, runs, search
-from checker.engines.bdd.groups import Group
+from checker.engines.bdd.groups import BddGroup
 from checker.engines.bdd.layers import Layers
 from checker.engines.bdd.relation import Relation
 from checker.engines.bdd.space import Function, Space
@@ -89,7 +89,7 @@ def caught() -> bool:
 
 
 def with_circuit(patch: Patch, change: Callable[[Circuit], Circuit]) -> None:
-    def changed(system: TransitionSystem, names: list[str]) -> Iterator[Group]:
+    def changed(system: TransitionSystem, names: list[str]) -> Iterator[BddGroup]:
         for group in _groups(system, names):
             yield replace(group, circuit=change(group.circuit))
 

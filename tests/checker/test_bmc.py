@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given, settings
 
 from checker.engines import Limits, bmc, engines, quiet
-from checker.engines.bmc.events import Bound, Found, Undefined
+from checker.engines.bmc.events import BmcBound, BmcFound, BmcUndefined
 from checker.engines.bmc.search import search
 from checker.process.isolate import Send
 from checker.results.verdict import Open, Reached, Run
@@ -33,11 +33,11 @@ def searched(system: TransitionSystem, names: Sequence[str], most: int) -> Searc
     result = Searched(deep=dict.fromkeys(names, 0))
     for event in search(system, names, most):
         match event:
-            case Found(goal, run):
+            case BmcFound(goal, run):
                 result.found[goal] = run
-            case Bound(goals_, depth):
+            case BmcBound(goals_, depth):
                 result.deep |= dict.fromkeys(goals_, depth)
-            case Undefined():
+            case BmcUndefined():
                 raise AssertionError(event)
     return result
 
@@ -133,7 +133,7 @@ def _die(send: Send, *_: object) -> None:
 
 
 def test_what_was_seen_before_the_time_was_over_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    cut_off(monkeypatch, bmc, Bound(("full",), 7))
+    cut_off(monkeypatch, bmc, BmcBound(("full",), 7))
     lines = list[str]()
     answers = bmc.check(filling(3), [flag("full")], Limits(), lines.append)
     assert answers["full"] == Open(LIMIT, 7)

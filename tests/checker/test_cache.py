@@ -13,8 +13,8 @@ import pytest
 from checker import cache
 from checker.encode import native
 from checker.encode.counting import counters
-from checker.encode.native import NativeSearch, Task, fingerprint, jit, layout, shifts
-from checker.encode.native.jit import Level
+from checker.encode.native import NativeSearch, NativeTask, fingerprint, jit, layout, shifts
+from checker.encode.native.jit import OptimisationLevel
 from checker.engines import Limits, explicit, quiet
 from checker.engines.explicit import levels
 from checker.results.verdict import Answer, Reached, Unreachable
@@ -51,19 +51,19 @@ def answers(made: TransitionSystem) -> list[Answer]:
     return list(explicit.check(made, [made.var("end")], Limits(), quiet).values())
 
 
-def task(made: TransitionSystem, skip: bool = False) -> Task:
+def task(made: TransitionSystem, skip: bool = False) -> NativeTask:
     packing = layout(made.variables)
     moved = shifts(packing, counters(made)) if skip else ()
-    return Task(made, packing, (made.var("end"),), moved)
+    return NativeTask(made, packing, (made.var("end"),), moved)
 
 
 @pytest.fixture
-def compiled(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Level]]:
+def compiled(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[OptimisationLevel]]:
     """The levels at which something is compiled from now on."""
-    done: list[Level] = []
+    done: list[OptimisationLevel] = []
     real = jit.object_code
 
-    def noted(text: str, level: Level) -> bytes:
+    def noted(text: str, level: OptimisationLevel) -> bytes:
         done.append(level)
         return real(text, level)
 
@@ -74,32 +74,35 @@ def compiled(monkeypatch: pytest.MonkeyPatch) -> Iterator[list[Level]]:
 # --- it saves compiling ------------------------------------------------------------------------------
 
 
-def test_the_second_run_compiles_nothing(compiled: list[Level]) -> None:
+def test_the_second_run_compiles_nothing(compiled: list[OptimisationLevel]) -> None:
     first = answers(system())
-    assert compiled == [Level.QUICK, Level.QUICK]  # the search, and the inputs of the run it found
+    assert compiled == [
+        OptimisationLevel.QUICK,
+        OptimisationLevel.QUICK,
+    ]  # the search, and the inputs of the run it found
     assert answers(system()) == first
     assert len(compiled) == 2
 
 
-def test_better_code_is_kept_too(compiled: list[Level]) -> None:
+def test_better_code_is_kept_too(compiled: list[OptimisationLevel]) -> None:
     NativeSearch.compile(task(system())).improve()
-    assert compiled == [Level.QUICK, Level.FAST]
+    assert compiled == [OptimisationLevel.QUICK, OptimisationLevel.FAST]
     again = NativeSearch.compile(task(system()))
-    assert again.level is Level.FAST and len(compiled) == 2
+    assert again.level is OptimisationLevel.FAST and len(compiled) == 2
 
 
 def test_a_long_search_is_compiled_well_and_answers_the_same(
-    compiled: list[Level], monkeypatch: pytest.MonkeyPatch
+    compiled: list[OptimisationLevel], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     plain = answers(system())
     monkeypatch.setattr(levels, "QUICK_TRANSITIONS", 2)
     monkeypatch.setenv(cache.VARIABLE, "")
     assert answers(system()) == plain
-    assert Level.FAST in compiled
+    assert OptimisationLevel.FAST in compiled
 
 
 def test_switched_off_by_an_empty_variable(
-    compiled: list[Level], monkeypatch: pytest.MonkeyPatch, folder: Path
+    compiled: list[OptimisationLevel], monkeypatch: pytest.MonkeyPatch, folder: Path
 ) -> None:
     monkeypatch.setenv(cache.VARIABLE, "")
     assert answers(system()) == answers(system())
@@ -188,7 +191,7 @@ def _damage(path: Path, how: str) -> None:
 
 
 @pytest.mark.parametrize("how", ["cut", "empty", "flipped", "longer"])
-def test_a_damaged_file_is_compiled_again(how: str, folder: Path, compiled: list[Level]) -> None:
+def test_a_damaged_file_is_compiled_again(how: str, folder: Path, compiled: list[OptimisationLevel]) -> None:
     first = answers(system())
     files = sorted(folder.iterdir())
     good = [path.read_bytes() for path in files]
@@ -226,7 +229,9 @@ def test_a_full_disk(failing: str, monkeypatch: pytest.MonkeyPatch, folder: Path
 
 
 @pytest.mark.skipif(not hasattr(os, "getuid"), reason="there are no modes of folders to look at")
-def test_a_folder_that_others_may_write_to_is_not_used(folder: Path, compiled: list[Level]) -> None:
+def test_a_folder_that_others_may_write_to_is_not_used(
+    folder: Path, compiled: list[OptimisationLevel]
+) -> None:
     answers(system())
     folder.chmod(0o777)
     answers(system())
@@ -258,7 +263,7 @@ def test_what_else_lies_in_the_folder_is_never_removed(monkeypatch: pytest.Monke
 
 
 def test_a_folder_that_may_only_be_read_is_used(
-    monkeypatch: pytest.MonkeyPatch, compiled: list[Level]
+    monkeypatch: pytest.MonkeyPatch, compiled: list[OptimisationLevel]
 ) -> None:
     first = answers(system())
     compiled.clear()

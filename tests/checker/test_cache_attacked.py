@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from checker import cache
-from checker.cache import Refused, listening
+from checker.cache import CacheRefused, listening
 from checker.encode.native import fingerprint
 from checker.results.verdict import Answer, Reached, Unreachable
 from spec_model.lang.action import Assign
@@ -34,7 +34,7 @@ def secret(folder: Path) -> Path:
 def refusals(name: str = "key") -> list[str]:
     """Why the cache is refused when an entry is written and read."""
     said: list[str] = []
-    with listening(lambda what: said.append(what.why) if isinstance(what, Refused) else None):
+    with listening(lambda what: said.append(what.why) if isinstance(what, CacheRefused) else None):
         cache.write(name, b"code")
         assert cache.read(name) is None
     return said

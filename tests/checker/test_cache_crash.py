@@ -14,9 +14,9 @@ import pytest
 
 from checker import cache
 from checker.cache import Taken
-from checker.encode.native.jit import Level, object_code
+from checker.encode.native.jit import OptimisationLevel, object_code
 from checker.engines import Engine, Limits, Progress, explicit
-from checker.process.pool import Event
+from checker.process.pool import PoolEvent
 from checker.results.verdict import Answer, Exhausted, Proved, Unknown, Violated
 from checker.verify.result import Result
 from checker.verify.searches import Heard, Over, Warned, _Decided, _Returns, searches
@@ -83,7 +83,7 @@ def truth(folder: Path) -> Iterator[dict[str, str]]:
 
 @pytest.mark.parametrize("how", FAULTS)
 def test_it_is_searched_anew_and_the_cache_is_mended(how: str, folder: Path, truth: dict[str, str]) -> None:
-    files = spoil(folder, object_code(FAULTS[how], Level.QUICK))
+    files = spoil(folder, object_code(FAULTS[how], OptimisationLevel.QUICK))
     said = heard()
     assert words(said) == truth and sum(isinstance(one, Over) for one in said) == 1
     [text] = warnings(said)
@@ -122,7 +122,7 @@ def test_a_search_that_is_killed_from_outside_is_not_searched_again(truth: dict[
 
 
 def test_the_other_searches_go_on(folder: Path, truth: dict[str, str]) -> None:
-    code = object_code(FAULTS["trap"], Level.QUICK)
+    code = object_code(FAULTS["trap"], OptimisationLevel.QUICK)
     every = words(heard(tasks=3))
     spoil(folder, code)
     said = heard(tasks=3)
@@ -137,13 +137,13 @@ def test_what_was_said_before_a_crash_is_searched_again_and_must_be_so(folder: P
     visited = Exhausted(1, 1, 1, ("a",))
     proved, run = Proved(visited, "explicit"), Unknown("late", 0, "none")
     told = [_Decided("one-a", proved, "one"), Taken("key"), _Decided("one-b", proved, "one")]
-    assert [len(list(back.heard(Event(0, message)))) for message in told] == [1, 0, 1]
+    assert [len(list(back.heard(PoolEvent(0, message)))) for message in told] == [1, 0, 1]
     order = back.again()
     assert order is not None and order.args == ("one", task.properties, task.recorded, True)
-    assert not list(back.heard(Event(0, _Decided("one-a", proved, "one"))))
-    assert not list(back.heard(Event(0, _Decided("one-a", run, "one"))))
+    assert not list(back.heard(PoolEvent(0, _Decided("one-a", proved, "one"))))
+    assert not list(back.heard(PoolEvent(0, _Decided("one-a", run, "one"))))
     with pytest.raises(AssertionError, match="with code compiled anew it is violated"):
-        list(back.heard(Event(0, _Decided("one-b", Violated(visited, "explicit"), "one"))))
+        list(back.heard(PoolEvent(0, _Decided("one-b", Violated(visited, "explicit"), "one"))))
     assert back.again() is None, "once"
 
 
@@ -164,7 +164,7 @@ def test_the_command_says_it_on_standard_error(folder: Path, tmp_path: Path) -> 
         return subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
 
     first = check()
-    spoil(folder, object_code(FAULTS["trap"], Level.QUICK))
+    spoil(folder, object_code(FAULTS["trap"], OptimisationLevel.QUICK))
     second = check()
     assert (second.returncode, second.stdout) == (first.returncode, first.stdout)
     assert f"from the cache {folder}" in " ".join(second.stderr.split()) and "cache" not in first.stderr
@@ -187,7 +187,7 @@ def alone() -> subprocess.CompletedProcess[str]:
 @pytest.mark.skipif(sys.platform == "win32", reason="nothing is marked there")
 def test_after_a_crash_the_next_process_compiles_anew(folder: Path) -> None:
     truth = alone().stdout
-    spoil(folder, object_code(FAULTS["trap"], Level.QUICK))
+    spoil(folder, object_code(FAULTS["trap"], OptimisationLevel.QUICK))
     assert alone().returncode < 0 and len(list(folder.glob("*.running"))) == 1
     # The search is made anew; the inputs of the run it finds crash, which is noted, too.
     assert alone().returncode < 0 and len(list(folder.glob("*.running"))) == 1

@@ -9,7 +9,7 @@ from hypothesis.strategies import DataObject
 
 from checker.certify.certificate import Certificate, certificate, certificates, document
 from checker.certify.check import check
-from checker.certify.diagram import Diagram, Node, Nodes
+from checker.certify.diagram import CertifiedDiagram, CertifiedNode, Nodes
 from checker.certify.outcome import Accepted, Rejected
 from checker.certify.reduction import diagram
 from checker.results.closed import ClosedSet
@@ -41,7 +41,7 @@ pytestmark = pytest.mark.usefixtures("solver_in_this_process")
 def inductive(one: Certificate, system: TransitionSystem) -> bool:
     """Whether the diagram really proves the claims: initial, closed, free of them; by definition."""
     found = one.invariant
-    assert isinstance(found, Diagram)
+    assert isinstance(found, CertifiedDiagram)
     state = (*system.frozen, *system.variables)
     for frozen in vectors(system.frozen):
         if {**system.init, **frozen} not in found:
@@ -124,7 +124,7 @@ def test_a_changed_diagram_is_accepted_only_if_it_is_inductive(
 ) -> None:
     system, one = drawn
     found = one.invariant
-    assert isinstance(found, Diagram)
+    assert isinstance(found, CertifiedDiagram)
     assume(found.nodes)
     at = data.draw(st.integers(0, len(found.nodes) - 1))
     edges = list(found.nodes[at].edges)
@@ -140,7 +140,7 @@ def test_a_changed_diagram_is_accepted_only_if_it_is_inductive(
             edges[which] = low, high - 1, to
         case "lengthen":
             edges[which] = low, high + 1, to
-    nodes = (*found.nodes[:at], Node(found.nodes[at].variable, tuple(edges)), *found.nodes[at + 1 :])
+    nodes = (*found.nodes[:at], CertifiedNode(found.nodes[at].variable, tuple(edges)), *found.nodes[at + 1 :])
     forged = replace(one, invariant=replace(found, nodes=Nodes.of(nodes)))
     outcome = check(forged, system, BOTH)
     try:

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
 from checker.certify import reduction
-from checker.certify.diagram import Diagram, Nodes, count, members
-from checker.results.closed import ClosedSet, Place
+from checker.certify.diagram import CertifiedDiagram, Nodes, count, members
+from checker.results.closed import BitPlace, ClosedSet
 from spec_model.lang.expr import Var
 from tests.certifying import closed_set
 from tests.naive import vectors
@@ -27,12 +27,12 @@ def sets(draw: DrawFn) -> tuple[tuple[Var, ...], set[Row]]:
     return variables, rows
 
 
-def made(variables: tuple[Var, ...], rows: set[Row]) -> Diagram:
+def made(variables: tuple[Var, ...], rows: set[Row]) -> CertifiedDiagram:
     names = [v.name for v in variables]
     return reduction.diagram(closed_set(variables, [dict(zip(names, r, strict=True)) for r in rows]))
 
 
-def holds_exactly(found: Diagram, variables: tuple[Var, ...], rows: set[Row]) -> None:
+def holds_exactly(found: CertifiedDiagram, variables: tuple[Var, ...], rows: set[Row]) -> None:
     for at in vectors(variables):
         assert (at in found) == (tuple(at.values()) in rows)
     by_name = {v.name: v.domain for v in variables}
@@ -77,7 +77,7 @@ def test_a_weak_hash_does_no_harm(drawn: tuple[tuple[Var, ...], set[Row]], weak:
 def test_packed_words_with_strides() -> None:
     by_twenty = Var("level", DOMAINS[-1], 0)
     sparse = Var("odd", DOMAINS[-2], 0)
-    places = (Place(sparse, 0, 3, 6, 1, -7), Place(by_twenty, 0, 0, 2, 20, 0))
+    places = (BitPlace(sparse, 0, 3, 6, 1, -7), BitPlace(by_twenty, 0, 0, 2, 20, 0))
     rows: set[Row] = {(30, 60), (-7, 0), (0, 20), (1, 40), (30, 40)}
     words = [[(odd + 7) << 3 | level // 20] for odd, level in rows]
     found = reduction.diagram(ClosedSet(places, np.array(words, dtype=np.uint64)))
@@ -87,7 +87,7 @@ def test_packed_words_with_strides() -> None:
 def test_a_large_set_of_few_shapes_is_a_small_diagram() -> None:
     count_ = Var("count", DOMAINS[3], 0)
     rows = np.arange(4**9, dtype=np.uint64).reshape(-1, 1)
-    places = tuple(Place(Var(f"x{i}", count_.domain, 0), 0, 2 * i, 2, 1, 0) for i in range(9))
+    places = tuple(BitPlace(Var(f"x{i}", count_.domain, 0), 0, 2 * i, 2, 1, 0) for i in range(9))
     assert reduction.diagram(ClosedSet(places, rows)).nodes == Nodes.of(())
     odd = reduction.diagram(ClosedSet(places, rows[rows[:, 0] % 4 == 3]))
     assert len(odd.nodes) == 1

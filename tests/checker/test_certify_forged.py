@@ -6,7 +6,7 @@ from itertools import pairwise
 import pytest
 
 from checker.certify.check import check
-from checker.certify.diagram import Diagram, Node, Nodes
+from checker.certify.diagram import CertifiedDiagram, CertifiedNode, Nodes
 from checker.certify.invariant import Conjuncts
 from checker.certify.outcome import Accepted, Rejected, Undecided
 from spec_model.lang.action import Assign
@@ -62,19 +62,21 @@ def test_a_conjunct_that_is_needed_cannot_be_dropped() -> None:
         Conjuncts(("(define-fun |:c0@0| () Bool (= |count@0| (_ bv0 99999999999)))",), ("|:c0@0|",)),
         Conjuncts((f"(define-fun |:c0@0| () Bool {'(not ' * 9999}true{')' * 9999})",), ("|:c0@0|",)),
         Conjuncts(("(define-fun |:c0@0| () Bool (bvslt |count@0| (_ bv1 9)))",), ("|:c0@0|",)),
-        Diagram(("count", "count"), Nodes.of(()), 0),
-        Diagram(("unheard",), Nodes.of(()), 0),
-        Diagram(("count",), Nodes.of(()), 1),
-        Diagram(("count",), Nodes.of(()), -1),
-        Diagram(("count",), Nodes.of((Node(1, ((0, 3, 0),)),)), 1),
-        Diagram(("count",), Nodes.of((Node(0, ((0, 3, 1),)),)), 1),
-        Diagram(("count",), Nodes.of((Node(0, ((3, 0, 0),)),)), 1),
-        Diagram(("count",), Nodes.of((Node(0, ((0, 99, 0),)),)), 1),
-        Diagram(("count",), Nodes.of((Node(0, ((0, 3, 0), (2, 5, 0))),)), 1),
-        Diagram(("count",), Nodes.of((Node(0, ((0, 3, 0),)), Node(0, ((0, 3, 1),)))), 2),
+        CertifiedDiagram(("count", "count"), Nodes.of(()), 0),
+        CertifiedDiagram(("unheard",), Nodes.of(()), 0),
+        CertifiedDiagram(("count",), Nodes.of(()), 1),
+        CertifiedDiagram(("count",), Nodes.of(()), -1),
+        CertifiedDiagram(("count",), Nodes.of((CertifiedNode(1, ((0, 3, 0),)),)), 1),
+        CertifiedDiagram(("count",), Nodes.of((CertifiedNode(0, ((0, 3, 1),)),)), 1),
+        CertifiedDiagram(("count",), Nodes.of((CertifiedNode(0, ((3, 0, 0),)),)), 1),
+        CertifiedDiagram(("count",), Nodes.of((CertifiedNode(0, ((0, 99, 0),)),)), 1),
+        CertifiedDiagram(("count",), Nodes.of((CertifiedNode(0, ((0, 3, 0), (2, 5, 0))),)), 1),
+        CertifiedDiagram(
+            ("count",), Nodes.of((CertifiedNode(0, ((0, 3, 0),)), CertifiedNode(0, ((0, 3, 1),)))), 2
+        ),
     ],
 )
-def test_what_has_no_meaning_is_rejected(changed: Conjuncts | Diagram) -> None:
+def test_what_has_no_meaning_is_rejected(changed: Conjuncts | CertifiedDiagram) -> None:
     system, bad = counting((BACK,), COUNT)
     one = claimed(system, bad, COUNT <= 3)
     for effort in (SOLVER, ENUMERATION, BOTH):

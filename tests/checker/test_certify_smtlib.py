@@ -9,7 +9,7 @@ from hypothesis.strategies import DataObject, DrawFn
 
 from checker.certify import smtlib, solver
 from checker.certify.invariant import conjuncts
-from checker.certify.question import Question, question
+from checker.certify.question import CertifyQuestion, question
 from checker.certify.smtlib import own, quoted
 from checker.certify.terms import DEEPEST, TRUTH, Malformed, definitions, evaluate, read
 from checker.certify.tick import conjuncts as parts
@@ -23,7 +23,7 @@ from spec_model.lang.system import TransitionSystem
 from tests.strategies_ts import booleans, goals, transition_systems
 
 
-def asked(system: TransitionSystem) -> Question:
+def asked(system: TransitionSystem) -> CertifyQuestion:
     everything = [v.name for v in (*system.variables, *system.frozen)]
     claims = [g.name for g in goals(system)]
     return question(executed(system), claims, range(len(parts(system.assume))), everything)
@@ -40,7 +40,7 @@ def values(script: str, symbols: list[str]) -> dict[str, int]:
     return dict(sent[0])
 
 
-def fixed(found: Question, at: dict[str, int], variables: tuple[Var, ...]) -> list[str]:
+def fixed(found: CertifyQuestion, at: dict[str, int], variables: tuple[Var, ...]) -> list[str]:
     """The valuation and the inputs, asserted."""
     symbols = found.symbols(0)
     return [f"(assert {smtlib.among(symbols[v.name], v.domain, [(at[v.name],) * 2])})" for v in variables]

@@ -14,12 +14,12 @@ from checker.certify import enumeration, sweep
 from checker.certify.certificate import Certificate
 from checker.certify.check import By, check
 from checker.certify.diagram import TRUE as END
-from checker.certify.diagram import Diagram, Node, Nodes
+from checker.certify.diagram import CertifiedDiagram, CertifiedNode, Nodes
 from checker.certify.enumeration import enumerated
 from checker.certify.outcome import Accepted, Rejected, TooMuch, Undecided
 from checker.certify.question import question
 from checker.certify.reduction import diagram
-from checker.certify.sweep import OPERATORS, Formulas, Rows, columns, swept
+from checker.certify.sweep import OPERATORS, Formulas, SweepRows, columns, swept
 from checker.certify.tick import executed
 from checker.system.intervals import postorder
 from spec_model.lang.evaluate import step
@@ -40,12 +40,12 @@ def test_sweeping_and_enumerating_agree(
     """Also on a diagram in which an edge leads elsewhere."""
     system, one = drawn
     found = one.invariant
-    assert isinstance(found, Diagram)
+    assert isinstance(found, CertifiedDiagram)
     if data.draw(st.booleans()) and found.nodes:
         at = data.draw(st.integers(0, len(found.nodes) - 1))
         node = found.nodes[at]
         edges = [(low, high, data.draw(st.sampled_from([to, END]))) for low, high, to in node.edges]
-        nodes = (*found.nodes[:at], Node(node.variable, tuple(edges)), *found.nodes[at + 1 :])
+        nodes = (*found.nodes[:at], CertifiedNode(node.variable, tuple(edges)), *found.nodes[at + 1 :])
         found = replace(found, nodes=Nodes.of(nodes))
     asked = question(executed(system), one.claims, one.kept, one.about)
     slow, fast = enumerated(system, asked, found), swept(asked, found)
@@ -70,7 +70,7 @@ def test_columns_mean_what_the_reference_means(system: TransitionSystem, data: D
 Valuations = set[tuple[int, ...]]
 
 
-def of(variables: tuple[Var, ...], rows: Valuations) -> Diagram:
+def of(variables: tuple[Var, ...], rows: Valuations) -> CertifiedDiagram:
     names = [v.name for v in variables]
     return diagram(closed_set(variables, [dict(zip(names, r, strict=True)) for r in rows]))
 
@@ -88,7 +88,7 @@ def test_unfolding_a_diagram_gives_its_set(drawn: tuple[tuple[Var, ...], Valuati
         if narrow:
             patch.setattr(sweep, "FIRST_BITS", 8)
             patch.setattr(sweep, "BITS", 8)
-        kept = Rows(found, domains, len(rows))
+        kept = SweepRows(found, domains, len(rows))
         parts = [np.stack([part[n] for n in names], axis=1) for part in kept]
         assert sorted(map(tuple, np.concatenate(parts).tolist())) == sorted(rows)
         assert kept.contain(columns).tolist() == [tuple(at.values()) in rows for at in others]
@@ -106,12 +106,12 @@ def test_valuations_are_counted_alike_in_either_way(drawn: tuple[tuple[Var, ...]
 def test_paths_that_lead_to_no_valuation_are_not_followed() -> None:
     """A million million of them."""
     variables = [*(flag(f"x{i}") for i in range(40)), flag("last")]
-    nodes = [Node(40, ()), *(Node(40 - i, ((0, 1, i),)) for i in range(1, 41))]
-    found = Diagram(tuple(v.name for v in variables), Nodes.of(nodes), 41)
+    nodes = [CertifiedNode(40, ()), *(CertifiedNode(40 - i, ((0, 1, i),)) for i in range(1, 41))]
+    found = CertifiedDiagram(tuple(v.name for v in variables), Nodes.of(nodes), 41)
     domains = {v.name: v.domain for v in variables}
     assert diagrams.count(found, list(domains.values())) == 0
     with pytest.raises(sweep.DeadEnd):
-        Rows(found, domains, 1)
+        SweepRows(found, domains, 1)
 
 
 def test_every_operator_is_evaluated_on_columns() -> None:
@@ -125,7 +125,9 @@ def test_a_large_diagram_is_swept() -> None:
         patch.setattr(checking, "LARGE", 0)
         patch.setattr(enumeration, "MOST", 0)
         assert check(one, system, BOTH) == Accepted("4 valuations and 1 vectors of inputs tried")
-        lost = replace(one, invariant=Diagram(("count",), Nodes.of([Node(0, ((0, 2, 0),))]), 1))
+        lost = replace(
+            one, invariant=CertifiedDiagram(("count",), Nodes.of([CertifiedNode(0, ((0, 2, 0),))]), 1)
+        )
         outcome = check(lost, system, BOTH)
         assert isinstance(outcome, Rejected) and outcome.obligation == "consecution"
         assert outcome.shown == "count = 2; after 1 ticks count = 3, bad = false"

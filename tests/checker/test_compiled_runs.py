@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from checker.results.verdict import Run
-from checker.verify.runs.compiled import Compiled, TooDeep
+from checker.verify.runs.compiled import CompiledStep, TooDeep
 from checker.verify.runs.known import reached
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import integer
@@ -50,28 +50,30 @@ def test_the_same_goals_after_the_same_ticks(data: st.DataObject) -> None:
 
     frozen, wanted = values(system.frozen), goals(system)
     inputs = [values(system.inputs) for _ in range(data.draw(st.integers(0, 6)))]
-    assert Compiled(system, wanted).first(frozen, inputs) == plainly(system, wanted, frozen, inputs)
+    assert CompiledStep(system, wanted).first(frozen, inputs) == plainly(system, wanted, frozen, inputs)
 
 
 def test_a_run_ends_where_inputs_are_not_allowed() -> None:
     system = filling(2)
     full = system.var("full")
     held, refused = {"hold": 1, "noise": 5}, {"hold": 1, "noise": 3}
-    compiled = Compiled(system, [full])
+    compiled = CompiledStep(system, [full])
     assert compiled.first({}, [held, held]) == {"full": 2}
     assert compiled.first({}, [held, refused, held]) == {}
     assert compiled.first({}, [held, {"hold": 1, "noise": 4}, held]) == {}
 
 
 def test_what_a_run_does_not_say_is_as_it_begins() -> None:
-    assert Compiled(relay(), [relay().var("on")]).first({"nothing": 3}, [{}, {"critical": 1}]) == {"on": 2}
+    assert CompiledStep(relay(), [relay().var("on")]).first({"nothing": 3}, [{}, {"critical": 1}]) == {
+        "on": 2
+    }
 
 
 def test_a_frozen_value_outside_its_domain_is_no_run() -> None:
     phase = var("phase", integer(0, 3))
     system = TransitionSystem("phased", (), (phase,), (GOAL,), (), (Assign(GOAL, phase >= 2),))
-    assert Compiled(system, [GOAL]).first({"phase": 2}, [{}]) == {"goal": 1}
-    assert Compiled(system, [GOAL]).first({"phase": 7}, [{}]) == {}
+    assert CompiledStep(system, [GOAL]).first({"phase": 2}, [{}]) == {"goal": 1}
+    assert CompiledStep(system, [GOAL]).first({"phase": 7}, [{}]) == {}
 
 
 def test_what_is_shared_and_nested_deeply_is_written_once() -> None:
@@ -80,7 +82,7 @@ def test_what_is_shared_and_nested_deeply_is_written_once() -> None:
     for _ in range(300):  # as a tree, more operators than there are atoms
         value = ite(value == 1, value, 1 - value)
     system = TransitionSystem("nested", (), (), (count, GOAL), (), (Assign(GOAL, value == 1),))
-    assert Compiled(system, [GOAL]).first({}, [{}]) == {"goal": 1}
+    assert CompiledStep(system, [GOAL]).first({}, [{}]) == {"goal": 1}
 
 
 def test_branches_beyond_all_measure_are_told() -> None:
@@ -90,7 +92,7 @@ def test_branches_beyond_all_measure_are_told() -> None:
         program = (If(go, program),)
     system = TransitionSystem("deep", (go,), (), (GOAL,), (), program)
     with pytest.raises(TooDeep):
-        Compiled(system, [GOAL])
+        CompiledStep(system, [GOAL])
 
 
 def test_what_only_compiled_code_finds_is_a_bug_of_ours(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -92,8 +92,8 @@ def a_parents_bit_is_misplaced(patch: pytest.MonkeyPatch) -> None:
     def note(self: Any, build: Any, parents: Any, index: Any, origin: Any) -> None:
         real(self, build, parents, build.add(index, INT(1)), origin)
 
-    real = table.Table._note_parent
-    patch.setattr(table.Table, "_note_parent", note)
+    real = table.StateTable._note_parent
+    patch.setattr(table.StateTable, "_note_parent", note)
 
 
 def fields_overlap(patch: pytest.MonkeyPatch) -> None:
@@ -174,14 +174,16 @@ def the_else_branch_is_lost(patch: pytest.MonkeyPatch) -> None:
 
 def all_is_known(patch: pytest.MonkeyPatch) -> None:
     """The table says "known" whenever another valuation lies where one belongs."""
-    patch.setattr(table.Table, "_same", lambda *_: BIT(1))
+    patch.setattr(table.StateTable, "_same", lambda *_: BIT(1))
 
 
 def nothing_is_known(patch: pytest.MonkeyPatch) -> None:
     """The table never recognises a valuation; the search ends all the same, by its depth."""
-    patch.setattr(table.Table, "_same", lambda *_: BIT(0))
+    patch.setattr(table.StateTable, "_same", lambda *_: BIT(0))
     patch.setattr(
-        answers, "Search", lambda n, limits, *rest: levels.Search(n, replace(limits, depth=4), *rest)
+        answers,
+        "LevelSearch",
+        lambda n, limits, *rest: levels.LevelSearch(n, replace(limits, depth=4), *rest),
     )
 
 
@@ -195,9 +197,9 @@ def only_the_first_word_is_compared(patch: pytest.MonkeyPatch) -> None:
             self, build, a, entry, key, mixed_
         )  # fmt: skip
 
-    real, one = table.Table.hash, table.Table._same
-    patch.setattr(table.Table, "hash", hashed)
-    patch.setattr(table.Table, "_same", same)
+    real, one = table.StateTable.hash, table.StateTable._same
+    patch.setattr(table.StateTable, "hash", hashed)
+    patch.setattr(table.StateTable, "_same", same)
 
 
 def a_goal_is_overlooked(patch: pytest.MonkeyPatch) -> None:
@@ -226,12 +228,12 @@ def rehashing_forgets(patch: pytest.MonkeyPatch) -> None:
 
     real = native.NativeSearch.rehash
     patch.setattr(native.NativeSearch, "rehash", rehash)
-    patch.setattr(answers, "Search", _small)
+    patch.setattr(answers, "LevelSearch", _small)
 
 
-def _small(*args: Any) -> levels.Search:
+def _small(*args: Any) -> levels.LevelSearch:
     """A search whose table must grow at once."""
-    made = levels.Search(*args)
+    made = levels.LevelSearch(*args)
     made.store.table = made.store.table[:8].copy()
     return made
 
@@ -284,7 +286,7 @@ def test_a_fault_is_seen(fault: Fault, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_a_small_table_is_no_fault(monkeypatch: pytest.MonkeyPatch) -> None:
     """What ``rehashing_forgets`` adds to the fault does no harm alone."""
-    monkeypatch.setattr(answers, "Search", _small)
+    monkeypatch.setattr(answers, "LevelSearch", _small)
     assert not list(differences())
 
 

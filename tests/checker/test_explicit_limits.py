@@ -113,7 +113,7 @@ def test_a_time_limit_is_for_all_searches_together() -> None:
 
 
 def test_no_more_valuations_than_have_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(levels, "Store", partial(store.Store, most=1000))
+    monkeypatch.setattr(levels, "StateStore", partial(store.StateStore, most=1000))
     system, end = counters(50, 50)
     (answer,) = check(system, end)
     assert isinstance(answer, Open)

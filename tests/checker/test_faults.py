@@ -9,7 +9,7 @@ from checker.engines import ALL, AUTO, Engine, Limits, Progress
 from checker.process.faults import Fault, InternalError, attempted, listening, tell
 from checker.process.isolate import Send, Stopped, messages
 from checker.results.verdict import Answer, Inductive, Open, Reached, Run, Unreachable
-from checker.verify.portfolio import Question, Told, answers, compare, turns
+from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers, compare, turns
 from checker.verify.portfolio.order import ORDERS, Turn
 from spec_model.lang.action import Assign
 from spec_model.lang.errors import ModelError
@@ -82,7 +82,7 @@ def asked(
     monkeypatch.setattr(turns, "ORDERS", dict.fromkeys(ORDERS, tuple(map(Turn, known))))
     faults: list[Fault] = []
     with listening(faults.append):
-        found = answers(Question(SYSTEM, (ON, OFF)), how, LIMITS, Told())
+        found = answers(PortfolioQuestion(SYSTEM, (ON, OFF)), how, LIMITS, Callbacks())
     return {name: answer for name, (answer, _) in found.items()}, faults
 
 
@@ -141,7 +141,7 @@ def test_a_mistake_of_the_model_ends_all_turns(monkeypatch: pytest.MonkeyPatch) 
 
 def test_a_fault_to_which_nobody_listens_is_raised() -> None:
     with pytest.raises(ValueError, match="no such"):
-        answers(Question(SYSTEM, (ON,)), Broken("start", ValueError("no such")), LIMITS, Told())
+        answers(PortfolioQuestion(SYSTEM, (ON,)), Broken("start", ValueError("no such")), LIMITS, Callbacks())
     with pytest.raises(InternalError, match="one failed on two with three"):
         tell(Fault("one", "two", "three"))
 

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from checker.engines import Limits
 from checker.explore.graphs.making import LIMITS, Made, made
 from checker.explore.graphs.projecting import exact_with
-from checker.results.graph import Kind, StateGraph
+from checker.results.graph import ProjectionKind, StateGraph
 from checker.system.slice import sliced
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Const, all_of
@@ -94,7 +94,7 @@ def check_against(found: Naive, graph: StateGraph) -> None:
         for raw in some
         for other in some[:1]
     )
-    assert graph.kind is (Kind.EXACT if bisimulation else Kind.OVER)
+    assert graph.kind is (ProjectionKind.EXACT if bisimulation else ProjectionKind.OVER)
     assert bool(graph.mixed) is not bisimulation
     assert graph.valuations == len(found.following)
 
@@ -189,10 +189,10 @@ def test_a_toy_is_as_defined(name: str) -> None:
 
 def test_what_makes_a_projection_exact() -> None:
     graph = made(toys.relay(), ("on",)).graph
-    assert graph.kind is Kind.OVER
+    assert graph.kind is ProjectionKind.OVER
     for names, nodes in graph.exact_with:
         finer = made(toys.relay(), ("on", *names)).graph
-        assert finer.kind is Kind.EXACT and len(finer.nodes) == nodes
+        assert finer.kind is ProjectionKind.EXACT and len(finer.nodes) == nodes
     assert [names for names, _ in graph.exact_with] == [("hold",)]
 
 
@@ -206,19 +206,19 @@ class TestCut:
 
     def test_by_depth_every_path_is_a_run_where_nothing_is_mixed(self) -> None:
         graph = made(toys.filling(6), ("count",), Limits(depth=3)).graph
-        assert graph.kind is Kind.UNDER and "3 ticks" in graph.cut
+        assert graph.kind is ProjectionKind.UNDER and "3 ticks" in graph.cut
         assert [n.raw for n in graph.nodes] == [(0,), (1,), (2,), (3,)]
         assert [n.unexpanded for n in graph.nodes] == [0, 0, 0, 1]
         assert graph.absorbing == frozenset()
 
     def test_by_depth_mixed_nodes_leave_neither(self) -> None:
         graph = made(toys.filling(6), ("full",), Limits(depth=3)).graph
-        assert graph.kind is Kind.NEITHER and not graph.exact_with
+        assert graph.kind is ProjectionKind.NEITHER and not graph.exact_with
         assert "is cut" in graph.because[0]
 
     def test_by_memory(self) -> None:
         graph = made(toys.counter(50, top=60), ("count",), Limits(memory=2000)).graph
-        assert "memory limit" in graph.cut and graph.kind is not Kind.EXACT
+        assert "memory limit" in graph.cut and graph.kind is not ProjectionKind.EXACT
         assert len(graph.nodes) < 61
 
     def test_by_time(self) -> None:
@@ -234,7 +234,7 @@ def test_an_abstract_system_says_so() -> None:
     fewer = replace(toys.filling(6), source=System("filling", (), under=True))
     both = replace(toys.filling(6), source=System("filling", (), over=True, under=True))
     kinds = [made(s, ("count",)).graph.kind for s in (more, fewer, both)]
-    assert kinds == [Kind.OVER, Kind.UNDER, Kind.NEITHER]
+    assert kinds == [ProjectionKind.OVER, ProjectionKind.UNDER, ProjectionKind.NEITHER]
     assert made(more, ("count",)).graph.because == ("filling has more runs than the real system",)
 
 

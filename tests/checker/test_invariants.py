@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 
 from checker.encode.cone import Slice, cone
-from checker.encode.invariants import Candidates, Cube, Pool
+from checker.encode.invariants import Candidates, TemplateCube, TemplatePool
 from checker.encode.simulate import Columns, Simulator, Vectorised
 from checker.encode.symbolic import transition
 from spec_model.lang.evaluate import evaluate
@@ -52,7 +52,7 @@ def test_templates(system: TransitionSystem, expected: str) -> None:
 
 def test_a_clause_that_excludes_a_cube() -> None:
     part, sample = sampled(relay(9))
-    never = Cube({"on": 1, "hold": 5, "since": 3, "goal": 0}, frozenset({"on", "hold", "since"}))
+    never = TemplateCube({"on": 1, "hold": 5, "since": 3, "goal": 0}, frozenset({"on", "hold", "since"}))
     clause = Candidates(part, sample).excluding(never, np.random.default_rng(0))
     assert clause is not None and not evaluate(clause, never.valuation)
     assert np.all(Vectorised([clause])(sample)[0])
@@ -60,15 +60,15 @@ def test_a_clause_that_excludes_a_cube() -> None:
 
 def test_a_cube_that_runs_visit_is_not_excluded() -> None:
     part, sample = sampled(relay(9))
-    seen = Cube({"on": 1, "hold": 3, "since": 3, "goal": 0}, frozenset({"on", "hold", "since"}))
+    seen = TemplateCube({"on": 1, "hold": 3, "since": 3, "goal": 0}, frozenset({"on", "hold", "since"}))
     assert Candidates(part, sample).excluding(seen, np.random.default_rng(0)) is None
 
 
 def test_a_pool_gives_each_candidate_once() -> None:
     part, sample = sampled(relay(9))
-    pool = Pool(everything(Candidates(part, sample)))
+    pool = TemplatePool(everything(Candidates(part, sample)))
     size = len(pool)
-    cube = Cube({"on": 1, "hold": 5, "since": 3, "goal": 0}, frozenset({"on", "hold", "since"}))
+    cube = TemplateCube({"on": 1, "hold": 5, "since": 3, "goal": 0}, frozenset({"on", "hold", "since"}))
     taken = pool.take(cube)
     assert taken and not any(evaluate(candidate, cube.valuation) for candidate in taken)
     assert pool.take(cube) == [] and len(pool) == size - len(taken)

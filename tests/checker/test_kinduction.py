@@ -8,8 +8,15 @@ from hypothesis import given, settings
 
 from benchmarks.roverlite import roverlite
 from checker.engines import Limits, engines, kinduction, quiet
-from checker.engines.kinduction.events import Bound, Closed, Doing, Event, Found, Stuck
-from checker.engines.kinduction.hunt import Hunt
+from checker.engines.kinduction.events import (
+    Event,
+    InductionBound,
+    InductionClosed,
+    InductionFound,
+    InductionProgress,
+    InductionStuck,
+)
+from checker.engines.kinduction.hunt import InvariantHunt
 from checker.engines.kinduction.search import search
 from checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
 from spec_model.lang.action import Assign, If
@@ -36,15 +43,15 @@ def answered(events: Iterable[Event], wanted: Sequence[Var]) -> Mapping[str, Ans
     deep = {g.name: 0 for g in wanted}
     for event in events:
         match event:
-            case Found(goal, run, shortest):
+            case InductionFound(goal, run, shortest):
                 found[goal] = Reached(run, shortest)
-            case Closed(goal, because):
+            case InductionClosed(goal, because):
                 found[goal] = Unreachable(because)
-            case Bound(names, ticks):
+            case InductionBound(names, ticks):
                 deep |= dict.fromkeys(names, ticks)
-            case Stuck(names, reason):
+            case InductionStuck(names, reason):
                 found |= {n: Open(reason, deep[n]) for n in names}
-            case Doing():
+            case InductionProgress():
                 pass
     assert found.keys() == deep.keys()
     return found
@@ -105,7 +112,7 @@ def test_a_state_that_is_never_entered_is_excluded() -> None:
 
 def test_simple_paths_where_no_invariant_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """Waiting may last for ever, but not along a simple path."""
-    monkeypatch.setattr(Hunt, "phases", lambda self: iter(()))
+    monkeypatch.setattr(InvariantHunt, "phases", lambda self: iter(()))
     because = proved(waiting())
     assert because.simple and not because.conjuncts
 
@@ -114,7 +121,7 @@ def test_simple_paths_are_simple_in_all_that_the_goal_is_written_with(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """``turn`` is simplified away, and valuations that differ in it alone are different to who checks."""
-    monkeypatch.setattr(Hunt, "phases", lambda self: iter(()))
+    monkeypatch.setattr(InvariantHunt, "phases", lambda self: iter(()))
     turn, plain = var("turn", integer(0, 1)), waiting()
     step = (*plain.step, Assign(GOAL, GOAL | (turn > 1)), Assign(turn, 1 - turn))
     system = replace(plain, variables=(*plain.variables, turn), step=step)

@@ -8,7 +8,7 @@ from checker.encode.bitvector import Term
 from checker.encode.cone import Slice
 from checker.encode.terms import Terms
 from checker.engines.kinduction import houdini, hunt, induction, search
-from checker.engines.kinduction.events import Bound, Closed, Event
+from checker.engines.kinduction.events import Event, InductionBound, InductionClosed
 from checker.engines.kinduction.ticks import Ticks
 from spec_model.lang.expr import Expr
 from spec_model.lang.system import TransitionSystem
@@ -19,7 +19,7 @@ from tests.toys import GOAL, counter, once, overflowing, relay, waiting
 def claims(system: TransitionSystem) -> list[str]:
     """What plain enumeration says of the engine's claim; ``no claim`` if it makes none."""
     for event in search.search(system, [GOAL.name], None):
-        if isinstance(event, Closed):
+        if isinstance(event, InductionClosed):
             return problems(system, GOAL, event.because)
     return ["no claim"]
 
@@ -65,11 +65,11 @@ def test_a_dropped_domain_constraint(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_base_case_that_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     assert claims(once()) == ["no claim"]
 
-    def unseen(self: search.Group) -> Iterator[Event]:
+    def unseen(self: search.InductionGroup) -> Iterator[Event]:
         self.deep = search.BASE
-        yield Bound(tuple(self.open), self.deep)
+        yield InductionBound(tuple(self.open), self.deep)
 
-    monkeypatch.setattr(search.Group, "_first_ticks", unseen)
+    monkeypatch.setattr(search.InductionGroup, "_first_ticks", unseen)
     monkeypatch.setattr(search, "SIMULATED", 0)
     assert claims(once()) == ["base"]
 
@@ -99,7 +99,7 @@ def test_simple_paths_that_are_too_simple(monkeypatch: pytest.MonkeyPatch) -> No
         yield from ()
 
     monkeypatch.setattr(search, "SIMULATED", 10)
-    monkeypatch.setattr(hunt.Hunt, "phases", no_phases)
+    monkeypatch.setattr(hunt.InvariantHunt, "phases", no_phases)
     assert claims(system) == ["no claim"]
     monkeypatch.setattr(induction, "_differ", differ)
     assert "safety" in claims(system)

@@ -12,7 +12,7 @@ import pytest
 
 from checker.engines import Engine, Limits, Progress, engines, explicit, quiet
 from checker.explore.graphs.making import made
-from checker.results.graph import Kind
+from checker.results.graph import ProjectionKind
 from checker.results.trace import Trace
 from checker.results.verdict import Answer, Exhausted, Open, Proved, Reached, Run, Unknown, Violated
 from checker.system.lowered import lowered
@@ -273,7 +273,7 @@ def test_a_graph_does_not_go_on_after_an_exit() -> None:
 def test_a_graph_that_does_not_look_at_a_domain_is_not_exact() -> None:
     """Its paths go on where the runs of the model may end."""
     graph = made(lowered(MODELS["in every run"]), ["Lamp"]).graph
-    assert graph.kind is Kind.OVER
+    assert graph.kind is ProjectionKind.OVER
     assert graph.because == ("whether x may leave the domain, where a run ends, was not looked into",)
 
 

@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.engines import Limits, engines, localisation, quiet
-from checker.engines.localisation.bounded import Bounded, Core, Hit
+from checker.engines.localisation.bounded import BoundedEngine, BoundedHit, Core
 from checker.engines.localisation.cuts import with_cuts, with_switches, written
 from checker.engines.localisation.orders import Orders
 from checker.process.isolate import Stopped
@@ -117,7 +117,7 @@ def test_a_proof_rests_on_the_few_variables_that_matter() -> None:
 
 def test_why_a_goal_is_out_of_reach() -> None:
     said: SimpleQueue[object] = SimpleQueue()
-    Bounded(board(12))(said.put, GOAL.name, 3, frozenset())
+    BoundedEngine(board(12))(said.put, GOAL.name, 3, frozenset())
     assert said.get_nowait() == Core(frozenset({GOAL.name, "latch"}))
 
 
@@ -171,5 +171,5 @@ def test_a_run_found_at_once_is_told() -> None:
     said: SimpleQueue[object] = SimpleQueue()
     hot = flag("hot")
     system = TransitionSystem("hot", (hot,), (), (GOAL,), (), (assign(GOAL, hot),))
-    Bounded(system)(said.put, GOAL.name, 2, frozenset())
-    assert isinstance(said.get_nowait(), Hit)
+    BoundedEngine(system)(said.put, GOAL.name, 2, frozenset())
+    assert isinstance(said.get_nowait(), BoundedHit)

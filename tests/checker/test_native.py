@@ -11,7 +11,7 @@ from llvmlite import ir
 
 from checker.encode.native import OutsideDomain, TooWide, layout
 from checker.encode.native.expressions import BIT, INT, Expressions, Slot
-from checker.encode.native.jit import Library
+from checker.encode.native.jit import NativeLibrary
 from checker.encode.native.table import WORDS, function
 from checker.system.intervals import Interval
 from spec_model.lang.domain import Bool, Num, chosen, integer
@@ -45,7 +45,7 @@ def compiled(expr: Expr) -> Callable[[dict[str, int]], int]:
         slots[v.name] = Slot(place, Interval(v.domain.low, v.domain.high))
     emit = Expressions(build, slots)
     build.ret(emit.as_int(emit.value(expr)))
-    library = Library.of(module)
+    library = NativeLibrary.of(module)
     call = library.function("formula", ctypes.c_int64, [ctypes.c_void_p])
 
     def run(at: dict[str, int]) -> int:

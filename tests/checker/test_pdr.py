@@ -10,7 +10,7 @@ from checker.encode.bits import circuit
 from checker.encode.bits.aig import Aig, Literal
 from checker.encode.bits.cnf import Cnf
 from checker.engines import Limits, engines, pdr, quiet
-from checker.engines.pdr.events import Bound, Decided, Undefined
+from checker.engines.pdr.events import Decided, PdrBound, PdrUndefined
 from checker.engines.pdr.groups import decisions
 from checker.process.isolate import Send
 from checker.results.verdict import Inductive, Open, Reached, Unreachable
@@ -35,7 +35,7 @@ def decided(
         match event:
             case Decided(goal, answer):
                 found[goal] = answer
-            case Undefined():
+            case PdrUndefined():
                 raise AssertionError(event)
     assert set(found) == set(names)
     return found
@@ -209,7 +209,7 @@ def _die(send: Send, *_: object) -> None:
 
 
 def test_what_was_seen_before_the_time_was_over_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    cut_off(monkeypatch, pdr, Bound("full", 7, 12))
+    cut_off(monkeypatch, pdr, PdrBound("full", 7, 12))
     lines = list[str]()
     answers = pdr.check(filling(3), [flag("full")], Limits(), lines.append)
     assert answers["full"] == Open(LIMIT, 7)

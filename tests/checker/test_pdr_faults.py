@@ -12,13 +12,13 @@ import pytest
 from checker.encode.bits import Circuit, Literal
 from checker.engines.pdr import groups, search, seeds
 from checker.engines.pdr.cubes import Cube, cube
-from checker.engines.pdr.events import Bound, Decided
+from checker.engines.pdr.events import Decided, PdrBound
 from checker.engines.pdr.frames import Frames
 from checker.engines.pdr.generalise import Generaliser
 from checker.engines.pdr.groups import decisions
-from checker.engines.pdr.lemmas import Lemma, Step
+from checker.engines.pdr.lemmas import Lemma, LemmaStep
 from checker.engines.pdr.lift import Lifter
-from checker.engines.pdr.machine import Machine, machine
+from checker.engines.pdr.machine import PdrMachine, machine
 from checker.results.verdict import Reached, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import chosen, integer
@@ -89,7 +89,7 @@ def wrong() -> Iterator[str]:
             lies = [system.variables[0] < 3, system.variables[0] <= 5]
             for event in decisions(system, [g.name for g in goals], None, lies):
                 events += 1
-                if isinstance(event, Bound) and event.depth >= shortest.get(event.goal, event.depth + 1):
+                if isinstance(event, PdrBound) and event.depth >= shortest.get(event.goal, event.depth + 1):
                     yield f"{event.goal} is said not to be reached within {event.depth} ticks"
                 if isinstance(event, Decided):
                     answers[event.goal] = event.answer
@@ -118,11 +118,11 @@ class Fault:
     wrong: Callable[..., object]
 
 
-def _pushed_without_asking(self: search.Search, lemma: Lemma) -> None:
+def _pushed_without_asking(self: search.PdrSearch, lemma: Lemma) -> None:
     self.frames.raise_(lemma, lemma.level + 1)
 
 
-def _lost_when_pushed(self: search.Search, lemma: Lemma) -> None:
+def _lost_when_pushed(self: search.PdrSearch, lemma: Lemma) -> None:
     """A clause that is dropped at propagation, as if it were implied."""
     self.frames.lemmas[lemma.level].remove(lemma)
 
@@ -140,23 +140,23 @@ def _without_initiation(self: Generaliser, blocked: Cube, level: int) -> Cube:
     return blocked
 
 
-def _too_general(self: Lifter, step: Step, target: Cube) -> Cube:
+def _too_general(self: Lifter, step: LemmaStep, target: Cube) -> Cube:
     whole = _into(self, step, target)
     return cube(whole.literals[:-1])
 
 
-def _equal_too_early(self: search.Search) -> None:
+def _equal_too_early(self: search.PdrSearch) -> None:
     """The lemmas of the highest frame are taken to be inductive before two frames are equal."""
     _propagate(self)
     self._conclude(self.frames.top)
 
 
-def _no_assumption(circuit: Circuit, known: Sequence[Literal]) -> Machine:
+def _no_assumption(circuit: Circuit, known: Sequence[Literal]) -> PdrMachine:
     made = _machine(circuit, known)
     return replace(made, assume=made.true)
 
 
-def _no_start(circuit: Circuit, known: Sequence[Literal]) -> Machine:
+def _no_start(circuit: Circuit, known: Sequence[Literal]) -> PdrMachine:
     made = _machine(circuit, known)
     return replace(made, start=made.true, domains={})
 
@@ -177,11 +177,11 @@ def _unproved(circuit: Circuit, candidates: Sequence[Expr]) -> list[seeds.Seed]:
     return houdini.left
 
 
-_into, _propagate, _machine = Lifter.into, search.Search._propagate, machine
+_into, _propagate, _machine = Lifter.into, search.PdrSearch._propagate, machine
 
 FAULTS = (
-    Fault("a clause dropped at propagation", search.Search, "_try", _lost_when_pushed),
-    Fault("a clause pushed without asking", search.Search, "_try", _pushed_without_asking),
+    Fault("a clause dropped at propagation", search.PdrSearch, "_try", _lost_when_pushed),
+    Fault("a clause pushed without asking", search.PdrSearch, "_try", _pushed_without_asking),
     Fault("generalisation without the initiation test", Generaliser, "_smallest", _without_initiation),
     Fault("initial valuations overlooked", Frames, "initial", _never_initial),
     Fault("generalisation without the induction test", Generaliser, "_smallest", _unguarded_drop),
@@ -189,7 +189,7 @@ FAULTS = (
     Fault("a missing assumption", groups, "machine", _no_assumption),
     Fault("frozen variables that start anywhere", groups, "machine", _no_start),
     Fault("candidates that are not inductive", groups, "proved", _unproved),
-    Fault("convergence declared a frame early", search.Search, "_propagate", _equal_too_early),
+    Fault("convergence declared a frame early", search.PdrSearch, "_propagate", _equal_too_early),
 )
 
 

@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 
 from checker.process.isolate import Send, messages
-from checker.process.pool import Event, Granted, Order, Pool
+from checker.process.pool import Granted, Order, Pool, PoolEvent
 from tests.checker.test_isolate import _tell_and_sleep as tell_and_sleep
 from tests.checker.test_isolate import gone
 
@@ -45,9 +45,9 @@ class Doing:
 POOL = Pool(2, Doing, ("hello",), memory=2 << 30, hard=1.0, grace=0.3)
 
 
-def heard(*orders: str, pool: Pool = POOL) -> dict[int, list[Event]]:
+def heard(*orders: str, pool: Pool = POOL) -> dict[int, list[PoolEvent]]:
     """What is heard of each order."""
-    found: dict[int, list[Event]] = {n: [] for n in range(len(orders))}
+    found: dict[int, list[PoolEvent]] = {n: [] for n in range(len(orders))}
     for event in pool.run([Order((what,)) for what in orders]):
         found[event.number].append(event)
     return found

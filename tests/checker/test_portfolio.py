@@ -11,11 +11,11 @@ from hypothesis import strategies as st
 from checker.engines import ALL, AUTO, Engine, Limits, Progress, engines
 from checker.results.verdict import Answer, Exhausted, Inductive, Open, Reached, Run, Unreachable
 from checker.verify.portfolio import (
+    Callbacks,
     Disagreement,
     Found,
     Hint,
-    Question,
-    Told,
+    PortfolioQuestion,
     answers,
     as_found,
     compare,
@@ -82,7 +82,7 @@ def using(monkeypatch: pytest.MonkeyPatch):
 
 
 def ask(engine: str | Engine = AUTO, limits: Limits = UNLIMITED, *checks: Var) -> Found:
-    return answers(Question(system(*checks), (ON, OFF)), engine, limits, Told())
+    return answers(PortfolioQuestion(system(*checks), (ON, OFF)), engine, limits, Callbacks())
 
 
 def test_only_open_goals_are_passed_on(using) -> None:
@@ -117,7 +117,9 @@ def test_time_is_shared_out(using) -> None:
     first, second = Fake("first", {}), Fake("second", {"on": NEVER, "off": NEVER})
     using(first, second)
     granted: list[float | None] = []
-    answers(Question(system(), (ON, OFF)), AUTO, Limits(seconds=100), Told(granted=granted.append))
+    answers(
+        PortfolioQuestion(system(), (ON, OFF)), AUTO, Limits(seconds=100), Callbacks(granted=granted.append)
+    )
     [(_, early)], [(_, late)] = first.asked, second.asked
     assert early.seconds is not None and late.seconds is not None and late.seconds <= early.seconds <= 100
     assert [round(seconds or 0) for seconds in granted] == [100] * 4
@@ -136,8 +138,10 @@ def test_that_a_goal_is_never_reached_counts_only_if_the_model_stays_in_its_doma
 def test_answers_are_given_once_as_they_are_found(using) -> None:
     using(Fake("first", {"on": run(4)}), Fake("second", {"off": NEVER}), Fake("third", {STRAY.name: NEVER}))
     heard: list[set[str]] = []
-    told = Told(answered=lambda _, found: heard.append(set(found)))
-    given = [set(found) for found in as_found(Question(system(STRAY), (ON, OFF)), AUTO, Limits(), told)]
+    told = Callbacks(answered=lambda _, found: heard.append(set(found)))
+    given = [
+        set(found) for found in as_found(PortfolioQuestion(system(STRAY), (ON, OFF)), AUTO, Limits(), told)
+    ]
     assert given == heard == [{"on"}, {"off", STRAY.name}]
 
 
@@ -149,7 +153,7 @@ def test_one_engine_may_be_given_as_it_is() -> None:
 def test_a_short_run_is_enough_for_who_wants_one(using) -> None:
     first, second = Fake("first", {"on": run(1), "off": run(2)}), Fake("second", {})
     using(first, second)
-    answers(Question(system(STRAY), (ON, OFF), Hint.SHORT), AUTO, Limits(), Told())
+    answers(PortfolioQuestion(system(STRAY), (ON, OFF), Hint.SHORT), AUTO, Limits(), Callbacks())
     assert second.asked == []
 
 

@@ -12,9 +12,9 @@ from checker.engines import AUTO, Engine, Limits
 from checker.engines.kinduction.search import with_given
 from checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
 from checker.system.formula_json import Tree, Unreadable, formula, readable, size, written
-from checker.verify.portfolio import Question, Told, answers, turns
+from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers, turns
 from checker.verify.portfolio.order import ORDERS, SOON
-from checker.verify.portfolio.recorded import Recorded
+from checker.verify.portfolio.recorded import RecordedInvariants
 from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Expr, Var, flag, var
@@ -134,8 +134,8 @@ def test_what_was_proved_once_is_shown_again(system: TransitionSystem) -> None:
 
 
 def asked(system: TransitionSystem, candidates: tuple[Expr, ...] | None, engine: str = AUTO) -> Answer:
-    question = Question(system, (GOAL,), candidates=candidates)
-    return answers(question, engine, Limits(), Told())[GOAL.name][0]
+    question = PortfolioQuestion(system, (GOAL,), candidates=candidates)
+    return answers(question, engine, Limits(), Callbacks())[GOAL.name][0]
 
 
 def test_what_a_record_shows_is_not_searched_for(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -170,7 +170,7 @@ def test_what_a_record_leaves_open_is_enumerated_next(monkeypatch: pytest.Monkey
     order, asked_by = list[str](), turns.asked
 
     def noted(engine: Engine, *rest: Any) -> dict[str, tuple[Answer, str]]:
-        order.append(engine.SUMMARY if isinstance(engine, Recorded) else engine.NAME)
+        order.append(engine.SUMMARY if isinstance(engine, RecordedInvariants) else engine.NAME)
         return asked_by(engine, *rest)
 
     monkeypatch.setattr(turns, "asked", noted)
@@ -178,7 +178,7 @@ def test_what_a_record_leaves_open_is_enumerated_next(monkeypatch: pytest.Monkey
         "checker.verify.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, (SOON, ORDERS["narrow"][0]))
     )
     assert isinstance(asked(relay(20), ()), Unreachable)
-    assert order == [Recorded.SUMMARY, "explicit"]
+    assert order == [RecordedInvariants.SUMMARY, "explicit"]
     order.clear()
     assert isinstance(asked(relay(20), None), Unreachable)
     assert order[0] == SOON.engine

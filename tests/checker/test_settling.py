@@ -1,9 +1,9 @@
 """Loops far too long for an unrolling are found by letting inputs settle, and none where there is none."""
 
 from checker.encode.bits import circuit
-from checker.encode.bits.simulate import Simulation
+from checker.encode.bits.simulate import BitSimulation
 from checker.engines import quiet
-from checker.verify.liveness.loops import Hunt, hunt, looped
+from checker.verify.liveness.loops import LoopHunt, hunt, looped
 from checker.verify.liveness.settling import settled
 from properties.forms import settles
 from properties.reduce import reduce
@@ -32,7 +32,7 @@ calendar = in_order(
 """A year that goes round; once locked, what is wet stays wet."""
 
 
-def hunted(then: Expr) -> Hunt:
+def hunted(then: Expr) -> LoopHunt:
     prop = settles("DRY", "It dries.", premise=~rain & (day >= 0), then=then, covers=["X"], on="calendar")
     question = reduce(lower(calendar), [prop])
     return hunt(question, question.goals[0])
@@ -55,7 +55,7 @@ def test_nothing_is_found_where_there_is_no_loop() -> None:
 
 def test_runs_of_a_simulation_are_independent() -> None:
     system = lower(calendar)
-    simulation = Simulation(circuit(system, ["wet"]), 4)
+    simulation = BitSimulation(circuit(system, ["wet"]), 4)
     assert simulation.given({"rain": [0, 1, 0, 1], "pressed": [0, 0, 1, 1]}) == 0b1111
     assert simulation.value(simulation.circuit.goals["wet"]) == 0b1010
     simulation.advance()

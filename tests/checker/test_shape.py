@@ -2,7 +2,7 @@
 
 import pytest
 
-from checker.verify.portfolio import Hint, Question
+from checker.verify.portfolio import Hint, PortfolioQuestion
 from checker.verify.portfolio.order import ORDERS
 from checker.verify.portfolio.shape import BROAD, FEW, MANY, VAST, WIDE, Shape, shape
 from spec_model.composition.motors import motors_zero
@@ -24,7 +24,7 @@ def region(first: int) -> list[State]:
 
 
 def asked(chart: Chart) -> Shape:
-    return shape(Question(lower(in_order("c", chart)), tuple(chart.locations)))
+    return shape(PortfolioQuestion(lower(in_order("c", chart)), tuple(chart.locations)))
 
 
 def test_counters_of_states_that_are_never_active_together_do_not_make_a_question_wide() -> None:
@@ -66,4 +66,4 @@ def test_a_wide_valuation_with_many_free_bits_is_not_enumerated(
 
 
 def test_free_bits_are_those_of_inputs_that_the_goals_depend_on() -> None:
-    assert shape(Question(lower(systems()["weather_joystick"]), (motors_zero,))).free == 2
+    assert shape(PortfolioQuestion(lower(systems()["weather_joystick"]), (motors_zero,))).free == 2

@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 from hypothesis import given
 
-from checker.encode.native import Task, assembly, layout, search
+from checker.encode.native import NativeTask, assembly, layout, search
 from checker.engines import Timers
 from checker.system.slice import sliced
 from spec_model.lang.system import TransitionSystem
@@ -44,6 +44,6 @@ def test_random_systems_in_stages(system: TransitionSystem) -> None:
 def test_the_code_is_shared() -> None:
     system, wanted = mixed()
     part = sliced(system, wanted)
-    text = assembly("search", Task(part, layout((*part.frozen, *part.variables)), wanted))
+    text = assembly("search", NativeTask(part, layout((*part.frozen, *part.variables)), wanted))
     assert text.count("define internal i32 @") == 1
     assert "call i32 @" in text

@@ -7,7 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.strategies import DataObject
 
-from checker.encode.native import OutsideDomain, Task, layout, search
+from checker.encode.native import NativeTask, OutsideDomain, layout, search
 from checker.encode.path_statements import Branch, Choose, Complete, Each, PathProgram, PathStatement, Require
 from checker.encode.sinking import sunk
 from checker.engines import Limits, Timers
@@ -30,9 +30,9 @@ SEEN = enumeration("Seen", {"NEAR": 0, "MID": 1, "FAR": 2})
 NEAR, MID, FAR = (member(SEEN, name) for name in ("NEAR", "MID", "FAR"))
 
 
-def task(system: TransitionSystem, wanted: tuple[Var, ...]) -> Task:
+def task(system: TransitionSystem, wanted: tuple[Var, ...]) -> NativeTask:
     part = sliced(system, wanted)
-    return Task(part, layout((*part.frozen, *part.variables)), wanted)
+    return NativeTask(part, layout((*part.frozen, *part.variables)), wanted)
 
 
 def statements(program: PathProgram) -> Iterator[PathStatement]:
@@ -43,7 +43,7 @@ def statements(program: PathProgram) -> Iterator[PathStatement]:
             yield from statements((*statement.then, *statement.otherwise))
 
 
-def stages(made: Task) -> tuple[PathProgram, PathProgram]:
+def stages(made: NativeTask) -> tuple[PathProgram, PathProgram]:
     """The statements before and after the valuation is complete."""
     (at,) = (i for i, s in enumerate(made.stages) if isinstance(s, Complete))
     return made.stages[:at], made.stages[at + 1 :]

@@ -9,11 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmarks.roverlite import roverlite
-from checker.encode.native import NativeSearch, Task, layout
+from checker.encode.native import NativeSearch, NativeTask, layout
 from checker.engines import Limits, quiet
-from checker.engines.explicit.levels import Found, Search
+from checker.engines.explicit.levels import ExplicitFound, LevelSearch
 from checker.engines.explicit.parents import Unary
-from checker.engines.explicit.store import Store
+from checker.engines.explicit.store import StateStore
 from checker.system.slice import sliced
 
 
@@ -30,11 +30,11 @@ def test_parents_are_read_as_they_were_noted(steps: list[int], times: int) -> No
             read[beyond]
 
 
-def searched(k: int, memory: int = 1 << 30) -> tuple[Search, Found]:
+def searched(k: int, memory: int = 1 << 30) -> tuple[LevelSearch, ExplicitFound]:
     system, goals = roverlite(28, k)
     part = sliced(system, goals)
-    task = Task(part, layout(part.variables), goals[-1:])
-    search = Search(NativeSearch.compile(task), Limits(memory=memory), None, quiet)
+    task = NativeTask(part, layout(part.variables), goals[-1:])
+    search = LevelSearch(NativeSearch.compile(task), Limits(memory=memory), None, quiet)
     return search, search.run()
 
 
@@ -60,7 +60,7 @@ def test_the_table_knows_exactly_what_is_stored() -> None:
 class _Fake:
     """What a store needs of a search."""
 
-    task: Task
+    task: NativeTask
 
     def rehash(self, *_: object) -> None:
         """Nothing is stored."""
@@ -70,9 +70,9 @@ class _Fake:
 def test_bytes_for_each_valuation_at_any_size(words: int) -> None:
     """From a million on: at most 24 for one word, however far the arrays have grown."""
     system, goals = roverlite(28)
-    task = Task(system, layout(system.variables), goals[-1:])
+    task = NativeTask(system, layout(system.variables), goals[-1:])
     packing = type(task.layout)(task.layout.fields, words)
-    store = Store(cast(NativeSearch, _Fake(Task(system, packing, task.goals))), 1 << 31)
+    store = StateStore(cast(NativeSearch, _Fake(NativeTask(system, packing, task.goals))), 1 << 31)
     count = 0
     while count < 12_000_000:
         assert store.grow(count) and store.room > count

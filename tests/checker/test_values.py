@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis.strategies import booleans
 
 from checker.certify.certificate import certificates
-from checker.certify.check import Effort, check
+from checker.certify.check import CheckEffort, check
 from checker.certify.outcome import Accepted
 from checker.encode import values as known_values
 from checker.encode.native import OutsideDomain, layout
@@ -87,7 +87,7 @@ def test_what_is_proved_case_by_case_has_a_certificate(system: TransitionSystem,
     found = explicit.check(several, asked, Limits(), quiet)
     made = certificates(several, asked, found, "explicit")
     for one in made:
-        assert isinstance(check(one, several, Effort()), Accepted)
+        assert isinstance(check(one, several, CheckEffort()), Accepted)
     proved = {name for name, answer in found.items() if isinstance(answer, Unreachable)}
     assert proved == {name for one in made for name in one.claims}
 

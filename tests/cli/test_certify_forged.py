@@ -7,14 +7,14 @@ from typing import Any
 import pytest
 
 from checker import cli
-from checker.certify.file import Origin, Written, read, write
+from checker.certify.file import CertificateOrigin, Written, read, write
 from checker.certify.outcome import Rejected
 from checker.certify.terms import Malformed
 from checker.commands.certify import derive as deriving
-from checker.commands.certify.derive import Checking, Told, told_of
+from checker.commands.certify.derive import Checking, DerivedVerdict, told_of
 from checker.commands.certify.run import certify
 from checker.commands.shared.codes import Exit
-from checker.process.pool import Event, Order, Pool
+from checker.process.pool import Order, Pool, PoolEvent
 from tests.certificate_files import COUNTERS, WHEEL, changed, counters, two_searches, written
 from tests.certifying import SOLVER
 
@@ -85,7 +85,7 @@ def test_properties_with_and_without_a_bound_are_never_searched_together(tmp_pat
     """As one about infinite runs, a property that one tick breaks would only need that no loop closes."""
     ids = "PB1-25-turned", "PSY-12"
     for order in (ids, ids[::-1]):
-        path = write(tmp_path, Origin("references_executed", order, order, {}), [])
+        path = write(tmp_path, CertificateOrigin("references_executed", order, order, {}), [])
         told = told_of(read(path), Checking("", SOLVER, None))
         assert [type(one.outcome) for one in told] == [Rejected, Rejected]
 
@@ -113,7 +113,7 @@ def test_nothing_is_counted_twice(made: Path, tmp_path: Path) -> None:
 def test_a_file_that_kills_its_reader_is_undecided(
     made: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def told(written: Written, checking: Checking, model: Path | None) -> list[Told]:
+    def told(written: Written, checking: Checking, model: Path | None) -> list[DerivedVerdict]:
         raise MemoryError if written.origin.system == "counters" else AssertionError("what is this")
 
     monkeypatch.setattr(deriving, "told_of", told)
@@ -123,7 +123,7 @@ def test_a_file_that_kills_its_reader_is_undecided(
     assert ": MemoryError" in said and ": AssertionError: what is this" in said
 
 
-def here(pool: Pool, orders: Sequence[Order]) -> Iterator[Event]:
+def here(pool: Pool, orders: Sequence[Order]) -> Iterator[PoolEvent]:
     """The orders of a pool, carried out in this process."""
     for number, order in enumerate(orders):
         sent: list[Any] = []
@@ -132,8 +132,8 @@ def here(pool: Pool, orders: Sequence[Order]) -> Iterator[Event]:
             pool.make(*pool.args)(sent.append, *order.args)
         except Exception as error:
             failure = f"{type(error).__name__}: {error}"
-        yield from (Event(number, message) for message in sent)
-        yield Event(number, done=True, failure=failure)
+        yield from (PoolEvent(number, message) for message in sent)
+        yield PoolEvent(number, done=True, failure=failure)
 
 
 def test_a_folder_for_obligations_that_cannot_be_written(
@@ -158,7 +158,7 @@ def test_files_of_one_name_keep_their_obligations_apart(made: Path, tmp_path: Pa
 
 
 def test_interrupted(made: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def stopped(pool: Pool, orders: Sequence[Order]) -> Iterator[Event]:
+    def stopped(pool: Pool, orders: Sequence[Order]) -> Iterator[PoolEvent]:
         yield from []
         raise KeyboardInterrupt
 

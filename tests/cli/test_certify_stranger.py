@@ -13,7 +13,7 @@ import pytest
 import z3
 
 from checker.certify.certificate import certificates
-from checker.certify.file import Origin, write
+from checker.certify.file import CertificateOrigin, write
 from checker.results.verdict import Inductive, Unreachable
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import chosen, integer
@@ -134,13 +134,13 @@ def system() -> TransitionSystem:
 def stated(folder: Path, *conjuncts: Expr, ticks: int = 1, simple: bool = False) -> Mapping[str, Any]:
     answer = Unreachable(Inductive(conjuncts, ticks, simple))
     made = certificates(system(), [BAD], {"bad": answer}, "hand")
-    [found] = inside(write(folder, Origin("odd", ("X",), ("X",), {}), made))
+    [found] = inside(write(folder, CertificateOrigin("odd", ("X",), ("X",), {}), made))
     return found
 
 
 def test_a_closed_set_with_a_frozen_variable(tmp_path: Path) -> None:
     made = certified(system(), [BAD])
-    [found] = inside(write(tmp_path, Origin("odd", ("X",), ("X",), {}), made))
+    [found] = inside(write(tmp_path, CertificateOrigin("odd", ("X",), ("X",), {}), made))
     assert "top" in found["invariant"]["variables"] and shows(found)
     found["invariant"]["nodes"][-1][1:4] = []
     assert not shows(found)

@@ -15,7 +15,7 @@ from checker.commands.check import run as checking
 from checker.commands.check.ci import finding, level
 from checker.commands.check.run import Compared
 from checker.commands.shared.codes import Exit
-from checker.render.ci import Level
+from checker.render.ci import FindingLevel
 from checker.results.trace import Trace
 from checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
 from checker.verify.result import Result
@@ -165,7 +165,14 @@ def test_levels_are_those_of_the_exit_codes() -> None:
         level(Compared(result("PB1-11", OPEN), Expected())),
         level(Compared(violated, Expected(), "with a repair")),
     ]
-    assert levels == [Level.PASSED, Level.REJECTED, Level.KNOWN, Level.FAILED, Level.OPEN, Level.FAILED]
+    assert levels == [
+        FindingLevel.PASSED,
+        FindingLevel.REJECTED,
+        FindingLevel.KNOWN,
+        FindingLevel.FAILED,
+        FindingLevel.OPEN,
+        FindingLevel.FAILED,
+    ]
 
 
 def test_a_finding_of_changed_charts_says_so() -> None:

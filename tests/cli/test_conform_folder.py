@@ -14,7 +14,7 @@ from checker.adapters.c_build import compiler
 from checker.cli import run
 from checker.commands.conform import run as conforming
 from checker.commands.shared.codes import Exit
-from checker.logs import Result, examine
+from checker.logs import LogResult, examine
 from spec_model.abstraction import boards
 from tests.conform.recorded import Row, copied, long_log, written
 
@@ -74,7 +74,7 @@ def failing(folder: Path) -> None:
 def a_fault_of_ours(monkeypatch: pytest.MonkeyPatch) -> None:
     """Judging ``fails.csv`` raises what nobody expects."""
 
-    def broken(path: Path, *rest: Any) -> Result:
+    def broken(path: Path, *rest: Any) -> LogResult:
         if path.name == "fails.csv":
             raise KeyError("prevDEG_B1")
         return examine(path, *rest)
@@ -126,7 +126,7 @@ def test_a_log_for_which_there_is_no_room_leaves_the_others(
 ) -> None:
     good(tmp_path)
 
-    def no_room(*_: Any) -> Result:
+    def no_room(*_: Any) -> LogResult:
         raise MemoryError
 
     monkeypatch.setattr(conforming, "examine", no_room)

@@ -11,7 +11,7 @@ import pytest
 from checker.cli import run
 from checker.commands.explore.commands import COMMANDS, named
 from checker.commands.shared.codes import Exit
-from checker.explore.by_hand.written import Refused
+from checker.explore.by_hand.written import RefusedInput
 from tests.cli.terminal import Terminal
 
 COMMAND = [sys.executable, "-m", "checker", "explore"]
@@ -165,7 +165,7 @@ def test_every_command_has_a_beginning_of_its_own_and_help(told) -> None:
     for name in COMMANDS:
         assert named(name) == name
     assert (named("?"), named("exit"), named("q")) == ("help", "quit", "quit")
-    with pytest.raises(Refused, match="may be"):
+    with pytest.raises(RefusedInput, match="may be"):
         named("s")
     _, seen, _ = told("help", "help why")
     assert all(usage in seen for usage, _, _ in COMMANDS.values())

@@ -62,7 +62,11 @@ def test_help_loads_click_alone(arguments: list[str]) -> None:
     told = arguments in ([], ["nonsense"], ["completion", "bash"])  # in words of ours
     wanted = {"click", "rich"} if told else {"click"}
     assert of_others(found) <= wanted
-    own = {m for m in found if m.startswith(("spec_model.", "properties", "checker.e", "checker.results", "checker.verify"))}
+    own = {
+        m
+        for m in found
+        if m.startswith(("spec_model.", "properties", "checker.e", "checker.results", "checker.verify"))
+    }
     assert own - {"checker.engines", "spec_model.lang", "spec_model.lang.errors"} == set()
 
 

@@ -13,7 +13,7 @@ from checker.cli import run
 from checker.commands.mutate import judge as mutating_judging
 from checker.commands.shared.codes import Exit
 from checker.mutate import planning
-from checker.mutate.running import Told, fates
+from checker.mutate.running import MutantJudged, fates
 from tests.cli.test_widths import at_terminal, too_long
 from tests.mutate import lamp
 
@@ -221,7 +221,7 @@ def test_an_interruption_keeps_what_was_found(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def interrupted(*args: Any) -> Generator[Any, None, None]:
-        yield from [one for one in fates(*args) if isinstance(one, Told)][:1]
+        yield from [one for one in fates(*args) if isinstance(one, MutantJudged)][:1]
         raise KeyboardInterrupt
 
     monkeypatch.setattr(mutating_judging, "fates", interrupted)

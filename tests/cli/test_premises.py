@@ -48,7 +48,7 @@ def test_what_is_not_known_is_no_pass_with_strict(hall: Path, capsys: pytest.Cap
     from checker.commands.check import premises
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(premises, "cases", lambda *_, **__: {"FULL": premises.Case(None, "not known")})
+        patch.setattr(premises, "cases", lambda *_, **__: {"FULL": premises.PremiseCase(None, "not known")})
         assert checked(hall) == Exit.AS_EXPECTED
         assert checked(hall, "--strict") == Exit.INCONCLUSIVE
     assert "not known whether the case occurs that is spoken of: FULL." in capsys.readouterr().out

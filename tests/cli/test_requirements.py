@@ -16,7 +16,7 @@ from checker.commands.shared.codes import Exit
 from checker.engines import AUTO, Limits
 from checker.model.rover import rover
 from properties.catalogue import catalogue, expected
-from properties.coverage import Coverage, matrix
+from properties.coverage import RequirementCoverage, matrix
 from properties.forms import Property, always, reachable
 from properties.requirements import Requirement, requirements
 from spec_model.lang.errors import ModelError
@@ -96,7 +96,7 @@ def test_the_counts_say_what_is_open() -> None:
 @pytest.mark.parametrize(("rows", "code"), [(ROWS, Exit.CHANGED), (ROWS[:3], Exit.AS_EXPECTED)])
 @pytest.mark.parametrize("as_json", [False, True])
 def test_an_open_row_is_exit_code_1(
-    rows: tuple[Coverage, ...], code: Exit, as_json: bool, capfd: pytest.CaptureFixture[str]
+    rows: tuple[RequirementCoverage, ...], code: Exit, as_json: bool, capfd: pytest.CaptureFixture[str]
 ) -> None:
     assert show(rows, VERDICTS, ON_RECORD, as_json) == code
     shown = capfd.readouterr().out

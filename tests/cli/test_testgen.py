@@ -11,11 +11,11 @@ import checker
 from checker.cli import run
 from checker.commands.shared.codes import Exit
 from checker.commands.testgen import run as generating
-from checker.commands.testgen.run import Saying
+from checker.commands.testgen.run import TestgenProgress
 from checker.system.instrument.watch import watched
 from checker.testgen.fingerprint import fingerprint
 from checker.testgen.generate import Aim
-from checker.testgen.keep import Kept, kept_of, written
+from checker.testgen.keep import KeptTests, kept_of, written
 from tests.conform.cover_toys import SYSTEM, TOY
 
 SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "testgen-1.json").read_text("utf-8"))
@@ -88,11 +88,11 @@ def test_a_place_that_cannot_be_written_is_one_message(
 def test_ctrl_c_writes_what_was_found(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def ctrl_c(say: Saying, doing: str) -> None:
+    def ctrl_c(say: TestgenProgress, doing: str) -> None:
         if say.coverage.covered:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr(Saying, "__call__", ctrl_c)
+    monkeypatch.setattr(TestgenProgress, "__call__", ctrl_c)
     arguments = ["--system", "checkStop", "--cover", "boundaries", "--ticks", "3000", "--timeout", "0.1"]
     assert run(["testgen", *arguments, "--jobs", "1", "-o", str(tmp_path)]) is Exit.INTERRUPTED
     said = capsys.readouterr().out
@@ -109,7 +109,7 @@ def toy_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     goals = watched(TOY.system).goals
     monkeypatch.setattr(generating, "aims", lambda names, kinds: [Aim(TOY, goals)])
     monkeypatch.setattr(generating, "systems", lambda: {TOY.name: SYSTEM})
-    monkeypatch.setattr(generating, "kept_text", lambda name: written(TOY, Kept(())))
+    monkeypatch.setattr(generating, "kept_text", lambda name: written(TOY, KeptTests(())))
 
 
 EFFORT = ["--ticks", "400", "--jobs", "1"]

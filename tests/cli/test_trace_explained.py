@@ -7,7 +7,7 @@ import pytest
 
 from checker.cli import run
 from checker.commands.shared.codes import Exit
-from checker.commands.trace.examples import Wanted
+from checker.commands.trace.examples import TraceRequest
 from checker.commands.trace.explain import Explaining
 from checker.commands.trace.run import Showing, trace
 from checker.engines import Limits
@@ -94,8 +94,8 @@ def test_a_run_without_end_says_why_it_is_not_explained(capfd: pytest.CaptureFix
     assert "it repeats for ever" in capfd.readouterr().err
 
 
-def wanted(prop: Property, example: bool = False) -> Wanted:
-    return Wanted(prop, {"way": SYSTEM}, lambda _: Expected(), example)
+def wanted(prop: Property, example: bool = False) -> TraceRequest:
+    return TraceRequest(prop, {"way": SYSTEM}, lambda _: Expected(), example)
 
 
 def test_several_runs_are_told_apart_until_there_is_no_more(

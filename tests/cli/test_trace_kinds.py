@@ -8,13 +8,13 @@ import pytest
 from checker.commands.shared.codes import Exit
 from checker.commands.shared.variant import pick_variant
 from checker.commands.trace import run as tracing
-from checker.commands.trace.examples import Wanted, asked, of_arrow, of_state
+from checker.commands.trace.examples import TraceRequest, asked, of_arrow, of_state
 from checker.commands.trace.explain import Explaining
 from checker.commands.trace.formats import exit_written
 from checker.commands.trace.run import Showing, trace
 from checker.engines import Limits
 from checker.render import renderers
-from checker.render.ci import Level, of_trace
+from checker.render.ci import FindingLevel, of_trace
 from checker.render.waves import outcome
 from checker.results.trace import Trace
 from checker.results.verdict import Reached, Run, Unknown, Violated
@@ -34,7 +34,7 @@ QUIET = Explaining(wanted=False)
 def test_a_counterexample_without_a_false_part_is_one_in_every_exit() -> None:
     assert PARTLESS.violated and PARTLESS.breaks() and outcome(PARTLESS) == "violated"
     [finding] = of_trace(PARTLESS).findings
-    assert (finding.word, finding.level) == ("violated", Level.FAILED)
+    assert (finding.word, finding.level) == ("violated", FindingLevel.FAILED)
     shown = {name: str(renderers("trace")[name].render(PARTLESS)) for name in ("junit", "sarif", "html")}
     assert 'failures="1"' in shown["junit"]
     assert '"kind": "fail"' in shown["sarif"]
@@ -48,7 +48,7 @@ def test_a_witness_is_no_counterexample() -> None:
     prop = reachable("T-2", "The end can be reached.", that=CHART.active("End"), covers=["R"], on="way")
     found = reached(Reached(Run({}, LEFT), shortest=True), prop)
     assert found.violated is False and not found.breaks() and outcome(found) == "reached"
-    assert of_trace(found).findings[0].level is Level.PASSED
+    assert of_trace(found).findings[0].level is FindingLevel.PASSED
     assert "<title>T-2: witness</title>" in str(renderers("trace")["html"].render(found))
 
 
@@ -74,8 +74,8 @@ def test_an_example_that_may_not_be_shortest_says_so(
         assert ("Not known to be a shortest run" in capfd.readouterr().err) is not shortest
 
 
-def example(prop: Property, system: System = SYSTEM) -> Wanted:
-    return Wanted(prop, {"way": system}, lambda _: Expected(), example=True)
+def example(prop: Property, system: System = SYSTEM) -> TraceRequest:
+    return TraceRequest(prop, {"way": system}, lambda _: Expected(), example=True)
 
 
 def test_what_only_some_runs_were_searched_for_is_said_to_be_so(capfd: pytest.CaptureFixture[str]) -> None:

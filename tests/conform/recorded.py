@@ -8,7 +8,7 @@ from pathlib import Path
 from random import Random
 
 from checker.adapters.python_calls import Instance
-from spec_model.abstraction import Board, Signal, boards
+from spec_model.abstraction import Board, BoardSignal, boards
 from supervisor.board1 import Board1
 from supervisor.board2.board import Board2
 
@@ -36,7 +36,7 @@ SELDOM = {
 PAUSES = (1, 2, 5, 6, 7, 8, 12, 30, 60, 160, 260)
 
 
-def value(signal: Signal, random: Random) -> bool | int | float:
+def value(signal: BoardSignal, random: Random) -> bool | int | float:
     """Healthy half of the time, else one of the values on both sides of the limits, or any."""
     kind = random.random()
     if kind < 0.5:
@@ -64,7 +64,7 @@ def record(board: Board, steps: int, seed: int = 1, restless: float = 0.04) -> l
 
 
 def _renew(
-    at: Row, signal: Signal, now: int, pauses: dict[str, int], random: Random, restless: float
+    at: Row, signal: BoardSignal, now: int, pauses: dict[str, int], random: Random, restless: float
 ) -> None:
     name = signal.name
     if name == "now_ms":

@@ -14,7 +14,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.adapters import Limits, adapters, start
+from checker.adapters import AdapterLimits, adapters, start
 from checker.adapters.implementation import ImplementationError, notes, run
 from checker.adapters.python import start as start_python
 from spec_model.abstraction import boards
@@ -26,8 +26,8 @@ COUNTER = HERE / "adapters_counter.py"
 BOARD = boards()["board1"]
 AT_REST = BOARD.at_power_up()
 ACTIONS = (0, 6, 7)
-PATIENT = Limits(step=60, start=120, memory=1 << 28)
-IMPATIENT = Limits(step=3, start=120, memory=1 << 28)
+PATIENT = AdapterLimits(step=60, start=120, memory=1 << 28)
+IMPATIENT = AdapterLimits(step=3, start=120, memory=1 << 28)
 OUTPUTS = {"critical_mask", "v_ref", "v_user", "give_b2_actuation", "current_action", "omega_user"}
 single = st.floats(width=32, allow_nan=False)
 inputs = st.builds(

@@ -4,13 +4,13 @@ from contextlib import closing
 
 import pytest
 
-from checker.adapters import Limits, start
+from checker.adapters import AdapterLimits, start
 from checker.adapters.implementation import ImplementationError, notes
 from spec_model.abstraction import boards
 
 BOARD = boards()["board1"]
 AT_REST = BOARD.at_power_up()
-LIMITS = Limits(step=60, start=120)
+LIMITS = AdapterLimits(step=60, start=120)
 HEADER = """
 #include <stdint.h>
 typedef enum { LEVEL_OK, LEVEL_BAD = 9 } level_t;

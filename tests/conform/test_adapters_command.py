@@ -7,13 +7,13 @@ from contextlib import closing
 
 import pytest
 
-from checker.adapters import Limits, start
+from checker.adapters import AdapterLimits, start
 from checker.adapters.implementation import ImplementationError, run
 from spec_model.abstraction import boards
 
 BOARD = boards()["board1"]
 AT_REST = BOARD.at_power_up()
-LIMITS = Limits(step=60, start=120, memory=1 << 28)
+LIMITS = AdapterLimits(step=60, start=120, memory=1 << 28)
 LOOP = """
 import json, os, sys, time
 say = lambda text: print(text, flush=True)
@@ -115,7 +115,7 @@ def test_answers_that_nobody_asked_for(tmp_path):
 
 def test_silence_that_complains_without_end(tmp_path):
     address = loop(tmp_path, "\n    while True: sys.stderr.write('no route to host ' * 999 + '\\n')")
-    said = failure(address, limits=Limits(step=60, start=2, memory=1 << 28))
+    said = failure(address, limits=AdapterLimits(step=60, start=2, memory=1 << 28))
     assert said.startswith("at power-up: the process did not answer within 2 s.")
     assert len(said) < 4000
 
@@ -123,7 +123,10 @@ def test_silence_that_complains_without_end(tmp_path):
 def test_a_command_that_answers_without_reading(tmp_path):
     """Whatever it does not read fills its pipe, which must not stop us."""
     address = command(tmp_path, "import time\nprint('{}', flush=True)\ntime.sleep(1000)")
-    assert failure(address, 500, Limits(step=2, start=60)) == "step 1: the process did not answer within 2 s."
+    assert (
+        failure(address, 500, AdapterLimits(step=2, start=60))
+        == "step 1: the process did not answer within 2 s."
+    )
 
 
 @pytest.mark.parametrize(

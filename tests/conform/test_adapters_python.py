@@ -5,7 +5,7 @@ from math import isinf
 
 import pytest
 
-from checker.adapters import Limits, firmware, start
+from checker.adapters import AdapterLimits, firmware, start
 from checker.adapters.implementation import ImplementationError, run
 from checker.adapters.python import start as start_python
 from checker.adapters.records import builder, reader
@@ -14,7 +14,7 @@ from supervisor import Board1, Board1Inputs, Board1Outputs, Board2, Board2Inputs
 from supervisor.board2.actuation import Actuated, MotorCommand
 
 BOARDS = boards()
-LIMITS = Limits(step=60, start=120)
+LIMITS = AdapterLimits(step=60, start=120)
 FIRMWARE = {
     "board1": (Board1, Board1Inputs, Board1Outputs),
     "board2": (Board2, Board2Inputs, Board2Outputs),

@@ -5,16 +5,16 @@ from random import Random
 
 import pytest
 
-from checker.system.instrument.goals import Goal, Kind
+from checker.system.instrument.goals import CoverGoal, GoalKind
 from checker.system.instrument.watch import watched
-from checker.testgen.coverage import NOT_TRIED, Coverage, Effort, chosen, cover
-from checker.testgen.explore import Machine, Place, explored, first_reached, shortened
+from checker.testgen.coverage import NOT_TRIED, GoalCoverage, TestgenEffort, chosen, cover
+from checker.testgen.explore import RandomMachine, TriedPlace, explored, first_reached, shortened
 from checker.testgen.fingerprint import fingerprint
-from checker.testgen.keep import Kept, kept_of, written
+from checker.testgen.keep import KeptTests, kept_of, written
 from checker.testgen.replay import first_reached as replayed
 from checker.testgen.replay import played
 from checker.testgen.scripts import Script, blocks, script, steps, unfolded
-from checker.testgen.search import Found, Uncoverable
+from checker.testgen.search import TestsFound, Uncoverable
 from checker.testgen.weather import Weather
 from spec_model.abstraction import Board, boards
 from spec_model.lang.action import assign
@@ -33,7 +33,7 @@ def random_script(name: str, ticks: int, seed: int = 0) -> Script:
     return tuple(Weather(boards()[name]).run(Random(seed), ticks, lambda: {}))
 
 
-def texts(*kinds: Kind) -> list[str]:
+def texts(*kinds: GoalKind) -> list[str]:
     return [g.text for g in LOOKED.of(*kinds)]
 
 
@@ -51,12 +51,12 @@ def reached(moments: Script) -> dict[str, int]:
 
 
 def test_every_arrow_of_the_chart_is_a_goal() -> None:
-    assert len(LOOKED.of(Kind.ARROWS)) == 4
-    assert [t for t in texts(Kind.ARROWS) if t.startswith("Off -> Broken")]
+    assert len(LOOKED.of(GoalKind.ARROWS)) == 4
+    assert [t for t in texts(GoalKind.ARROWS) if t.startswith("Off -> Broken")]
 
 
 def test_every_arrow_into_a_state_is_paired_with_every_arrow_out_of_it() -> None:
-    ids = {g.id for g in LOOKED.of(Kind.PAIRS)}
+    ids = {g.id for g in LOOKED.of(GoalKind.PAIRS)}
     assert ids == {"Lamp.pair.1-2", "Lamp.pair.4-2", AFTER_NEVER, "Lamp.pair.4-3", "Lamp.pair.2-4"}
 
 
@@ -82,8 +82,8 @@ def test_goals_have_ids_of_their_own_and_arrows_are_the_same_in_the_model_of_the
     goals = watched(boards()[name].system).goals
     assert len({g.id for g in goals}) == len(goals) > 500
     assert len({g.flag.name for g in goals}) == len(goals)
-    arrows = {(g.id, g.text) for g in goals if g.kind is Kind.ARROWS}
-    assert arrows <= {(g.id, g.text) for g in watched(systems()[name], [Kind.ARROWS]).goals}
+    arrows = {(g.id, g.text) for g in goals if g.kind is GoalKind.ARROWS}
+    assert arrows <= {(g.id, g.text) for g in watched(systems()[name], [GoalKind.ARROWS]).goals}
 
 
 @pytest.mark.parametrize("name", BOTH)
@@ -106,8 +106,8 @@ def test_looking_changes_nothing(name: str) -> None:
 @pytest.mark.parametrize("name", BOTH)
 def test_compiled_charts_reach_what_the_interpreter_reaches(name: str) -> None:
     board, looked = boards()[name], watched(boards()[name].system)
-    machine, moments = Machine(board, looked), random_script(name, 120, seed=1)
-    place = Place.power_up(machine)
+    machine, moments = RandomMachine(board, looked), random_script(name, 120, seed=1)
+    place = TriedPlace.power_up(machine)
     for moment, step in zip(moments, played(board, looked, steps(board, moments)), strict=True):
         assert set(place.step(moment)) == step.reached
         assert board.expected(place.at) == step.outputs
@@ -132,7 +132,7 @@ def test_a_clock_that_jumps_is_no_test() -> None:
 
 
 def test_a_script_is_shortened_to_the_steps_it_needs() -> None:
-    machine = Machine(TOY, LOOKED)
+    machine = RandomMachine(TOY, LOOKED)
     long = toy("0" * 40 + "1" + "0" * 40)
     short = shortened(machine, long, ["Lamp.arrow.4"])
     assert len(short) == 5  # power-up, the press, and three steps lit
@@ -140,7 +140,7 @@ def test_a_script_is_shortened_to_the_steps_it_needs() -> None:
 
 
 def test_random_runs_are_reproducible() -> None:
-    machine = Machine(TOY, LOOKED)
+    machine = RandomMachine(TOY, LOOKED)
     one, two = (list(explored(machine, [g.id for g in LOOKED.goals], Random(5), 500)) for _ in range(2))
     assert one == two != []
 
@@ -149,34 +149,34 @@ def test_random_runs_are_reproducible() -> None:
 
 
 @pytest.fixture(scope="module")
-def covered() -> Coverage:
-    coverage = Coverage(TOY, LOOKED.goals)
-    cover(coverage, SYSTEM, Effort(seconds=60, ticks=400, jobs=1), lambda line: None)
+def covered() -> GoalCoverage:
+    coverage = GoalCoverage(TOY, LOOKED.goals)
+    cover(coverage, SYSTEM, TestgenEffort(seconds=60, ticks=400, jobs=1), lambda line: None)
     return coverage
 
 
-def test_every_goal_of_the_toy_is_covered_or_proved_uncoverable(covered: Coverage) -> None:
+def test_every_goal_of_the_toy_is_covered_or_proved_uncoverable(covered: GoalCoverage) -> None:
     assert not covered.unknown
     assert covered.covered.keys() | covered.uncoverable.keys() == covered.wanted
     assert not covered.covered.keys() & covered.uncoverable.keys()
 
 
-def test_an_arrow_that_is_never_taken_is_proved_uncoverable(covered: Coverage) -> None:
+def test_an_arrow_that_is_never_taken_is_proved_uncoverable(covered: GoalCoverage) -> None:
     answer = covered.answers[NEVER]
     assert isinstance(answer, Uncoverable) and answer.because
 
 
-def test_a_pair_that_cannot_follow_is_proved_uncoverable(covered: Coverage) -> None:
+def test_a_pair_that_cannot_follow_is_proved_uncoverable(covered: GoalCoverage) -> None:
     assert AFTER_NEVER in covered.uncoverable and "Lamp.pair.4-3" in covered.uncoverable
 
 
-def test_runs_to_arrows_are_as_short_as_any(covered: Coverage) -> None:
+def test_runs_to_arrows_are_as_short_as_any(covered: GoalCoverage) -> None:
     lengths = {g: covered.covered[g] for g in ("Lamp.arrow.1", "Lamp.arrow.2", "Lamp.arrow.4")}
     assert lengths == {"Lamp.arrow.1": 1, "Lamp.arrow.2": 2, "Lamp.arrow.4": 5}
     assert lengths.keys() <= covered.shortest
 
 
-def test_few_tests_reach_all_that_is_covered(covered: Coverage) -> None:
+def test_few_tests_reach_all_that_is_covered(covered: GoalCoverage) -> None:
     kept = covered.kept()
     claimed = [goal for _, goals, _ in kept.tests for goal in goals]
     assert sorted(claimed) == sorted(covered.covered)
@@ -187,18 +187,18 @@ def test_few_tests_reach_all_that_is_covered(covered: Coverage) -> None:
 def test_a_false_claim_is_not_kept() -> None:
     from checker.verify.runs.replay import ReplayError
 
-    coverage = Coverage(TOY, LOOKED.goals)
+    coverage = GoalCoverage(TOY, LOOKED.goals)
     coverage.scripts.append((toy("00"), {NEVER: 2}))
     with pytest.raises(ReplayError, match=NEVER):
         coverage.kept()
 
 
 def test_without_a_search_all_is_unknown() -> None:
-    goals: tuple[Goal, ...] = LOOKED.goals
-    assert Coverage(TOY, goals).unknown.keys() == {g.id for g in goals}
+    goals: tuple[CoverGoal, ...] = LOOKED.goals
+    assert GoalCoverage(TOY, goals).unknown.keys() == {g.id for g in goals}
 
 
-def test_a_test_takes_the_shortest_run_where_one_is_known(covered: Coverage) -> None:
+def test_a_test_takes_the_shortest_run_where_one_is_known(covered: GoalCoverage) -> None:
     tests = covered.kept().tests
     for goal in covered.shortest:
         (script,) = [script for _, goals, script in tests if goal in goals]
@@ -206,11 +206,11 @@ def test_a_test_takes_the_shortest_run_where_one_is_known(covered: Coverage) -> 
 
 
 def test_a_goal_reached_sooner_by_another_run_is_left_to_that_one() -> None:
-    coverage = Coverage(TOY, LOOKED.goals)
+    coverage = GoalCoverage(TOY, LOOKED.goals)
     both, soon = toy("0001111"), toy("01")
     on = "Lamp.arrow.2"
     coverage.scripts += [(both, {on: 4, "Lamp.arrow.4": 7}), (soon, {on: 2})]
-    coverage.answers[on] = Found(on, soon, "bmc", shortest=True)
+    coverage.answers[on] = TestsFound(on, soon, "bmc", shortest=True)
     assert {goals for _, goals, _ in chosen(coverage)} == {("Lamp.arrow.4",), (on,)}
 
 
@@ -218,32 +218,32 @@ def test_a_goal_reached_sooner_by_another_run_is_left_to_that_one() -> None:
 
 
 def test_going_on_asks_for_nothing_that_is_settled(
-    covered: Coverage, monkeypatch: pytest.MonkeyPatch
+    covered: GoalCoverage, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    again = Coverage(TOY, LOOKED.goals)
+    again = GoalCoverage(TOY, LOOKED.goals)
     again.go_on(covered.kept("as drawn"), "as drawn")
     assert again.settled == again.wanted
-    asked: list[Goal] = []
+    asked: list[CoverGoal] = []
 
-    def search(board: Board, model: System, goals: list[Goal], *limits: object) -> tuple[()]:
+    def search(board: Board, model: System, goals: list[CoverGoal], *limits: object) -> tuple[()]:
         asked.extend(goals)
         return ()
 
     monkeypatch.setattr("checker.testgen.coverage.searched", search)
-    cover(again, SYSTEM, Effort(ticks=0), lambda line: None)
+    cover(again, SYSTEM, TestgenEffort(ticks=0), lambda line: None)
     assert asked == [] and again.kept("as drawn") == covered.kept("as drawn")
 
 
-def test_proofs_and_shortest_runs_of_other_charts_are_not_taken_over(covered: Coverage) -> None:
-    again = Coverage(TOY, LOOKED.goals)
+def test_proofs_and_shortest_runs_of_other_charts_are_not_taken_over(covered: GoalCoverage) -> None:
+    again = GoalCoverage(TOY, LOOKED.goals)
     again.go_on(covered.kept("as drawn"), "drawn anew")
     assert again.covered.keys() == covered.covered.keys()
     assert not again.uncoverable and not again.shortest and NEVER in again.unknown
 
 
 def test_why_a_goal_is_unknown_is_remembered_until_something_else_is_known() -> None:
-    again = Coverage(TOY, LOOKED.goals)
-    again.go_on(Kept((), unknown={NEVER: "too long"}), "")
+    again = GoalCoverage(TOY, LOOKED.goals)
+    again.go_on(KeptTests((), unknown={NEVER: "too long"}), "")
     assert again.unknown[NEVER] == "too long" and again.unknown[AFTER_NEVER] == NOT_TRIED
     again.answers[NEVER] = Uncoverable.of(NEVER, "Lamp alone: explicit, all 5 valuations, twice")
     assert NEVER not in again.unknown
@@ -262,11 +262,11 @@ def test_a_fingerprint_is_of_the_charts_and_of_nothing_else() -> None:
     assert fingerprint(TOY, SYSTEM) != fingerprint(TOY, replace(SYSTEM, assume=~press))
 
 
-def test_answers_say_where_runs_come_from(covered: Coverage) -> None:
-    runs = [a for a in covered.answers.values() if isinstance(a, Found)]
+def test_answers_say_where_runs_come_from(covered: GoalCoverage) -> None:
+    runs = [a for a in covered.answers.values() if isinstance(a, TestsFound)]
     assert runs and all(a.engine for a in runs)
 
 
 def test_a_file_of_another_board_is_refused() -> None:
     with pytest.raises(ModelError, match="no tests of board1"):
-        kept_of(boards()["board1"], written(TOY, Coverage(TOY, ()).kept()))
+        kept_of(boards()["board1"], written(TOY, GoalCoverage(TOY, ()).kept()))

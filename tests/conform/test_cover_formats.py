@@ -10,7 +10,7 @@ import pytest
 
 from checker.testgen import kept_text
 from checker.testgen.formats import FORMATS
-from checker.testgen.formats.expected import Expected, expected, rows
+from checker.testgen.formats.expected import ExpectedTest, expected, rows
 from checker.testgen.keep import kept_of
 from checker.testgen.scripts import Script, unfolded
 from spec_model.abstraction import boards
@@ -33,7 +33,7 @@ void get_outputs(struct outputs *out) { out->lit = lit; }
 """
 
 
-def toy_test(name: str, presses: str) -> Expected:
+def toy_test(name: str, presses: str) -> ExpectedTest:
     script: Script = tuple({"press": c == "1", "light_lx": 9} for c in presses)
     return expected(TOY, name, ["a goal"], script)
 
@@ -102,7 +102,7 @@ def test_the_pytest_file_runs_against_our_supervisor_and_fails_for_another(tmp_p
     kept = min(kept_of(board, kept_text("board1")).tests, key=lambda t: len(t[2]))
     test = expected(board, *kept)
     wrong = tuple({**o, "critical_mask": 255} for o in test.outputs)
-    faulty = Expected("faulty", test.goals, test.script, test.inputs, wrong)
+    faulty = ExpectedTest("faulty", test.goals, test.script, test.inputs, wrong)
     written(tmp_path, dict(FORMATS["pytest"](board, [test, faulty])))
     done = ran(sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", str(tmp_path), cwd=tmp_path)
     assert "1 failed, 1 passed" in done.stdout, done.stdout + done.stderr

@@ -3,7 +3,7 @@
 import pytest
 
 from checker.adapters import python
-from checker.system.instrument.goals import Kind
+from checker.system.instrument.goals import GoalKind
 from checker.system.instrument.watch import watched
 from checker.testgen import kept, kept_text
 from checker.testgen.fingerprint import fingerprint
@@ -47,7 +47,7 @@ def test_what_is_proved_is_proved_of_the_charts_as_drawn(name: str) -> None:
 
 @pytest.mark.parametrize("name", BOARDS)
 def test_kept_tests_cover_the_arrows(name: str) -> None:
-    arrows = {g.id for g in watched(boards()[name].system, [Kind.ARROWS]).goals}
+    arrows = {g.id for g in watched(boards()[name].system, [GoalKind.ARROWS]).goals}
     covered = {goal for test in kept(name) for goal in test.goals}
     assert len(arrows & covered) >= LEAST[name]
 

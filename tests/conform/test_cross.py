@@ -9,14 +9,14 @@ import pytest
 
 from checker.adapters import python
 from checker.adapters.implementation import Implementation, ImplementationError, Values
-from checker.compare import Allowance, Mismatch, cross_check, effort, quick_check, replay
+from checker.compare import Allowance, StepMismatch, cross_check, effort, quick_check, replay
 from checker.compare.beside import rerun
 from checker.compare.check import Remembered, recorded_suite
 from checker.compare.coverage import arrows
 from checker.compare.recorded import counterexamples
 from checker.compare.reproduce import file_name, pytest_file, stimulus_of
 from checker.compare.result import ALLOWED, FIXED, RANDOM
-from checker.compare.search import Run, Search
+from checker.compare.search import CompareSearch, Run
 from checker.compare.smaller import Budget, smaller
 from checker.compare.strategy import ENVIRONMENTS
 from spec_model.abstraction import boards
@@ -48,10 +48,10 @@ def test_our_supervisor_conforms(board: str) -> None:
 def test_a_planted_fault_is_found(board: str, fault: str) -> None:
     faulty = running(board, f"{HERE}:{fault}")
     found = quick_check(board, faulty, examples=EXAMPLES[board])
-    assert isinstance(found, Mismatch) and found.differences
+    assert isinstance(found, StepMismatch) and found.differences
 
 
-def made_small(board: str, fault: str) -> Mismatch:
+def made_small(board: str, fault: str) -> StepMismatch:
     """The mismatch of a fault, as the command shows it."""
     faulty = running(board, f"{HERE}:{fault}")
     found = quick_check(board, faulty, examples=EXAMPLES[board])
@@ -162,7 +162,7 @@ def test_what_differs_before_a_crash_is_found_all_the_same() -> None:
 
 def test_crashes_in_random_runs_alone_end_the_search() -> None:
     for failures in (3, 5):
-        search = Search(
+        search = CompareSearch(
             ENVIRONMENTS["board1"],
             Dying("board1"),
             effort("ci", 50),
@@ -221,7 +221,7 @@ def test_distinct_mismatches_are_all_told_apart_and_as_many_made_small_as_are_wa
         def close(self) -> None: ...
 
     allowance = Allowance(mismatches=wanted)
-    search = Search(ENVIRONMENTS["board2"], Wrong(), effort("ci", 0), allowance=allowance, budget=20)
+    search = CompareSearch(ENVIRONMENTS["board2"], Wrong(), effort("ci", 0), allowance=allowance, budget=20)
     result = search.run(islice(counterexamples(boards()["board2"]), 30))
     keys = {m.key for m in result.mismatches}
     assert len(keys) == len(result.mismatches) > 5
@@ -232,7 +232,7 @@ def test_distinct_mismatches_are_all_told_apart_and_as_many_made_small_as_are_wa
 def test_every_random_run_is_drawn_whatever_is_found() -> None:
     """The first new mismatch ended the random runs, and nothing said so."""
     result, right = (
-        Search(ENVIRONMENTS["board2"], running("board2", target), effort("ci", 15), budget=0).run()
+        CompareSearch(ENVIRONMENTS["board2"], running("board2", target), effort("ci", 15), budget=0).run()
         for target in (f"{HERE}:SwappedSonars", OURS["board2"])
     )
     assert result.mismatches and right.conforms

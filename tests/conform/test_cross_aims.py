@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from checker.compare.aims import aims
-from checker.compare.beside import Charts, played, rerun
+from checker.compare.beside import SteppedCharts, played, rerun
 from checker.compare.environment import AROUND
 from checker.compare.fixed import fixed
 from checker.compare.smaller import columns
-from checker.compare.stimulus import SILENT, Block, Every, Player, Stimulus, Toward
+from checker.compare.stimulus import SILENT, Every, InputBlock, Stimulus, StimulusPlayer, Toward
 from checker.compare.strategy import ENVIRONMENTS
 from checker.compare.values import nearest
 from spec_model.abstraction import Value, boards
@@ -148,9 +148,9 @@ def test_lengths_and_distances_are_drawn_around_every_aim(board: str) -> None:
 def test_fields_change_with_their_stamp_only() -> None:
     env = ENVIRONMENTS["board2"]
     stimulus = Stimulus((
-        Block(2, (("ble_last_valid_ms", Every((2,))), ("ay_norm", 1))),
-        Block(2, (("ay_norm", -1), ("crit_mask_b1", 4))),
-        Block(1, (("ble_last_valid_ms", SILENT), ("ay_norm", 0))),
+        InputBlock(2, (("ble_last_valid_ms", Every((2,))), ("ay_norm", 1))),
+        InputBlock(2, (("ay_norm", -1), ("crit_mask_b1", 4))),
+        InputBlock(1, (("ble_last_valid_ms", SILENT), ("ay_norm", 0))),
     ))  # fmt: skip
     seen = [(s.inputs["ble_last_valid_ms"], s.inputs["ay_norm"], s.inputs["crit_mask_b1"])
             for s in played(env.board, env.fields, stimulus)]  # fmt: skip
@@ -161,19 +161,24 @@ def test_a_heading_follows_what_the_charts_hold() -> None:
     env = ENVIRONMENTS["board1"]
     back = (("y_norm", -1), ("current_yaw", 90))
     toward = (("current_yaw", Toward("targetAngle180", -45.0)),)
-    steps = played(env.board, env.fields, Stimulus((Block(2, (*env.at_rest, *back)), Block(1, toward))))
+    steps = played(
+        env.board, env.fields, Stimulus((InputBlock(2, (*env.at_rest, *back)), InputBlock(1, toward)))
+    )
     assert steps[-1].inputs["current_yaw"] == 225 and steps[-1].expected["angle_err"] == 45
 
 
 def test_the_clock_may_wrap() -> None:
     env = ENVIRONMENTS["board2"]
-    stimulus = Stimulus((Block(3, env.at_rest),), CLOCK - 40)
-    charts = Charts(env.board)
-    nows = [inputs["now_ms"] for inputs in _stepping(Player(env.board, env.fields, charts), stimulus, charts)]
+    stimulus = Stimulus((InputBlock(3, env.at_rest),), CLOCK - 40)
+    charts = SteppedCharts(env.board)
+    nows = [
+        inputs["now_ms"]
+        for inputs in _stepping(StimulusPlayer(env.board, env.fields, charts), stimulus, charts)
+    ]
     assert nows == [CLOCK - 40, CLOCK - 20, 0]
 
 
-def _stepping(player: Player, stimulus: Stimulus, charts: Charts):
+def _stepping(player: StimulusPlayer, stimulus: Stimulus, charts: SteppedCharts):
     for inputs in player.steps(stimulus):
         charts.step(inputs)
         yield inputs

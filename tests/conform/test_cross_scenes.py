@@ -9,7 +9,7 @@ from benchmarks.faults.by_hand import Fault, faults
 from benchmarks.faults.hand_run import InProcess
 from checker.compare.beside import compared, played
 from checker.compare.environment import Environment
-from checker.compare.stimulus import Block, Stimulus
+from checker.compare.stimulus import InputBlock, Stimulus
 from checker.compare.strategy import ENVIRONMENTS
 
 FAULTS = {
@@ -27,7 +27,7 @@ def of(env: Environment, label: str) -> Iterator[Stimulus]:
     """Runs of one scene each; of the recoveries those of the joystick."""
     for name, begin, scene in env.scenes(env):
         if name == label and (label != "recoveries" or scene[0].changes[0][0] == JOYSTICK):
-            yield Stimulus((Block(2, env.at_rest), *begin, *scene))
+            yield Stimulus((InputBlock(2, env.at_rest), *begin, *scene))
 
 
 @pytest.mark.parametrize("text", FAULTS)

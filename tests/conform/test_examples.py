@@ -12,7 +12,7 @@ import pytest
 from hypothesis import Phase, find, given, settings
 from hypothesis import strategies as st
 
-from checker.adapters import Limits, start
+from checker.adapters import AdapterLimits, start
 from checker.adapters.implementation import notes, run
 from checker.adapters.python import start as start_python
 from spec_model.abstraction import boards
@@ -28,7 +28,7 @@ STAMPS = ("last_valid_b2_ms", "b2_data_last_valid_ms", "temp_last_valid_ms", "ba
 STEP_MS = 20
 FIRST_LIMIT_MS, LIMIT_MS = 4000, 5000
 """How long the temperature and the charge may stay critical."""
-LIMITS = Limits(step=60, start=120)
+LIMITS = AdapterLimits(step=60, start=120)
 pytestmark = pytest.mark.usefixtures("cc")
 
 

@@ -10,8 +10,8 @@ from benchmarks.faults.judged import KINDS, judgements
 from benchmarks.faults.mutate import path
 from benchmarks.faults.package import importers, replaced
 from benchmarks.faults.recorded import Found, Run, prepared, search
-from checker.compare import SILENT, Block, Every, Stimulus
-from checker.compare.beside import Step, compared, played
+from checker.compare import SILENT, Every, InputBlock, Stimulus
+from checker.compare.beside import ComparedStep, compared, played
 from checker.compare.stimulus import Change
 from checker.compare.strategy import ENVIRONMENTS
 from spec_model.abstraction import boards
@@ -21,8 +21,8 @@ Changes = dict[str, Change]
 
 def calm(board: str, *blocks: tuple[int, Changes]) -> Stimulus:
     """Blocks of steps and changes after two calm steps."""
-    made = (Block(steps, tuple(changes.items())) for steps, changes in blocks)
-    return Stimulus((Block(2, ENVIRONMENTS[board].at_rest), *made))
+    made = (InputBlock(steps, tuple(changes.items())) for steps, changes in blocks)
+    return Stimulus((InputBlock(2, ENVIRONMENTS[board].at_rest), *made))
 
 
 FORWARD: Changes = {"y_norm": 1.0}
@@ -61,7 +61,7 @@ BY_HAND = {
 """Some faults, and a run that must show them."""
 
 
-def steps_of(board: str, name: str) -> list[Step]:
+def steps_of(board: str, name: str) -> list[ComparedStep]:
     return played(boards()[board], ENVIRONMENTS[board].fields, RUNS[name])
 
 

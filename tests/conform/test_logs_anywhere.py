@@ -11,9 +11,9 @@ from hypothesis import strategies as st
 
 from checker.cli import run
 from checker.commands.shared.codes import Exit
-from checker.logs import Map, Result, examine
-from checker.logs.cones import Cone, cones
-from checker.logs.program import Needed
+from checker.logs import ColumnMap, LogResult, examine
+from checker.logs.cones import LogCone, cones
+from checker.logs.program import NeededInputs
 from checker.logs.signals import TIME, Vocabulary
 from spec_model.abstraction import boards
 from tests.conform.recorded import copied, long_log
@@ -48,14 +48,14 @@ def obstacle(tmp_path_factory: pytest.TempPathFactory) -> dict[str, list[Text]]:
     return {board: rows_of(folder / f"{board}.csv") for board in BOARDS}
 
 
-def judged(folder: Path, rows: list[Text], board: str, without: tuple[str, ...] = ()) -> Result:
+def judged(folder: Path, rows: list[Text], board: str, without: tuple[str, ...] = ()) -> LogResult:
     names = [n for n in rows[0] if n not in without]
     file = folder / "log.csv"
     with file.open("w", encoding="utf-8", newline="") as lines:
         table = csv.DictWriter(lines, names, extrasaction="ignore")
         table.writeheader()
         table.writerows(rows)
-    return examine(file, Map(), board)
+    return examine(file, ColumnMap(), board)
 
 
 def test_the_log_of_an_obstacle_that_begins_later(tmp_path: Path, obstacle: dict[str, list[Text]]) -> None:
@@ -116,7 +116,7 @@ def test_anything_at_once(tmp_path_factory: pytest.TempPathFactory, data: st.Dat
 
 
 @cache
-def parts(board: str, without: str) -> tuple[Cone, ...]:
+def parts(board: str, without: str) -> tuple[LogCone, ...]:
     one = boards()[board]
     vocabulary = Vocabulary(one)
     seen = {name for name, sight in vocabulary.sights.items() if sight.signal.name != without}
@@ -136,6 +136,6 @@ def test_a_step_asks_only_for_what_it_is_given_and_not_twice(board: str, column:
                 try:
                     part.step(*given)
                     break
-                except Needed as needed:
+                except NeededInputs as needed:
                     assert needed.name not in known, "told, and asked for again"
                     known[needed.name] = random.choice(part.system.var(needed.name).domain.values)

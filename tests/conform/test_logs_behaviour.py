@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.logs import Map, examine
+from checker.logs import ColumnMap, examine
 from checker.logs.behaviour import Behaviour
-from checker.logs.cones import Cone, cones
+from checker.logs.cones import LogCone, cones
 from checker.logs.deviations import Deviation
 from checker.logs.mapping import Column
-from checker.logs.program import Needed
+from checker.logs.program import NeededInputs
 from checker.logs.signals import Vocabulary
 from spec_model.abstraction import boards
 from spec_model.lang.evaluate import step
@@ -29,9 +29,9 @@ def rows_of(board: str = "board1", count: int = 12 * SECOND) -> list[Row]:
 
 
 def behaviour(
-    folder: Path, rows: list[Row], without: Iterable[str] = (), how: Map | None = None
+    folder: Path, rows: list[Row], without: Iterable[str] = (), how: ColumnMap | None = None
 ) -> Behaviour:
-    return examine(written(folder, rows, without), how or Map()).behaviour
+    return examine(written(folder, rows, without), how or ColumnMap()).behaviour
 
 
 def only(found: Behaviour) -> Deviation:
@@ -48,7 +48,7 @@ def other(row: Row, output: str) -> None:
 # --- the step of a part -----------------------------------------------------------------------------
 
 
-def everything(board: str) -> tuple[Cone, ...]:
+def everything(board: str) -> tuple[LogCone, ...]:
     """The parts of a board of which all is logged."""
     one = boards()[board]
     return cones(one, frozenset(Vocabulary(one).sights), frozenset(o.name for o in one.outputs))
@@ -76,7 +76,7 @@ def test_a_step_asks_only_for_what_it_reads() -> None:
     }
     temperature = parts["Monitor_temperature"]
     unknown = (None,) * len(temperature.system.inputs)
-    with pytest.raises(Needed) as needed:
+    with pytest.raises(NeededInputs) as needed:
         temperature.step(tuple(v.init for v in temperature.system.variables), unknown)
     assert needed.value.name in {"temperature_degC", "temp_age"}
 
@@ -153,7 +153,7 @@ def test_numbers_within_the_tolerance_of_the_map_are_no_deviation(tmp_path: Path
     for row in rows:
         row["v_ref"] = round(row["v_ref"] + 0.004, 2)
     assert {"v_ref"} == {n for d in behaviour(tmp_path, rows).deviations for n in d.outputs}
-    how = Map(columns={"v_ref": Column("v_ref", tolerance=0.011)})
+    how = ColumnMap(columns={"v_ref": Column("v_ref", tolerance=0.011)})
     assert behaviour(tmp_path, rows, how=how).deviations == ()
 
 

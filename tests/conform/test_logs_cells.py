@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.logs import LogError, Map, Result, examine, read_map
+from checker.logs import ColumnMap, LogError, LogResult, examine, read_map
 from checker.logs.cells import LARGEST
 from checker.logs.invalid import MOST_VALUES, InvalidCell
 from tests.conform.recorded import copied, long_log, text
@@ -24,13 +24,13 @@ def with_cells(folder: Path, column: str, cells: dict[int, str], board: str = "b
     return file
 
 
-def mapped(folder: Path, column: str, options: str) -> Map:
+def mapped(folder: Path, column: str, options: str) -> ColumnMap:
     file = folder / "map.toml"
     file.write_text(f'[columns]\n{column} = {{ signal = "{column}", {options} }}\n', encoding="utf-8")
     return read_map(file)
 
 
-def only(found: Result) -> InvalidCell:
+def only(found: LogResult) -> InvalidCell:
     (cell,) = found.invalid.cells
     return cell
 
@@ -62,7 +62,7 @@ def only(found: Result) -> InvalidCell:
 def test_a_cell_without_meaning_is_told_and_the_rest_is_judged(
     tmp_path: Path, column: str, cell: str, says: str
 ) -> None:
-    found = examine(with_cells(tmp_path, column, {AT: cell}), Map())
+    found = examine(with_cells(tmp_path, column, {AT: cell}), ColumnMap())
     told = only(found)
     assert says in told.because and (told.column, told.signal) == (column, column)
     assert (told.line, told.tick, told.count) == (AT + 2, AT + 1, 1)
@@ -85,40 +85,40 @@ def test_a_cell_without_meaning_is_told_and_the_rest_is_judged(
 def test_a_cell_that_is_no_number_is_told_with_what_the_model_knows(
     tmp_path: Path, board: str, column: str, says: str
 ) -> None:
-    cell = only(examine(with_cells(tmp_path, column, {AT: "N/A"}, board), Map()))
+    cell = only(examine(with_cells(tmp_path, column, {AT: "N/A"}, board), ColumnMap()))
     assert says in cell.because and (cell.column, cell.tick, cell.text) == (column, AT + 1, "N/A")
 
 
 @pytest.mark.parametrize("cell", ["", "later", "-5", "nan", "4294967296"])
 def test_a_row_without_a_time_is_passed_over_as_a_missing_step(tmp_path: Path, cell: str) -> None:
-    found = examine(with_cells(tmp_path, "now_ms", {AT: cell}), Map())
+    found = examine(with_cells(tmp_path, "now_ms", {AT: cell}), ColumnMap())
     assert (found.rows, found.ticks, found.missing, found.start) == (SHORT - 1, SHORT, 1, "power-up")
     assert (only(found).line, only(found).tick) == (AT + 2, None)
     assert "The row is passed over." in only(found).because and not found.deviates
 
 
 def test_a_log_whose_first_rows_have_no_time_begins_anywhere(tmp_path: Path) -> None:
-    found = examine(with_cells(tmp_path, "now_ms", {0: "", 1: ""}), Map())
+    found = examine(with_cells(tmp_path, "now_ms", {0: "", 1: ""}), ColumnMap())
     assert (found.start, found.rows, only(found).count) == ("any", SHORT - 2, 2)
     assert not found.deviates
 
 
 def test_a_log_without_any_time_is_refused(tmp_path: Path) -> None:
     with pytest.raises(LogError, match=r"line 2: column now_ms: 'x' is no number\..* No row has a time"):
-        examine(with_cells(tmp_path, "now_ms", dict.fromkeys(range(SHORT), "x")), Map())
+        examine(with_cells(tmp_path, "now_ms", dict.fromkeys(range(SHORT), "x")), ColumnMap())
 
 
 def test_the_same_text_is_one_finding_and_many_texts_are_counted(tmp_path: Path) -> None:
-    found = examine(with_cells(tmp_path, "btn1", {3: "2", 9: "2", 10: "2"}), Map())
+    found = examine(with_cells(tmp_path, "btn1", {3: "2", 9: "2", 10: "2"}), ColumnMap())
     assert (only(found).count, only(found).line, only(found).last_line) == (3, 5, 12)
-    found = examine(with_cells(tmp_path, "btn1", {i: str(i + 2) for i in range(SHORT)}), Map())
+    found = examine(with_cells(tmp_path, "btn1", {i: str(i + 2) for i in range(SHORT)}), ColumnMap())
     assert len(found.invalid.cells) == MOST_VALUES and found.invalid.count == SHORT
     assert found.invalid.others == {"btn1": SHORT - MOST_VALUES}
 
 
 def test_long_cells_are_told_each_time(tmp_path: Path) -> None:
     long = "9" * 1000
-    found = examine(with_cells(tmp_path, "btn1", {3: long, 30: long}), Map())
+    found = examine(with_cells(tmp_path, "btn1", {3: long, 30: long}), ColumnMap())
     assert found.invalid.count == 2
 
 
@@ -128,7 +128,7 @@ def test_a_value_that_is_not_known_hides_no_fault_elsewhere(tmp_path: Path) -> N
     place = lines[0].index("temp_status")
     lines[20][place] = str((int(lines[20][place]) + 1) % 3)
     file.write_text("\n".join(map(",".join, lines)), encoding="utf-8")
-    found = examine(file, Map())
+    found = examine(file, ColumnMap())
     assert [d.outputs for d in found.behaviour.deviations] == [("temp_status",)] and found.invalid.count == 1
 
 

@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.logs import LogError, Map
+from checker.logs import ColumnMap, LogError
 from checker.logs import files as log_files
 from checker.logs.cells import Raw, converter
 from checker.logs.files import BLOCK, opened
 from checker.logs.mapping import Column
-from spec_model.abstraction import Signal, boards
+from spec_model.abstraction import BoardSignal, boards
 
 Rows = list[tuple[int, list[str]]]
 SIGNALS = {s.name: s for b in boards().values() for s in b.inputs}
@@ -34,8 +34,8 @@ def plain(content: str, separator: str = ",") -> Rows | str:
     return rows
 
 
-def read(file: Path, how: Map | None = None) -> Rows | str:
-    rows = opened(file, how or Map())
+def read(file: Path, how: ColumnMap | None = None) -> Rows | str:
+    rows = opened(file, how or ColumnMap())
     try:
         return [
             (line, [cell.lstrip(" ") for cell in cells])
@@ -50,7 +50,7 @@ def read(file: Path, how: Map | None = None) -> Rows | str:
 
 def the_same(file: Path, content: str, separator: str = ",") -> None:
     file.write_bytes(content.encode())
-    due, found = plain(content.removeprefix("\ufeff"), separator), read(file, Map(separator=separator))
+    due, found = plain(content.removeprefix("\ufeff"), separator), read(file, ColumnMap(separator=separator))
     if isinstance(due, str):
         assert isinstance(found, str) and found.startswith(due)
     else:
@@ -149,7 +149,7 @@ def test_numbers_are_read_exactly_however_they_are_written(number: object) -> No
         assert value(cell) == exact
 
 
-def resolution(signal: Signal) -> object:
+def resolution(signal: BoardSignal) -> object:
     return getattr(signal.domain.sort, "resolution", 1)
 
 
@@ -188,6 +188,6 @@ def test_times_in_other_units() -> None:
 def test_names_that_were_quoted_for_spreadsheets_are_found_again(tmp_path: Path) -> None:
     file = tmp_path / "log.csv"
     file.write_text("'=a,''b,c\n1,2,3\n")
-    rows = opened(file, Map())
+    rows = opened(file, ColumnMap())
     rows.close()
     assert rows.header == ("=a", "'b", "c")

@@ -10,7 +10,7 @@ from random import Random
 
 import pytest
 
-from checker.logs import LogError, Map, files, limits
+from checker.logs import ColumnMap, LogError, files, limits
 from checker.logs.files import BLOCK, BUFFER, PIECE, opened
 from checker.logs.log import open_log
 
@@ -19,7 +19,7 @@ HEAD = "now_ms,temp_status\n20,0\n"
 
 def count(file: Path) -> int:
     """The rows of a file."""
-    rows = opened(file, Map())
+    rows = opened(file, ColumnMap())
     try:
         return sum(len(texts.lines) for texts in rows.blocks)
     finally:
@@ -73,7 +73,7 @@ def test_a_line_may_be_as_long_as_said(tmp_path: Path, end: str, zipped: bool) -
         text = (HEAD + "40," + "0" * length + "\n" + "60,0\n" * 20_000).replace("\n", end)
         packed(file, text) if zipped else file.write_text(text, encoding="utf-8", newline="")
         if fits:  # as a line; no cell of a log is as long
-            rows = opened(file, Map())
+            rows = opened(file, ColumnMap())
             assert max(len(cell) for texts in rows.blocks for cell in texts.columns[1]) == length
             rows.close()
         else:
@@ -141,7 +141,7 @@ def test_a_log_of_as_many_columns_as_may_be_is_judged(tmp_path: Path) -> None:
     rows = (f"{20 * i},0{',7' * others}\n" for i in range(1, 101))
     file.write_text(f"{names}\n{''.join(rows)}", encoding="utf-8")
     with at_most(200):
-        log = open_log(file, Map(), "board1")
+        log = open_log(file, ColumnMap(), "board1")
         assert sum(len(block) for block in log.blocks()) == 100
     assert len(log.layout.ignored) == others
 
@@ -157,7 +157,7 @@ def test_fewer_lines_are_read_together_where_they_are_long(tmp_path: Path) -> No
     file = tmp_path / "log.csv"
     for cell, most in (("0", BLOCK), ("0" * 100_000, 2 * PIECE)):
         file.write_text(HEAD + f"40,{cell}\n" * 500, encoding="utf-8")
-        rows = opened(file, Map())
+        rows = opened(file, ColumnMap())
         assert max(len(texts.lines) for texts in rows.blocks) <= most
         rows.close()
 
@@ -167,7 +167,7 @@ def test_cells_that_never_repeat_are_not_all_remembered(tmp_path: Path) -> None:
     rows = (f"{20 * i},{'9' * 5000}{i}\n" for i in range(1, 10_000))
     file.write_text("now_ms,temp_status\n" + "".join(rows), encoding="utf-8")
     with at_most(40):
-        log = open_log(file, Map(), "board1")
+        log = open_log(file, ColumnMap(), "board1")
         assert sum(len(block) for block in log.blocks()) == 9_999
     assert log.invalid.count == 9_999
 

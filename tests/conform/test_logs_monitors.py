@@ -9,11 +9,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.logs import Map, as_on_record, examine
+from checker.logs import ColumnMap, as_on_record, examine
 from checker.logs.cells import converter
-from checker.logs.check import Result
+from checker.logs.check import LogResult
 from checker.logs.choosing import choose
-from checker.logs.formula import Rows
+from checker.logs.formula import FormulaRows
 from checker.logs.judge import Judge
 from checker.logs.mapping import Column
 from checker.logs.signals import Vocabulary
@@ -88,7 +88,7 @@ def judged(judge: Judge, log: Sequence[tuple[bool, bool, bool]], blocks: Sequenc
     for end in sorted(min(e, len(log)) for e in ends):
         if end > start:
             columns = {n: np.array([row[i] for row in log[start:end]], float) for i, n in enumerate("pqr")}
-            found += judge.advance(Rows(columns, end - start))[0].tolist()
+            found += judge.advance(FormulaRows(columns, end - start))[0].tolist()
             start = end
     return found
 
@@ -121,22 +121,22 @@ def test_after_a_gap_nothing_is_reported_that_some_past_would_excuse(
 # --- the properties of the rover -----------------------------------------------------------------
 
 
-def result(folder: Path, rows: list[Row], without: tuple[str, ...] = ()) -> Result:
-    return examine(written(folder, rows, without), Map())
+def result(folder: Path, rows: list[Row], without: tuple[str, ...] = ()) -> LogResult:
+    return examine(written(folder, rows, without), ColumnMap())
 
 
 @pytest.fixture(scope="module", params=["board1", "board2"])
-def good(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> Result:
+def good(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFactory) -> LogResult:
     return result(tmp_path_factory.mktemp(request.param), copied(long_log(request.param)))
 
 
-def test_a_good_log_breaks_only_what_is_on_record(good: Result) -> None:
+def test_a_good_log_breaks_only_what_is_on_record(good: LogResult) -> None:
     assert good.unexpected == ()
     assert {v.word for v in good.verdicts} >= {"satisfied", "violated", "never triggered", "reached"}
     assert all(as_on_record(v) for v in good.verdicts if v.word == "violated")
 
 
-def test_every_property_of_the_board_has_its_place(good: Result) -> None:
+def test_every_property_of_the_board_has_its_place(good: LogResult) -> None:
     assert len(good.verdicts) >= 70 and good.choice.missing == ()
     assert all(one.because for one in good.choice.untold)
 
@@ -190,7 +190,7 @@ def test_charts_that_do_not_execute_are_not_judged() -> None:
     assert not {"relay", "temperature", "references"} & gated
 
 
-def test_what_is_stated_of_a_scene_is_not_asked_of_a_log(good: Result) -> None:
+def test_what_is_stated_of_a_scene_is_not_asked_of_a_log(good: LogResult) -> None:
     """A property of a system that assumes something of its environment is none of every log."""
     assumed = {v.prop.on for v in good.verdicts if not isinstance(systems()[v.prop.on].assumed, Const)}
     assert assumed == set() and not any(systems()[v.prop.on].under for v in good.verdicts)

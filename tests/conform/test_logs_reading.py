@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.logs import LogError, Map, examine, read_map
-from checker.logs.log import Block, open_log
+from checker.logs import ColumnMap, LogError, examine, read_map
+from checker.logs.log import LogBlock, open_log
 from spec_model.abstraction import boards
 from tests.conform.recorded import Row, copied, long_log, text, written
 
@@ -18,22 +18,22 @@ def short() -> list[Row]:
     return copied(long_log("board1")[:SHORT])
 
 
-def blocks(file: Path, how: Map | None = None, system: str = "") -> list[Block]:
-    return list(open_log(file, how or Map(), system).blocks())
+def blocks(file: Path, how: ColumnMap | None = None, system: str = "") -> list[LogBlock]:
+    return list(open_log(file, how or ColumnMap(), system).blocks())
 
 
-def conforms(file: Path, how: Map | None = None) -> bool:
-    found = examine(file, how or Map())
+def conforms(file: Path, how: ColumnMap | None = None) -> bool:
+    found = examine(file, how or ColumnMap())
     return found.rows == SHORT and not found.deviates and not found.behaviour.undecided
 
 
-def refused(file: Path, how: Map | None = None, system: str = "") -> str:
+def refused(file: Path, how: ColumnMap | None = None, system: str = "") -> str:
     with pytest.raises(LogError) as caught:
         blocks(file, how, system)
     return str(caught.value)
 
 
-def mapped(folder: Path, toml: str) -> Map:
+def mapped(folder: Path, toml: str) -> ColumnMap:
     file = folder / "map.toml"
     file.write_text(toml, encoding="utf-8")
     return read_map(file)
@@ -128,9 +128,9 @@ def test_steps_are_counted_through_jitter_gaps_and_the_wrap_of_the_clock(tmp_pat
 
 
 def test_where_a_log_begins_is_told_by_its_time_or_the_map(tmp_path: Path) -> None:
-    assert examine(written(tmp_path, short()), Map()).start == "power-up"
-    assert examine(written(tmp_path, short()[9:]), Map()).start == "any"
-    assert examine(written(tmp_path, short()[9:]), Map(start="power-up")).start == "power-up"
+    assert examine(written(tmp_path, short()), ColumnMap()).start == "power-up"
+    assert examine(written(tmp_path, short()[9:]), ColumnMap()).start == "any"
+    assert examine(written(tmp_path, short()[9:]), ColumnMap(start="power-up")).start == "power-up"
 
 
 # --- what has no meaning ----------------------------------------------------------------------------

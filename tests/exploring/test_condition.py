@@ -4,7 +4,7 @@ import pytest
 
 from checker.explore.by_hand.condition import condition
 from checker.explore.by_hand.names import Names
-from checker.explore.by_hand.written import Refused
+from checker.explore.by_hand.written import RefusedInput
 from spec_model.lang.domain import enumeration, integer
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import flag, var
@@ -54,9 +54,9 @@ def test_a_name_with_a_hyphen_is_no_difference(written: str, true: bool) -> None
     names = Names({**NAMES.variables, **link}, NAMES.charts)
     at = AT | {"B2-B1.arrives": 1, **AGES}
     assert bool(evaluate(condition(written, names), at)) is true
-    with pytest.raises(Refused, match=r"`B2-B1.arrives \*\* 2` has no meaning"):
+    with pytest.raises(RefusedInput, match=r"`B2-B1.arrives \*\* 2` has no meaning"):
         condition("B2-B1.arrives ** 2", names)
-    with pytest.raises(Refused, match=r"no variable or state 'B2'. Known: B2-B1.age, B2-B1.arrives, "):
+    with pytest.raises(RefusedInput, match=r"no variable or state 'B2'. Known: B2-B1.age, B2-B1.arrives, "):
         condition("B2-B1.arives", names)
 
 
@@ -66,7 +66,7 @@ def test_names_that_differ_in_an_operator_alone_are_told_apart() -> None:
     names = Names({v.name: v for v in odd}, {})
     at = {"a-b": 1, "a+b": 2, "µ-b": 1, "A-B": 0}
     assert evaluate(condition("a-b == 1 and a+b == 2 and µ-b and A-B == 'A-B'", names), at)
-    with pytest.raises(Refused, match=r"`a\+b \*\* 2` has no meaning"):
+    with pytest.raises(RefusedInput, match=r"`a\+b \*\* 2` has no meaning"):
         condition("a+b ** 2", names)
 
 
@@ -99,5 +99,5 @@ def test_names_that_differ_in_an_operator_alone_are_told_apart() -> None:
     ],
 )
 def test_what_has_no_meaning_is_refused(written: str, said: str) -> None:
-    with pytest.raises(Refused, match=said):
+    with pytest.raises(RefusedInput, match=said):
         condition(written, NAMES)

@@ -4,7 +4,7 @@ import pytest
 
 from checker.explore.by_hand import session
 from checker.explore.by_hand.session import Session
-from checker.explore.by_hand.written import Refused
+from checker.explore.by_hand.written import RefusedInput
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block
 from spec_model.lang.expr import flag
@@ -27,7 +27,7 @@ def test_an_input_against_an_assumption_is_not_taken() -> None:
     one = begun()
     one.set([("level", "150")])
     one.advance(2)
-    with pytest.raises(Refused, match=r"assumption CALM .* Set what belongs together"):
+    with pytest.raises(RefusedInput, match=r"assumption CALM .* Set what belongs together"):
         one.set([("level", "250")])
     assert one.standing == {"level": 150}
 
@@ -44,7 +44,7 @@ def test_inputs_that_nobody_set_follow_the_assumptions() -> None:
     assert [one.simulation.given(t)["ping"] for t in (1, 2, 3)] == [1, 0, 1]
     one.set([("ping", "false")])
     one.advance(1)
-    with pytest.raises(Refused, match="In tick 5 these inputs are not possible: assumption TURNS"):
+    with pytest.raises(RefusedInput, match="In tick 5 these inputs are not possible: assumption TURNS"):
         one.advance(1)
 
 

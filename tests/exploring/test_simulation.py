@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from checker.explore.by_hand import simulation
 from checker.explore.by_hand.admitted import broken, drawn
-from checker.explore.by_hand.simulation import Simulation
-from checker.explore.by_hand.written import Refused, value
+from checker.explore.by_hand.simulation import HandSimulation
+from checker.explore.by_hand.written import RefusedInput, value
 from checker.verify.runs.replay import ReplayError
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block, Chart, State, to
@@ -46,8 +46,8 @@ def system() -> System:
     return in_order("tank", tank, counting, frozen=[top], assumptions=[CALM])
 
 
-def ran(*levels: int) -> Simulation:
-    sim = Simulation(system())
+def ran(*levels: int) -> HandSimulation:
+    sim = HandSimulation(system())
     for one in levels:
         sim.step({"level": one})
     return sim
@@ -82,7 +82,7 @@ def test_a_new_input_after_back_begins_a_new_branch() -> None:
 
 def test_frozen_values_are_chosen_before_the_first_tick() -> None:
     sim = ran(0, 100)
-    with pytest.raises(Refused, match="before the first tick; write goto 0"):
+    with pytest.raises(RefusedInput, match="before the first tick; write goto 0"):
         sim.fix("top", 101)
     sim.goto(0)
     sim.fix("top", 101)
@@ -94,13 +94,13 @@ def test_frozen_values_are_chosen_before_the_first_tick() -> None:
 
 def test_what_an_assumption_forbids_is_refused_with_its_name() -> None:
     sim = ran(0, 150)
-    with pytest.raises(Refused, match=r"In tick 3 .*assumption CALM \(The level does not jump"):
+    with pytest.raises(RefusedInput, match=r"In tick 3 .*assumption CALM \(The level does not jump"):
         sim.step({"level": 250})
     assert sim.at == 2
 
 
 def test_there_is_no_tick_that_was_not_executed() -> None:
-    with pytest.raises(Refused, match="There is no tick 4; the run has 2"):
+    with pytest.raises(RefusedInput, match="There is no tick 4; the run has 2"):
         ran(0, 1).goto(4)
 
 
@@ -113,7 +113,7 @@ def test_a_disagreement_of_the_two_readings_is_our_bug(monkeypatch: pytest.Monke
 
 def test_after_a_value_left_its_domain_the_run_goes_on_from_before() -> None:
     small = var("small", integer(0, 2))
-    sim = Simulation(in_order("narrow", Block("B", [assign(small, var("push", integer(0, 5)) * 1)])))
+    sim = HandSimulation(in_order("narrow", Block("B", [assign(small, var("push", integer(0, 5)) * 1)])))
     sim.step({"push": 2})
     with pytest.raises(ModelError, match="leaves its domain"):
         sim.step({"push": 5})
@@ -157,7 +157,7 @@ def test_inputs_drawn_are_admissible_and_what_stands_is_kept(seed: int) -> None:
         assume=(a == 417) & (b > 5),
         assumptions=[Assumption("X", "b is as keep says.", keep | (b == 700))],
     )
-    sim = Simulation(narrow)
+    sim = HandSimulation(narrow)
     inputs = {n: v.init for n, v in sim.inputs.items()}
     found = drawn(sim.lowered, sim.before, inputs, {"a", "b"}, Random(seed))
     assert found is not None and admissible(sim.lowered, sim.before, found)
@@ -202,5 +202,5 @@ def test_values_are_read_as_people_write_them(of: Any, written: str, raw: int) -
     ],
 )
 def test_other_values_are_refused_with_what_there_is(of: Any, written: str, said: str) -> None:
-    with pytest.raises(Refused, match=said):
+    with pytest.raises(RefusedInput, match=said):
         value(of, written)

@@ -13,7 +13,7 @@ from spec_model.lang.expiry import Counter, Expiry, free_timers
 from spec_model.lang.expr import Var, When, flag
 from spec_model.lang.interpret import Interpreter
 from spec_model.lang.lower import lower
-from spec_model.lang.lower.timers import Timers
+from spec_model.lang.lower.timers import ChartTimers
 from spec_model.lang.system import System, in_order
 from spec_model.lang.time import sec, ticks
 from spec_model.lang.walk import structure
@@ -24,7 +24,7 @@ from tests.strategies import frozen_values, input_blocks, systems
 def drives(system: System, keep: Sequence[str]) -> Iterator[tuple[Var, str, int]]:
     """Each free input, its exact counter, and the value of that before a tick at which it is true."""
     for chart in system.charts:
-        exact = Timers(chart, system.step_ms)
+        exact = ChartTimers(chart, system.step_ms)
         for counter, flags in Expiry(chart, system.step_ms, keep).flags.items():
             for least, over in flags.items():
                 early = (
@@ -33,7 +33,7 @@ def drives(system: System, keep: Sequence[str]) -> Iterator[tuple[Var, str, int]
                 yield over, _exact(exact, counter, least).name, least - early
 
 
-def _exact(timers: Timers, counter: Counter, least: int) -> Var:
+def _exact(timers: ChartTimers, counter: Counter, least: int) -> Var:
     owner, when, arg = counter
     if when is When.AFTER:
         return timers.after[owner]
@@ -49,7 +49,7 @@ def follow(
     """Run both with the free inputs driven by the exact counters; the free inputs that were true."""
     free = free_timers(system, keep)
     exact, loose = lower(system), lower(free)
-    timers = {v.name for c in free.charts for v in Timers(c, system.step_ms).variables}
+    timers = {v.name for c in free.charts for v in ChartTimers(c, system.step_ms).variables}
     same = [v.name for v in loose.variables if v.name not in timers]
     assert {n for n in system.written if n not in frozen} <= {*same}
     one, other, used = {**exact.init, **frozen}, {**loose.init, **frozen}, list[str]()

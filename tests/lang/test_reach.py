@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 
 from spec_model.lang.chart import Chart, Path, State, to
 from spec_model.lang.wellformed import check_chart
-from spec_model.lang.wellformed.paths import Reach
+from spec_model.lang.wellformed.paths import PathReach
 from spec_model.lang.wellformed.places import Leg, legs
 from tests.profiles import examples
 from tests.strategies import systems
@@ -47,7 +47,7 @@ def naive(chart: Chart, all_legs: Iterable[Leg]) -> tuple[set[Path], set[Path]]:
 
 
 def same(chart: Chart, all_legs: list[Leg]) -> None:
-    found = Reach(chart, all_legs)
+    found = PathReach(chart, all_legs)
     assert (found.entered, found.completed) == naive(chart, all_legs)
 
 
@@ -85,7 +85,7 @@ def test_two_regions_that_are_entered_by_name_each_complete_the_other() -> None:
     jumps = [Leg((), True, "", to("Off"), ("Off",), True)]
     jumps += [Leg(("Off",), False, "", to("Y"), ("On", r, "Y"), True) for r in ("R1", "R2")]
     same(chart, jumps)
-    assert {("On", "R1"), ("On", "R2")} <= Reach(chart, jumps).completed
+    assert {("On", "R1"), ("On", "R2")} <= PathReach(chart, jumps).completed
 
 
 def test_each_arrow_is_followed_once_however_deep_it_lies(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -97,12 +97,12 @@ def test_each_arrow_is_followed_once_however_deep_it_lies(monkeypatch: pytest.Mo
     chart = Chart("Deep", [inner], default="C0")
     check_chart(chart)
     every, asked = list(legs(chart)), list[Path]()
-    follow = Reach._name
+    follow = PathReach._name
 
-    def followed(reach: Reach, target: Path) -> None:
+    def followed(reach: PathReach, target: Path) -> None:
         asked.append(target)
         follow(reach, target)
 
-    monkeypatch.setattr(Reach, "_name", followed)
-    assert len(Reach(chart, every).entered) == len(chart.states) - 1
+    monkeypatch.setattr(PathReach, "_name", followed)
+    assert len(PathReach(chart, every).entered) == len(chart.states) - 1
     assert len(asked) <= len(every)

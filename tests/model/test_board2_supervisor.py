@@ -20,7 +20,7 @@ from spec_model.lang.system import System, in_order
 from spec_model.readings import fixed
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board2_supervisor import BLE, IMU, RX, SOURCES, SUP, Source
+from spec_model.signals.board2_supervisor import BLE, IMU, RX, SOURCES, SUP, SourceSignals
 from tests.test_lowering import compare
 
 SYSTEM = {system.name: fixed({}).system(system) for system in (*MONITORS, *OTHERS)}
@@ -55,7 +55,7 @@ class Run:
 # --- monitors ----------------------------------------------------------------------------------------
 
 
-def statuses(source: Source, updates: Iterable[bool]) -> list[str]:
+def statuses(source: SourceSignals, updates: Iterable[bool]) -> list[str]:
     """The level of the source after each step: OK, DEG or CRIT."""
     run, name = Run(f"monitors_2_{source.region}_exact"), source.update.name.replace(".", "__")
     shown = []
@@ -73,7 +73,9 @@ def stamps(*gaps: int) -> list[bool]:
 @pytest.mark.parametrize(
     ("source", "first"), [(SUP, 8), (BLE, 7), (IMU, 11), (RX, 7)], ids=lambda p: getattr(p, "region", p)
 )
-def test_a_silent_source_is_critical_in_the_first_step_above_its_limit(source: Source, first: int) -> None:
+def test_a_silent_source_is_critical_in_the_first_step_above_its_limit(
+    source: SourceSignals, first: int
+) -> None:
     shown = statuses(source, [False] * first)
     assert shown == ["OK"] * (first - 1) + ["CRIT"]
 
@@ -128,7 +130,7 @@ def test_degradation_comes_before_silence_and_a_slow_critical_source_stays_criti
     assert set(shown[8:]) == {"CRIT"}
 
 
-def lone(source: Source, record: Sequence[object]) -> System:
+def lone(source: SourceSignals, record: Sequence[object]) -> System:
     """The record questioned in every step but the first, as a region that never takes an arrow does."""
     slow2 = exact(source) if record == [exact] else runs(source)
     chart = Chart("Ask", [State("OK", during=slow2.ask)], default="OK")
@@ -155,7 +157,7 @@ def by_time_stamps(updates: Sequence[bool], mean: int) -> list[bool]:
 @pytest.mark.parametrize("source", [SUP, BLE, IMU], ids=lambda s: s.region)
 @given(sequence=gaps)
 def test_the_exact_record_computes_the_mean_of_the_time_stamps(
-    source: Source, sequence: list[tuple[int, int]]
+    source: SourceSignals, sequence: list[tuple[int, int]]
 ) -> None:
     updates = stamps(*(gap for gap, times in sequence for _ in range(times)))
     run, found = Run(lone(source, [exact])), []

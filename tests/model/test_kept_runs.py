@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.model.kept_runs import PREMISES, Kept, file_of, read, text
+from checker.model.kept_runs import PREMISES, KeptRun, file_of, read, text
 from checker.model.kept_runs import SCHEMA as SCHEMAS
 from checker.model.rover import rover
 from checker.results.verdict import Run
@@ -24,7 +24,10 @@ LONG = 500
 
 def test_a_run_is_read_as_it_was_written(tmp_path: Path) -> None:
     held = [{"a": 1, "b": 0}] * 3
-    runs = {"P-2": Kept("hall", Run({"c": 4}, (*held, {"a": 1, "b": 7}))), "P-1": Kept("x", Run({}, ({},)))}
+    runs = {
+        "P-2": KeptRun("hall", Run({"c": 4}, (*held, {"a": 1, "b": 7}))),
+        "P-1": KeptRun("x", Run({}, ({},))),
+    }
     file = tmp_path / "premises.json"
     file.write_text(text(runs), encoding="utf-8")
     assert read(file) == runs

@@ -7,7 +7,7 @@ import pytest
 
 from checker.engines import Limits, quiet
 from checker.mutate.asked import as_it_is, cones
-from checker.mutate.judging import DOMAINS, Case, Fate, Judged, judged
+from checker.mutate.judging import DOMAINS, Fate, Judged, MutantCase, judged
 from checker.mutate.mutants import Mutant, mutants
 from checker.mutate.observing import observable
 from checker.mutate.planning import Plan, homes
@@ -138,7 +138,7 @@ def test_a_mutant_that_leaves_a_domain_is_killed_without_a_property() -> None:
     go, n = flag("go"), var("n", integer(0, 3))
     system = in_order("count", Block("Count", [assign(n, ite(go & (n < 3), n + 1, 0))]))
     [wrong] = [m for m in mutants(system) if m.operator == "comparison"]
-    found = judged([Case(system, wrong.system, wrong.parts, (), {})], Limits(), quiet)
+    found = judged([MutantCase(system, wrong.system, wrong.parts, (), {})], Limits(), quiet)
     assert (found.fate, found.killer) == (Fate.KILLED, DOMAINS)
     assert "outside integer in 0..3" in found.why
 
@@ -197,7 +197,7 @@ def test_a_fault_that_never_computes_anything_else_is_equivalent() -> None:
     count = Block("Count", [assign(twice, minimum(n + n, 9)), assign(n, ite(n < 3, n + 1, 0))])
     system = in_order("count", count)
     [wrong] = [m for m in mutants(system) if m.operator == "limit-down" and "`9`" in m.text]
-    found = judged([Case(system, wrong.system, wrong.parts, (), {})], Limits(), quiet)
+    found = judged([MutantCase(system, wrong.system, wrong.parts, (), {})], Limits(), quiet)
     assert found.fate is Fate.EQUIVALENT and found.why.startswith("the fault never computes anything else")
 
 
@@ -211,7 +211,7 @@ def test_a_wire_is_seen_by_what_its_readers_make_of_it() -> None:
     )
     system = in_order("slots", read, fill)
     [wrong] = [m for m in mutants(system) if m.id == "Fill/data/newest/initial"]
-    case = Case(system, wrong.system, wrong.parts, (), {})
+    case = MutantCase(system, wrong.system, wrong.parts, (), {})
     found = judged([case], Limits(), quiet)
     assert found.fate is Fate.EQUIVALENT and found.why != ""
     for slot_matters in (

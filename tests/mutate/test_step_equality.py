@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 
 from checker.engines import Limits, quiet
-from checker.mutate.judging import EQUAL_STEPS, OVERWRITTEN, Case, Fate, judged
+from checker.mutate.judging import EQUAL_STEPS, OVERWRITTEN, Fate, MutantCase, judged
 from checker.mutate.mutants import mutants
 from checker.mutate.step_equality import equal_in_every_step
 from checker.system.lowered import lowered
@@ -56,7 +56,7 @@ def test_runs_do_not_tell_apart_what_is_equal_in_every_step(data: st.DataObject)
 def test_timers_cost_nothing() -> None:
     system = in_order("patient", patient)
     [swapped] = [m for m in mutants(system) if m.id == "Patient/arrow/Low.1/priority"]
-    found = judged([Case(system, swapped.system, swapped.parts, (), {})], Limits(), quiet)
+    found = judged([MutantCase(system, swapped.system, swapped.parts, (), {})], Limits(), quiet)
     assert (found.fate, found.why) == (Fate.EQUIVALENT, EQUAL_STEPS)
 
 
@@ -76,7 +76,7 @@ def test_what_the_first_tick_overwrites_may_begin_otherwise() -> None:
     lit = State("Lit", entry=[assign(shown, True), assign(seen, True)])
     system = in_order("shown", Chart("Shown", [dark, lit], default="Dark"))
     wrong = [m for m in mutants(system) if m.operator == "initial"]
-    found = {m.id: judged([Case(system, m.system, m.parts, (), {})], Limits(), quiet) for m in wrong}
+    found = {m.id: judged([MutantCase(system, m.system, m.parts, (), {})], Limits(), quiet) for m in wrong}
     assert {id: judged.fate for id, judged in found.items()} == {
         "Shown/data/shown/initial": Fate.EQUIVALENT,
         "Shown/data/seen/initial": Fate.SURVIVOR,

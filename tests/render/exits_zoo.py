@@ -3,7 +3,7 @@
 from dataclasses import replace
 from functools import cache
 
-from checker.results.board_steps import BoardRun, Kind, Signal, Step
+from checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSignal
 from checker.results.trace import Arrow, Needed, Tick, Trace
 from spec_model.lang.domain import enumeration, integer
 from spec_model.lang.expr import flag, var
@@ -71,21 +71,21 @@ LAMP = BoardRun(
     board="toy",
     tick_ms=20,
     inputs=(
-        Signal("now_ms", Kind.CLOCK, 0, "start of the step"),
-        Signal("seen_ms", Kind.STAMP, 0, "when the level was measured"),
-        Signal("level", Kind.NUMBER, 0.0),
-        Signal("on", Kind.BOOL, False),
+        StepSignal("now_ms", SignalKind.CLOCK, 0, "start of the step"),
+        StepSignal("seen_ms", SignalKind.STAMP, 0, "when the level was measured"),
+        StepSignal("level", SignalKind.NUMBER, 0.0),
+        StepSignal("on", SignalKind.BOOL, False),
     ),
     outputs=(
-        Signal("lit", Kind.BOOL, False),
-        Signal("age", Kind.WHOLE, 0, "ms since the level was measured"),
+        StepSignal("lit", SignalKind.BOOL, False),
+        StepSignal("age", SignalKind.WHOLE, 0, "ms since the level was measured"),
     ),
     steps=(
-        Step({"seen_ms": 5, "level": 0.5, "on": True}, {"lit": True, "age": 5}),
-        Step({"seen_ms": 5, "level": 0.5, "on": True}, {"lit": True, "age": 5}),
-        Step({"seen_ms": None, "level": 0.5, "on": True}, {"lit": True, "age": 25}),
-        Step({"seen_ms": None, "level": 0.25, "on": True}, {"age": 45}),
-        Step({"seen_ms": 0, "level": 0.25, "on": False}, {"lit": False, "age": 0}),
+        BoardStep({"seen_ms": 5, "level": 0.5, "on": True}, {"lit": True, "age": 5}),
+        BoardStep({"seen_ms": 5, "level": 0.5, "on": True}, {"lit": True, "age": 5}),
+        BoardStep({"seen_ms": None, "level": 0.5, "on": True}, {"lit": True, "age": 25}),
+        BoardStep({"seen_ms": None, "level": 0.25, "on": True}, {"age": 45}),
+        BoardStep({"seen_ms": 0, "level": 0.25, "on": False}, {"lit": False, "age": 0}),
     ),
     implementation="python:nowhere:Lamp",
 )

@@ -4,7 +4,7 @@ import pytest
 
 from checker.render import again as folding
 from checker.render.again import Again, folded
-from checker.render.story import Event, rows
+from checker.render.story import StoryEvent, rows
 from checker.render.trace_markdown import render as markdown
 from checker.render.trace_table import render as table
 from checker.results.trace import Tick, Trace
@@ -25,7 +25,7 @@ def test_what_is_repeated_is_told_once() -> None:
     again = told[-2]
     assert isinstance(again, Again)
     assert again.what == "ticks 6–25: ticks 2–5 again, 5 times; 20 ticks = 400 ms"
-    assert isinstance(told[-1], Event) and told[-1].number == 26
+    assert isinstance(told[-1], StoryEvent) and told[-1].number == 26
     for shown in (table(trace), markdown(trace)):
         assert again.what in " ".join(shown.split())
 
@@ -46,7 +46,7 @@ def test_every_tick_is_told_once_or_said_to_be_a_repetition() -> None:
     for beeps in (".x" * 9, "xx.." * 4 + "x." * 5, "x" + "." * 30, ".x..x..x...x"):
         trace, at = run(beeps), 1
         for row in folded(trace):
-            first, last = (row.number, row.number) if isinstance(row, Event) else (row.first, row.last)
+            first, last = (row.number, row.number) if isinstance(row, StoryEvent) else (row.first, row.last)
             assert first == at and last >= first
             if isinstance(row, Again):
                 assert beeps[first - 1 : last] == beeps[first - 1 - row.period : first - 1] * row.times

@@ -15,7 +15,7 @@ import pytest
 from jsonschema import Draft4Validator
 from junitparser import Error, Failure, JUnitXml, Skipped
 
-from checker.render.ci import Finding, Level, Report, github, of_trace
+from checker.render.ci import CiFinding, CiReport, FindingLevel, github, of_trace
 from checker.render.ci.github import MOST, annotations, command, summary
 from checker.render.ci.junit import junit
 from checker.render.ci.sarif import RESULTS, document, sarif
@@ -42,22 +42,32 @@ def junit_schema() -> Schema:
     return Schema((SCHEMAS / "junit-10.xsd").read_text(encoding="utf-8"))
 
 
-def finding(level: Level, number: int = 0, word: str = "violated", **more: Any) -> Finding:
+def finding(level: FindingLevel, number: int = 0, word: str = "violated", **more: Any) -> CiFinding:
     usual: dict[str, Any] = dict(text="It is so.", system="toy", evidence="as found", recorded="proved")
-    return Finding(f"TOY-{number}", word=word, level=level, **{**usual, **more})
+    return CiFinding(f"TOY-{number}", word=word, level=level, **{**usual, **more})
 
 
-ALL = Report(
+ALL = CiReport(
     (
-        finding(Level.PASSED, 1, "proved"),
-        finding(Level.KNOWN, 2, recorded="violated", because="As the figure has it.", place=Place("m.py", 3)),
-        finding(Level.OPEN, 3, "unknown", evidence="out of time"),
+        finding(FindingLevel.PASSED, 1, "proved"),
         finding(
-            Level.FAILED, 4, trace=told(long_trace(2)), place=Place("m.py", 5), details={"engine": "bmc"}
+            FindingLevel.KNOWN,
+            2,
+            recorded="violated",
+            because="As the figure has it.",
+            place=Place("m.py", 3),
         ),
-        finding(Level.FAILED, 5, "proved", recorded="violated after 3 ticks", system="other"),
-        finding(Level.REJECTED, 6, "proved", system="other"),
-        finding(Level.KNOWN, 7, "unknown", recorded="unknown", system="other"),
+        finding(FindingLevel.OPEN, 3, "unknown", evidence="out of time"),
+        finding(
+            FindingLevel.FAILED,
+            4,
+            trace=told(long_trace(2)),
+            place=Place("m.py", 5),
+            details={"engine": "bmc"},
+        ),
+        finding(FindingLevel.FAILED, 5, "proved", recorded="violated after 3 ticks", system="other"),
+        finding(FindingLevel.REJECTED, 6, "proved", system="other"),
+        finding(FindingLevel.KNOWN, 7, "unknown", recorded="unknown", system="other"),
     ),
     wanted=7,
 )
@@ -155,13 +165,15 @@ def test_fingerprints_stay_when_lines_move() -> None:
                      for r in (ALL, replace(ALL, findings=tuple(moved))))  # fmt: skip
     assert before == after
     assert len({f["primaryLocationLineHash"] for f in before}) == len(before)
-    [other] = document(Report((finding(Level.FAILED, 2, "unknown"),), 1))["runs"][0]["results"]
+    [other] = document(CiReport((finding(FindingLevel.FAILED, 2, "unknown"),), 1))["runs"][0]["results"]
     assert other["partialFingerprints"] not in before, "another verdict is another result"
 
 
 def test_sarif_has_no_more_results_than_are_shown() -> None:
-    many = tuple(finding(Level.KNOWN, n) for n in range(RESULTS + 2)) + (finding(Level.FAILED, 9_999),)
-    run = document(Report(many, len(many)))["runs"][0]
+    many = tuple(finding(FindingLevel.KNOWN, n) for n in range(RESULTS + 2)) + (
+        finding(FindingLevel.FAILED, 9_999),
+    )
+    run = document(CiReport(many, len(many)))["runs"][0]
     assert len(run["results"]) == RESULTS and run["results"][0]["ruleId"] == "TOY-9999", "the worst first"
     [told] = run["invocations"][0]["toolExecutionNotifications"]
     assert told["message"]["text"].startswith("3 of 5003 results are left out")
@@ -192,8 +204,8 @@ class TestJunit(TraceSuite):
 
     def test_what_xml_cannot_hold_is_replaced(self) -> None:
         assert "\x1b" not in self.shown("odd") and r"\x1b\x00" in self.shown("odd")
-        odd = replace(finding(Level.FAILED, 1, "violated"), evidence="\x1b[2J")
-        assert "\ufffd[2J" in junit(Report((odd,), 1))
+        odd = replace(finding(FindingLevel.FAILED, 1, "violated"), evidence="\x1b[2J")
+        assert "\ufffd[2J" in junit(CiReport((odd,), 1))
 
 
 def test_junit_of_a_check() -> None:
@@ -302,8 +314,8 @@ def test_annotations_of_a_check() -> None:
 
 @pytest.mark.parametrize(("count", "shown"), [(MOST, MOST), (MOST + 1, MOST), (500, MOST)])
 def test_no_annotation_is_lost_in_silence(count: int, shown: int) -> None:
-    many = tuple(finding(Level.KNOWN, n) for n in range(count))
-    found = list(commands(annotations(Report(many, count))))
+    many = tuple(finding(FindingLevel.KNOWN, n) for n in range(count))
+    found = list(commands(annotations(CiReport(many, count))))
     assert len(found) == shown
     if count > MOST:
         assert found[-1][1]["title"] == f"{count - MOST + 1} more of this kind"
@@ -332,8 +344,8 @@ def test_marks_with_a_meaning_are_escaped() -> None:
     ],
 )
 def test_the_log_holds_no_command_by_accident(text: str) -> None:
-    failed = finding(Level.FAILED, because=f"as\n{text}", text=text, evidence=f"{text}\n::error::x")
-    two = Report((failed, replace(failed, id="TOY-1")), 2)
+    failed = finding(FindingLevel.FAILED, because=f"as\n{text}", text=text, evidence=f"{text}\n::error::x")
+    two = CiReport((failed, replace(failed, id="TOY-1")), 2)
     assert [kind for kind, _, _ in commands(annotations(two))] == ["error", "error"]
     assert text.splitlines()[-1].split()[-1] in annotations(two), "it is shown all the same"
 
@@ -342,20 +354,22 @@ def test_summary() -> None:
     shown = summary(PARTLY)
     assert "7 of 9" in shown and "| ❌ | TOY-4 | violated | proved | It is so. |" in shown
     assert "False since tick 5" in shown and "2 findings are as on record." in shown
-    good = summary(Report((finding(Level.PASSED, 1, "proved"),), 1))
+    good = summary(CiReport((finding(FindingLevel.PASSED, 1, "proved"),), 1))
     assert "Every verdict is as on record." in good and "|" not in good
 
 
 def test_a_long_summary_stays_below_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(github, "BUDGET", 3_000)
-    shown = summary(Report(tuple(finding(Level.FAILED, n, trace=told(long_trace(2))) for n in range(9)), 9))
+    shown = summary(
+        CiReport(tuple(finding(FindingLevel.FAILED, n, trace=told(long_trace(2))) for n in range(9)), 9)
+    )
     assert len(shown) < 6_000 and 0 < shown.count("<details>") < 9
     assert "The other runs are in the log." in shown
     assert shown.count("| ❌ |") == 9
 
 
 def test_a_trace_is_its_own_report() -> None:
-    def level(trace: Trace) -> Level:
+    def level(trace: Trace) -> FindingLevel:
         return of_trace(trace).findings[0].level
 
-    assert level(lasso()) is Level.FAILED and level(witness()) is Level.PASSED
+    assert level(lasso()) is FindingLevel.FAILED and level(witness()) is FindingLevel.PASSED

@@ -10,7 +10,7 @@ import pytest
 from checker.render import statechart_svg
 from checker.render.drawing.graph import Point
 from checker.render.drawing.nested import picture
-from checker.render.drawing.picture import Box, Picture, Piece
+from checker.render.drawing.picture import Box, DrawnPicture, PicturePiece
 from checker.render.drawing.text import LINE, SIZE, block, width, wrap
 from spec_model.rover import charts_of, systems
 from tests.render.zoo import CHARTS
@@ -24,11 +24,11 @@ EVERY = {**CHARTS, **charts_of(systems())}
 
 
 @pytest.fixture(params=EVERY, scope="module")
-def drawn(request: pytest.FixtureRequest) -> Picture:
+def drawn(request: pytest.FixtureRequest) -> DrawnPicture:
     return picture(EVERY[request.param])
 
 
-def label(piece: Piece) -> Rectangle:
+def label(piece: PicturePiece) -> Rectangle:
     (x, y), (wide, high) = piece.label, block(piece.lines)
     return x, y, x + wide, y + high
 
@@ -51,23 +51,23 @@ def crosses(line: tuple[Point, Point], area: Rectangle) -> bool:
     return overlap((min(x0, x1), min(y0, y1), max(x0, x1) + 1, max(y0, y1) + 1), area)
 
 
-def test_labels_lie_apart(drawn: Picture) -> None:
+def test_labels_lie_apart(drawn: DrawnPicture) -> None:
     labels = [label(p) for p in drawn.pieces if p.lines]
     assert not [(a, b) for a, b in combinations(labels, 2) if overlap(a, b)]
 
 
-def test_labels_lie_beside_boxes(drawn: Picture) -> None:
+def test_labels_lie_beside_boxes(drawn: DrawnPicture) -> None:
     labels = [label(p) for p in drawn.pieces if p.lines]
     assert not [(a, b.path) for a in labels for b in drawn.boxes if overlap(a, opaque(b))]
 
 
-def test_lines_run_beside_labels(drawn: Picture) -> None:
+def test_lines_run_beside_labels(drawn: DrawnPicture) -> None:
     lines = [line for p in drawn.pieces for line in pairwise(p.points)]
     labels = [label(p) for p in drawn.pieces if p.lines]
     assert not [(line, area) for line in lines for area in labels if crosses(line, area)]
 
 
-def test_lines_run_around_simple_states(drawn: Picture) -> None:
+def test_lines_run_around_simple_states(drawn: DrawnPicture) -> None:
     lines = [line for p in drawn.pieces for line in pairwise(p.points)]
     inner = [
         (b.x + 1, b.y + 1, b.x + b.width - 1, b.y + b.height - 1) for b in drawn.boxes if not b.composite
@@ -75,7 +75,7 @@ def test_lines_run_around_simple_states(drawn: Picture) -> None:
     assert not [(line, area) for line in lines for area in inner if crosses(line, area)]
 
 
-def test_states_lie_in_their_parents_and_apart(drawn: Picture) -> None:
+def test_states_lie_in_their_parents_and_apart(drawn: DrawnPicture) -> None:
     box = {b.path: b for b in drawn.boxes}
     for path, b in box.items():
         if path[:-1]:
@@ -87,13 +87,13 @@ def test_states_lie_in_their_parents_and_apart(drawn: Picture) -> None:
     assert not [(a.path, b.path) for a, b in siblings if overlap(area[a.path], area[b.path])]
 
 
-def test_everything_lies_on_the_page(drawn: Picture) -> None:
+def test_everything_lies_on_the_page(drawn: DrawnPicture) -> None:
     for piece in drawn.pieces:
         assert all(0 <= x <= drawn.width and 0 <= y <= drawn.height for x, y in piece.points)
         assert not piece.lines or label(piece)[2] <= drawn.width
 
 
-def test_pieces_of_an_arrow_meet(drawn: Picture) -> None:
+def test_pieces_of_an_arrow_meet(drawn: DrawnPicture) -> None:
     names = {p.arrow.name for p in drawn.pieces}
     for name in names:
         pieces = [p for p in drawn.pieces if p.arrow.name == name]

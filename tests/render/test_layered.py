@@ -5,7 +5,7 @@ from itertools import product
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.render.drawing.graph import Edge, Node
+from checker.render.drawing.graph import DrawnNode, Edge
 from checker.render.drawing.layered import layered
 from checker.render.drawing.ranking import backward
 from checker.render.drawing.solve import least_stretch
@@ -43,7 +43,7 @@ def test_any_graph_gets_a_layout_without_overlaps(pairs: list[tuple[int, int]], 
     arrows = [(f"e{k}", str(a), str(b)) for k, (a, b) in enumerate(pairs) if a != b]
     back = backward(names, arrows, breadth)
     edges = [Edge(n, b, a, (50, 20)) if n in back else Edge(n, a, b, (50, 20)) for n, a, b in arrows]
-    placed = layered([Node(n, 40, 30) for n in names], edges)
+    placed = layered([DrawnNode(n, 40, 30) for n in names], edges)
     areas = [(x, y, x + 40, y + placed.heights[n]) for n, (x, y) in placed.nodes.items()]
     areas += [(x, y, x + 50, y + 20) for x, y in placed.labels.values()]
     for i, a in enumerate(areas):

@@ -8,14 +8,14 @@ from checker.render.limits import Timer, bounds, timer
 from checker.render.story import Quiet, rows
 from spec_model.lang.chart import Chart
 from spec_model.lang.expr import When
-from spec_model.lang.lower.timers import Timers
+from spec_model.lang.lower.timers import ChartTimers
 from spec_model.rover import charts
 from tests.render.zoo import long_trace, relay
 
 
 @pytest.mark.parametrize("chart", charts().values(), ids=lambda chart: chart.name)
 def test_each_timer_has_the_limit_that_it_was_made_for(chart: Chart) -> None:
-    made = Timers(chart, 20)
+    made = ChartTimers(chart, 20)
     words = {v.name: w for of in made.durations.values() for w, v in of.values()}
     words |= {v.name: w for w, v in made.helds.values()}
     after = {v.name: v for v in made.after.values()}
@@ -36,7 +36,10 @@ def test_each_timer_has_the_limit_that_it_was_made_for(chart: Chart) -> None:
 
 def test_some_charts_have_timers() -> None:
     kinds = {
-        w.when for c in charts().values() for of in Timers(c, 20).durations.values() for w, _ in of.values()
+        w.when
+        for c in charts().values()
+        for of in ChartTimers(c, 20).durations.values()
+        for w, _ in of.values()
     }
     assert kinds == {When.DURATION}
 

@@ -7,7 +7,7 @@ import pytest
 
 from checker.render import trace_sequence
 from checker.render.sequence.flow import ENVIRONMENT, flow
-from checker.render.sequence.steps import Message, Note, Step, message_sequence
+from checker.render.sequence.steps import Message, SequenceNote, SequenceStep, message_sequence
 from checker.results.trace import Arrow, Tick, Trace
 from spec_model.composition.fine_systems import SYSTEMS as FINE
 from spec_model.composition.systems import SYSTEMS as COMPOSED
@@ -90,7 +90,7 @@ def trace(components: tuple[Component, ...] = BOARDS, quiet: int = 3) -> Trace:
 
 
 def messages(shown: Trace) -> list[tuple[int, Message]]:
-    steps = [s for s in message_sequence(shown).steps if isinstance(s, Step)]
+    steps = [s for s in message_sequence(shown).steps if isinstance(s, SequenceStep)]
     return [(s.number, item) for s in steps for item in s.items if isinstance(item, Message)]
 
 
@@ -151,15 +151,15 @@ class TestMessages:
         assert [line for line in told if line.startswith("age")] == ["age = 0 ms"]
 
     def test_quiet_ticks_are_left_out_and_counted(self) -> None:
-        quiet = [s for s in message_sequence(trace(quiet=7)).steps if not isinstance(s, Step)]
+        quiet = [s for s in message_sequence(trace(quiet=7)).steps if not isinstance(s, SequenceStep)]
         assert quiet and "nothing but timers" in trace_sequence.render(trace(quiet=7))
 
     def test_states_are_notes_on_their_lifeline(self) -> None:
         first = message_sequence(trace()).steps[0]
-        assert isinstance(first, Step)
-        assert Note("Front", ("Panel: default → Idle",)) in first.items
+        assert isinstance(first, SequenceStep)
+        assert SequenceNote("Front", ("Panel: default → Idle",)) in first.items
         alone = message_sequence(trace(ALONE)).steps[0]
-        assert isinstance(alone, Step) and Note("Panel", ("default → Idle",)) in alone.items
+        assert isinstance(alone, SequenceStep) and SequenceNote("Panel", ("default → Idle",)) in alone.items
 
     def test_who_only_starts_is_named_and_not_drawn(self) -> None:
         idle = Chart("Spare", [State("Off")], default="Off")

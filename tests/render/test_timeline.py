@@ -15,7 +15,7 @@ from checker.render.timeline import timeline, told
 from checker.render.timeline.axis import fit, labelled
 from checker.render.timeline.drawing import place
 from checker.render.timeline.limits import thresholds, time_limits
-from checker.render.timeline.model import Group, Kind, Lane, Need, Timeline
+from checker.render.timeline.model import Lane, LaneGroup, LaneKind, Need, Timeline
 from checker.render.timeline.shapes import fitting
 from checker.render.timeline.tones import tone
 from checker.results.trace import Needed, Tick, Trace
@@ -56,15 +56,15 @@ class TestLanes:
     def test_every_tick_of_every_lane_shows_the_value_of_the_trace(self) -> None:
         trace = drawn()
         for one in timeline(trace).lanes:
-            if one.kind is Kind.TRUTH:
+            if one.kind is LaneKind.TRUTH:
                 continue
             for tick in trace.ticks:
                 [run] = [run for run in one.runs if run.first <= tick.number <= run.last]
                 raw = {**tick.after, **tick.inputs}[one.name]
                 share = Fraction(tick.number - run.first, max(1, run.last - run.first))
                 resolution = Fraction(1, 10) if one.name == "speed" else 1
-                assert run.low + (run.high - run.low) * share == raw * resolution or one.kind is Kind.BAND
-                if one.kind is Kind.BAND:
+                assert run.low + (run.high - run.low) * share == raw * resolution or one.kind is LaneKind.BAND
+                if one.kind is LaneKind.BAND:
                     assert run.label.split()[0] == trace.show(one.name, raw)
 
     def test_a_steady_count_is_one_run(self) -> None:
@@ -79,9 +79,9 @@ class TestLanes:
 
     def test_a_number_that_never_changes_is_a_line_only_beside_its_limits(self) -> None:
         still = replace(counted([7, 7, 7]), false_parts=(var("n", integer(0, 300, "ms")) != 7,))
-        assert lane(timeline(still), "n").kind is Kind.BAND
+        assert lane(timeline(still), "n").kind is LaneKind.BAND
         compared = replace(still, false_parts=(var("n", integer(0, 300, "ms")) > 9,))
-        assert lane(timeline(compared), "n").kind is Kind.LINE
+        assert lane(timeline(compared), "n").kind is LaneKind.LINE
 
     def test_needed_inputs_come_first_and_are_marked(self) -> None:
         shown = timeline(drawn())
@@ -91,7 +91,7 @@ class TestLanes:
 
     def test_a_timer_is_a_ramp_of_times_up_to_its_span(self) -> None:
         timer = lane(timeline(drawn()), "Relay.Theirs.duration1")
-        assert timer.kind is Kind.RAMP and timer.group is Group.CHARTS
+        assert timer.kind is LaneKind.RAMP and timer.group is LaneGroup.CHARTS
         assert [(int(limit.value), limit.label) for limit in timer.limits] == [(150, "3 s")]
         assert [(run.label, run.until) for run in timer.runs] == [
             ("0 ms", ""), ("20 ms", "3 s"), ("0 ms", "")
@@ -103,7 +103,7 @@ class TestLanes:
         assert shots[1].text == "Ours → Theirs (arrow 1) [level >= 100]"
 
     def test_the_property_lane_is_its_truth(self) -> None:
-        never, bare = timeline(drawn()).of(Group.PROPERTY)
+        never, bare = timeline(drawn()).of(LaneGroup.PROPERTY)
         assert [(r.first, r.last, r.label) for r in never.runs] == [(1, 152, "true"), (153, 153, "false")]
         assert [r.label for r in bare.runs] == ["false", "true", "false"]
 
@@ -117,7 +117,7 @@ class TestLanes:
 
     def test_only_what_the_property_depends_on(self) -> None:
         trace = replace(drawn(), relevant=frozenset({"level", "mode"}), charts=frozenset({"Relay"}))
-        names = [one.name for one in timeline(trace).lanes if one.group is not Group.PROPERTY]
+        names = [one.name for one in timeline(trace).lanes if one.group is not LaneGroup.PROPERTY]
         assert names == ["level", "mode"]
         assert "Relay" in [one.name for one in timeline(trace, everything=True).lanes]
 
@@ -317,10 +317,10 @@ class TestTruths:
         trace = drawn(1)
         part = trace.false_parts[0]
         known = replace(trace, parts=(part,), truths=((False, True, True, False),))
-        shown = next(one for one in timeline(known).of(Group.PROPERTY) if one.name == "never_critical")
+        shown = next(one for one in timeline(known).of(LaneGroup.PROPERTY) if one.name == "never_critical")
         assert [run.label for run in shown.runs] == ["false", "true", "false"]
 
     def test_a_part_about_the_past_is_known_at_the_end(self) -> None:
         trace = replace(drawn(1), false_parts=(once(level > 300),))
-        [shown] = timeline(trace).of(Group.PROPERTY)
+        [shown] = timeline(trace).of(LaneGroup.PROPERTY)
         assert [(run.first, run.label) for run in shown.runs] == [(4, "false")]

@@ -8,7 +8,7 @@ import pytest
 
 from checker.render import trace_markdown, trace_table
 from checker.render.reasons import forced, reasons
-from checker.render.story import Event, Quiet, conjuncts, false_parts, rows
+from checker.render.story import Quiet, StoryEvent, conjuncts, false_parts, rows
 from checker.results.trace import Needed, Trace
 from tests.render.conformance import Suite
 from tests.render.zoo import TRACES, long_trace
@@ -17,8 +17,10 @@ from tests.render.zoo import TRACES, long_trace
 class TestStory:
     def test_quiet_ticks_are_one_row(self) -> None:
         first, second, third, quiet, last = rows(long_trace(150))
-        assert isinstance(first, Event) and isinstance(second, Event) and isinstance(last, Event)
-        assert isinstance(third, Event), "the input falls back"
+        assert (
+            isinstance(first, StoryEvent) and isinstance(second, StoryEvent) and isinstance(last, StoryEvent)
+        )
+        assert isinstance(third, StoryEvent), "the input falls back"
         assert isinstance(quiet, Quiet)
         assert (quiet.first, quiet.last, quiet.count) == (4, 152, 149)
         assert quiet.what == (
@@ -28,12 +30,12 @@ class TestStory:
     def test_every_tick_is_told_once(self) -> None:
         told: list[int] = []
         for row in rows(long_trace(40)):
-            told += [row.number] if isinstance(row, Event) else range(row.first, row.last + 1)
+            told += [row.number] if isinstance(row, StoryEvent) else range(row.first, row.last + 1)
         assert told == list(range(1, len(long_trace(40)) + 1))
 
     def test_only_changes_and_inputs_marked(self) -> None:
         second = list(rows(long_trace()))[1]
-        assert isinstance(second, Event)
+        assert isinstance(second, StoryEvent)
         assert [(c.name, c.is_input) for c in second.changes] == [
             ("level", True), ("speed", False), ("alarm", False)
         ]  # fmt: skip
@@ -53,7 +55,7 @@ class TestStory:
             for n, t in enumerate(trace.ticks)
         ]
         changed = {c.name for e in rows(replace(trace, variables=wide, ticks=tuple(ticks)))
-                   if isinstance(e, Event) for c in e.changes}  # fmt: skip
+                   if isinstance(e, StoryEvent) for c in e.changes}  # fmt: skip
         assert "A-B.speed" in changed and not changed & {own, trace.property}
 
     def test_a_last_tick_without_a_change_breaks_the_property(self) -> None:

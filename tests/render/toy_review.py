@@ -7,14 +7,14 @@ from checker.explore.graphs.making import made
 from checker.render.review.model import (
     About,
     Ambiguity,
-    Assumed,
     Checked,
     Covered,
     Demand,
     Edit,
-    Origin,
     Remedy,
     Review,
+    ReviewAssumption,
+    ReviewOrigin,
     Seen,
 )
 from tests import toys
@@ -63,7 +63,7 @@ def review(properties: tuple[Checked, ...] = ALL) -> Review:
         title=f"Toys {EVIL}",
         subject=EVIL,
         properties=properties,
-        origin=Origin("rovercheck report", 1, "changed", (("Python", "3"),), (("toy", "ab12" * 16),)),
+        origin=ReviewOrigin("rovercheck report", 1, "changed", (("Python", "3"),), (("toy", "ab12" * 16),)),
         systems={
             "toy": About("toy", EVIL, 20, ("Relay",), (EVIL,), ("A1",), over=True, concrete="other system"),
             "other system": About("other system", "Another.", 1),
@@ -75,7 +75,7 @@ def review(properties: tuple[Checked, ...] = ALL) -> Review:
             Demand("R-2", "Second.", "§3", "proved", "", ("T-5", "T-away")),
         ),
         readings=(Ambiguity("S1", "Relays", EVIL, "OR", (("OR", "either"), ("AND", EVIL)), EVIL, EVIL),),
-        assumptions=(Assumed("A1", EVIL, ("toy",)),),
+        assumptions=(ReviewAssumption("A1", EVIL, ("toy",)),),
         repairs=(
             Remedy("mend", EVIL, (Edit("Relay", "arrows", ("[a < b]",), (EVIL,)),),
                    (("T-1", "proved", "bdd: all 4 valuations"),), (("T-5", EVIL),), "check --repair mend"),

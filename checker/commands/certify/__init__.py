@@ -35,7 +35,7 @@ def certify(
     model: Path | None,
 ) -> Exit:
     """Check the certificates of proofs again, by other means than found them."""
-    from checker.certify.check import By, Effort
+    from checker.certify.check import By, CheckEffort
     from checker.commands.certify.run import certify as run
 
-    return run(paths, Effort(By(solver), timeout), smt2, verbose, model, as_json)
+    return run(paths, CheckEffort(By(solver), timeout), smt2, verbose, model, as_json)

@@ -7,11 +7,11 @@ from itertools import count
 from pathlib import Path
 
 from checker.certify.certificate import Certificate, meaningful
-from checker.certify.check import Effort, check, rebuilt
-from checker.certify.file import Origin, Unwritable, Written
+from checker.certify.check import CheckEffort, check, rebuilt
+from checker.certify.file import CertificateOrigin, Unwritable, Written
 from checker.certify.obligations import obligations, too_long
 from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
-from checker.certify.reader import Reader
+from checker.certify.reader import CertificateReader
 from checker.certify.terms import Malformed
 from checker.certify.tick import executed
 from checker.commands.shared.codes import UsageError
@@ -30,7 +30,7 @@ from spec_model.lang.system import System, TransitionSystem
 
 
 @dataclass(frozen=True)
-class Told:
+class DerivedVerdict:
     """What is said of one property of a file, and the verdict that was derived: ``proved of relay``."""
 
     id: str
@@ -46,12 +46,12 @@ class Deriving:
     ``model`` is where the model is that they are about, None for the rover.
     """
 
-    effort: Effort
+    effort: CheckEffort
     folder: Path | None
     model: Path | None = None
 
     def __call__(self, send: Send, stem: str, written: Written) -> None:
-        """Send a ``Told`` for each property that the file is to prove, or ``Unwritable``."""
+        """Send a ``DerivedVerdict`` for each property that the file is to prove, or ``Unwritable``."""
         try:
             for one in told_of(written, Checking(stem, self.effort, self.folder), self.model):
                 send(one)
@@ -64,7 +64,7 @@ class Checking:
     """Checks the certificates of one file; with a folder, writes their obligations there first."""
 
     stem: str
-    effort: Effort
+    effort: CheckEffort
     folder: Path | None
     numbers: Iterator[int] = field(default_factory=lambda: count(1))
 
@@ -95,26 +95,26 @@ class Checking:
                 ) from error
 
 
-def told_of(written: Written, checking: Checking, model: Path | None = None) -> list[Told]:
+def told_of(written: Written, checking: Checking, model: Path | None = None) -> list[DerivedVerdict]:
     """What the certificates of a file show of each property that it is to prove.
 
     ``model`` is the path of a model of the user's own.  Raises ``Unwritable``.
     """
-    reader, origin = Reader(written.certificates, checking), written.origin
+    reader, origin = CertificateReader(written.certificates, checking), written.origin
     try:
         variant = _variant(origin, model)
         systems = variant.systems()
         results = _decided(origin, variant, systems, reader)
     except (UsageError, ModelError, ValueError) as error:
-        return [Told(id, Rejected("origin", str(error))) for id in origin.proved]
+        return [DerivedVerdict(id, Rejected("origin", str(error))) for id in origin.proved]
     return [
-        Told(id, _outcome(results[id], reader), _verdict(results[id], variant, systems))
+        DerivedVerdict(id, _outcome(results[id], reader), _verdict(results[id], variant, systems))
         for id in origin.proved
     ]
 
 
 def _decided(
-    origin: Origin, variant: Variant, systems: Mapping[str, System], reader: Reader
+    origin: CertificateOrigin, variant: Variant, systems: Mapping[str, System], reader: CertificateReader
 ) -> Mapping[str, Result]:
     """The results for all properties of the search, decided again by a reader of certificates."""
     known = variant.properties()
@@ -128,12 +128,12 @@ def _decided(
     return {r.property.id: r for r in decide(task, systems, reader, limits, quiet)}
 
 
-def _variant(origin: Origin, model: Path | None) -> Variant:
+def _variant(origin: CertificateOrigin, model: Path | None) -> Variant:
     readings = [f"{id}={choice}" for id, choice in origin.readings.items()]
     return pick_variant(readings, origin.repair or None, origin.without, model)
 
 
-def _outcome(one: Result, reader: Reader) -> Outcome:
+def _outcome(one: Result, reader: CertificateReader) -> Outcome:
     """Accepted if the verdict follows; otherwise what is wrong with a certificate of the file."""
     if not isinstance(one.verdict, Unknown):
         if one.verdict.engine != reader.NAME:

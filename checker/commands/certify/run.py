@@ -7,11 +7,11 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from shlex import quote
 
-from checker.certify.check import Effort
+from checker.certify.check import CheckEffort
 from checker.certify.file import Unwritable, Written, read
 from checker.certify.outcome import Accepted, Rejected, Undecided
 from checker.certify.terms import Malformed
-from checker.commands.certify.derive import Deriving, Told
+from checker.commands.certify.derive import DerivedVerdict, Deriving
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import counted, out, wrapped
 from checker.commands.shared.progress import ProgressLine
@@ -33,7 +33,7 @@ _SHOWN = 300
 
 def certify(
     paths: Sequence[Path],
-    effort: Effort,
+    effort: CheckEffort,
     smt2: Path | None,
     verbose: bool,
     model: Path | None = None,
@@ -50,7 +50,7 @@ def certify(
     written = [(path, _read(path)) for path in files(paths)]
     if smt2 is not None:
         _folder(smt2)
-    found: list[Told] = []
+    found: list[DerivedVerdict] = []
     deriving = Deriving(effort, smt2, model)
     with ProgressLine() as progress, closing(_told(written, deriving, progress)) as heard:
         for told in heard:
@@ -102,7 +102,7 @@ def _folder(place: Path) -> None:
 
 def _told(
     written: Sequence[tuple[Path, Written]], deriving: Deriving, progress: ProgressLine
-) -> Generator[Told, None, None]:
+) -> Generator[DerivedVerdict, None, None]:
     """What is said of each property that some file is to prove, as it is found."""
     left = [dict.fromkeys(found.origin.proved) for _, found in written]
     stems = Counter[str]()
@@ -119,21 +119,21 @@ def _told(
             match event.message:
                 case Unwritable() as error:
                     raise UsageError(str(error))
-                case Told() as told:
+                case DerivedVerdict() as told:
                     del left[event.number][told.id]
                     yield replace(told, file=file)
             if event.done:
                 done += 1
                 progress.show(f"{done} of {counted(len(written), 'file', 'files')} checked")
                 reason = event.failure or "the check ended without a word on it"
-                yield from (Told(id, Undecided(reason), file=file) for id in left[event.number])
+                yield from (DerivedVerdict(id, Undecided(reason), file=file) for id in left[event.number])
 
 
 def _itself(deriving: Deriving) -> Deriving:
     return deriving
 
 
-def line(told: Told, verbose: bool, several: bool = False) -> str:
+def line(told: DerivedVerdict, verbose: bool, several: bool = False) -> str:
     """Sign, id, outcome and why; of ``several`` files also in which one what is not accepted stands."""
     match told.outcome:
         case Accepted(how):
@@ -154,7 +154,7 @@ def shown(text: str) -> str:
     return "".join(c if c.isprintable() else c.encode("unicode_escape").decode() for c in text)
 
 
-def document(found: Sequence[Told], count: int) -> dict[str, object]:
+def document(found: Sequence[DerivedVerdict], count: int) -> dict[str, object]:
     """All of it for machines; ``checker/schemas/certify-1.json`` describes it."""
     told = sorted(found, key=lambda one: (one.id, one.file))
     return {
@@ -174,7 +174,7 @@ def document(found: Sequence[Told], count: int) -> dict[str, object]:
     }
 
 
-def code(found: Sequence[Told]) -> Exit:
+def code(found: Sequence[DerivedVerdict]) -> Exit:
     """What is rejected counts first, then what is not decided."""
     kinds = [type(one.outcome) for one in found]
     if Rejected in kinds:
@@ -182,7 +182,7 @@ def code(found: Sequence[Told]) -> Exit:
     return Exit.INCONCLUSIVE if Undecided in kinds else Exit.AS_EXPECTED if found else Exit.NOTHING
 
 
-def summary(found: Sequence[Told], count: int) -> None:
+def summary(found: Sequence[DerivedVerdict], count: int) -> None:
     """Counts."""
     kinds = [type(one.outcome) for one in found]
     counts = ", ".join(f"{kinds.count(k)} {word}" for k, word in WORDS.items() if k in kinds)

@@ -13,7 +13,7 @@ from checker.engines import ALL, AUTO, LOADED, Limits, Timers
 
 if TYPE_CHECKING:
     from checker.commands.check.further import Further
-    from checker.commands.check.premises import Asking
+    from checker.commands.check.premises import PremiseSearch
     from checker.commands.check.standing import Chains
     from checker.commands.shared.variant import Variant
 
@@ -186,7 +186,7 @@ def _chains(variant: "Variant") -> "Chains | None":
     return Chains(variant)
 
 
-def _further(variant: "Variant", premises: "Asking | None", chains: "Chains | None") -> "Further":
+def _further(variant: "Variant", premises: "PremiseSearch | None", chains: "Chains | None") -> "Further":
     """What is asked of the verdicts; faults are kept of the charts as they are."""
     from checker.commands.check.further import Further, noticing
 
@@ -198,15 +198,15 @@ def _further(variant: "Variant", premises: "Asking | None", chains: "Chains | No
 
 def _premises(
     variant: "Variant", engine: str, limits: Limits, jobs: int | None, quiet: bool, keep: bool
-) -> "Asking":
+) -> "PremiseSearch":
     """Asks whether the cases occur that proofs speak of, and keeps the runs if wanted."""
-    from checker.commands.check.premises import Asking, recordable
+    from checker.commands.check.premises import PremiseSearch, recordable
     from checker.model.kept_runs import file_of, read
 
     model = variant.model
     if keep:
         recordable(model, variant.name)
-    return Asking(model, variant.systems(), read(file_of(model)), engine, limits, jobs, quiet, keep)
+    return PremiseSearch(model, variant.systems(), read(file_of(model)), engine, limits, jobs, quiet, keep)
 
 
 def _selection(ids: tuple[str, ...], about: tuple[str, ...], full: bool) -> str:

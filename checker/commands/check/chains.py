@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 
 from checker.engines import AUTO, Limits, quiet
 from checker.results.verdict import Reached, Unreachable
-from checker.verify.portfolio import Question, Told, answers
+from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
 from properties.catalogue import as_written
 from properties.forms import Always, Form, HoldsAfter
 from properties.promises.promise import Chain, Promise
@@ -167,7 +167,9 @@ def _implies(given: Expr, then: Expr) -> bool:
     broken = everywhere(given & ~then, lambda e: flag(f"{e}") if isinstance(e, Temporal) else e)
     inputs = tuple(variables(broken).values())
     system = TransitionSystem("chain", inputs, (), (hole,), (), (assign(hole, broken),))
-    answer, _ = answers(Question(system, (hole,)), AUTO, Limits(seconds=SECONDS), Told(quiet))[hole.name]
+    answer, _ = answers(PortfolioQuestion(system, (hole,)), AUTO, Limits(seconds=SECONDS), Callbacks(quiet))[
+        hole.name
+    ]
     if not isinstance(answer, Reached | Unreachable):
         raise ModelError(f"whether {then} follows from {given} is not known: {answer.reason}")
     return isinstance(answer, Unreachable)

@@ -13,7 +13,7 @@ from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import possible, write
 from checker.commands.shared.wording import formally
 from checker.commands.shared.wrapping import whole
-from checker.render.ci import Finding, Level, Report
+from checker.render.ci import CiFinding, CiReport, FindingLevel
 from checker.render.ci.github import annotations, summary
 from checker.render.ci.junit import junit
 from checker.render.ci.sarif import sarif
@@ -61,7 +61,7 @@ class Reports:
     def write(self, found: Sequence[Compared], wanted: int, ended: str = "") -> None:
         """Write all of them.  Raises ``UsageError`` for a place that cannot be written."""
         findings = tuple(finding(c, self.systems, self.options) for c in found)
-        report = Report(findings, wanted, self.variant, ended)
+        report = CiReport(findings, wanted, self.variant, ended)
         if self.annotations:
             text = annotations(report)  # the runner reads both streams
             if self._in_log:
@@ -75,7 +75,7 @@ class Reports:
             write(sarif(report), self.sarif)
 
 
-def _summarised(report: Report) -> None:
+def _summarised(report: CiReport) -> None:
     """Add the summary to that of the job, if this runs in one."""
     file = os.environ.get(SUMMARY)
     if file:
@@ -86,13 +86,13 @@ def _summarised(report: Report) -> None:
             raise UsageError(f"Cannot write {whole(file)}: {error.strerror}. Unset {SUMMARY}.") from error
 
 
-def finding(compared: Compared, systems: Mapping[str, System], options: str = "") -> Finding:
+def finding(compared: Compared, systems: Mapping[str, System], options: str = "") -> CiFinding:
     """A verdict as every report shows it."""
     prop, verdict = compared.result.property, compared.verdict
     because = verdict.reason if isinstance(verdict, Unknown) else verdict.because
     on_record = compared.verdict.word == compared.expected.verdict
     system = systems.get(compared.result.system, systems.get(prop.on))
-    return Finding(
+    return CiFinding(
         id=prop.id,
         text=prop.text,
         system=compared.result.system,
@@ -116,16 +116,20 @@ def _rejected(compared: Compared) -> str:
     return f"{found.obligation}: {found.shown}" if isinstance(found, Rejected) else ""
 
 
-def level(compared: Compared) -> Level:
+def level(compared: Compared) -> FindingLevel:
     """How the verdict counts: as the exit code has it."""
     if isinstance(compared.result.certificate, Rejected):
-        return Level.REJECTED
+        return FindingLevel.REJECTED
     match compared.code:
         case Exit.AS_EXPECTED:
-            return Level.KNOWN if isinstance(compared.verdict, Violated | Unknown) else Level.PASSED
+            return (
+                FindingLevel.KNOWN
+                if isinstance(compared.verdict, Violated | Unknown)
+                else FindingLevel.PASSED
+            )
         case Exit.INCONCLUSIVE:
-            return Level.OPEN
-    return Level.FAILED
+            return FindingLevel.OPEN
+    return FindingLevel.FAILED
 
 
 def _details(compared: Compared) -> dict[str, str]:

@@ -10,7 +10,7 @@ from checker.results.verdict import Proved
 from properties.forms import Property, Reachable, Unbounded
 
 if TYPE_CHECKING:
-    from checker.commands.check.premises import Case
+    from checker.commands.check.premises import PremiseCase
     from checker.commands.check.run import Compared
     from checker.commands.check.standing import Standing
 
@@ -19,7 +19,7 @@ def _unheard(_: "Compared") -> None:
     """Nothing is asked while others are searched for."""
 
 
-def _no_cases(_: Sequence["Compared"]) -> Mapping[str, "Case"]:
+def _no_cases(_: Sequence["Compared"]) -> Mapping[str, "PremiseCase"]:
     return {}
 
 
@@ -42,7 +42,7 @@ class Further:
     """
 
     heard: Callable[["Compared"], None] = _unheard
-    cases: Callable[[Sequence["Compared"]], Mapping[str, "Case"]] = _no_cases
+    cases: Callable[[Sequence["Compared"]], Mapping[str, "PremiseCase"]] = _no_cases
     chains: Callable[[Sequence["Compared"]], Sequence["Standing"]] = _no_chains
     noticing: Collection[str] | None = None
     keep: Callable[[Sequence["Compared"]], None] = _nothing_kept

@@ -10,7 +10,7 @@ from checker.commands.shared.output import write
 from checker.commands.shared.wrapping import whole
 from checker.engines import Limits
 from checker.model import Model
-from checker.model.kept_runs import INVARIANTS, PREMISES, Kept, file_of, read, text
+from checker.model.kept_runs import INVARIANTS, PREMISES, KeptRun, file_of, read, text
 from checker.results.trace import counted_ticks
 from checker.results.verdict import Proved, Unknown
 from checker.verify.result import Result
@@ -27,25 +27,25 @@ UNDECIDED = re.compile(r"(not reproduced on [\w.]+): .*", re.DOTALL)
 
 
 @dataclass(frozen=True)
-class Case:
+class PremiseCase:
     """Whether the case occurs of which a proof speaks (None: not known), and what shows it, in words."""
 
     occurs: bool | None
     said: str
-    kept: Kept | None = None
+    kept: KeptRun | None = None
 
 
 def cases(
     found: Sequence[Compared],
     systems: Mapping[str, System],
-    known: Mapping[str, Kept],
+    known: Mapping[str, KeptRun],
     engine: str,
     limits: Limits,
     jobs: int | None = None,
     quiet: bool = False,
     patience: float = PATIENCE,
-    shown: Mapping[str, Case] | None = None,
-) -> dict[str, Case]:
+    shown: Mapping[str, PremiseCase] | None = None,
+) -> dict[str, PremiseCase]:
     """For each proof that speaks of a case, by id, whether it occurs on its system.
 
     A ``known`` run is gone through again on the charts as they are now, unless that was done and it is among
@@ -63,7 +63,7 @@ def cases(
 
 
 @dataclass
-class Asking:
+class PremiseSearch:
     """Asks of each proof whether its case occurs; ``keep``: for longer, and the runs that show it are kept.
 
     Runs on record are gone through as the proofs are heard of: while others are searched for, there is time.
@@ -71,19 +71,19 @@ class Asking:
 
     model: Model
     systems: Mapping[str, System]
-    known: Mapping[str, Kept]
+    known: Mapping[str, KeptRun]
     engine: str
     limits: Limits
     jobs: int | None
     quiet: bool
     keep: bool
-    _shown: dict[str, Case] = field(default_factory=dict)
+    _shown: dict[str, PremiseCase] = field(default_factory=dict)
 
     def heard(self, one: Compared) -> None:
         """Go through the run on record of a proof that speaks of a case."""
         self._shown |= _again(_wanted([one]), self.known, self.systems)
 
-    def __call__(self, found: Sequence[Compared]) -> Mapping[str, Case]:
+    def __call__(self, found: Sequence[Compared]) -> Mapping[str, PremiseCase]:
         """For each proof that speaks of a case, by id, whether it occurs on its system."""
         asked = self.systems, self.known, self.engine, self.limits, self.jobs, self.quiet
         told = cases(found, *asked, LONG if self.keep else PATIENCE, self._shown)
@@ -92,7 +92,7 @@ class Asking:
         return told
 
 
-def record(known: Mapping[str, Case], model: Model) -> None:
+def record(known: Mapping[str, PremiseCase], model: Model) -> None:
     """Keep the runs that show the cases; those of properties that were not asked for stay as they are.
 
     Raises ``UsageError`` where the file cannot be written.
@@ -122,8 +122,8 @@ def _wanted(found: Sequence[Compared]) -> dict[str, Property]:
 
 
 def _again(
-    wanted: Mapping[str, Property], known: Mapping[str, Kept], systems: Mapping[str, System]
-) -> Iterator[tuple[str, Case]]:
+    wanted: Mapping[str, Property], known: Mapping[str, KeptRun], systems: Mapping[str, System]
+) -> Iterator[tuple[str, PremiseCase]]:
     """The cases that runs on record still show."""
     for id, case in wanted.items():
         kept = known.get(id)
@@ -131,7 +131,7 @@ def _again(
             system = systems[kept.system]
             shown = reached(system, [replace(case, on=system.name)], [kept.run])
             if id in shown:
-                yield id, Case(True, _occurs(len(shown[id]), system), replace(kept, run=shown[id]))
+                yield id, PremiseCase(True, _occurs(len(shown[id]), system), replace(kept, run=shown[id]))
 
 
 def _searched(
@@ -155,17 +155,17 @@ def _searched(
         yield from results(again, free, engine, limits, jobs, quiet=quiet)
 
 
-def told(one: Result, systems: Mapping[str, System]) -> Case:
+def told(one: Result, systems: Mapping[str, System]) -> PremiseCase:
     """What came of the search for a case."""
     match one.verdict:
         case Unknown(reason):
-            return Case(None, "not known: " + UNDECIDED.sub(r"\1 within the limits", reason))
+            return PremiseCase(None, "not known: " + UNDECIDED.sub(r"\1 within the limits", reason))
         case Proved() as verdict:
             run = run_of(verdict)
             assert run is not None, "what is reached is reached by a run"
-            return Case(True, _occurs(len(run), systems[one.system]), Kept(one.system, run))
+            return PremiseCase(True, _occurs(len(run), systems[one.system]), KeptRun(one.system, run))
     part = ", as far as was searched" if one.in_part else ""
-    return Case(False, f"it NEVER occurs, so nothing is said{part}: {evidence(one)}")
+    return PremiseCase(False, f"it NEVER occurs, so nothing is said{part}: {evidence(one)}")
 
 
 def _occurs(ticks: int, system: System) -> str:
@@ -173,4 +173,4 @@ def _occurs(ticks: int, system: System) -> str:
     return f"it occurs: after {counted_ticks(ticks)} of {system.name}{more}"
 
 
-__all__ = ["LONG", "PATIENCE", "Asking", "Case", "cases", "record", "recordable", "told"]
+__all__ = ["LONG", "PATIENCE", "PremiseCase", "PremiseSearch", "cases", "record", "recordable", "told"]

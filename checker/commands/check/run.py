@@ -31,14 +31,14 @@ from checker.results.trace import Trace, counted_ticks
 from checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
 from checker.system.formula_json import Tree
 from checker.verify.result import Result
-from checker.verify.searches import Doing, Over, Warned, searches
+from checker.verify.searches import Over, SearchDoing, Warned, searches
 from checker.verify.tasks import Task, tasks
 from properties.catalogue import Expected, expected
 from properties.forms import Property, Reachable
 from spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from checker.commands.check.premises import Case
+    from checker.commands.check.premises import PremiseCase
     from checker.verify.certificates import Certifying
 
 NONE_RECORDED: Recorded = {}
@@ -59,7 +59,7 @@ class Compared:
     result: Result
     expected: Expected
     variant: str = ""
-    case: "Case | None" = None
+    case: "PremiseCase | None" = None
     noticed: bool | None = None
     strict: bool = False
 
@@ -138,7 +138,7 @@ def results(
     with Watch(err, len(todo), quiet) as watch, closing(heard):
         for one in heard:
             match one:
-                case Doing(task, line):
+                case SearchDoing(task, line):
                     watch.say(task.title, line)
                 case Over(task):
                     watch.finished(task.title)

@@ -1,6 +1,6 @@
 """What was found in a log, for machines."""
 
-from checker.logs import Result, as_on_record
+from checker.logs import LogResult, as_on_record
 from checker.logs.deviations import Deviation
 from checker.logs.invalid import InvalidCell
 from checker.logs.monitors import Verdict
@@ -8,7 +8,7 @@ from checker.logs.monitors import Verdict
 Entry = dict[str, object]
 
 
-def as_json(found: Result, charts: str = "") -> Entry:
+def as_json(found: LogResult, charts: str = "") -> Entry:
     """Everything about one log; ``charts``: how the charts differ from those specified, in words."""
     return {
         "log": found.name,

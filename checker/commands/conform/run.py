@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from checker.commands.conform.document import as_json
-from checker.commands.conform.text import Fault, Outcome, page, summary
+from checker.commands.conform.text import LogFault, Outcome, page, summary
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.failure import told
 from checker.commands.shared.output import err, out
@@ -13,7 +13,7 @@ from checker.commands.shared.progress import ProgressLine
 from checker.commands.shared.variant import Variant, pick_variant
 from checker.compare.varied import varied
 from checker.io.printable import json_text
-from checker.logs import Against, LogError, Map, Result, examine, read_map
+from checker.logs import Against, ColumnMap, LogError, LogResult, examine, read_map
 
 SCHEMA = "rovercheck/conform/1"
 """The format of the JSON documents, and its version."""
@@ -24,17 +24,17 @@ GRAVEST = (Exit.INTERNAL, Exit.CHANGED, Exit.USAGE, Exit.INCONCLUSIVE)
 
 
 @dataclass(frozen=True)
-class Asked:
+class ConformOptions:
     """What the command line asks for; ``against``: the charts, with ``charts`` in words where changed."""
 
-    how: Map
+    how: ColumnMap
     system: str
     as_json: bool
     verbose: bool
     charts: str = ""
     against: Against | None = None
 
-    def examined(self, path: Path) -> Result:
+    def examined(self, path: Path) -> LogResult:
         """What one log says.  Raises ``LogError``."""
         return examine(path, self.how, self.system, self.against)
 
@@ -47,7 +47,7 @@ class Asked:
         except MemoryError:
             return LogError("takes more memory than there is; cut it into several logs.")
         except Exception as error:
-            return Fault(told(error))
+            return LogFault(told(error))
 
 
 def conform(
@@ -65,11 +65,11 @@ def conform(
     """
     variant = pick_variant(chosen, repair, ())
     against = _against(variant) if variant.name else None
-    asked = Asked(_map(map_file), system or "", json_wanted, verbose, variant.name, against)
+    asked = ConformOptions(_map(map_file), system or "", json_wanted, verbose, variant.name, against)
     return _folder(place, asked) if place.is_dir() else _log(place, asked)
 
 
-def _log(place: Path, asked: Asked) -> Exit:
+def _log(place: Path, asked: ConformOptions) -> Exit:
     try:
         found = asked.examined(place)
     except LogError as error:
@@ -89,16 +89,16 @@ def _against(variant: Variant) -> Against:
     return Against(found, properties, systems, lambda id: variant.expected(id).verdict)
 
 
-def _map(file: Path | None) -> Map:
+def _map(file: Path | None) -> ColumnMap:
     if file is None:
-        return Map()
+        return ColumnMap()
     try:
         return read_map(file)
     except LogError as error:
         raise UsageError(str(error)) from error
 
 
-def _folder(folder: Path, asked: Asked) -> Exit:
+def _folder(folder: Path, asked: ConformOptions) -> Exit:
     """Every log of a folder; one that cannot be read or judged leaves the others' results."""
     try:
         logs = sorted(p for p in folder.iterdir() if p.is_file() and p.name.lower().endswith(SUFFIXES))
@@ -123,9 +123,9 @@ def _folder(folder: Path, asked: Asked) -> Exit:
 
 def _entry(name: str, found: Outcome, charts: str) -> Mapping[str, object]:
     match found:
-        case Result():
+        case LogResult():
             return as_json(found, charts)
-        case Fault(message):
+        case LogFault(message):
             return {"log": name, "error": message, "internal": True}
         case _:
             return {"log": name, "error": str(found)}
@@ -139,7 +139,7 @@ def _code(found: Sequence[Outcome]) -> Exit:
 
 def _code_of(found: Outcome) -> Exit:
     match found:
-        case Fault():
+        case LogFault():
             return Exit.INTERNAL
         case LogError():
             return Exit.USAGE

@@ -7,7 +7,7 @@ from textwrap import fill, shorten
 
 from checker.commands.shared.output import counted, text_width
 from checker.io.printable import one_line
-from checker.logs import LogError, Result, as_on_record
+from checker.logs import LogError, LogResult, as_on_record
 from checker.logs.deviations import Deviation
 from checker.logs.invalid import Invalid
 from checker.logs.monitors import Verdict
@@ -24,17 +24,17 @@ MOST_NAMES = 40
 
 
 @dataclass(frozen=True)
-class Fault:
+class LogFault:
     """A log on which rovercheck itself failed, and what is said of that."""
 
     message: str
 
 
-Outcome = Result | LogError | Fault
+Outcome = LogResult | LogError | LogFault
 """What came of one of many logs."""
 
 
-def page(found: Result, verbose: bool, charts: str = "") -> str:
+def page(found: LogResult, verbose: bool, charts: str = "") -> str:
     """All about one log; ``charts``: how the charts differ from those specified, in words."""
     parts = (
         _head(found, charts, verbose),
@@ -64,7 +64,7 @@ def _some(names: Sequence[str], most: int) -> str:
     return f"{shown} and {more:,} more; --verbose names them" if more > 0 else shown
 
 
-def _head(found: Result, charts: str, verbose: bool) -> Iterator[str]:
+def _head(found: LogResult, charts: str, verbose: bool) -> Iterator[str]:
     start = "from power-up" if found.start == "power-up" else "from some tick on"
     ticks = counted(found.ticks, "tick", "ticks")
     yield f"{one_line(found.name)}: {found.layout.board} {start}, {ticks} = {found.seconds:g} s"
@@ -98,7 +98,7 @@ def _cells(invalid: Invalid) -> Iterator[str]:
 # --- properties ------------------------------------------------------------------------------------
 
 
-def _properties(found: Result, verbose: bool) -> Iterator[str]:
+def _properties(found: LogResult, verbose: bool) -> Iterator[str]:
     words = Counter(v.word for v in found.verdicts)
     known = sum(v.word == "violated" and as_on_record(v) for v in found.verdicts)
     parts = [f"{number} {word}" for word, number in words.most_common()]
@@ -143,7 +143,7 @@ def _outcome(verdict: Verdict) -> str:
     return f"violated at {where}, in {counted(verdict.count, 'tick', 'ticks')}; {record}"
 
 
-def _unmonitored(found: Result, verbose: bool) -> Iterator[str]:
+def _unmonitored(found: LogResult, verbose: bool) -> Iterator[str]:
     if found.choice.missing:
         names = Counter(name for one in found.choice.missing for name in one.missing)
         number = counted(len(found.choice.missing), "property", "properties")
@@ -158,7 +158,7 @@ def _unmonitored(found: Result, verbose: bool) -> Iterator[str]:
 # --- behaviour -------------------------------------------------------------------------------------
 
 
-def _behaviour(found: Result) -> Iterator[str]:
+def _behaviour(found: LogResult) -> Iterator[str]:
     behaviour = found.behaviour
     compared = counted(len(behaviour.compared), "output", "outputs")
     if behaviour.deviations:
@@ -218,20 +218,20 @@ def summary(found: Mapping[str, Outcome], charts: str = "") -> str:
     rows: list[tuple[str, ...]] = [
         ("log", "board", "ticks", "violated", "known", "deviations", "unknown", "cells")
     ]
-    rows += [_row(name, one, width) for name, one in found.items() if isinstance(one, Result)]
+    rows += [_row(name, one, width) for name, one in found.items() if isinstance(one, LogResult)]
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     gap = "  " if sum(widths) + 2 * (len(widths) - 1) <= text_width() else " "
     lines = [_aligned(row, widths, gap) for row in rows] if len(rows) > 1 else []
     for name, one in found.items():
         if isinstance(one, LogError):
             lines.append(_lines("", f"{name}: not read: {one}", indent=0, hang=0))
-        elif isinstance(one, Fault):
+        elif isinstance(one, LogFault):
             lines.append(_lines("", f"{name}: not judged: {one.message}", indent=0, hang=0))
     head = [_lines("charts", charts, indent=0, hang=8)] if charts else []
     return "\n".join([*head, *lines, "", _total(list(found.values()))])
 
 
-def _row(name: str, one: Result, width: int) -> tuple[str, ...]:
+def _row(name: str, one: LogResult, width: int) -> tuple[str, ...]:
     known = sum(v.word == "violated" and as_on_record(v) for v in one.verdicts)
     return (
         shorten(name, width, placeholder="…") if " " in name else name[:width],
@@ -251,7 +251,7 @@ def _aligned(row: Sequence[str], widths: Sequence[int], gap: str) -> str:
 
 
 def _total(found: Sequence[Outcome]) -> str:
-    results = [r for r in found if isinstance(r, Result)]
+    results = [r for r in found if isinstance(r, LogResult)]
     bad = sum(r.deviates for r in results)
     parts = [f"{bad} with deviations or unexpected violations" if bad else "none deviates"]
     if holes := sum(bool(r.invalid) for r in results):
@@ -260,6 +260,6 @@ def _total(found: Sequence[Outcome]) -> str:
         parts.append(f"{still} not wholly decided")
     if unread := sum(isinstance(one, LogError) for one in found):
         parts.append(f"{unread} not read")
-    if faults := sum(isinstance(one, Fault) for one in found):
+    if faults := sum(isinstance(one, LogFault) for one in found):
         parts.append(f"{faults} not judged for an internal error")
     return f"{counted(len(found), 'log', 'logs')}: {', '.join(parts)}."

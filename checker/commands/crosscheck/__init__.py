@@ -60,10 +60,10 @@ def crosscheck(
     repair: str | None,
 ) -> Exit:
     """Run a supervisor and the charts side by side; exit code 1 where they differ."""
-    from checker.commands.crosscheck.run import Asked
+    from checker.commands.crosscheck.run import CrosscheckOptions
     from checker.commands.crosscheck.run import crosscheck as run
     from checker.compare import Allowance
 
     allowed = Allowance(mismatches, failures)
-    asked = Asked(system, impl, profile, examples, seed, tests, allowed, chosen, repair)
+    asked = CrosscheckOptions(system, impl, profile, examples, seed, tests, allowed, chosen, repair)
     return run(asked, output, as_json)

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import checker.compare
 from checker.commands.check.run import results
-from checker.compare.recorded import COUNTEREXAMPLES, Kept, encoded, kept
+from checker.compare.recorded import COUNTEREXAMPLES, KeptSuite, encoded, kept
 from checker.engines import AUTO, Limits
 from checker.io.files import replaced
 from checker.results.trace import Trace
@@ -34,9 +34,9 @@ def concerns(board: Board, system: System) -> bool:
     return constant and any(chart.name in own for chart in system.charts)
 
 
-def runs(found: Iterable[Found], known: Mapping[str, System]) -> dict[str, list[Kept]]:
+def runs(found: Iterable[Found], known: Mapping[str, System]) -> dict[str, list[KeptSuite]]:
     """The runs of each board, those with the same inputs once."""
-    kept_runs: dict[str, list[Kept]] = {name: [] for name in boards()}
+    kept_runs: dict[str, list[KeptSuite]] = {name: [] for name in boards()}
     for id, system, trace in found:
         for name, board in boards().items():
             if system in known and concerns(board, known[system]):

@@ -7,16 +7,16 @@ from pathlib import Path
 
 from checker.adapters import start
 from checker.adapters.implementation import ImplementationError
-from checker.commands.crosscheck.text import Report, report, row, shown
+from checker.commands.crosscheck.text import CrosscheckReport, report, row, shown
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import counted, err, out, write
 from checker.commands.shared.progress import ProgressLine
 from checker.commands.shared.variant import Variant, pick_variant
 from checker.commands.shared.wrapping import whole
-from checker.compare import Allowance, Result, cross_check, effort
+from checker.compare import Allowance, CompareResult, cross_check, effort
 from checker.compare.reproduce import file_name, pytest_file
 from checker.compare.result import ALLOWED, RANDOM
-from checker.compare.search import Search
+from checker.compare.search import CompareSearch
 from checker.compare.varied import varied
 from checker.io.printable import json_text
 from spec_model.abstraction import Board
@@ -31,7 +31,7 @@ OURS: Mapping[str, str] = {
 
 
 @dataclass(frozen=True)
-class Asked:
+class CrosscheckOptions:
     """What the command line asks for."""
 
     system: str | None
@@ -50,21 +50,21 @@ class Asked:
         return pick_variant(self.chosen, self.repair, ())
 
 
-def crosscheck(asked: Asked, output: Path | None, as_json: bool) -> Exit:
+def crosscheck(asked: CrosscheckOptions, output: Path | None, as_json: bool) -> Exit:
     """Compare one board, or both, and write a test for every mismatch and failure that is shown.
 
     Raises ``UsageError`` for a board that does not exist and an implementation that cannot be started.
     """
     named = _boards(asked)
     seed = effort(asked.profile, asked.examples, asked.seed).seed  # one for all boards
-    reports: list[Report] = []
+    reports: list[CrosscheckReport] = []
     for board in named:
         address = asked.address or OURS[board.name]
         if not as_json:
             _announce(asked, board, address, seed)
         result = _checked(asked, board, address, seed)
         files = _write_tests(result, address, asked.variant, output or Path())
-        reports.append(Report(result, address, files, asked.variant.name))
+        reports.append(CrosscheckReport(result, address, files, asked.variant.name))
         if not as_json:
             out.print(report(reports[-1]), markup=False)
         if result.interrupted:
@@ -76,7 +76,7 @@ def crosscheck(asked: Asked, output: Path | None, as_json: bool) -> Exit:
     return code
 
 
-def _announce(asked: Asked, board: Board, address: str, seed: int) -> None:
+def _announce(asked: CrosscheckOptions, board: Board, address: str, seed: int) -> None:
     runs = effort(asked.profile, asked.examples, seed).examples
     out.print(
         f"{board.name}: {address}\n"
@@ -87,7 +87,7 @@ def _announce(asked: Asked, board: Board, address: str, seed: int) -> None:
     )
 
 
-def _boards(asked: Asked) -> list[Board]:
+def _boards(asked: CrosscheckOptions) -> list[Board]:
     known = varied(asked.variant.choices, asked.variant.repair)
     if asked.system is None:
         if asked.address is not None:
@@ -100,7 +100,7 @@ def _boards(asked: Asked) -> list[Board]:
     return [known[asked.system]]
 
 
-def _checked(asked: Asked, board: Board, address: str, seed: int) -> Result:
+def _checked(asked: CrosscheckOptions, board: Board, address: str, seed: int) -> CompareResult:
     if asked.tests is not None and not asked.tests.is_dir():
         raise UsageError(f"{asked.tests} is no folder; write one with tests as CSV or JSON.")
     try:
@@ -124,7 +124,7 @@ def _checked(asked: Asked, board: Board, address: str, seed: int) -> Result:
         implementation.close()
 
 
-def _doing(board: Board, search: Search) -> str:
+def _doing(board: Board, search: CompareSearch) -> str:
     """One line on what a cross-check is doing."""
     of = f" {search.tried[RANDOM]} of {search.effort.examples}" if search.doing == RANDOM else ""
     found = counted(len(search.found), "mismatch", "mismatches")
@@ -134,7 +134,7 @@ def _doing(board: Board, search: Search) -> str:
     )
 
 
-def _write_tests(result: Result, address: str, variant: Variant, folder: Path) -> list[Path]:
+def _write_tests(result: CompareResult, address: str, variant: Variant, folder: Path) -> list[Path]:
     """A test for each mismatch and failure that is shown."""
     written = []
     for found in shown(result):
@@ -151,7 +151,7 @@ def _write_tests(result: Result, address: str, variant: Variant, folder: Path) -
     return written
 
 
-def worst(reports: Sequence[Report]) -> Exit:
+def worst(reports: Sequence[CrosscheckReport]) -> Exit:
     """What differs outweighs a search that is not finished."""
     if any(r.result.differs for r in reports):
         return Exit.CHANGED
@@ -160,7 +160,7 @@ def worst(reports: Sequence[Report]) -> Exit:
     return Exit.AS_EXPECTED if all(r.result.conforms for r in reports) else Exit.INCONCLUSIVE
 
 
-def document(reports: Sequence[Report], code: Exit) -> dict[str, object]:
+def document(reports: Sequence[CrosscheckReport], code: Exit) -> dict[str, object]:
     """The results as JSON."""
     return {
         "schema": f"rovercheck/crosscheck/{SCHEMA}",

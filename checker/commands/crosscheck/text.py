@@ -7,14 +7,14 @@ from shlex import quote
 
 from checker.commands.shared.output import counted, text_width
 from checker.commands.shared.wrapping import filled, whole
-from checker.compare.beside import Charts, Mismatch, author_of
+from checker.compare.beside import StepMismatch, SteppedCharts, author_of
 from checker.compare.coverage import taken
 from checker.compare.reproduce import stimulus_of
-from checker.compare.result import Failure, Result, Stage
+from checker.compare.result import CompareResult, CompareStage, Failure
 from checker.compare.smaller import columns
 from checker.compare.stimulus import SILENT, Change, Every
 from checker.compare.strategy import ENVIRONMENTS
-from spec_model.abstraction import Signal, Value
+from spec_model.abstraction import BoardSignal, Value
 from spec_model.lang.system import TICK_MS
 
 BEFORE = 3
@@ -22,22 +22,22 @@ BEFORE = 3
 
 
 @dataclass(frozen=True)
-class Report:
+class CrosscheckReport:
     """A result, the implementation that it is about, and the tests written for its mismatches."""
 
-    result: Result
+    result: CompareResult
     address: str
     files: Sequence[Path] = ()
     charts: str = ""
     """How the charts differ from those specified, in words."""
 
 
-def report(of: Report) -> str:
+def report(of: CrosscheckReport) -> str:
     """The whole report of one board."""
     result = of.result
     lines = [*map(_wrapped, result.notes)]
     for number, found in enumerate(shown(result), 1):
-        told = _mismatch(number, found) if isinstance(found, Mismatch) else _failure(number, found)
+        told = _mismatch(number, found) if isinstance(found, StepMismatch) else _failure(number, found)
         lines += ["", *told, *_test(of.files, number)]
     for failure in result.failures:
         if not failure.steps:
@@ -47,7 +47,7 @@ def report(of: Report) -> str:
     return "\n".join([*lines, *([""] if lines else []), *_summary(result)])
 
 
-def shown(result: Result) -> Sequence[Mismatch | Failure]:
+def shown(result: CompareResult) -> Sequence[StepMismatch | Failure]:
     """What is told with inputs and a test: the small mismatches, then each way to fail, at its shortest."""
     causes: dict[str, Failure] = {}
     for failure in result.failures:
@@ -66,7 +66,7 @@ def _wrapped(text: str, indent: str = "") -> str:
     return "\n".join(filled(line, width, indent, then) for line in text.splitlines())
 
 
-def _in_short(mismatch: Mismatch) -> str:
+def _in_short(mismatch: StepMismatch) -> str:
     """A mismatch in a line: which output differs, where, after which arrow of its chart."""
     first = mismatch.differences[0].name
     fired = [f for f in mismatch.steps[-1].fired if f.chart == author_of(mismatch.board, first)]
@@ -77,7 +77,7 @@ def _in_short(mismatch: Mismatch) -> str:
 # --- a mismatch ---------------------------------------------------------------------------------------
 
 
-def _mismatch(number: int, mismatch: Mismatch) -> Iterator[str]:
+def _mismatch(number: int, mismatch: StepMismatch) -> Iterator[str]:
     board = mismatch.board
     first = mismatch.differences[0].name
     time = f"{mismatch.tick * TICK_MS / 1000:g} s"
@@ -100,7 +100,7 @@ def _failure(number: int, failure: Failure) -> Iterator[str]:
     yield from _inputs(failure)
 
 
-def _inputs(mismatch: Mismatch | Failure) -> Iterator[str]:
+def _inputs(mismatch: StepMismatch | Failure) -> Iterator[str]:
     """The inputs that are not calm in the step, and since when; then how the run got there."""
     board = mismatch.board
     run = columns(board, [step.inputs for step in mismatch.steps])
@@ -131,7 +131,7 @@ def _stamped(lag: Value | None) -> str:
     return "no update" if lag is None else f"updated {lag} ms before the step"
 
 
-def _history(mismatch: Mismatch | Failure) -> Iterator[str]:
+def _history(mismatch: StepMismatch | Failure) -> Iterator[str]:
     """What changes when, from calm inputs on."""
     board = mismatch.board
     signals = {s.name: s for s in board.inputs}
@@ -148,14 +148,14 @@ def _history(mismatch: Mismatch | Failure) -> Iterator[str]:
         step += block.steps
 
 
-def _shown(signals: Mapping[str, Signal], name: str, change: Change) -> str:
+def _shown(signals: Mapping[str, BoardSignal], name: str, change: Change) -> str:
     if isinstance(change, Every):
         return "silent" if change == SILENT else f"updated {change.lags_ms[0]} ms before each step"
     assert isinstance(change, bool | int | float)
     return signals[name].show(change)
 
 
-def _arrows(mismatch: Mismatch, author: str) -> Iterator[str]:
+def _arrows(mismatch: StepMismatch, author: str) -> Iterator[str]:
     """The arrow that decides the output; where none was taken, the states in which its chart stays."""
     fired = [f for f in mismatch.steps[-1].fired if f.chart == author]
     if fired:
@@ -170,12 +170,12 @@ def _arrows(mismatch: Mismatch, author: str) -> Iterator[str]:
             yield _wrapped(f"{counted(back, 'step', 'steps')} before: {taken(one)}", "     ")
 
 
-def _states(mismatch: Mismatch, author: str) -> str:
+def _states(mismatch: StepMismatch, author: str) -> str:
     """Where a chart is after the step."""
     chart = next((c for c in mismatch.board.system.charts if c.name == author), None)
     if chart is None:
         return ": it is a function block."
-    charts = Charts(mismatch.board)
+    charts = SteppedCharts(mismatch.board)
     for step in mismatch.steps:
         charts.step(step.inputs)
     at = charts.valuation()
@@ -191,7 +191,7 @@ def _test(files: Sequence[Path], number: int) -> Iterator[str]:
 # --- all of it ------------------------------------------------------------------------------------------
 
 
-def _summary(result: Result) -> Iterator[str]:
+def _summary(result: CompareResult) -> Iterator[str]:
     cover, (took, of) = result.coverage, result.arrows
     met, sides = cover.boundaries()
     ended = result.compared < cover.steps
@@ -218,17 +218,17 @@ def _summary(result: Result) -> Iterator[str]:
         yield from (_wrapped(str(arrow), "    ") for arrow in result.missing)
 
 
-def _untried(stage: Stage) -> str:
+def _untried(stage: CompareStage) -> str:
     """``Random runs: 21 of 240 tried; given up after 3 runs not survived.``"""
     tried = f"{stage.tried} tried, not all" if stage.of is None else f"{stage.tried} of {stage.of} tried"
     return f"{stage.kind.capitalize()}: {tried}; {stage.because}."
 
 
-def _sign(result: Result) -> str:
+def _sign(result: CompareResult) -> str:
     return "✗" if result.differs else "✓" if result.conforms else "?"
 
 
-def _verdict(result: Result) -> str:
+def _verdict(result: CompareResult) -> str:
     if result.differs:
         return f"does not conform ({', '.join(_differences(result))})"
     if result.conforms:
@@ -236,7 +236,7 @@ def _verdict(result: Result) -> str:
     return "is inconclusive (interrupted)" if result.interrupted else "is inconclusive (no output to compare)"
 
 
-def _differences(result: Result) -> Iterator[str]:
+def _differences(result: CompareResult) -> Iterator[str]:
     if result.mismatches:
         yield counted(len(result.mismatches), "mismatch", "mismatches")
     if result.failures:
@@ -244,11 +244,11 @@ def _differences(result: Result) -> Iterator[str]:
         yield f"{counted(len(result.failures), 'run', 'runs')} not survived{gave_up}"
 
 
-def _given_up(result: Result) -> bool:
+def _given_up(result: CompareResult) -> bool:
     return len(result.failures) >= result.allowance.failures
 
 
-def row(of: Report) -> dict[str, object]:
+def row(of: CrosscheckReport) -> dict[str, object]:
     """The result of one board for machines."""
     result, (took, every) = of.result, of.result.arrows
     met, sides = result.coverage.boundaries()
@@ -274,14 +274,14 @@ def row(of: Report) -> dict[str, object]:
     }
 
 
-def _file_of(found: Mismatch | Failure, of: Report) -> str:
+def _file_of(found: StepMismatch | Failure, of: CrosscheckReport) -> str:
     """The test that was written for it, if any."""
     return next(
         (str(file) for one, file in zip(shown(of.result), of.files, strict=False) if one is found), ""
     )
 
 
-def _word(result: Result) -> str:
+def _word(result: CompareResult) -> str:
     if result.mismatches:
         return "mismatch"
     return "failure" if result.failures else "conforms" if result.conforms else "inconclusive"
@@ -293,7 +293,7 @@ def _failed(failure: Failure, file: str) -> dict[str, object]:
     return {**place, "message": failure.message, "test": file}
 
 
-def _row(mismatch: Mismatch, file: str, small: bool) -> dict[str, object]:
+def _row(mismatch: StepMismatch, file: str, small: bool) -> dict[str, object]:
     return {
         "step": mismatch.tick,
         "origin": mismatch.origin,

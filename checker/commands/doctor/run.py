@@ -73,7 +73,7 @@ PROGRAMS = {
 
 
 @dataclass(frozen=True)
-class Finding:
+class DoctorFinding:
     """One thing looked at: what it is, what was found, and whether it is as needed.
 
     ``required`` says whether rovercheck works without it, ``adds`` what it is for or how to get it.
@@ -106,7 +106,7 @@ def doctor(as_json: bool, quiet: bool = False) -> Exit:
     return Exit.CHANGED if broken else Exit.AS_EXPECTED
 
 
-def findings() -> Iterator[Finding]:
+def findings() -> Iterator[DoctorFinding]:
     """Everything there is to look at, the quick things first."""
     yield _python()
     yield from (_package(name, adds, True) for name, adds in REQUIRED.items())
@@ -117,33 +117,37 @@ def findings() -> Iterator[Finding]:
     yield from _trials()
 
 
-def _python() -> Finding:
+def _python() -> DoctorFinding:
     ok = sys.version_info >= (3, 11)
-    return Finding("package", "Python", platform.python_version(), ok, True, "3.11 or newer")
+    return DoctorFinding("package", "Python", platform.python_version(), ok, True, "3.11 or newer")
 
 
-def _package(name: str, adds: str, required: bool) -> Finding:
+def _package(name: str, adds: str, required: bool) -> DoctorFinding:
     try:
-        return Finding("package", name, version(name), True, required, adds)
+        return DoctorFinding("package", name, version(name), True, required, adds)
     except PackageNotFoundError:
         there = find_spec(name) is not None
-        return Finding("package", name, "of unknown version" if there else "missing", there, required, adds)
+        return DoctorFinding(
+            "package", name, "of unknown version" if there else "missing", there, required, adds
+        )
 
 
-def _program(names: str, adds: str) -> Finding:
+def _program(names: str, adds: str) -> DoctorFinding:
     places = filter(None, map(shutil.which, names.split(", ")))
     place = next(places, "")
-    return Finding("program", names.partition(",")[0], place or "missing", bool(place), False, adds)
+    return DoctorFinding("program", names.partition(",")[0], place or "missing", bool(place), False, adds)
 
 
-def _machine() -> Iterator[Finding]:
+def _machine() -> Iterator[DoctorFinding]:
     from checker.verify.searches import cores
 
-    yield Finding("machine", "processors", str(cores()), True, True, "searches at a time, unless --jobs says")
+    yield DoctorFinding(
+        "machine", "processors", str(cores()), True, True, "searches at a time, unless --jobs says"
+    )
     total, free = memory()
     shown = f"{total / 2**30:.1f} GiB, {free / 2**30:.1f} GiB free" if total else "unknown"
     adds = "check --memory says how much each search may take"
-    yield Finding("machine", "memory", shown, not total or free >= 2**30, False, adds)
+    yield DoctorFinding("machine", "memory", shown, not total or free >= 2**30, False, adds)
 
 
 def memory(table: Path = Path("/proc/meminfo")) -> tuple[int, int]:
@@ -156,7 +160,7 @@ def memory(table: Path = Path("/proc/meminfo")) -> tuple[int, int]:
         return 0, 0
 
 
-def _cache() -> Finding:
+def _cache() -> DoctorFinding:
     from checker import cache
 
     adds = f"compiled searches; ${cache.VARIABLE} says where, and deleting them is always safe"
@@ -164,12 +168,12 @@ def _cache() -> Finding:
         place, secret = cache.chosen(), cache.secret_place()
     except OSError as error:
         off = "" in (os.environ.get(cache.VARIABLE), os.environ.get(cache.SECRET))
-        return Finding("machine", "cache", f"none: {error}", off, False, adds)
+        return DoctorFinding("machine", "cache", f"none: {error}", off, False, adds)
     files = list(place.glob(f"*{cache.ENDING}")) if place.is_dir() else []
     size = sum(p.stat().st_size for p in files if p.is_file())
     shown = f"{place}: {counted(len(files), 'file', 'files')}, {size / 2**20:.1f} MiB; sealed with {secret}"
     wrong = _wrong_with_the_cache(place, secret)
-    return Finding("machine", "cache", f"{shown}; {wrong}" if wrong else shown, not wrong, False, adds)
+    return DoctorFinding("machine", "cache", f"{shown}; {wrong}" if wrong else shown, not wrong, False, adds)
 
 
 def _wrong_with_the_cache(place: Path, secret: Path) -> str:
@@ -190,7 +194,7 @@ def _wrong_with_the_cache(place: Path, secret: Path) -> str:
     return ""
 
 
-def _trials() -> Iterator[Finding]:
+def _trials() -> Iterator[DoctorFinding]:
     """The smallest questions there are, put to every engine."""
     from checker.engines import engines
 
@@ -198,7 +202,7 @@ def _trials() -> Iterator[Finding]:
         yield _trial(f"engine {name}", partial(tried, name))
 
 
-def _trial(name: str, work: Callable[[], str]) -> Finding:
+def _trial(name: str, work: Callable[[], str]) -> DoctorFinding:
     start = monotonic()
     faults: list[Fault] = []
     try:
@@ -209,7 +213,7 @@ def _trial(name: str, work: Callable[[], str]) -> Finding:
     except Exception as error:  # whatever it is, it is what the user wants to know
         said, ok = f"{type(error).__name__}: {error}", False
     shown = f"works, {monotonic() - start:.1f} s" if ok else said
-    return Finding("trial", name, shown, ok, True, "decides a toy that is true and one that is false")
+    return DoctorFinding("trial", name, shown, ok, True, "decides a toy that is true and one that is false")
 
 
 def tried(engine: str) -> str:
@@ -251,7 +255,7 @@ def properties() -> tuple[Property, Property]:
     )
 
 
-def _tell(found: Sequence[Finding], broken: Sequence[Finding]) -> None:
+def _tell(found: Sequence[DoctorFinding], broken: Sequence[DoctorFinding]) -> None:
     titles = {
         "package": "Packages",
         "machine": "This machine",
@@ -280,13 +284,13 @@ def _tell(found: Sequence[Finding], broken: Sequence[Finding]) -> None:
         out.print(f"All that is required works.{extra}", style="bold", markup=False)
 
 
-def _mark(one: Finding) -> Text:
+def _mark(one: DoctorFinding) -> Text:
     if one.ok:
         return Text("✓", style="green")
     return Text("✗", style="bold red") if one.required else Text("–", style="yellow")
 
 
-def _shown(one: Finding) -> Text:
+def _shown(one: DoctorFinding) -> Text:
     adds = one.adds.partition(": ")[0] if one.ok else one.adds
     told = one.found if one.kind == "trial" else f"{one.found}; {adds}"
     return Text(told, style="" if one.ok else "bold red" if one.required else "yellow")

@@ -2,7 +2,7 @@
 
 from checker.commands.explore.explorer import Commands, Explorer
 from checker.commands.explore.words import pairs, split
-from checker.explore.by_hand.written import Refused
+from checker.explore.by_hand.written import RefusedInput
 
 
 def _set(explorer: Explorer, rest: str) -> None:
@@ -17,7 +17,7 @@ def _free(explorer: Explorer, rest: str) -> None:
 
 def _random(explorer: Explorer, rest: str) -> None:
     if rest and not rest.isdecimal():
-        raise Refused(f"{rest!r} is no seed; write a whole number, or none for 0.")
+        raise RefusedInput(f"{rest!r} is no seed; write a whole number, or none for 0.")
     session = explorer.session
     session.let_run(session.simulation.inputs, int(rest or "0"))
     explorer.say(f"All inputs run free, seed {session.seed}; set NAME=VALUE holds one again, and hold all.")

@@ -9,7 +9,7 @@ from checker.commands.explore import look as exploring_looking
 from checker.commands.explore import move as exploring_moving
 from checker.commands.explore.explorer import Commands, Explorer
 from checker.commands.shared.tables import laid
-from checker.explore.by_hand.written import Refused
+from checker.explore.by_hand.written import RefusedInput
 from spec_model.lang.errors import did_you_mean
 
 
@@ -22,7 +22,7 @@ ALIASES = {"?": "help", "exit": "quit"}
 
 
 def obey(explorer: Explorer, line: str) -> None:
-    """Do what a line says.  Raises ``Refused`` for what is not possible, and ``Quit``."""
+    """Do what a line says.  Raises ``RefusedInput`` for what is not possible, and ``Quit``."""
     word, _, rest = line.partition("#")[0].strip().partition(" ")
     if word:
         _, command, _ = COMMANDS[named(word)]
@@ -37,14 +37,16 @@ def completions(explorer: Explorer, begun: str) -> list[str]:
 
 
 def named(word: str) -> str:
-    """The name of the command meant by it or the beginning of it.  Raises ``Refused``."""
+    """The name of the command meant by it or the beginning of it.  Raises ``RefusedInput``."""
     word = ALIASES.get(word, word)
     found = [word] if word in COMMANDS else [name for name in COMMANDS if name.startswith(word)]
     if len(found) == 1:
         return found[0]
     if found:
-        raise Refused(f"{word!r} may be {' or '.join(found)}; write more of it.")
-    raise Refused(f"There is no command {word!r}. {did_you_mean(word, COMMANDS)} Write help for all of them.")
+        raise RefusedInput(f"{word!r} may be {' or '.join(found)}; write more of it.")
+    raise RefusedInput(
+        f"There is no command {word!r}. {did_you_mean(word, COMMANDS)} Write help for all of them."
+    )
 
 
 def _help(explorer: Explorer, rest: str) -> None:

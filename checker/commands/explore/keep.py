@@ -10,7 +10,7 @@ from checker.commands.shared.select import pick
 from checker.commands.shared.variant import Variant
 from checker.commands.shared.wrapping import whole
 from checker.explore.by_hand.session import Session
-from checker.explore.by_hand.written import Refused
+from checker.explore.by_hand.written import RefusedInput
 from checker.results.trace import Trace
 from properties.forms import Property
 
@@ -18,9 +18,9 @@ from properties.forms import Property
 def _trace(explorer: Explorer, rest: str) -> None:
     known = explorer.variant.properties()
     if not known:
-        raise Refused("The model states no properties, so there is no run to load.")
+        raise RefusedInput("The model states no properties, so there is no run to load.")
     if not rest:
-        raise Refused(f"Write the ID of a property: trace {next(iter(known))}")
+        raise RefusedInput(f"Write the ID of a property: trace {next(iter(known))}")
     prop = pick("property", rest, known)
     systems = explorer.variant.systems()
     trace = _decided(prop, explorer.variant)
@@ -34,24 +34,24 @@ def _trace(explorer: Explorer, rest: str) -> None:
 
 
 def _decided(prop: Property, variant: Variant) -> Trace:
-    """The run that the verdict on a property rests on.  Raises ``Refused`` if there is none."""
+    """The run that the verdict on a property rests on.  Raises ``RefusedInput`` if there is none."""
     from checker.commands.check.run import evidence, results
     from checker.engines import AUTO, Limits
     from checker.results.verdict import Unknown
 
     [result] = results([prop], variant.systems(), AUTO, Limits())
     if isinstance(result.verdict, Unknown) or not isinstance(result.verdict.because, Trace):
-        raise Refused(f"{prop.id} is {result.verdict.word} and has no run to load: {evidence(result)}")
+        raise RefusedInput(f"{prop.id} is {result.verdict.word} and has no run to load: {evidence(result)}")
     return result.verdict.because
 
 
 def _save(explorer: Explorer, rest: str) -> None:
     words = split(rest)
     if not 1 <= len(words) <= 2:
-        raise Refused("Write save FILE, or save FILE FORMAT: save run.vcd, save run.html play")
+        raise RefusedInput("Write save FILE, or save FILE FORMAT: save run.vcd, save run.html play")
     target, session = Path(words[0]), explorer.session
     if not session.simulation.at:
-        raise Refused("There is no run before the first tick; write step first.")
+        raise RefusedInput("There is no run before the first tick; write step first.")
     if target.suffix == ".txt" and len(words) == 1:
         write(session.script(), target)
         explorer.say(f"{whole(target)} holds the commands that make this run again.")
@@ -64,7 +64,7 @@ def _save(explorer: Explorer, rest: str) -> None:
     found = [name for suffix, name in exits.items() if target.name.endswith(suffix) and suffix != ".txt"]
     format = words[1] if len(words) == 2 else max(found, key=lambda n: len(known[n].SUFFIX), default="")
     if not format:
-        raise Refused(f"No format has files like {words[0]}; write one of *{', *'.join(sorted(exits))}.")
+        raise RefusedInput(f"No format has files like {words[0]}; write one of *{', *'.join(sorted(exits))}.")
     systems = {**explorer.variant.systems(), session.simulation.system.name: session.simulation.system}
     trace = session.simulation.trace()
     for path in (target, *exit_written(pick("trace format", format, known), trace, systems, target)):

@@ -6,7 +6,7 @@ from checker.commands.explore.explorer import Commands, Explorer
 from checker.commands.explore.text import show
 from checker.commands.explore.why import why
 from checker.commands.explore.words import split
-from checker.explore.by_hand.written import Refused, variable
+from checker.explore.by_hand.written import RefusedInput, variable
 from spec_model.lang.chart import Chart
 from spec_model.lang.errors import did_you_mean
 
@@ -34,7 +34,7 @@ def _why(explorer: Explorer, rest: str) -> None:
 
 def _chart(name: str, charts: Mapping[str, Chart]) -> str:
     if name not in charts:
-        raise Refused(f"There is no chart {name!r}. {did_you_mean(name, charts)}")
+        raise RefusedInput(f"There is no chart {name!r}. {did_you_mean(name, charts)}")
     return name
 
 

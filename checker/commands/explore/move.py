@@ -4,7 +4,7 @@ from checker.commands.explore.explorer import Commands, Explorer
 from checker.commands.explore.text import changes, show
 from checker.commands.explore.words import count
 from checker.explore.by_hand.session import MOST_TICKS
-from checker.explore.by_hand.written import Refused
+from checker.explore.by_hand.written import RefusedInput
 from spec_model.lang.expr import Expr
 
 
@@ -14,7 +14,7 @@ def _step(explorer: Explorer, rest: str) -> None:
 
 def _until(explorer: Explorer, rest: str) -> None:
     if not rest:
-        raise Refused(f"Write a condition. {explorer.session.names.help}")
+        raise RefusedInput(f"Write a condition. {explorer.session.names.help}")
     formula = explorer.session.condition(rest)
     ran = explorer.session.advance(MOST_TICKS, formula)
     explorer.moved(ran)
@@ -48,14 +48,14 @@ def _forward(explorer: Explorer, rest: str) -> None:
     sim = explorer.session.simulation
     first, last = sim.at + 1, min(len(sim), sim.at + count(rest, 1))
     if first > last:
-        raise Refused("This is the last tick executed; write step to go on.")
+        raise RefusedInput("This is the last tick executed; write step to go on.")
     explorer.session.goto(last)
     changes(explorer.console, explorer.session, first)
 
 
 def _goto(explorer: Explorer, rest: str) -> None:
     if not rest.isdecimal():
-        raise Refused("Write the number of a tick: goto 7")
+        raise RefusedInput("Write the number of a tick: goto 7")
     explorer.session.goto(int(rest))
     show(explorer.console, explorer.session)
 

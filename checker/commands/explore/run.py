@@ -18,7 +18,7 @@ from checker.commands.shared.select import pick
 from checker.commands.shared.variant import Variant
 from checker.commands.shared.wrapping import filled, whole
 from checker.explore.by_hand.session import Session
-from checker.explore.by_hand.written import Refused
+from checker.explore.by_hand.written import RefusedInput
 from spec_model.lang.chart import Chart
 from spec_model.lang.errors import ModelError
 from spec_model.lang.system import System, in_order
@@ -77,7 +77,7 @@ def _read(script: Path) -> list[str]:
 def _first(explorer: Explorer, line: str) -> None:
     try:
         obey(explorer, line)
-    except (Refused, ModelError) as error:
+    except (RefusedInput, ModelError) as error:
         raise UsageError(str(error)) from None
 
 
@@ -89,7 +89,7 @@ def _scripted(explorer: Explorer, lines: Iterable[str]) -> Exit:
             obey(explorer, line)
         except Quit:
             break
-        except (Refused, ModelError, UsageError) as error:
+        except (RefusedInput, ModelError, UsageError) as error:
             raise UsageError(f"Line {number}, {line.strip()!r}: {error}") from None
     return Exit.AS_EXPECTED
 
@@ -106,7 +106,7 @@ def _asked(explorer: Explorer) -> Exit:
             return Exit.AS_EXPECTED
         except KeyboardInterrupt:
             out.print("\nInterrupted; quit or Ctrl-D ends.")
-        except (Refused, ModelError, UsageError) as error:
+        except (RefusedInput, ModelError, UsageError) as error:
             explorer.say(str(error), "red")
 
 

@@ -9,9 +9,9 @@ from rich.text import Text
 
 from checker.commands.shared.tables import laid
 from checker.explore.by_hand.session import Session
-from checker.explore.by_hand.simulation import Simulation
+from checker.explore.by_hand.simulation import HandSimulation
 from checker.render.limits import timer
-from checker.render.story import TIMER, Change, Event, Quiet, of_model, rows, start_of, value
+from checker.render.story import TIMER, Quiet, StoryChange, StoryEvent, of_model, rows, start_of, value
 from checker.results.trace import Arrow, Trace
 from checker.verify.runs.replay import arrow_of
 from spec_model.lang.chart import Chart, Path
@@ -82,7 +82,7 @@ def _inputs(session: Session, trace: Trace) -> str:
     return ", ".join(shown)
 
 
-def _outputs(sim: Simulation, trace: Trace, everything: bool) -> str:
+def _outputs(sim: HandSimulation, trace: Trace, everything: bool) -> str:
     """Data that charts and blocks write; of many only those that are not as at the start."""
     state, before = sim.state(), sim.before
     places = {v.name for c in sim.system.charts for v in (*c.locations, c.entered)}
@@ -130,20 +130,20 @@ def changes(console: Console, session: Session, first: int) -> None:
         if isinstance(row, Quiet):
             row = replace(row, first=row.first + first - 1, last=row.last + first - 1)
             grid.add_row("·", "", Text(row.what, style="dim"))
-        elif isinstance(row, Event):
+        elif isinstance(row, StoryEvent):
             _event(grid, _unrepeated(row, session) if row.number == first else row)
     for line in _watched(session, trace):
         grid.add_row("", "=", Text(line, style="bold"))
     laid(console, grid)
 
 
-def _unrepeated(event: Event, session: Session) -> Event:
+def _unrepeated(event: StoryEvent, session: Session) -> StoryEvent:
     """The event without arrows that keep their state as in the tick before."""
     before = set(map(arrow_of, session.simulation.fired(event.number - 1)))
     return replace(event, arrows=tuple(a for a in event.arrows if a.source != a.target or a not in before))
 
 
-def _event(grid: Table, event: Event) -> None:
+def _event(grid: Table, event: StoryEvent) -> None:
     given = [c for c in event.changes if not c.old]
     lines = [("in", Text(", ".join(map(str, given)), style="cyan"))] if given else []
     lines += [_change(c) for c in event.changes if c.old]
@@ -152,5 +152,5 @@ def _event(grid: Table, event: Event) -> None:
         grid.add_row("" if i else str(event.number), mark, line)
 
 
-def _change(change: Change) -> tuple[str, Text]:
+def _change(change: StoryChange) -> tuple[str, Text]:
     return ("in" if change.is_input else "", Text(str(change), style="cyan" if change.is_input else ""))

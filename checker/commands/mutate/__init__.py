@@ -64,7 +64,7 @@ def mutate(
     from checker.process.isolate import prepared
 
     with prepared(*LOADED):
-        from checker.commands.mutate.run import Wanted
+        from checker.commands.mutate.run import MutateOptions
         from checker.commands.mutate.run import mutate as run
         from checker.commands.shared.variant import pick_variant
 
@@ -73,6 +73,6 @@ def mutate(
 
             limits = Limits(None, timeout, int(memory * 2**30))
             return recorded(pick_variant((), None, (), model).model, limits, jobs, about)
-        wanted = Wanted(about, part, sample, seed, alone, by_place, jobs, record_mutants)
+        wanted = MutateOptions(about, part, sample, seed, alone, by_place, jobs, record_mutants)
         limits = Limits(None, timeout, int(memory * 2**30))
         return run(pick_variant((), None, (), model).model, wanted, limits, as_json)

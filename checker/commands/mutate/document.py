@@ -2,16 +2,16 @@
 
 from collections import Counter
 
-from checker.commands.mutate.found import Found, One
+from checker.commands.mutate.found import MutationResults, One
 from checker.commands.mutate.text import sketch
 from checker.commands.shared.codes import Exit
 from checker.mutate.judging import Fate
-from checker.mutate.observing import Difference
+from checker.mutate.observing import MutantDifference
 
 SCHEMA = 1
 
 
-def document(found: Found, code: Exit) -> dict[str, object]:
+def document(found: MutationResults, code: Exit) -> dict[str, object]:
     """All of it for machines."""
     by = Counter(judged.fate for _, _, judged in found.told)
     return {
@@ -48,7 +48,7 @@ def _row(one: One) -> dict[str, object]:
     }
 
 
-def _difference(found: Difference) -> dict[str, object]:
+def _difference(found: MutantDifference) -> dict[str, object]:
     return {
         "inputs": [dict(tick) for tick in found.inputs],
         "frozen": dict(found.frozen),

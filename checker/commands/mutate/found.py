@@ -11,7 +11,7 @@ One = tuple[str, Mutant, Judged]
 
 
 @dataclass
-class Found:
+class MutationResults:
     """What is known so far: each mutant with its system and its fate; ``made`` counts all, sampled or not."""
 
     systems: tuple[str, ...]
@@ -35,4 +35,4 @@ class Found:
         return Exit.INCONCLUSIVE if self.of(Fate.UNKNOWN) or self.undecided else Exit.AS_EXPECTED
 
 
-__all__ = ["Found", "One"]
+__all__ = ["MutationResults", "One"]

@@ -5,18 +5,18 @@ from contextlib import closing
 from dataclasses import dataclass, field, replace
 
 from checker.commands.check.run import results
-from checker.commands.mutate.found import Found
+from checker.commands.mutate.found import MutationResults
 from checker.commands.shared.output import err
 from checker.commands.shared.progress import Watch
 from checker.engines import AUTO, Limits
 from checker.model import Model
 from checker.model.kept_invariants import Recorded, invariants_of
-from checker.model.kept_runs import KILLS, MUTANTS, PREMISES, Kept, file_of, read
+from checker.model.kept_runs import KILLS, MUTANTS, PREMISES, KeptRun, file_of, read
 from checker.mutate.asked import as_it_is
 from checker.mutate.judging import DOMAINS, NOT_SEARCHED, REFUSED, Fate, Judged
 from checker.mutate.mutants import Mutant
 from checker.mutate.planning import Plan, Planned, rounds
-from checker.mutate.running import Doing, Told, fates
+from checker.mutate.running import MutantJudged, MutantProgress, fates
 from checker.results.verdict import Run
 from properties.forms import Property, Reachable, Unbounded
 
@@ -34,7 +34,7 @@ def judge(
     limits: Limits,
     jobs: int | None,
     alone: bool,
-    found: Found,
+    found: MutationResults,
 ) -> None:
     """Judge the mutants, each first in its own system; what is found goes to ``found`` at once.
 
@@ -67,7 +67,7 @@ class _Stages:
     at: Mapping[str, str]
     limits: Limits
     jobs: int | None
-    found: Found
+    found: MutationResults
     invariants: Recorded
     _asked: set[str] = field(default_factory=set)
 
@@ -170,7 +170,7 @@ class _Stages:
         before: Mapping[str, Judged],
         search: bool = True,
         drawn: bool = True,
-    ) -> Generator[Told, None, None]:
+    ) -> Generator[MutantJudged, None, None]:
         """The fates of mutants, round by round, while it is said what is being done."""
         if not planned:
             return
@@ -180,15 +180,15 @@ class _Stages:
                 with closing(fates(known, self.limits, self.jobs, before, search)) as heard:
                     for one in heard:
                         match one:
-                            case Doing(mutant, line):
+                            case MutantProgress(mutant, line):
                                 watch.say(mutant.id, line)
-                            case Told():
+                            case MutantJudged():
                                 watch.finished(one.mutant.id)
                                 self.plan.kills(one.judged)
                                 yield one
 
 
-def _runs(known: Sequence[Mapping[str, Kept]]) -> dict[str, list[Run]]:
+def _runs(known: Sequence[Mapping[str, KeptRun]]) -> dict[str, list[Run]]:
     """The runs on record, by system, each once."""
     found: dict[str, dict[str, Run]] = {}
     for kept in (one for rows in known for one in rows.values()):

@@ -10,7 +10,7 @@ from checker.commands.shared.progress import ProgressLine
 from checker.commands.shared.select import pick
 from checker.engines import Limits
 from checker.model import Model
-from checker.model.kept_runs import KILLS, Kept, file_of, read, text
+from checker.model.kept_runs import KILLS, KeptRun, file_of, read, text
 from checker.mutate.killing import Kill, kills, still
 from checker.process.isolate import Send
 from checker.process.pool import Order, Pool
@@ -43,7 +43,7 @@ def record_kills(model: Model, limits: Limits, jobs: int | None, about: Collecti
                 whole = False
                 found = {p.id: known[p.id] for p in asked[name] if p.id in known} | found
             else:
-                found |= {id: Kept(name, kill.run, kill.mutant) for id, kill in one.items()}
+                found |= {id: KeptRun(name, kill.run, kill.mutant) for id, kill in one.items()}
     except KeyboardInterrupt:
         found = known | found
         err.print("Interrupted: what was found so far is kept.")
@@ -70,8 +70,8 @@ def asked_of(model: Model) -> dict[str, list[Property]]:
 
 def _found(
     model: Model,
-    premises: Mapping[str, Kept],
-    known: Mapping[str, Kept],
+    premises: Mapping[str, KeptRun],
+    known: Mapping[str, KeptRun],
     asked: Mapping[str, list[Property]],
     limits: Limits,
     jobs: int | None,

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from checker.commands.mutate.found import Found, One
+from checker.commands.mutate.found import MutationResults, One
 from checker.mutate.judging import Fate
 
 FAULTY = (Fate.KILLED, Fate.SURVIVOR, Fate.UNKNOWN, Fate.NOTICED)
@@ -35,7 +35,7 @@ class Site:
         return ", ".join(self.killers) or ("-" if self.counts == "no fault" else "NO PROPERTY")
 
 
-def sites(found: Found) -> Iterator[Site]:
+def sites(found: MutationResults) -> Iterator[Site]:
     """The places in the order in which faults were made."""
     by: dict[str, list[One]] = {}
     for one in found.told:

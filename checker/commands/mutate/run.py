@@ -6,7 +6,7 @@ from random import Random
 
 from checker.commands.check.premises import recordable
 from checker.commands.mutate.document import document
-from checker.commands.mutate.found import Found
+from checker.commands.mutate.found import MutationResults
 from checker.commands.mutate.judge import judge
 from checker.commands.mutate.places import sites
 from checker.commands.mutate.text import report
@@ -17,7 +17,7 @@ from checker.commands.shared.tables import listed
 from checker.engines import Limits
 from checker.io.printable import json_text
 from checker.model import Model
-from checker.model.kept_runs import MUTANTS, Kept, file_of, read, text
+from checker.model.kept_runs import MUTANTS, KeptRun, file_of, read, text
 from checker.mutate.asked import as_it_is
 from checker.mutate.judging import Fate
 from checker.mutate.mutants import Mutant, mutants
@@ -27,7 +27,7 @@ from spec_model.lang.system import System
 
 
 @dataclass(frozen=True)
-class Wanted:
+class MutateOptions:
     """What the command line asks for.
 
     ``named`` are systems, ``parts`` charts and blocks; without any, all are meant.  ``alone``: only
@@ -45,7 +45,7 @@ class Wanted:
     record: bool = False
 
 
-def mutate(model: Model, wanted: Wanted, limits: Limits, as_json: bool) -> Exit:
+def mutate(model: Model, wanted: MutateOptions, limits: Limits, as_json: bool) -> Exit:
     """Judge the mutants of a model, and tell what becomes of each.
 
     Raises ``UsageError`` for an unknown system, or where what is found cannot be kept, ``ModelError`` where
@@ -60,7 +60,7 @@ def mutate(model: Model, wanted: Wanted, limits: Limits, as_json: bool) -> Exit:
         return Exit.NOTHING
     made = todo = _chosen(model.systems, at_home, wanted)
     named = wanted.named if wanted.named and not wanted.parts else tuple(at_home)
-    found = Found(named, len(todo), seed=None if wanted.sample is None else wanted.seed)
+    found = MutationResults(named, len(todo), seed=None if wanted.sample is None else wanted.seed)
     if wanted.sample is not None and wanted.sample < len(todo):
         kept = sorted(Random(wanted.seed).sample(range(len(todo)), wanted.sample))
         todo = [todo[number] for number in kept]
@@ -85,7 +85,7 @@ def mutate(model: Model, wanted: Wanted, limits: Limits, as_json: bool) -> Exit:
     return code
 
 
-def _record(model: Model, found: Found, made: Collection[str]) -> None:
+def _record(model: Model, found: MutationResults, made: Collection[str]) -> None:
     """Keep the runs by which searches killed mutants.
 
     What is on record stays, but for mutants that no run kills, and those of the same parts that are not
@@ -93,7 +93,7 @@ def _record(model: Model, found: Found, made: Collection[str]) -> None:
     """
     place, parts_of = file_of(model, MUTANTS), {id.partition("/")[0] for id in made}
     rows = {
-        mutant.id: Kept(judged.on, judged.run)
+        mutant.id: KeptRun(judged.on, judged.run)
         for _, mutant, judged in found.told
         if judged.fate is Fate.KILLED and judged.run is not None and mutant.id in found.searched
     }
@@ -107,7 +107,7 @@ def _record(model: Model, found: Found, made: Collection[str]) -> None:
     err.print(f"{counted(len(rows), 'run is', 'runs are')} on record that searches found now.")
 
 
-def _homes(model: Model, wanted: Wanted, stated: Collection[str]) -> dict[str, list[str]]:
+def _homes(model: Model, wanted: MutateOptions, stated: Collection[str]) -> dict[str, list[str]]:
     """The parts to make faulty by the system in which each is judged first: the smallest with properties.
 
     That is one of the systems named, if properties of no other count.
@@ -125,7 +125,7 @@ def _homes(model: Model, wanted: Wanted, stated: Collection[str]) -> dict[str, l
 
 
 def _chosen(
-    systems: Mapping[str, System], at_home: Mapping[str, Sequence[str]], wanted: Wanted
+    systems: Mapping[str, System], at_home: Mapping[str, Sequence[str]], wanted: MutateOptions
 ) -> list[tuple[str, Mutant]]:
     if wanted.sample is not None and wanted.sample < 1:
         raise UsageError("--sample takes a number of mutants, at least 1.")
@@ -136,4 +136,4 @@ def _chosen(
     ]
 
 
-__all__ = ["Found", "Wanted", "mutate"]
+__all__ = ["MutateOptions", "MutationResults", "mutate"]

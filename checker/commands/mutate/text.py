@@ -3,10 +3,10 @@
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
-from checker.commands.mutate.found import Found, One
+from checker.commands.mutate.found import MutationResults, One
 from checker.commands.shared.output import counted
 from checker.mutate.judging import Fate
-from checker.mutate.observing import Difference
+from checker.mutate.observing import MutantDifference
 from checker.results.trace import counted_ticks
 
 Line = tuple[str, int]
@@ -21,7 +21,7 @@ HEADS = {
 }
 
 
-def report(found: Found) -> Iterator[Line]:
+def report(found: MutationResults) -> Iterator[Line]:
     """The lines of the report."""
     for fate, head in HEADS.items():
         some = found.of(fate)
@@ -50,7 +50,7 @@ def _one(one: One) -> Iterator[Line]:
         yield f"    {sketch(judged.difference)}", 6
 
 
-def _difference(system: str, found: Difference) -> Iterator[Line]:
+def _difference(system: str, found: MutantDifference) -> Iterator[Line]:
     length = "the shortest run" if found.shortest else "a run"
     yield f"    {length} that tells it apart, {counted_ticks(len(found))} of {system}:", 6
     if found.frozen:
@@ -77,7 +77,7 @@ def _pairs(values: Mapping[str, str]) -> str:
     return ", ".join(f"{name} = {value}" for name, value in values.items())
 
 
-def sketch(found: Difference) -> str:
+def sketch(found: MutantDifference) -> str:
     """The sentence of a property that would notice the fault."""
     if found.allowed_by:
         return f"Nothing demands: these inputs are possible only as {found.allowed_by} allows them."
@@ -94,7 +94,7 @@ def _where(state: str) -> str:
     return "has not begun" if state == "-" else f"was in {state}"
 
 
-def _counts(found: Found) -> Iterator[Line]:
+def _counts(found: MutationResults) -> Iterator[Line]:
     by = Counter(judged.fate for _, _, judged in found.told)
     names = ", ".join(found.systems) if len(found.systems) <= MANY else f"{len(found.systems)} systems"
     judged = f"{counted(len(found.told), 'mutant', 'mutants')} of {names}"

@@ -78,7 +78,7 @@ def report(
     from checker.process.isolate import prepared
 
     with prepared(*LOADED):
-        from checker.commands.report.run import Asked
+        from checker.commands.report.run import ReportOptions
         from checker.commands.report.run import report as run
         from checker.commands.shared.select import pick_engine, pick_properties
         from checker.commands.shared.variant import pick_variant
@@ -93,7 +93,7 @@ def report(
         return run(
             variant,
             properties,
-            Asked(command(context), whole, not no_repairs, premises, explain, date),
+            ReportOptions(command(context), whole, not no_repairs, premises, explain, date),
             output,
             pick_engine(engine),
             Limits(depth, timeout, int(memory * 2**30), timers=Timers(timers)),

@@ -6,25 +6,25 @@ from dataclasses import dataclass, field, fields
 
 from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from checker.commands.check.further import noticing
-from checker.commands.check.premises import Case
+from checker.commands.check.premises import PremiseCase
 from checker.commands.check.run import Compared, evidence, recorded
 from checker.commands.shared.wording import formally
 from checker.model import Model
 from checker.render.review.model import (
     About,
     Ambiguity,
-    Assumed,
     Checked,
     Covered,
     Demand,
-    Origin,
     Remedy,
     Review,
+    ReviewAssumption,
+    ReviewOrigin,
     Seen,
 )
 from checker.results.trace import Trace
 from checker.results.verdict import Exhausted, Unknown
-from properties.coverage import Coverage, matrix
+from properties.coverage import RequirementCoverage, matrix
 from properties.english import HOW_TO_READ
 from properties.forms import Form, Property, formulas
 from spec_model.lang.chart import Chart
@@ -52,13 +52,13 @@ class Extras:
     repairs: tuple[Remedy, ...] = ()
     coverage: tuple[Covered, ...] = ()
     reasons: Mapping[str, str] = field(default_factory=dict)
-    premises: Mapping[str, Case] = field(default_factory=dict)
+    premises: Mapping[str, PremiseCase] = field(default_factory=dict)
     graphs: tuple[Seen, ...] = ()
     undrawn: tuple[tuple[str, str], ...] = ()
 
 
 def reviewed(
-    model: Model, found: Sequence[Compared], origin: Origin, extras: Extras, whole: bool = True
+    model: Model, found: Sequence[Compared], origin: ReviewOrigin, extras: Extras, whole: bool = True
 ) -> Review:
     """All that the page shows.  ``whole``: no selection was made among the properties of the model."""
     shown = sorted(found, key=lambda c: (c.result.property.area, by_number(c.result.property.id)))
@@ -191,13 +191,13 @@ def about(system: System) -> About:
     )
 
 
-def assumed(systems: Iterable[System]) -> tuple[Assumed, ...]:
+def assumed(systems: Iterable[System]) -> tuple[ReviewAssumption, ...]:
     """The assumptions about the environment, each with the systems that make it."""
     holders: dict[tuple[str, str], list[str]] = {}
     for system in systems:
         for one in system.assumptions:
             holders.setdefault((one.id, one.text), []).append(system.name)
-    return tuple(Assumed(id, said, tuple(names)) for (id, said), names in holders.items())
+    return tuple(ReviewAssumption(id, said, tuple(names)) for (id, said), names in holders.items())
 
 
 def drawn(shown: Iterable[System], model: Model) -> dict[str, Chart]:
@@ -224,7 +224,7 @@ ORDER = ("open", "reached", "stated", "reason", "violated", "unknown", "proved")
 """What a reviewer wants to see first."""
 
 
-def _demand(row: Coverage, state: str) -> Demand:
+def _demand(row: RequirementCoverage, state: str) -> Demand:
     item = row.requirement
     ids = tuple(p.id for p in row.properties)
     return Demand(item.id, item.text, item.source, state, item.reason, ids, row.covered)

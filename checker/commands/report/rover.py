@@ -10,7 +10,7 @@ from checker.engines import AUTO
 from checker.model.kept_invariants import invariants_of_rover
 from checker.render.drawing.changes import changes
 from checker.render.review.model import Ambiguity, Covered, Edit, Remedy
-from checker.system.instrument.goals import Kind
+from checker.system.instrument.goals import GoalKind
 from checker.system.instrument.watch import watched
 from checker.testgen import kept_text
 from checker.testgen.keep import kept_of
@@ -90,7 +90,7 @@ def coverage() -> Iterator[Covered]:
     for board in boards().values():
         kept = kept_of(board, kept_text(board.name))
         reached = {goal for _, goals, _ in kept.tests for goal in goals}
-        for kind in Kind:
+        for kind in GoalKind:
             ids = {goal.id for goal in watched(board.system, {kind}).goals}
             proved, left = ids & kept.uncoverable.keys(), ids & kept.unknown.keys()
             yield Covered(board.name, kind.value, len(ids), len(ids & reached), len(proved), len(left))

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from checker.certify.file import Unwritable
 from checker.commands.check.findings import Guide
-from checker.commands.check.premises import LONG, Case, cases
+from checker.commands.check.premises import LONG, PremiseCase, cases
 from checker.commands.check.run import Compared, results, summary, worst
 from checker.commands.report.data import Extras, concerned, reviewed
 from checker.commands.report.forced import with_reasons
@@ -25,7 +25,7 @@ from checker.model import Model
 from checker.model.kept_invariants import invariants_of
 from checker.model.kept_runs import file_of, read
 from checker.render.review import render
-from checker.render.review.model import Origin
+from checker.render.review.model import ReviewOrigin
 from checker.verify.certificates import Certifying
 from properties.forms import Property
 
@@ -41,7 +41,7 @@ MEANINGS = {
 
 
 @dataclass(frozen=True)
-class Asked:
+class ReportOptions:
     """What the command line asks for.
 
     ``command`` is the line itself; ``whole`` says that no selection was made, ``date`` is shown as given.
@@ -59,7 +59,7 @@ class Asked:
 def report(
     variant: Variant,
     properties: Sequence[Property],
-    asked: Asked,
+    asked: ReportOptions,
     output: Path,
     engine: str = AUTO,
     limits: Limits = NO_LIMITS,
@@ -105,8 +105,8 @@ def page(
     model: Model,
     variant: Variant,
     found: Sequence[Compared],
-    asked: Asked,
-    told: Mapping[str, Case] | None = None,
+    asked: ReportOptions,
+    told: Mapping[str, PremiseCase] | None = None,
 ) -> str:
     """The page on verdicts that were found; ``told`` says of cases of proofs whether they occur, by id."""
     own = extras(variant, found, asked.repairs) if model.path is None else Extras()
@@ -115,10 +115,10 @@ def page(
     return render(reviewed(model, found, origin(model, variant, worst(found), asked), own, asked.whole))
 
 
-def origin(model: Model, variant: Variant, code: Exit, asked: Asked) -> Origin:
+def origin(model: Model, variant: Variant, code: Exit, asked: ReportOptions) -> ReviewOrigin:
     """How the page is made; nothing about the machine or the time, unless the user gave a date."""
     meaning = MEANINGS[code].replace("on record", "expected") if variant.name else MEANINGS[code]
-    return Origin(
+    return ReviewOrigin(
         asked.command, int(code), meaning, tuple(versions()), digests(model), asked.date, variant.name
     )
 

@@ -13,7 +13,7 @@ from checker.io.printable import json_text
 from checker.model.kept_invariants import invariants_of
 from checker.model.load import load
 from checker.model.rover import rover
-from properties.coverage import Coverage, matrix
+from properties.coverage import RequirementCoverage, matrix
 from properties.forms import Property, Reachable
 
 SCHEMA = 1
@@ -64,7 +64,7 @@ def words(found: Sequence[Compared]) -> Verdicts:
     return {c.result.property.id: c.verdict.word for c in found}
 
 
-def show(rows: Sequence[Coverage], verdicts: Verdicts, origin: str, as_json: bool) -> Exit:
+def show(rows: Sequence[RequirementCoverage], verdicts: Verdicts, origin: str, as_json: bool) -> Exit:
     """Print the matrix as a table or as JSON."""
     code = Exit.CHANGED if any(row.open for row in rows) else Exit.AS_EXPECTED
     if as_json:
@@ -80,12 +80,12 @@ def show(rows: Sequence[Coverage], verdicts: Verdicts, origin: str, as_json: boo
     return code
 
 
-def _meaning(rows: Sequence[Coverage]) -> tuple[str, ...]:
+def _meaning(rows: Sequence[RequirementCoverage]) -> tuple[str, ...]:
     """What covered means."""
     return (REACHED, NOTICED) if any(row.noticing is not None for row in rows) else (REACHED,)
 
 
-def because(row: Coverage, verdicts: Verdicts, name: Callable[[str], str] = str) -> str:
+def because(row: RequirementCoverage, verdicts: Verdicts, name: Callable[[str], str] = str) -> str:
     """What speaks for a requirement: its properties, the worst verdicts first, or a reason.
 
     Of the properties whose verdict is the state of the row only the names are said.
@@ -104,7 +104,7 @@ def _said(prop: Property, verdict: str) -> str:
     return verdict
 
 
-def counts(rows: Sequence[Coverage], verdicts: Verdicts) -> tuple[str, ...]:
+def counts(rows: Sequence[RequirementCoverage], verdicts: Verdicts) -> tuple[str, ...]:
     """How many requirements are in each state, and which are open."""
     states = [row.state(verdicts) for row in rows]
     covered = sum(row.covered for row in rows)
@@ -122,12 +122,14 @@ def _only_stated(states: Sequence[str]) -> str:
     return f", {states.count('stated')} only stated" if "stated" in states else ""
 
 
-def _kinds_of_reasons(rows: Sequence[Coverage]) -> str:
+def _kinds_of_reasons(rows: Sequence[RequirementCoverage]) -> str:
     kinds = [row.requirement.reason.partition(":")[0] for row in rows if row.requirement.reason]
     return ", ".join(f"{kinds.count(kind)} {kind}" for kind in dict.fromkeys(kinds)) or "none given"
 
 
-def document(rows: Sequence[Coverage], verdicts: Verdicts, origin: str, code: Exit) -> dict[str, object]:
+def document(
+    rows: Sequence[RequirementCoverage], verdicts: Verdicts, origin: str, code: Exit
+) -> dict[str, object]:
     """The matrix as JSON."""
     return {
         "schema": f"rovercheck/requirements/{SCHEMA}",
@@ -137,7 +139,7 @@ def document(rows: Sequence[Coverage], verdicts: Verdicts, origin: str, code: Ex
     }
 
 
-def _row(row: Coverage, verdicts: Verdicts) -> dict[str, object]:
+def _row(row: RequirementCoverage, verdicts: Verdicts) -> dict[str, object]:
     item = row.requirement
     return {
         "id": item.id,

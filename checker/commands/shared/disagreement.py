@@ -13,7 +13,7 @@ from checker.commands.shared.output import write
 from checker.commands.shared.wrapping import whole
 from checker.results.verdict import Reached, Run
 from checker.verify.decide import Disagreement
-from checker.verify.portfolio.disagreement import Saying
+from checker.verify.portfolio.disagreement import Statement
 from properties.catalogue import catalogue
 
 SCHEMA = "rovercheck/disagreement/1"
@@ -55,7 +55,7 @@ def _document(found: Disagreement, command: list[str]) -> dict[str, object]:
     }
 
 
-def _answer(said: Saying) -> dict[str, object]:
+def _answer(said: Statement) -> dict[str, object]:
     run = _run(said.answer.run) if isinstance(said.answer, Reached) else None
     return {"engine": said.engine, "says": said.words, "replays": said.replayed, "run": run}
 

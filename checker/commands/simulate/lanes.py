@@ -5,7 +5,7 @@ from enum import IntEnum
 from itertools import pairwise
 from math import nan
 
-from checker.render.lanes import Band, Chart, Curve, Lanes, Limit, Mark, Row, Rows, Tone
+from checker.render.lanes import Band, ChartLane, Curve, LaneLimit, LaneRow, LaneRows, Lanes, Mark, Tone
 from supervisor.bench import Record, Scenario
 from supervisor.bench.columns import Scalar
 from supervisor.bench.conditions import WHEELS
@@ -39,15 +39,15 @@ def lanes(scenario: Scenario, record: Record, name: str) -> Lanes:
     )
 
 
-def _charts(record: Record) -> Iterable[Chart]:
-    yield Chart(
+def _charts(record: Record) -> Iterable[ChartLane]:
+    yield ChartLane(
         "joystick",
         [_curve(record, "board2.ay_norm", "y, forward"), _curve(record, "board2.bx_norm", "x, left")],
         -1,
         1,
         ticks=(-1, -0.5, 0, 0.5, 1),
     )
-    yield Chart(
+    yield ChartLane(
         "speed references",
         [
             _curve(record, "board1.v_ref", "v_ref, Board 1"),
@@ -60,9 +60,9 @@ def _charts(record: Record) -> Iterable[Chart]:
         ticks=(-1, -0.5, 0, 0.5, 1),
     )
     wheels = [_curve(record, f"rover.wheel_{w}", w, steps=False) for w in WHEELS]
-    yield Chart("wheels in rpm", wheels, 0, FULL_SCALE_RPM / 2, ticks=(-160, -80, 0, 80, 160))
-    yield Chart("heading in °", [_turning(record)], 0, 360, ticks=(0, 90, 180, 270, 360))
-    yield Chart(
+    yield ChartLane("wheels in rpm", wheels, 0, FULL_SCALE_RPM / 2, ticks=(-160, -80, 0, 80, 160))
+    yield ChartLane("heading in °", [_turning(record)], 0, 360, ticks=(0, 90, 180, 270, 360))
+    yield ChartLane(
         "obstacles in cm",
         [
             _curve(record, "board2.d1", "left"),
@@ -71,22 +71,27 @@ def _charts(record: Record) -> Iterable[Chart]:
         ],
         0,
         301,
-        [Limit(70, "70 stop"), Limit(100, "100"), Limit(300, "300 degraded")],
+        [LaneLimit(70, "70 stop"), LaneLimit(100, "100"), LaneLimit(300, "300 degraded")],
         ticks=(0, 100, 200, 300),
     )
-    yield Chart(
+    yield ChartLane(
         "temperature in °C",
         [_curve(record, "board1.temperature_degC", "last valid")],
         20,
         30,
-        [Limit(-15, "−15"), Limit(-5, "−5"), Limit(55, "55 degraded"), Limit(60, "60 critical")],
+        [
+            LaneLimit(-15, "−15"),
+            LaneLimit(-5, "−5"),
+            LaneLimit(55, "55 degraded"),
+            LaneLimit(60, "60 critical"),
+        ],
     )
-    yield Chart(
+    yield ChartLane(
         "battery in %",
         [_curve(record, "board1.battery_pct", "last valid")],
         0,
         100,
-        [Limit(15, "15 critical"), Limit(25, "25 OK above"), Limit(23, "")],
+        [LaneLimit(15, "15 critical"), LaneLimit(25, "25 OK above"), LaneLimit(23, "")],
         ticks=(0, 50, 100),
     )
 
@@ -118,16 +123,16 @@ def _turning(record: Record) -> Curve:
     return Curve("clockwise", times, values)
 
 
-def _rows(record: Record, end_s: float) -> Iterable[Rows]:
+def _rows(record: Record, end_s: float) -> Iterable[LaneRows]:
     wheels = [f"wheel_status_{w}" for w in WHEELS]
     one = (*STATUSES1, *wheels, *ACTS, "give_b2_actuation")
-    yield Rows("Board 1", [_row(record, f"board1.{name}", end_s) for name in one])
+    yield LaneRows("Board 1", [_row(record, f"board1.{name}", end_s) for name in one])
     two = (*STATUSES2, *ACTS, "command", "autorized_to_send_command")
-    yield Rows("Board 2", [_row(record, f"board2.{name}", end_s) for name in two])
-    yield Rows("relay", [_row(record, f"rover.{n}", end_s) for n in ("relay", "driven_by")])
+    yield LaneRows("Board 2", [_row(record, f"board2.{name}", end_s) for name in two])
+    yield LaneRows("relay", [_row(record, f"rover.{n}", end_s) for n in ("relay", "driven_by")])
 
 
-def _row(record: Record, signal: str, end_s: float) -> Row:
+def _row(record: Record, signal: str, end_s: float) -> LaneRow:
     told = history(record, signal)
     bands: list[Band] = []
     since, value = 0.0, SIGNALS[signal].initial
@@ -136,7 +141,7 @@ def _row(record: Record, signal: str, end_s: float) -> Row:
             bands.append(_band(since, time_us / 10**6, value))
             since, value = time_us / 10**6, new
     bands.append(_band(since, end_s, value))
-    return Row(signal.partition(".")[2], bands)
+    return LaneRow(signal.partition(".")[2], bands)
 
 
 def _band(start_s: float, end_s: float, value: Scalar) -> Band:

@@ -19,7 +19,7 @@ WHO = {"board1": "Board 1", "board2": "Board 2", "rover": "rover"}
 
 
 @dataclass(frozen=True)
-class Line:
+class StoryLine:
     """What happened to one part of the rover at one time."""
 
     time_us: int
@@ -38,19 +38,19 @@ def story(scenario: Scenario, record: Record) -> str:
     return "\n".join(_folded(lines))
 
 
-def _events(scenario: Scenario) -> Iterator[Line]:
+def _events(scenario: Scenario) -> Iterator[StoryLine]:
     for event in scenario.events:
-        yield Line(event.at_us, "", f"▸ {event.number}: {event.label}")
+        yield StoryLine(event.at_us, "", f"▸ {event.number}: {event.label}")
         if event.for_us:
-            yield Line(event.end_us, "", f"▸ {event.number} is over")
+            yield StoryLine(event.end_us, "", f"▸ {event.number} is over")
 
 
-def _changes(record: Record) -> Iterator[Line]:
+def _changes(record: Record) -> Iterator[StoryLine]:
     def place(change: Change) -> tuple[int, str]:
         return change.time_us, change.signal.partition(".")[0]
 
     for (time_us, who), together in groupby(sorted(changes(record), key=place), key=place):
-        yield Line(time_us, WHO[who], "; ".join(_told(list(together))))
+        yield StoryLine(time_us, WHO[who], "; ".join(_told(list(together))))
 
 
 def _told(together: Sequence[Change]) -> Iterator[str]:
@@ -66,7 +66,7 @@ def _told(together: Sequence[Change]) -> Iterator[str]:
         yield f"{stem}{which}: {old} → {new}"
 
 
-def _folded(lines: Sequence[Line]) -> Iterator[str]:
+def _folded(lines: Sequence[StoryLine]) -> Iterator[str]:
     """The lines; some that repeat in the same order again and again are told once, with their number."""
     place = 0
     while place < len(lines):
@@ -79,7 +79,7 @@ def _folded(lines: Sequence[Line]) -> Iterator[str]:
             yield f"{'':{INDENT}}… {last} {times - 1} times more, until {until}"
 
 
-def _cycle(lines: Sequence[Line]) -> tuple[int, int]:
+def _cycle(lines: Sequence[StoryLine]) -> tuple[int, int]:
     """How many of the first lines repeat, and how often they are there; (1, 1) if none does often enough."""
     what = [(line.who, line.what) for line in lines]
     for long in range(1, min(LONGEST_CYCLE, len(lines) // OFTEN) + 1):

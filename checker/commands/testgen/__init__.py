@@ -86,11 +86,11 @@ def testgen(
     from checker.process.isolate import prepared
 
     with prepared(*LOADED):
-        from checker.commands.testgen.run import Asked
+        from checker.commands.testgen.run import TestgenOptions
         from checker.commands.testgen.run import testgen as run
-        from checker.system.instrument.goals import Kind
-        from checker.testgen.coverage import Effort
+        from checker.system.instrument.goals import GoalKind
+        from checker.testgen.coverage import TestgenEffort
 
-        wanted = tuple(map(Kind, kinds)) or (tuple(Kind) if keep else (Kind.ARROWS,))
-        asked = Asked(names, wanted, format, Effort(timeout, ticks, jobs, seed), kept, keep)
+        wanted = tuple(map(GoalKind, kinds)) or (tuple(GoalKind) if keep else (GoalKind.ARROWS,))
+        asked = TestgenOptions(names, wanted, format, TestgenEffort(timeout, ticks, jobs, seed), kept, keep)
         return run(asked, output, as_json)

@@ -10,13 +10,13 @@ from checker.commands.shared.output import counted, out, write
 from checker.commands.shared.progress import ProgressLine
 from checker.commands.shared.wrapping import filled, whole
 from checker.io.printable import json_text
-from checker.system.instrument.goals import Goal, Kind
+from checker.system.instrument.goals import CoverGoal, GoalKind
 from checker.system.instrument.watch import watched
 from checker.testgen import kept_text
-from checker.testgen.coverage import Coverage, Effort, cover
+from checker.testgen.coverage import GoalCoverage, TestgenEffort, cover
 from checker.testgen.fingerprint import fingerprint
 from checker.testgen.generate import Aim, aims, files, only
-from checker.testgen.keep import Kept, kept_of, written
+from checker.testgen.keep import KeptTests, kept_of, written
 from spec_model.abstraction import Board
 from spec_model.lang.errors import ModelError
 from spec_model.rover import systems
@@ -27,13 +27,13 @@ SHOWN = 10
 
 
 @dataclass(frozen=True)
-class Asked:
+class TestgenOptions:
     """What the command line asks for."""
 
     names: tuple[str, ...]
-    kinds: tuple[Kind, ...]
+    kinds: tuple[GoalKind, ...]
     format: str
-    effort: Effort
+    effort: TestgenEffort
     kept: bool
     keep: Path | None = None
     """The folder in which a set goes on from the tests it has."""
@@ -44,12 +44,12 @@ class Generated:
     """What came of one board: the goals, what is known of them, and the files written."""
 
     aim: Aim
-    kept: Kept
+    kept: KeptTests
     files: tuple[str, ...]
     interrupted: bool = False
 
 
-def testgen(asked: Asked, output: Path, as_json: bool) -> Exit:
+def testgen(asked: TestgenOptions, output: Path, as_json: bool) -> Exit:
     """Generate tests, write them, and say exactly what they cover.
 
     Raises ``ModelError`` for a name of no board or chart, ``UsageError`` where nothing can be written.
@@ -68,11 +68,11 @@ def testgen(asked: Asked, output: Path, as_json: bool) -> Exit:
     return _code(found)
 
 
-def _generated(aim: Aim, asked: Asked, output: Path) -> Generated:
+def _generated(aim: Aim, asked: TestgenOptions, output: Path) -> Generated:
     if asked.kept:
         known, interrupted = only(_set_of(aim.board, None), aim.goals), False
     else:
-        coverage = Coverage(aim.board, aim.goals)
+        coverage = GoalCoverage(aim.board, aim.goals)
         interrupted = _searched(coverage, aim, asked.effort)
         known = coverage.kept()
     contents = files(aim, known, asked.format) if known.tests else {}
@@ -81,13 +81,13 @@ def _generated(aim: Aim, asked: Asked, output: Path) -> Generated:
     return Generated(aim, known, tuple(contents), interrupted)
 
 
-def _kept(aim: Aim, asked: Asked, folder: Path) -> Generated:
+def _kept(aim: Aim, asked: TestgenOptions, folder: Path) -> Generated:
     """Go on from the set of a folder, or from that of the project, and keep all that is covered.
 
     A set is always one of all goals of a board; only those of ``aim`` are searched for.
     """
     board, charts = aim.board, fingerprint(aim.board, systems()[aim.board.name])
-    coverage = Coverage(board, watched(board.system).goals)
+    coverage = GoalCoverage(board, watched(board.system).goals)
     coverage.go_on(_set_of(board, folder), charts)
     interrupted = _searched(coverage, aim, asked.effort)
     known = coverage.kept(charts)
@@ -96,7 +96,7 @@ def _kept(aim: Aim, asked: Asked, folder: Path) -> Generated:
     return Generated(aim, only(known, aim.goals), (name,), interrupted)
 
 
-def _set_of(board: Board, folder: Path | None) -> Kept:
+def _set_of(board: Board, folder: Path | None) -> KeptTests:
     """The set kept in a folder; where there is none, that of the project."""
     place = folder and folder / f"{board.name}.json"
     if place is None or not place.exists():
@@ -116,23 +116,23 @@ def _write(content: str, place: Path) -> None:
     write(content, place)
 
 
-def _searched(coverage: Coverage, aim: Aim, effort: Effort) -> bool:
+def _searched(coverage: GoalCoverage, aim: Aim, effort: TestgenEffort) -> bool:
     """Search until all is known or the user has seen enough; whether that was so."""
     wanted = {g.id for g in aim.goals}
     with ProgressLine() as line:
         try:
-            cover(coverage, systems()[aim.board.name], effort, Saying(line, coverage), wanted)
+            cover(coverage, systems()[aim.board.name], effort, TestgenProgress(line, coverage), wanted)
         except KeyboardInterrupt:
             return True
     return False
 
 
 @dataclass
-class Saying:
+class TestgenProgress:
     """Tells how many goals are decided, and what is being done."""
 
     line: ProgressLine
-    coverage: Coverage
+    coverage: GoalCoverage
     _decided: int = field(default=0)
     _at: float = field(default=0.0)
 
@@ -145,11 +145,11 @@ class Saying:
 # --- what is said --------------------------------------------------------------------------------------
 
 
-def report(found: Generated, asked: Asked, output: Path) -> Iterator[str]:
+def report(found: Generated, asked: TestgenOptions, output: Path) -> Iterator[str]:
     """The counts of each kind, the goals without a test, and what was written, in 80 columns."""
     kept, goals = found.kept, found.aim.goals
     yield found.aim.board.name
-    for kind in Kind:
+    for kind in GoalKind:
         mine = [g for g in goals if g.kind is kind]
         if mine:
             yield from _wrapped(counts(kept, kind, mine), "  ", "      ")
@@ -160,7 +160,7 @@ def report(found: Generated, asked: Asked, output: Path) -> Iterator[str]:
         yield "  Interrupted: this is what was found so far."
 
 
-def _tests(found: Generated, asked: Asked, output: Path) -> str:
+def _tests(found: Generated, asked: TestgenOptions, output: Path) -> str:
     tests = found.kept.tests
     steps = sum(len(script) for _, _, script in tests)
     number = f"{counted(len(tests), 'test', 'tests')} of {counted(steps, 'step', 'steps')} together"
@@ -170,7 +170,7 @@ def _tests(found: Generated, asked: Asked, output: Path) -> str:
     return f"{number}, {place}"
 
 
-def counts(kept: Kept, kind: Kind, goals: Sequence[Goal]) -> str:
+def counts(kept: KeptTests, kind: GoalKind, goals: Sequence[CoverGoal]) -> str:
     """``arrows 111: 104 covered (98 by a shortest run), 7 proved uncoverable, 0 unknown``."""
     ids = {g.id for g in goals}
     covered = ids & {g for _, reached, _ in kept.tests for g in reached}
@@ -183,7 +183,7 @@ def counts(kept: Kept, kind: Kind, goals: Sequence[Goal]) -> str:
     return f"{kind} {len(ids)}: {len(covered)} covered{by}, {rest}"
 
 
-def _listed(sign: str, word: str, why: Mapping[str, str], goals: Sequence[Goal]) -> Iterator[str]:
+def _listed(sign: str, word: str, why: Mapping[str, str], goals: Sequence[CoverGoal]) -> Iterator[str]:
     texts = {g.id: g.text for g in goals}
     for id, reason in list(why.items())[:SHOWN]:
         yield from _wrapped(f"{sign} {word}: {id}: {texts[id]}", "  ", "      ")
@@ -225,7 +225,7 @@ def _board(one: Generated) -> dict[str, object]:
     return {"board": one.aim.board.name, "goals": goals, "tests": tests, "files": one.files}
 
 
-def _verdict(id: str, test_of: Mapping[str, str], kept: Kept) -> str:
+def _verdict(id: str, test_of: Mapping[str, str], kept: KeptTests) -> str:
     if id in test_of:
         return "covered"
     return "uncoverable" if id in kept.uncoverable else "unknown"

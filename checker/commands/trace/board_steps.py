@@ -4,13 +4,13 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from checker.commands.crosscheck.record import in_steps_of
-from checker.compare.beside import Charts
-from checker.results.board_steps import BoardRun, Kind, Signal, Step, Value
+from checker.compare.beside import SteppedCharts
+from checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSignal, Value
 from checker.results.trace import Tick, Trace
 from checker.testgen.formats.pytest_files import OURS
 from checker.testgen.scripts import CLOCK
 from spec_model.abstraction import Board, boards
-from spec_model.abstraction import Signal as BoardSignal
+from spec_model.abstraction import BoardSignal
 from spec_model.lang.chart import parts
 from spec_model.lang.domain import Bool, Num
 from spec_model.lang.errors import ModelError
@@ -61,7 +61,7 @@ def _foreign(trace: Trace, system: System) -> str:
 
 def _run(board: Board, trace: Trace, system: System) -> BoardRun:
     """The run on one board.  Raises ``ModelError`` where its charts do something else."""
-    writer, charts, names = board.writer(), Charts(board), _shared(board, trace)
+    writer, charts, names = board.writer(), SteppedCharts(board), _shared(board, trace)
     stamps = {s.name for s in board.inputs if s.stamp}
     before: Mapping[str, Value] = board.at_power_up()
     steps = []
@@ -71,7 +71,7 @@ def _run(board: Board, trace: Trace, system: System) -> BoardRun:
         required = charts.step(inputs).expected
         _same(board, trace, tick, names, charts.valuation())
         given = {n: _lag(inputs, before, n) if n in stamps else v for n, v in inputs.items() if n != CLOCK}
-        steps.append(Step(given, required))
+        steps.append(BoardStep(given, required))
         before = inputs
     return BoardRun(board.name, TICK_MS, *signals(board), tuple(steps), OURS[board.name])
 
@@ -101,21 +101,21 @@ def _shared(board: Board, trace: Trace) -> list[str]:
     return found
 
 
-def signals(board: Board) -> tuple[tuple[Signal, ...], tuple[Signal, ...]]:
+def signals(board: Board) -> tuple[tuple[StepSignal, ...], tuple[StepSignal, ...]]:
     """The inputs and the outputs of a board."""
     return tuple(map(_signal, board.inputs)), tuple(_signal(o.signal) for o in board.outputs)
 
 
-def _signal(signal: BoardSignal) -> Signal:
-    return Signal(signal.name, _kind(signal), signal.initial, signal.doc or str(signal.domain.sort))
+def _signal(signal: BoardSignal) -> StepSignal:
+    return StepSignal(signal.name, _kind(signal), signal.initial, signal.doc or str(signal.domain.sort))
 
 
-def _kind(signal: BoardSignal) -> Kind:
+def _kind(signal: BoardSignal) -> SignalKind:
     if signal.stamp:
-        return Kind.CLOCK if signal.name == CLOCK else Kind.STAMP
+        return SignalKind.CLOCK if signal.name == CLOCK else SignalKind.STAMP
     match signal.domain.sort:
         case Bool():
-            return Kind.BOOL
+            return SignalKind.BOOL
         case Num(resolution, _) if not (signal.whole and resolution == 1):
-            return Kind.NUMBER
-    return Kind.WHOLE
+            return SignalKind.NUMBER
+    return SignalKind.WHOLE

@@ -20,13 +20,13 @@ from spec_model.lang.errors import did_you_mean
 from spec_model.lang.system import System
 
 if TYPE_CHECKING:  # with all that tests cover
-    from checker.system.instrument.goals import Goal, Watched
+    from checker.system.instrument.goals import CoverGoal, Watched
 
 COVERS = ("an example was asked for",)
 
 
 @dataclass(frozen=True)
-class Wanted:
+class TraceRequest:
     """A property, the systems that it is decided on, and the verdicts on record.
 
     An ``example`` is no property that somebody stated, but something of which a user wants to see a run.
@@ -63,7 +63,7 @@ class Wanted:
 
 def asked(
     variant: Variant, id: str | None, state: str | None, arrow: str | None, system: str | None
-) -> Wanted:
+) -> TraceRequest:
     """What a user asks for, who must name one thing.  Raises ``UsageError`` and ``ModelError``."""
     named = [thing for thing in (id, state, arrow) if thing is not None]
     if len(named) != 1:
@@ -77,7 +77,7 @@ def asked(
             raise UsageError(
                 f"--system goes with --state and --arrow; {id} names its own system. Leave it out."
             )
-        return Wanted(
+        return TraceRequest(
             pick("property", id, variant.properties()), systems, variant.model.expected, again=again
         )
     wanted = of_state(named[0], systems, system) if arrow is None else of_arrow(arrow, systems, system)
@@ -95,7 +95,7 @@ def _unrecorded(_: str) -> Expected:
     return Expected()
 
 
-def of_state(wanted: str, systems: Mapping[str, System], system: str | None) -> Wanted:
+def of_state(wanted: str, systems: Mapping[str, System], system: str | None) -> TraceRequest:
     """That a state, written ``CHART.STATE``, can be active.  Raises ``UsageError`` and ``ModelError``."""
     name, dot, state = wanted.partition(".")
     if not (dot and state):
@@ -107,24 +107,24 @@ def of_state(wanted: str, systems: Mapping[str, System], system: str | None) -> 
     found = reachable(
         id, f"The {id} can be reached.", that=chart.active_path(path), covers=COVERS, on=on.name
     )
-    return Wanted(_unwritten(found), systems, _unrecorded, example=True)
+    return TraceRequest(_unwritten(found), systems, _unrecorded, example=True)
 
 
-def of_arrow(wanted: str, systems: Mapping[str, System], system: str | None) -> Wanted:
+def of_arrow(wanted: str, systems: Mapping[str, System], system: str | None) -> TraceRequest:
     """That an arrow, written ``CHART: A -> B``, can be taken.  Raises ``UsageError``."""
     name, colon, arrow = (part.strip() for part in wanted.partition(":"))
     if not (colon and arrow):
         raise UsageError(f"{wanted!r} names no arrow; write 'CHART: A -> B', as traces show it.")
     on = _system(name, systems, system)
-    from checker.system.instrument.goals import Kind
+    from checker.system.instrument.goals import GoalKind
     from checker.system.instrument.watch import watched
 
-    looked = watched(on, (Kind.ARROWS,))
+    looked = watched(on, (GoalKind.ARROWS,))
     goal = _arrow(name, _plainly(arrow), looked.goals)
     id = f"arrow {name}: {goal.text}"
     found = reachable(id, f"The {id} can be taken.", that=goal.flag, covers=COVERS, on=on.name)
     there = {**systems, on.name: looked.system}
-    return Wanted(_unwritten(found), there, _unrecorded, example=True, plain=on, watched=looked)
+    return TraceRequest(_unwritten(found), there, _unrecorded, example=True, plain=on, watched=looked)
 
 
 def _unwritten(made: Property) -> Property:
@@ -132,7 +132,7 @@ def _unwritten(made: Property) -> Property:
     return replace(made, place=None)
 
 
-def _arrow(chart: str, wanted: str, goals: Sequence["Goal"]) -> "Goal":
+def _arrow(chart: str, wanted: str, goals: Sequence["CoverGoal"]) -> "CoverGoal":
     """The arrow that is meant: by its ends, and its number where several have the same."""
     own = {g.text: g for g in goals if g.part == chart}
     found = [

@@ -12,7 +12,7 @@ from checker.commands.shared.output import err, out, possible, text_width, write
 from checker.commands.shared.progress import Watch
 from checker.commands.shared.select import pick
 from checker.commands.shared.wrapping import filled
-from checker.commands.trace.examples import Wanted
+from checker.commands.trace.examples import TraceRequest
 from checker.commands.trace.explain import Explaining
 from checker.commands.trace.formats import exit_written, fitted
 from checker.engines import Limits
@@ -84,7 +84,7 @@ class Showing:
 
 
 def trace(
-    wanted: Wanted,
+    wanted: TraceRequest,
     engine: str,
     limits: Limits,
     showing: Showing,
@@ -122,7 +122,7 @@ def _only_some(system: str) -> str:
     return f"{system} has only some of the runs there are: this says nothing of the others."
 
 
-def _print_heading(wanted: Wanted, verdict: str) -> None:
+def _print_heading(wanted: TraceRequest, verdict: str) -> None:
     prop, on_record = wanted.property, wanted.expected(wanted.property.id)
     said = prop.text if wanted.example else f"{prop.id} is {verdict}: {prop.text}"
     out.print(filled(said, text_width()), markup=False)
@@ -130,7 +130,7 @@ def _print_heading(wanted: Wanted, verdict: str) -> None:
         out.print(filled(f"Why: {on_record.because}", text_width()), markup=False)
 
 
-def _show_several(wanted: Wanted, first: Trace, engine: str, limits: Limits, showing: Showing) -> None:
+def _show_several(wanted: TraceRequest, first: Trace, engine: str, limits: Limits, showing: Showing) -> None:
     """Show runs as they are found; into a file all of them together."""
     told: list[str] = []
     for text in _several(wanted, first, engine, limits, showing):
@@ -142,7 +142,9 @@ def _show_several(wanted: Wanted, first: Trace, engine: str, limits: Limits, sho
         wrote(showing.output)
 
 
-def _several(wanted: Wanted, first: Trace, engine: str, limits: Limits, showing: Showing) -> Iterator[str]:
+def _several(
+    wanted: TraceRequest, first: Trace, engine: str, limits: Limits, showing: Showing
+) -> Iterator[str]:
     """The text of several runs, each with what makes it different."""
     from checker.explain.others import NoMore, Others
     from checker.explain.unlike import Unlike

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 
 from checker.encode.bits.aig import FALSE, TRUE, Aig, Literal
-from checker.encode.bits.words import Word, Words
+from checker.encode.bits.words import BitWords, Word
 from checker.system.intervals import Interval, interval, postorder
 from spec_model.lang.domain import Bool, Domain
 from spec_model.lang.expr import Apply, Const, Expr, Named, Var
@@ -35,7 +35,7 @@ class Blaster:
 
     def __init__(self, aig: Aig, values: Mapping[str, Value]) -> None:
         self._values = values
-        self._words = Words(aig)
+        self._words = BitWords(aig)
         self._range: dict[int, Interval] = {}
         self._done: dict[int, Value] = {}
         self._alive: list[Expr] = []
@@ -83,7 +83,7 @@ class Blaster:
         raise AssertionError(f"{node} speaks of the past")
 
 
-def _operators(aig: Aig, words: Words) -> dict[Op, Callable[[Sequence[Value]], Value]]:
+def _operators(aig: Aig, words: BitWords) -> dict[Op, Callable[[Sequence[Value]], Value]]:
     def equal(a: Sequence[Value]) -> Literal:
         return words.equal(*a)
 

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from checker.encode.bits.aig import Aig, Literal, bits_of
 from checker.encode.bits.blast import Blaster, Value, as_word, bits_needed
 from checker.encode.cone import Slice, as_written, cone, folded, straying
-from checker.encode.symbolic import Transition, transition
+from checker.encode.symbolic import SymbolicTransition, transition
 from checker.results.verdict import Run
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem
@@ -80,7 +80,7 @@ def circuit(system: TransitionSystem, goals: Sequence[str]) -> Circuit:
     return cut(folded(transition(system)), goals)
 
 
-def cut(whole: Transition, goals: Sequence[str]) -> Circuit:
+def cut(whole: SymbolicTransition, goals: Sequence[str]) -> Circuit:
     """The circuit of what these goals depend on, of a transition without constants."""
     escapes = straying(whole, as_written(whole.system, goals))
     part = cone(whole, [*goals, *escapes])

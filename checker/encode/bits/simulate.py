@@ -10,7 +10,7 @@ Values = dict[str, list[int]]
 """The value of each input, by name, one for each run."""
 
 
-class Simulation:
+class BitSimulation:
     """The circuit in some valuation for each run; frozen variables have the values given, or initial ones."""
 
     def __init__(self, circuit: Circuit, runs: int, frozen: Mapping[str, int] = MappingProxyType({})) -> None:

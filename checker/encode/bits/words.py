@@ -8,7 +8,7 @@ from checker.system.intervals import Interval
 Word = list[Literal]
 
 
-class Words:
+class BitWords:
     """Arithmetic on words of one graph; results are as wide as exactness needs."""
 
     def __init__(self, aig: Aig) -> None:

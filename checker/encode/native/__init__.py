@@ -12,13 +12,13 @@ from numpy.typing import NDArray
 
 from checker import cache
 from checker.encode.native.expressions import TooWide
-from checker.encode.native.jit import Level, Library, object_code
+from checker.encode.native.jit import NativeLibrary, OptimisationLevel, object_code
 from checker.encode.native.layout import Field, Layout, OutsideDomain, layout
 from checker.encode.native.quiet import Shift, moved_on, shifts
 from checker.encode.native.retrace import LEAVE_DOMAIN, REACH_TARGET, UNREAD, add_retrace
-from checker.encode.native.search import BATCH, Status, Task, add_search
+from checker.encode.native.search import BATCH, NativeTask, Status, add_search
 from checker.encode.native.successors import Ended, add_successors
-from checker.encode.native.table import CONTEXT, Table
+from checker.encode.native.table import CONTEXT, StateTable
 
 Words = NDArray[np.uint64]
 Numbers = NDArray[np.uint32]
@@ -32,14 +32,14 @@ __all__ = [
     "Ended",
     "Field",
     "Layout",
-    "Level",
     "NativeRetrace",
     "NativeSearch",
     "NativeSuccessors",
+    "NativeTask",
+    "OptimisationLevel",
     "OutsideDomain",
     "Shift",
     "Status",
-    "Task",
     "TooWide",
     "layout",
     "moved_on",
@@ -58,25 +58,25 @@ class NativeSearch:
     The code may change between two calls (see ``improve``): what it works on is all in the arrays.
     """
 
-    task: Task
-    library: Library
-    level: Level
+    task: NativeTask
+    library: NativeLibrary
+    level: OptimisationLevel
 
     @staticmethod
-    def compile(task: Task) -> "NativeSearch":
+    def compile(task: NativeTask) -> "NativeSearch":
         """Compile for a task in little time, or take better code from the cache.
 
         Raises ``TooWide`` where 64 bits do not suffice.
         """
-        fast = _kept("search", task, Level.FAST)
+        fast = _kept("search", task, OptimisationLevel.FAST)
         if fast is not None:
-            return NativeSearch(task, fast, Level.FAST)
-        return NativeSearch(task, *_library("search", task, Level.QUICK))
+            return NativeSearch(task, fast, OptimisationLevel.FAST)
+        return NativeSearch(task, *_library("search", task, OptimisationLevel.QUICK))
 
     def improve(self) -> None:
         """Compile to code that runs fast, unless that was done."""
-        if self.level is not Level.FAST:
-            self.library, self.level = _library("search", self.task, Level.FAST)
+        if self.level is not OptimisationLevel.FAST:
+            self.library, self.level = _library("search", self.task, OptimisationLevel.FAST)
 
     def search(self, *arrays: NDArray[Any]) -> Status:
         """context, words, parents, table, buffer, origins, hits: see ``search.add_search``."""
@@ -102,20 +102,24 @@ _MANY = 1 << 14
 """Combinations of cells from which on single ticks are worth code that runs fast."""
 
 
-def _level(task: Task) -> Level:
+def _level(task: NativeTask) -> OptimisationLevel:
     """How well to compile code that runs all ways through some ticks."""
-    return Level.FAST if prod(len(p.cells) for p in task.cells.values()) >= _MANY else Level.QUICK
+    return (
+        OptimisationLevel.FAST
+        if prod(len(p.cells) for p in task.cells.values()) >= _MANY
+        else OptimisationLevel.QUICK
+    )
 
 
 @dataclass(frozen=True)
 class NativeRetrace:
     """The compiled search for the inputs of one tick."""
 
-    task: Task
-    library: Library
+    task: NativeTask
+    library: NativeLibrary
 
     @staticmethod
-    def compile(task: Task) -> "NativeRetrace":
+    def compile(task: NativeTask) -> "NativeRetrace":
         return NativeRetrace(task, _library("retrace", task, _level(task))[0])
 
     def inputs(self, before: Words, target: Words, wanted: int) -> dict[str, int]:
@@ -134,11 +138,11 @@ class NativeRetrace:
 class NativeSuccessors:
     """The compiled ticks of a system, all of them."""
 
-    task: Task
-    library: Library
+    task: NativeTask
+    library: NativeLibrary
 
     @staticmethod
-    def compile(task: Task) -> "NativeSuccessors":
+    def compile(task: NativeTask) -> "NativeSuccessors":
         """Compile for a task.  Raises ``TooWide`` where 64 bits do not suffice."""
         return NativeSuccessors(task, _library("successors", task, _level(task))[0])
 
@@ -165,14 +169,14 @@ _FUNCTIONS: dict[Kind, tuple[str, ...]] = {
 """The functions that code of each kind has."""
 
 
-def _kept(kind: Kind, task: Task, level: Level) -> Library | None:
+def _kept(kind: Kind, task: NativeTask, level: OptimisationLevel) -> NativeLibrary | None:
     """The code from the cache, if it is there and can be loaded."""
     with suppress(OSError):  # the sources cannot be read: nothing says what code was made by
         name = f"{task.key}-{kind}-{level}"
         code = cache.read(name)
         if code is not None:
             try:
-                return Library(code, _FUNCTIONS[kind])
+                return NativeLibrary(code, _FUNCTIONS[kind])
             except (RuntimeError, LookupError):  # LLVM does not take it, or it is code of another kind
                 cache.remove(name)
     return None
@@ -183,25 +187,27 @@ LARGE = 1 << 20
 and twice the module takes it far more than twice the time.  The largest of the rover has half as many."""
 
 
-def _library(kind: Kind, task: Task, level: Level) -> tuple[Library, Level]:
+def _library(
+    kind: Kind, task: NativeTask, level: OptimisationLevel
+) -> tuple[NativeLibrary, OptimisationLevel]:
     """The code from the cache, or compiled and kept there; ``FAST`` also where it cannot be made faster."""
     kept = _kept(kind, task, level)
     if kept is not None:
         return kept, level
     text = assembly(kind, task)
     large = len(text) > LARGE
-    code = object_code(text, Level.QUICK if large else level)
-    level = Level.FAST if large else level
+    code = object_code(text, OptimisationLevel.QUICK if large else level)
+    level = OptimisationLevel.FAST if large else level
     with suppress(OSError):
         cache.write(f"{task.key}-{kind}-{level}", code)
-    return Library(code), level
+    return NativeLibrary(code), level
 
 
-def assembly(kind: Kind, task: Task) -> str:
+def assembly(kind: Kind, task: NativeTask) -> str:
     """The module of that kind in LLVM's assembly language."""
     module = ir.Module(kind)
     if kind == "search":
-        table = Table(module, task.layout.words, ordered=not task.shifts)
+        table = StateTable(module, task.layout.words, ordered=not task.shifts)
         store = table.store()
         table.rehash()
         table.known()

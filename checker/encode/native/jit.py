@@ -10,7 +10,7 @@ import llvmlite
 from llvmlite import binding, ir
 
 
-class Level(StrEnum):
+class OptimisationLevel(StrEnum):
     """How well code is compiled: in little time, or to run fast."""
 
     QUICK = "quick"
@@ -37,38 +37,38 @@ def processor() -> str:
     return f"{llvmlite.__version__} {llvm} {name} {features}"
 
 
-def _machine(level: Level) -> Any:
+def _machine(level: OptimisationLevel) -> Any:
     """A description of this processor."""
     _initialised()
     return binding.Target.from_default_triple().create_target_machine(
         cpu=binding.get_host_cpu_name(),
         features=binding.get_host_cpu_features().flatten(),
-        opt=2 if level is Level.FAST else 0,
+        opt=2 if level is OptimisationLevel.FAST else 0,
         codemodel="jitdefault",
     )
 
 
-def object_code(text: str, level: Level) -> bytes:
+def object_code(text: str, level: OptimisationLevel) -> bytes:
     """A module in LLVM's assembly language, compiled."""
     machine = _machine(level)
     parsed = binding.parse_assembly(text)
     parsed.triple, parsed.data_layout = machine.triple, str(machine.target_data)
     parsed.verify()
-    if level is Level.FAST:
+    if level is OptimisationLevel.FAST:
         options = binding.create_pipeline_tuning_options(speed_level=1)
         passes = binding.create_pass_builder(machine, options)
         passes.getModulePassManager().run(parsed, passes)
     return bytes(machine.emit_object(parsed))
 
 
-class Library:
+class NativeLibrary:
     """The functions of compiled code; keep it as long as they are called.
 
     Raises ``LookupError`` where one of the functions that it ``needs`` is missing.
     """
 
     def __init__(self, code: bytes, needs: Sequence[str] = ()) -> None:
-        machine = _machine(Level.QUICK)
+        machine = _machine(OptimisationLevel.QUICK)
         empty = binding.parse_assembly("")
         empty.triple = machine.triple
         self.engine = binding.create_mcjit_compiler(empty, machine)
@@ -79,9 +79,9 @@ class Library:
             self._address(name)
 
     @staticmethod
-    def of(module: ir.Module, level: Level = Level.FAST) -> "Library":
+    def of(module: ir.Module, level: OptimisationLevel = OptimisationLevel.FAST) -> "NativeLibrary":
         """A module compiled."""
-        return Library(object_code(str(module), level))
+        return NativeLibrary(object_code(str(module), level))
 
     def function(self, name: str, result: Any, arguments: Sequence[Any]) -> Any:
         """A function as a callable, with ctypes types; calls release the interpreter's lock."""

@@ -4,8 +4,8 @@ from typing import Any
 
 from checker.encode.native.body import Body
 from checker.encode.native.expressions import BIT, INT
-from checker.encode.native.search import Task, begin, outside, packed
-from checker.encode.native.table import WORDS, Table, function
+from checker.encode.native.search import NativeTask, begin, outside, packed
+from checker.encode.native.table import WORDS, StateTable, function
 from checker.encode.path_statements import saved
 from checker.encode.paths import read_flag
 
@@ -16,7 +16,7 @@ REACH_TARGET, LEAVE_DOMAIN = -1, -2
 """What to look for instead of the number of a goal."""
 
 
-def add_retrace(module: Any, task: Task) -> None:
+def add_retrace(module: Any, task: NativeTask) -> None:
     """``retrace(before, target, wanted, chosen)``: 1 and the chosen inputs of a path that ends in the
     target valuation, with the wanted goal true, or outside a domain; 0 if there is none."""
     arguments = {"before": WORDS, "target": WORDS, "wanted": INT, "chosen": WORDS}
@@ -26,7 +26,7 @@ def add_retrace(module: Any, task: Task) -> None:
     live = task.live_at_end | {v.name for v in (*inputs, *flags)}
     finished = build.append_basic_block("finished")
     body = Body(build, saved(task.paths, live), finished, max(1, len(inputs)))
-    table = Table(module, task.layout.words)
+    table = StateTable(module, task.layout.words)
     words = table.load(build, a["before"], INT(0))
     body.declare(flags)
     begin(body, task, task.paths, words)
@@ -44,7 +44,7 @@ def add_retrace(module: Any, task: Task) -> None:
     build.ret(INT(0))
 
 
-def _fits(body: Body, task: Task, a: dict[str, Any], before: list[Any], target: list[Any]) -> Any:
+def _fits(body: Body, task: NativeTask, a: dict[str, Any], before: list[Any], target: list[Any]) -> Any:
     build = body.builder
     equal = build.icmp_signed("==", a["wanted"], INT(REACH_TARGET))
     for one, two in zip(packed(body, task, task.paths, before), target, strict=True):

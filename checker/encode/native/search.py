@@ -11,7 +11,7 @@ from checker.encode.native.expressions import BIT, INT, Slot
 from checker.encode.native.fingerprint import fingerprint
 from checker.encode.native.layout import Field, Layout
 from checker.encode.native.quiet import Shift, emit_moved_on
-from checker.encode.native.table import CONTEXT, NUMBER, NUMBERS, WORDS, Table, context, function
+from checker.encode.native.table import CONTEXT, NUMBER, NUMBERS, WORDS, StateTable, context, function
 from checker.encode.path_statements import Complete, PathProgram, assigned, choices, saved
 from checker.encode.paths import path_program, staged_program
 from checker.system.intervals import Interval
@@ -44,7 +44,7 @@ class Status(IntEnum):
 
 
 @dataclass(frozen=True)
-class Task:
+class NativeTask:
     """What is compiled: the sliced system, its packed valuation and the goals.
 
     With ``shifts`` the result of a quiet tick is not stored (see ``add_search``).
@@ -81,7 +81,7 @@ class Task:
         return frozenset(v.name for v in (*(f.var for f in self.layout.fields), *self.goals))
 
 
-def add_search(module: Any, task: Task, table: Table, store: Any) -> None:
+def add_search(module: Any, task: NativeTask, table: StateTable, store: Any) -> None:
     """``search(context, words, parents, table, buffer, origins, hits)``: expand the valuations
     next..last-1 until the budget of transitions is spent.  Returns a ``Status``.
 
@@ -93,7 +93,7 @@ def add_search(module: Any, task: Task, table: Table, store: Any) -> None:
 
 
 class _Search:
-    def __init__(self, module: Any, task: Task, table: Table, store: Any) -> None:
+    def __init__(self, module: Any, task: NativeTask, table: StateTable, store: Any) -> None:
         self.task, self.table, self.store = task, table, store
         arguments = {"context": WORDS, "words": WORDS, "parents": table.parents, "table": WORDS}
         arguments |= {"buffer": WORDS, "origins": NUMBERS, "hits": WORDS}
@@ -297,7 +297,7 @@ class _Search:
 # --- shared with the search for the inputs of a run ----------------------------------------------
 
 
-def begin(body: Body, task: Task, program: PathProgram, words: Sequence[Any]) -> None:
+def begin(body: Body, task: NativeTask, program: PathProgram, words: Sequence[Any]) -> None:
     """Emit the start of a tick: the variables of the valuation unpacked, everything else reset."""
     if choices(program) >= MANY_CHOICES:
         body.share()
@@ -318,7 +318,7 @@ def begin(body: Body, task: Task, program: PathProgram, words: Sequence[Any]) ->
     body.start()
 
 
-def _all_variables(task: Task, program: PathProgram) -> list[Var]:
+def _all_variables(task: NativeTask, program: PathProgram) -> list[Var]:
     found = {name: var for name, (var, _) in assigned(program).items()}
     system = task.system
     for var in (*system.inputs, *system.temps, *system.variables, *system.frozen, *task.goals):
@@ -326,7 +326,7 @@ def _all_variables(task: Task, program: PathProgram) -> list[Var]:
     return list(found.values())
 
 
-def packed(body: Body, task: Task, program: PathProgram, before: Sequence[Any]) -> list[Any]:
+def packed(body: Body, task: NativeTask, program: PathProgram, before: Sequence[Any]) -> list[Any]:
     """The words of the valuation after the tick.
 
     Fields written early in the tick are joined first: LLVM then moves that out of the inner choices.

@@ -5,8 +5,8 @@ from typing import Any
 
 from checker.encode.native.body import Body
 from checker.encode.native.expressions import INT
-from checker.encode.native.search import Task, begin, outside, packed
-from checker.encode.native.table import WORDS, Table, function
+from checker.encode.native.search import NativeTask, begin, outside, packed
+from checker.encode.native.table import WORDS, StateTable, function
 from checker.encode.path_statements import saved
 
 MOST_PATHS = 1 << 25
@@ -22,7 +22,7 @@ class Ended(IntEnum):
     TOO_MANY = 3
 
 
-def add_successors(module: Any, task: Task) -> None:
+def add_successors(module: Any, task: NativeTask) -> None:
     """``successors(words, count, room, found, origins, state)``: expand the first ``count`` valuations.
 
     Each path ends in a row of ``found``, which has ``room`` + 1 of them, with the place of its origin in
@@ -33,8 +33,8 @@ def add_successors(module: Any, task: Task) -> None:
 
 
 class _Successors:
-    def __init__(self, module: Any, task: Task) -> None:
-        self.task, self.table = task, Table(module, task.layout.words)
+    def __init__(self, module: Any, task: NativeTask) -> None:
+        self.task, self.table = task, StateTable(module, task.layout.words)
         arguments = {"words": WORDS, "count": INT, "room": INT, "found": WORDS, "origins": WORDS}
         _, self.a, self.build = function(module, "successors", INT, {**arguments, "state": WORDS})
 

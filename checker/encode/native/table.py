@@ -107,7 +107,7 @@ class _Found:
 class _Hashes:
     """A ring of hashes for valuations that will soon be looked for; the table is fetched meanwhile."""
 
-    table: "Table"
+    table: "StateTable"
     arrays: dict[str, Any]
     size: Any
     last: Any
@@ -136,7 +136,7 @@ def _least(build: Any, one: Any, two: Any) -> Any:
     return build.select(build.icmp_signed("<", one, two), one, two)
 
 
-class Table:
+class StateTable:
     """Emits ``store`` (insert a batch of successors) and ``rehash`` (fill a larger table).
 
     ``ordered``: parents come in ascending order.

@@ -10,7 +10,7 @@ from time import monotonic
 from typing import TYPE_CHECKING
 
 from checker.engines import Limits, Progress
-from checker.engines.bdd.events import Bound, Closed, Event, Found, Stuck
+from checker.engines.bdd.events import BddBound, BddClosed, BddFound, BddStuck, Event
 from checker.process.isolate import Send, Stopped, messages
 from checker.results.trace import counted_ticks
 from checker.results.verdict import Answer, Open, Reached, Unreachable
@@ -52,19 +52,19 @@ class _Known:
 
     deep: dict[str, int]
     answers: dict[str, Answer] = field(default_factory=dict)
-    _last: Bound = field(default=Bound((), 0, 0, 0))
+    _last: BddBound = field(default=BddBound((), 0, 0, 0))
     _start: float = field(default_factory=monotonic)
 
     def note(self, event: Event | None) -> None:
         """Take down what an event says; None only shows that time has passed."""
         match event:
-            case Found(goal, run):
+            case BddFound(goal, run):
                 self.answers[goal] = Reached(run, shortest=True)
-            case Closed(goals, because):
+            case BddClosed(goals, because):
                 self.answers |= dict.fromkeys(goals, Unreachable(because))
-            case Stuck(goals, reason):
+            case BddStuck(goals, reason):
                 self.answers |= {g: Open(reason, self.deep[g]) for g in goals}
-            case Bound(goals, depth):
+            case BddBound(goals, depth):
                 self.deep |= dict.fromkeys(goals, depth)
                 self._last = event
 

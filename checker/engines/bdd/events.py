@@ -7,7 +7,7 @@ from checker.results.verdict import Exhausted, Run
 
 
 @dataclass(frozen=True)
-class Found:
+class BddFound:
     """A shortest run to a goal."""
 
     goal: str
@@ -15,7 +15,7 @@ class Found:
 
 
 @dataclass(frozen=True)
-class Bound:
+class BddBound:
     """The goals are not reached by any run of at most ``depth`` ticks.
 
     So far ``states`` valuations are reached; the diagrams take ``nodes`` nodes.
@@ -28,7 +28,7 @@ class Bound:
 
 
 @dataclass(frozen=True)
-class Closed:
+class BddClosed:
     """No tick leads out of the valuations reached, and none from them to the goals."""
 
     goals: tuple[str, ...]
@@ -36,11 +36,11 @@ class Closed:
 
 
 @dataclass(frozen=True)
-class Stuck:
+class BddStuck:
     """Nothing more can be said of the goals, for this reason."""
 
     goals: tuple[str, ...]
     reason: str
 
 
-Event = Union[Found, Bound, Closed, Stuck]
+Event = Union[BddFound, BddBound, BddClosed, BddStuck]

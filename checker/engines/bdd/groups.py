@@ -16,7 +16,7 @@ EXTRA = 8
 
 
 @dataclass(frozen=True)
-class Group:
+class BddGroup:
     """A circuit for some goals, and the constants among the variables that the goals depend on.
 
     Constants keep their value in every run because all of them together do; the circuit has none.
@@ -26,7 +26,7 @@ class Group:
     constants: tuple[tuple[Var, int], ...]
 
 
-def groups(system: TransitionSystem, goals: Sequence[str]) -> Iterator[Group]:
+def groups(system: TransitionSystem, goals: Sequence[str]) -> Iterator[BddGroup]:
     """The groups, those with few latches first."""
     whole = transition(system)
     fixed = constants(whole)
@@ -36,4 +36,4 @@ def groups(system: TransitionSystem, goals: Sequence[str]) -> Iterator[Group]:
     }
     for together in gathered(cones, EXTRA):
         kept = tuple((v, fixed[v.name]) for v in as_written(system, together) if v.name in fixed)
-        yield Group(cut(moving, together), kept)
+        yield BddGroup(cut(moving, together), kept)

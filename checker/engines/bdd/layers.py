@@ -9,7 +9,7 @@ from checker.engines.bdd.space import Function, Space
 
 
 @dataclass(frozen=True)
-class Hit:
+class LayerHit:
     """Something that a tick may do: valuations and inputs with which it does, and the valuations alone."""
 
     ticks: Function
@@ -42,8 +42,8 @@ class Layers:
         self.rings = [self.reached]
         space.forget()
 
-    def _hit(self, ticks: Function) -> Hit:
-        return Hit(ticks, ticks.exists(self.space.all(self.space.inputs)))
+    def _hit(self, ticks: Function) -> LayerHit:
+        return LayerHit(ticks, ticks.exists(self.space.all(self.space.inputs)))
 
     def _possible(self) -> Function:
         """What values the cut can have for some inputs: none if the assumption allows no others."""

@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 
 from checker.encode.bits import Literal
-from checker.engines.bdd.layers import Hit, Layers
+from checker.engines.bdd.layers import LayerHit, Layers
 from checker.engines.bdd.space import Function
 from checker.results.verdict import Run
 from spec_model.lang.evaluate import admissible, step
@@ -13,7 +13,7 @@ Bits = dict[Literal, int]
 """Values of latches, inputs and others."""
 
 
-def run_to(layers: Layers, depth: int, hit: Hit) -> Run:
+def run_to(layers: Layers, depth: int, hit: LayerHit) -> Run:
     """A run of ``depth`` ticks to a valuation of that ring, and one more tick, which is a hit."""
     space = layers.space
     at = _picked(layers.rings[depth] & hit.ticks, space.current)

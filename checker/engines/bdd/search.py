@@ -9,12 +9,12 @@ from oxidd.util import DDMemoryError
 from checker.encode.bits import Circuit
 from checker.encode.bits.inputs import input_cut
 from checker.encode.bits.order import orders
-from checker.engines.bdd.events import Bound, Closed, Event, Found, Stuck
-from checker.engines.bdd.groups import Group, groups
+from checker.engines.bdd.events import BddBound, BddClosed, BddFound, BddStuck, Event
+from checker.engines.bdd.groups import BddGroup, groups
 from checker.engines.bdd.kept import diagram
 from checker.engines.bdd.layers import Layers
 from checker.engines.bdd.runs import last, run_to
-from checker.engines.bdd.space import Overdrawn, Space, Store, meets
+from checker.engines.bdd.space import NodeStore, Overdrawn, Space, meets
 from checker.results.verdict import Exhausted
 from spec_model.lang.system import TransitionSystem
 
@@ -30,7 +30,7 @@ def search(system: TransitionSystem, goals: Sequence[str], most: int | None, nod
     There may be at most ``nodes`` nodes at a time.  Raises ``ModelError`` on a temporal word, and
     ``ArithmeticError`` when a run that was found is none.
     """
-    store = Store(nodes)
+    store = NodeStore(nodes)
     for group in groups(system, goals):
         yield from _Search(system, group, most).events(store)
 
@@ -38,17 +38,17 @@ def search(system: TransitionSystem, goals: Sequence[str], most: int | None, nod
 class _Search:
     """The goals of a group that are still open."""
 
-    def __init__(self, system: TransitionSystem, group: Group, most: int | None) -> None:
+    def __init__(self, system: TransitionSystem, group: BddGroup, most: int | None) -> None:
         self._system = system
         self._group = group
         self._most = most
         self._open = list(group.circuit.goals)
 
-    def events(self, store: Store) -> Iterator[Event]:
+    def events(self, store: NodeStore) -> Iterator[Event]:
         try:
             yield from self._rings(_chosen(store, self._group.circuit))
         except DDMemoryError:
-            yield Stuck(tuple(self._open), "the memory limit is reached")
+            yield BddStuck(tuple(self._open), "the memory limit is reached")
 
     def _rings(self, layers: Layers) -> Iterator[Event]:
         """What the rings show, one after the other."""
@@ -63,8 +63,8 @@ class _Search:
                 yield self._undefined(layers, depth)
                 return
             depth += 1
-            yield Bound(tuple(self._open), depth, layers.states(), layers.space.used)
-        yield Closed(tuple(self._open), self._exhausted(layers))
+            yield BddBound(tuple(self._open), depth, layers.states(), layers.space.used)
+        yield BddClosed(tuple(self._open), self._exhausted(layers))
 
     def _found(self, layers: Layers, depth: int) -> Iterator[Event]:
         for goal in list(self._open):
@@ -73,12 +73,12 @@ class _Search:
                 if not last(self._system, run)[goal]:
                     raise ArithmeticError(f"the engine is wrong: {goal} is not reached by its run")
                 self._open.remove(goal)
-                yield Found(goal, run)
+                yield BddFound(goal, run)
 
     def _undefined(self, layers: Layers, depth: int) -> Event:
         after = last(self._system, run_to(layers, depth, layers.leaving))
         names = [v.name for v in self._system.variables if after[v.name] not in v.domain]
-        return Stuck(tuple(self._open), f"{', '.join(names)} may leave its domain in tick {depth + 1}")
+        return BddStuck(tuple(self._open), f"{', '.join(names)} may leave its domain in tick {depth + 1}")
 
     def _exhausted(self, layers: Layers) -> Exhausted:
         names = dict.fromkeys(latch.bit.var.name for latch in self._group.circuit.latches)
@@ -86,7 +86,7 @@ class _Search:
         return Exhausted(layers.states(), 0, len(layers.rings) - 1, tuple(names), diagram=kept)
 
 
-def _chosen(store: Store, circuit: Circuit) -> Layers:
+def _chosen(store: NodeStore, circuit: Circuit) -> Layers:
     """The traversal in the order that gets furthest with few nodes; it goes on from there."""
     granted = TRIAL
     while not (tried := _tried(store, circuit, granted)):
@@ -96,7 +96,7 @@ def _chosen(store: Store, circuit: Circuit) -> Layers:
     return best
 
 
-def _tried(store: Store, circuit: Circuit, granted: int) -> list[Layers]:
+def _tried(store: NodeStore, circuit: Circuit, granted: int) -> list[Layers]:
     """Traversals in several orders, each until it has made so many nodes, or one until it is closed."""
     cut = input_cut(circuit)
     found: list[Layers] = []

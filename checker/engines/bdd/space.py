@@ -23,7 +23,7 @@ class Overdrawn(Exception):
     """More nodes were made than were granted."""
 
 
-class Store:
+class NodeStore:
     """The nodes of all diagrams of a process: at most so many at a time.
 
     There is one, since each reserves a gigabyte of address space for the stacks of its threads and gives
@@ -62,7 +62,7 @@ class Space:
     """
 
     def __init__(
-        self, store: Store, circuit: Circuit, cut: InputCut, order: Sequence[str], granted: int | None
+        self, store: NodeStore, circuit: Circuit, cut: InputCut, order: Sequence[str], granted: int | None
     ) -> None:
         self.circuit = circuit
         self.cut = cut
@@ -198,4 +198,4 @@ def support(function: Function) -> set[int]:
     return found
 
 
-__all__ = ["DDMemoryError", "Function", "Overdrawn", "Space", "Store", "meets", "product", "support"]
+__all__ = ["DDMemoryError", "Function", "NodeStore", "Overdrawn", "Space", "meets", "product", "support"]

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from checker.engines import Limits, Progress
-from checker.engines.bmc.events import Bound, Event, Found, Undefined
+from checker.engines.bmc.events import BmcBound, BmcFound, BmcUndefined, Event
 from checker.process.isolate import Send, Stopped, messages
 from checker.results.trace import counted_ticks
 from checker.results.verdict import Answer, Open, Reached
@@ -55,12 +55,12 @@ def _searched(wanted: int | None) -> str:
 def _note(event: Event | None, found: dict[str, Answer], deep: dict[str, int]) -> None:
     """Take down what an event says; None only shows that time has passed."""
     match event:
-        case Found(goal, run):
+        case BmcFound(goal, run):
             found[goal] = Reached(run, shortest=True)
-        case Undefined(goals, variables, depth):
+        case BmcUndefined(goals, variables, depth):
             names = ", ".join(variables)
             found |= dict.fromkeys(goals, Open(f"{names} may leave its domain in tick {depth + 1}", depth))
-        case Bound(goals, depth):
+        case BmcBound(goals, depth):
             deep |= dict.fromkeys(goals, depth)
 
 

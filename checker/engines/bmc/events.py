@@ -7,7 +7,7 @@ from checker.results.verdict import Run
 
 
 @dataclass(frozen=True)
-class Found:
+class BmcFound:
     """A shortest run to a goal."""
 
     goal: str
@@ -15,7 +15,7 @@ class Found:
 
 
 @dataclass(frozen=True)
-class Bound:
+class BmcBound:
     """The goals are not reached by any run of at most ``depth`` ticks."""
 
     goals: tuple[str, ...]
@@ -23,7 +23,7 @@ class Bound:
 
 
 @dataclass(frozen=True)
-class Undefined:
+class BmcUndefined:
     """Nothing more can be said of the goals beyond ``depth``: the variables may leave their domains."""
 
     goals: tuple[str, ...]
@@ -31,4 +31,4 @@ class Undefined:
     depth: int
 
 
-Event = Union[Found, Bound, Undefined]
+Event = Union[BmcFound, BmcBound, BmcUndefined]

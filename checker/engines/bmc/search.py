@@ -11,9 +11,9 @@ import z3
 
 from checker.encode.bitvector import Term
 from checker.encode.cone import as_written, by_cone, cone, folded, straying
-from checker.encode.symbolic import Transition, transition
+from checker.encode.symbolic import SymbolicTransition, transition
 from checker.encode.unrolling import Outside, Unrolling, model_of, satisfiable, steps_taken
-from checker.engines.bmc.events import Bound, Event, Found, Undefined
+from checker.engines.bmc.events import BmcBound, BmcFound, BmcUndefined, Event
 from spec_model.lang.expr import Expr
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables
@@ -37,7 +37,7 @@ def search(system: TransitionSystem, goals: Sequence[str], most: int) -> Iterato
 class _Group:
     """Goals searched together: those still open, the ticks they are not reached in, Z3's work so far."""
 
-    def __init__(self, whole: Transition, goals: Sequence[str]) -> None:
+    def __init__(self, whole: SymbolicTransition, goals: Sequence[str]) -> None:
         self.open = list(goals)
         self.depth = 0
         self.spent = 0
@@ -54,7 +54,7 @@ class _Group:
             yield from self._block(self.depth + 1, min(most, self.depth + self._block_length()))
         else:  # there is no run at all
             self.depth = most
-            yield Bound(tuple(self.open), most)
+            yield BmcBound(tuple(self.open), most)
         self.spent += max(0, steps_taken(self._unrolling.solver) - start)
 
     def _block_length(self) -> int:
@@ -66,7 +66,7 @@ class _Group:
         for _ in range(first, last + 1):
             self._unrolling.tick()
         if self._leaving and self._sat(self._unrolling.events(last)):
-            yield Undefined(tuple(self.open), self._leavers(last), self.depth)
+            yield BmcUndefined(tuple(self.open), self._leavers(last), self.depth)
             self.open = []
             return
         while self.open and self._sat(self._hits(self.open, first, last)):
@@ -74,16 +74,16 @@ class _Group:
         self._exclude(self._hits(self.open, first, last))
         self.depth = last
         if self.open:
-            yield Bound(tuple(self.open), last)
+            yield BmcBound(tuple(self.open), last)
 
-    def _shortest(self, first: int, last: int) -> Found:
+    def _shortest(self, first: int, last: int) -> BmcFound:
         """The goal that the model reaches first, by a shortest run; closes the goal."""
         goal, tick, model = self._earliest(self.open, first, last)
         while tick > first and self._sat(self._hits([goal], first, tick - 1)):
             goal, tick, model = self._earliest([goal], first, tick - 1)
         self._exclude(self._hits([goal], first, tick - 1))
         self.open.remove(goal)
-        return Found(goal, self._outside.complete(self._unrolling.run(model, tick)))
+        return BmcFound(goal, self._outside.complete(self._unrolling.run(model, tick)))
 
     def _earliest(self, goals: Sequence[str], first: int, last: int) -> tuple[str, int, z3.ModelRef]:
         model = self._unrolling.solver.model()
@@ -112,7 +112,7 @@ class _Group:
         return tuple(name for name, term in named if z3.is_true(model.eval(term, True)))
 
 
-def _feasible(whole: Transition, conditions: Mapping[str, Expr]) -> dict[str, Expr]:
+def _feasible(whole: SymbolicTransition, conditions: Mapping[str, Expr]) -> dict[str, Expr]:
     """The conditions that can hold in one tick from some valuation within the domains."""
 
     def possible(condition: Expr) -> bool:

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from checker.encode.counting import counters
-from checker.encode.native import Field, NativeSearch, NativeSuccessors, Task, moved_on, shifts
+from checker.encode.native import Field, NativeSearch, NativeSuccessors, NativeTask, moved_on, shifts
 from checker.encode.native.quiet import NOTHING
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expiry import free_timers
@@ -107,7 +107,7 @@ class Advisor:
         if not moved or not total:
             return float(total)
         chosen = np.random.default_rng(0).permutation(total)[:_MOST_EXPANDED]
-        native = NativeSuccessors.compile(Task(task.system, task.layout, ()))
+        native = NativeSuccessors.compile(NativeTask(task.system, task.layout, ()))
         _, expanded, rows, origins = native(stored[chosen], _ROOM)
         onward = [
             moved_on(words, moved) or (NOTHING,) * task.layout.words for words in stored[chosen].tolist()

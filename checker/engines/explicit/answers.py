@@ -7,15 +7,15 @@ from time import monotonic
 
 from checker.encode.counting import counters
 from checker.encode.gather import bits, gathered
-from checker.encode.native import Field, Layout, NativeSearch, Task, TooWide, layout, shifts
+from checker.encode.native import Field, Layout, NativeSearch, NativeTask, TooWide, layout, shifts
 from checker.encode.native.layout import WORD_BITS
 from checker.encode.values import values
 from checker.engines import Limits, Progress, Stage, Timers
 from checker.engines.explicit.cases import about, cases, joined
-from checker.engines.explicit.levels import Found, Search, Spent
+from checker.engines.explicit.levels import ExplicitFound, LevelSearch, Spent
 from checker.engines.explicit.lines import LineSearch
 from checker.engines.explicit.runs import Runs
-from checker.results.closed import ClosedSet, Place
+from checker.results.closed import BitPlace, ClosedSet
 from checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
 from checker.system.slice import sliced
 from spec_model.lang.errors import ModelError
@@ -134,12 +134,14 @@ def _searched(
     try:
         packing = _layout(part, limits)
         moved = shifts(packing, counters(part)) if limits.timers is Timers.SKIP else ()
-        task = Task(part, packing, tuple(goals), moved)
+        task = NativeTask(part, packing, tuple(goals), moved)
         within.progress(Stage(f"explicit: compiling {len(packing.fields)} variables in {packing.bits} bits"))
         native = NativeSearch.compile(task)
     except (TooWide, ValueError) as problem:
         return {g.name: Open(str(problem), 0) for g in goals}, spent
-    search = (LineSearch if task.shifts else Search)(native, limits, within.deadline, within.progress, spent)
+    search = (LineSearch if task.shifts else LevelSearch)(
+        native, limits, within.deadline, within.progress, spent
+    )
     found = search.run()
     runs = Runs(system, task, found)
     if found.outside is not None:
@@ -157,7 +159,7 @@ def _layout(part: TransitionSystem, limits: Limits) -> Layout:
     return layout(stored, values(part))
 
 
-def _answer(found: Found, runs: Runs, number: int, goal: Var) -> Answer:
+def _answer(found: ExplicitFound, runs: Runs, number: int, goal: Var) -> Answer:
     if found.hits[number] is not None:
         return Reached(runs.to_goal(number, goal))
     if found.stopped:
@@ -169,5 +171,5 @@ def _answer(found: Found, runs: Runs, number: int, goal: Var) -> Answer:
     return Unreachable(Exhausted(found.states, found.transitions, found.depth, counted, skipped, closed))
 
 
-def _place(field: Field) -> Place:
-    return Place(field.var, field.word, field.shift, field.bits, field.stride, field.low)
+def _place(field: Field) -> BitPlace:
+    return BitPlace(field.var, field.word, field.shift, field.bits, field.stride, field.low)

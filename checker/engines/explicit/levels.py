@@ -12,11 +12,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.encode.native import CONTEXT, NativeSearch, Status, Task
+from checker.encode.native import CONTEXT, NativeSearch, NativeTask, Status
 from checker.engines import Limits, Progress, Timers
 from checker.engines.explicit.advice import Advisor, Multiplier
 from checker.engines.explicit.parents import Unary
-from checker.engines.explicit.store import Store
+from checker.engines.explicit.store import StateStore
 from checker.results.trace import counted_ticks
 
 QUICK_TRANSITIONS = 1 << 22
@@ -30,7 +30,7 @@ _MOST_INITIAL = 1 << 22
 
 
 @dataclass(frozen=True)
-class Found:
+class ExplicitFound:
     """What a search found: for each goal the valuation from which it is first reached (or None),
     and why it stopped early (empty if it did not).
 
@@ -66,7 +66,7 @@ class Spent:
 NOTHING = Spent()
 
 
-class Search:
+class LevelSearch:
     """Breadth-first search that stores every valuation it visits.
 
     ``run`` visits what is reachable until all goals are decided or a limit is met.
@@ -82,7 +82,7 @@ class Search:
     ) -> None:
         self.native, self.limits, self.deadline, self.progress = native, limits, deadline, progress
         self.spent = spent
-        self.store = Store(native, limits.memory - spent.bytes)
+        self.store = StateStore(native, limits.memory - spent.bytes)
         self.advisor = Advisor(native, freed=limits.timers is Timers.FREE)
         self.context: NDArray[np.int64] = np.zeros(len(CONTEXT), dtype=np.int64)
         self.hits: NDArray[np.int64] = np.zeros(max(1, len(native.task.goals)), dtype=np.int64)
@@ -101,7 +101,7 @@ class Search:
     def __setitem__(self, name: str, value: int) -> None:
         self.context[CONTEXT.index(name)] = value
 
-    def run(self) -> Found:
+    def run(self) -> ExplicitFound:
         with self._watched():
             self._search()
         return self._found()
@@ -258,10 +258,10 @@ class Search:
             self.stopped += f": {self.advisor.sentence(most)}" + (f" ({remedy})" if remedy else "")
         return False
 
-    def _found(self) -> Found:
+    def _found(self) -> ExplicitFound:
         hits = tuple(int(h) - 1 if h else None for h in self.hits[: len(self.native.task.goals)])
         store = self.store
-        return Found(
+        return ExplicitFound(
             hits,
             tuple(n or 0 for n in self.levels),
             tuple(self.starts),
@@ -276,7 +276,7 @@ class Search:
         )
 
 
-def initial_valuations(task: Task) -> Iterator[Mapping[str, int]]:
+def initial_valuations(task: NativeTask) -> Iterator[Mapping[str, int]]:
     """The valuations before the first tick."""
     frozen = task.system.frozen
     for values in product(*(v.domain.values for v in frozen)):

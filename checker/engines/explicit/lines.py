@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 
 from checker.encode.native import NativeSearch
 from checker.engines import Limits, Progress
-from checker.engines.explicit.levels import NOTHING, Search, Spent
+from checker.engines.explicit.levels import NOTHING, LevelSearch, Spent
 
 
-class LineSearch(Search):
+class LineSearch(LevelSearch):
     """Stores anchors; for a task with shifts."""
 
     def __init__(

@@ -14,11 +14,11 @@ from checker.encode.native import (
     LEAVE_DOMAIN,
     REACH_TARGET,
     NativeRetrace,
+    NativeTask,
     OutsideDomain,
-    Task,
     moved_on,
 )
-from checker.engines.explicit.levels import Found
+from checker.engines.explicit.levels import ExplicitFound
 from checker.results.verdict import Run
 from checker.system.partition import Partition, partition
 from checker.system.slice import assumption_groups
@@ -34,7 +34,7 @@ Packed = tuple[int, ...]
 class Runs:
     """Rebuilds runs of the whole system from what a search of its slice stored."""
 
-    def __init__(self, system: TransitionSystem, task: Task, found: Found) -> None:
+    def __init__(self, system: TransitionSystem, task: NativeTask, found: ExplicitFound) -> None:
         self.system, self.task, self.found = system, task, found
 
     @cached_property

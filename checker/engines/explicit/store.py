@@ -21,7 +21,7 @@ _LARGE = 1 << 20
 
 
 @dataclass
-class Store:
+class StateStore:
     """Arrays that the native code fills; ``memory`` is the most they may take, in bytes.
 
     ``most`` valuations at most: they are numbered by 32 bits.

@@ -11,7 +11,14 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from checker.engines import Limits, Progress
-from checker.engines.kinduction.events import Bound, Closed, Doing, Event, Found, Stuck
+from checker.engines.kinduction.events import (
+    Event,
+    InductionBound,
+    InductionClosed,
+    InductionFound,
+    InductionProgress,
+    InductionStuck,
+)
 from checker.process.isolate import Send, Stopped, messages
 from checker.results.verdict import Answer, Open, Reached, Unreachable
 
@@ -76,15 +83,15 @@ class _Answers:
     def note(self, event: Event | None) -> None:
         """Take down what an event says; None only shows that time has passed."""
         match event:
-            case Found(goal, run, shortest):
+            case InductionFound(goal, run, shortest):
                 self.found[goal] = Reached(run, shortest)
-            case Closed(goal, because):
+            case InductionClosed(goal, because):
                 self.found[goal] = Unreachable(because)
-            case Bound(goals, depth):
+            case InductionBound(goals, depth):
                 self.deep |= dict.fromkeys(goals, depth)
-            case Stuck(goals, reason):
+            case InductionStuck(goals, reason):
                 self.stuck |= dict.fromkeys(goals, reason)
-            case Doing(text):
+            case InductionProgress(text):
                 self._doing = text
 
     def line(self) -> str:

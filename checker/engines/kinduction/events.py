@@ -7,7 +7,7 @@ from checker.results.verdict import Inductive, Run
 
 
 @dataclass(frozen=True)
-class Found:
+class InductionFound:
     """A run to a goal, and whether no shorter one exists."""
 
     goal: str
@@ -16,7 +16,7 @@ class Found:
 
 
 @dataclass(frozen=True)
-class Closed:
+class InductionClosed:
     """No run of any length reaches the goal."""
 
     goal: str
@@ -24,7 +24,7 @@ class Closed:
 
 
 @dataclass(frozen=True)
-class Bound:
+class InductionBound:
     """The goals are not reached by any run of at most ``depth`` ticks."""
 
     goals: tuple[str, ...]
@@ -32,7 +32,7 @@ class Bound:
 
 
 @dataclass(frozen=True)
-class Stuck:
+class InductionStuck:
     """The goals are left open, for this reason."""
 
     goals: tuple[str, ...]
@@ -40,10 +40,10 @@ class Stuck:
 
 
 @dataclass(frozen=True)
-class Doing:
+class InductionProgress:
     """What is being done, for a progress line."""
 
     text: str
 
 
-Event = Union[Found, Closed, Bound, Stuck, Doing]
+Event = Union[InductionFound, InductionClosed, InductionBound, InductionStuck, InductionProgress]

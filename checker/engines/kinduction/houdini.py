@@ -12,10 +12,10 @@ import numpy as np
 import z3
 
 from checker.encode.bitvector import Encoder, Term
-from checker.encode.invariants import Cube
+from checker.encode.invariants import TemplateCube
 from checker.encode.simulate import Columns, Simulator, Vectorised
 from checker.encode.unrolling import Unrolling, literal, satisfiable
-from checker.engines.kinduction.ticks import Reading, Scope, Ticks
+from checker.engines.kinduction.ticks import Scope, TickReading, Ticks
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Expr
 from spec_model.lang.walk import variables
@@ -35,7 +35,7 @@ class Consecution:
         self._after = Encoder(self._ticks.valuation(1))
         self._scope = scope
         self._known: dict[str, Expr] = {}
-        self._struck: list[tuple[Reading, Term]] = []
+        self._struck: list[tuple[TickReading, Term]] = []
 
     @cached_property
     def _simulator(self) -> Simulator:
@@ -61,7 +61,7 @@ class Consecution:
         self._known |= alive
         return list(alive.values())
 
-    def cubes(self, most: int) -> list[Cube]:
+    def cubes(self, most: int) -> list[TemplateCube]:
         """The last counterexamples that struck out candidates of the last growth, made general."""
         return [self._ticks.cube(reading, term) for reading, term in self._struck[-most:]]
 
@@ -97,7 +97,7 @@ class Consecution:
     def _refuted(self, conjunct: Expr) -> Term:
         return z3.Not(self._after(conjunct))
 
-    def _runs(self, reading: Reading) -> Columns:
+    def _runs(self, reading: TickReading) -> Columns:
         """Valuations on random runs from the one of a model, the tick in the model among them."""
         start = self._simulator.everywhere(reading.start)
         return self._simulator.run(start, _TICKS, reading.inputs[0]).samples()

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from checker.encode.invariants import Candidates, Cube, Pool
+from checker.encode.invariants import Candidates, TemplateCube, TemplatePool
 from checker.encode.simulate import Trail
 from checker.engines.kinduction.houdini import Consecution, initially, unbroken
 from checker.engines.kinduction.ticks import Scope
@@ -26,7 +26,7 @@ _BRANCHES = 6
 """Counterexamples to the candidates of one answer that are answered in turn."""
 
 
-class Hunt:
+class InvariantHunt:
     """An inductive invariant that grows, and the counterexamples still to be answered.
 
     ``invariant`` is what is known so far; ``answered`` counts those to which clauses were tried.
@@ -39,10 +39,10 @@ class Hunt:
         self._random = np.random.default_rng(0)
         self.answered = 0
         self._tried: list[Expr] = []
-        self._queue: list[Cube] = []
-        self._asked: list[Cube] = []
+        self._queue: list[TemplateCube] = []
+        self._asked: list[TemplateCube] = []
 
-    def note(self, cube: Cube) -> None:
+    def note(self, cube: TemplateCube) -> None:
         """A goal is reached from this cube: exclude it."""
         self._asked.append(cube)
 
@@ -53,7 +53,7 @@ class Hunt:
         yield self._said("ranges")
         if self._grow(made.latched()):
             yield self._said("latches")
-        pool = Pool([*made.exclusions(), *made.ranges_under(), *made.relations()])
+        pool = TemplatePool([*made.exclusions(), *made.ranges_under(), *made.relations()])
         if len(pool) <= AT_ONCE:
             self._grow(pool.rest())
             yield self._said("templates")
@@ -66,7 +66,7 @@ class Hunt:
             if self._answer(self._queue.pop(0), pool):
                 yield self._said(f"counterexample {self.answered}")
 
-    def _answer(self, cube: Cube, pool: Pool) -> bool:
+    def _answer(self, cube: TemplateCube, pool: TemplatePool) -> bool:
         """Try what excludes the cube, with what was tried since the last success; whether any of it holds.
 
         What struck it out is to be answered next.

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import z3
 
-from checker.encode.invariants import Cube
+from checker.encode.invariants import TemplateCube
 from checker.engines.kinduction.ticks import Scope, Ticks
 from spec_model.lang.expr import Expr
 
@@ -17,7 +17,7 @@ WINDOW = 6
 
 
 @dataclass(frozen=True)
-class Step:
+class InductionStep:
     """The goal is not true after ``ticks`` ticks, by the conjuncts named; ``simple`` as in ``Inductive``."""
 
     ticks: int
@@ -27,21 +27,21 @@ class Step:
 
 def induction(
     scope: Scope, goal: str, invariant: Sequence[Expr], window: int, patience: int, *, simple: bool = False
-) -> Step | Cube:
+) -> InductionStep | TemplateCube:
     """Whether the goal is inductive in at most ``window`` ticks, or else where the longest one fails.
 
     ``simple`` takes the valuations before the ticks to differ from each other.  Raises ``GaveUp``.
     """
     ticks = Ticks(scope, patience)
     literals = ticks.assumed(invariant)
-    cube = Cube({}, frozenset())
+    cube = TemplateCube({}, frozenset())
     for length in range(1, window + 1):
         ticks.tick()
         if simple:
             _differ(ticks, length - 1)
         hit = ticks.after(length, goal)
         if not ticks.sat(ticks.mark(hit), *map(z3.Bool, literals)):
-            return Step(length, tuple(literals[name] for name in ticks.core(literals)), simple)
+            return InductionStep(length, tuple(literals[name] for name in ticks.core(literals)), simple)
         if length == window:
             cube = ticks.cube(ticks.reading(), hit)
         ticks.solver.add(z3.Not(hit))

@@ -8,14 +8,21 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from checker.encode.cone import as_written, by_cone, cone, constants, folded, straying, with_values
-from checker.encode.invariants import Cube
+from checker.encode.invariants import TemplateCube
 from checker.encode.simulate import Simulator, Trail
 from checker.encode.symbolic import transition
 from checker.encode.unrolling import Outside, Unrolling, literal, satisfiable
-from checker.engines.kinduction.events import Bound, Closed, Doing, Event, Found, Stuck
+from checker.engines.kinduction.events import (
+    Event,
+    InductionBound,
+    InductionClosed,
+    InductionFound,
+    InductionProgress,
+    InductionStuck,
+)
 from checker.engines.kinduction.houdini import Consecution, of_given
-from checker.engines.kinduction.hunt import Hunt
-from checker.engines.kinduction.induction import WINDOW, Step, induction
+from checker.engines.kinduction.hunt import InvariantHunt
+from checker.engines.kinduction.induction import WINDOW, InductionStep, induction
 from checker.engines.kinduction.ticks import GaveUp, Scope, excluded
 from checker.results.verdict import Inductive, Run
 from spec_model.lang.expr import Expr, Var
@@ -31,7 +38,7 @@ HELPED = 30_000_000
 """Steps of Z3 that one with invariants may take."""
 
 
-def _unheard(_: Cube) -> None:
+def _unheard(_: TemplateCube) -> None:
     """Nothing is made of what stands in the way of a proof."""
 
 
@@ -40,9 +47,9 @@ def search(system: TransitionSystem, goals: Sequence[str], depth: int | None) ->
 
     Raises ``ArithmeticError`` when Z3 gives up on the base case.
     """
-    model = Model(system)
+    model = InductionModel(system)
     for names in by_cone(model.folded, goals):
-        yield from Group(model, names, depth).decide()
+        yield from InductionGroup(model, names, depth).decide()
 
 
 def with_given(system: TransitionSystem, goals: Sequence[str], candidates: Sequence[Expr]) -> Iterator[Event]:
@@ -50,10 +57,10 @@ def with_given(system: TransitionSystem, goals: Sequence[str], candidates: Seque
 
     No run is told: other engines find shorter and plainer ones.
     """
-    yield from Group(Model(system), goals, WINDOW).decide_with(candidates)
+    yield from InductionGroup(InductionModel(system), goals, WINDOW).decide_with(candidates)
 
 
-class Model:
+class InductionModel:
     """A system's tick as functions, as written and with the variables that never change folded away."""
 
     def __init__(self, system: TransitionSystem) -> None:
@@ -78,10 +85,10 @@ class Model:
         )
 
 
-class Group:
+class InductionGroup:
     """Goals that are decided together: those still open, and the ticks they are not reached in."""
 
-    def __init__(self, model: Model, goals: Sequence[str], depth: int | None) -> None:
+    def __init__(self, model: InductionModel, goals: Sequence[str], depth: int | None) -> None:
         self._model, self._most = model, depth
         self.open = list(goals)
         self.deep = 0
@@ -98,32 +105,36 @@ class Group:
     def decide(self) -> Iterator[Event]:
         """Events until every goal is decided or stuck."""
         if not self._outside.possible:  # there is no run at all
-            yield from (Closed(goal, Inductive(self._unchanging)) for goal in self.open)
+            yield from (InductionClosed(goal, Inductive(self._unchanging)) for goal in self.open)
             return
         try:
             for phase in (self._first_ticks, self._plainly, self._by_simulation):
                 yield from phase()
                 if not self.open:
                     return
-            yield Stuck(tuple(self.open), self._reason)
+            yield InductionStuck(tuple(self.open), self._reason)
         except GaveUp as gave_up:
-            yield Stuck(tuple(self.open), f"Z3 took more steps than one query may ({gave_up})")
+            yield InductionStuck(tuple(self.open), f"Z3 took more steps than one query may ({gave_up})")
 
     def decide_with(self, candidates: Sequence[Expr]) -> Iterator[Event]:
         """Events until every goal is closed or stuck."""
         if not self._outside.possible:
-            yield from (Closed(goal, Inductive(self._unchanging)) for goal in self.open)
+            yield from (InductionClosed(goal, Inductive(self._unchanging)) for goal in self.open)
             return
         try:
             invariant = of_given(self._scope, self._model.as_folded(candidates))
             yield from self._attempts(invariant, 1)
             if self.open:
                 for event in self._first_ticks():
-                    yield Stuck((event.goal,), "a run reaches it") if isinstance(event, Found) else event
+                    yield (
+                        InductionStuck((event.goal,), "a run reaches it")
+                        if isinstance(event, InductionFound)
+                        else event
+                    )
                 yield from self._attempts(invariant, self.deep)
-            yield Stuck(tuple(self.open), "the given candidates make no invariant that excludes it")
+            yield InductionStuck(tuple(self.open), "the given candidates make no invariant that excludes it")
         except GaveUp as gave_up:
-            yield Stuck(tuple(self.open), f"Z3 took more steps than one query may ({gave_up})")
+            yield InductionStuck(tuple(self.open), f"Z3 took more steps than one query may ({gave_up})")
 
     # --- the base case ---------------------------------------------------------------------------
 
@@ -138,7 +149,7 @@ class Group:
                     run = unrolling.run(unrolling.solver.model(), tick)
                     yield self._found(goal, self._outside.complete(run), shortest=True)
             self.deep = tick
-            yield Bound(tuple(self.open), tick)
+            yield InductionBound(tuple(self.open), tick)
             if not self.open:
                 return
 
@@ -146,18 +157,18 @@ class Group:
         """Give up where a run takes a variable out of its domain: nothing is said of what follows."""
         for name, event in zip(self._names, unrolling.events(tick), strict=True):
             if self.open and satisfiable(unrolling.solver, literal(unrolling, event)):
-                yield Stuck(tuple(self.open), f"{name} may leave its domain in tick {tick}")
+                yield InductionStuck(tuple(self.open), f"{name} may leave its domain in tick {tick}")
                 self.open = []
 
-    def _found(self, goal: str, run: Run, *, shortest: bool) -> Found:
+    def _found(self, goal: str, run: Run, *, shortest: bool) -> InductionFound:
         self.open.remove(goal)
-        return Found(goal, run, shortest)
+        return InductionFound(goal, run, shortest)
 
     # --- proofs ----------------------------------------------------------------------------------
 
     def _plainly(self) -> Iterator[Event]:
         """k-induction over the domains alone."""
-        yield Doing("k-induction over the domains alone")
+        yield InductionProgress("k-induction over the domains alone")
         if excluded(self._scope, (), PLAIN) is None:
             return
         for goal in list(self.open):
@@ -165,16 +176,16 @@ class Group:
                 step = induction(self._scope, goal, (), min(WINDOW, self.deep), PLAIN)
             except GaveUp:
                 continue
-            if isinstance(step, Step):
+            if isinstance(step, InductionStep):
                 yield self._closed(goal, step, ())
 
-    def _closed(self, goal: str, step: Step, conjuncts: Sequence[Expr]) -> Closed:
+    def _closed(self, goal: str, step: InductionStep, conjuncts: Sequence[Expr]) -> InductionClosed:
         self.open.remove(goal)
-        return Closed(goal, Inductive((*self._unchanging, *conjuncts), step.ticks, step.simple))
+        return InductionClosed(goal, Inductive((*self._unchanging, *conjuncts), step.ticks, step.simple))
 
     def _by_simulation(self) -> Iterator[Event]:
         """Runs that random inputs find, then invariants that held in all of them."""
-        yield Doing("random runs")
+        yield InductionProgress("random runs")
         simulator = Simulator(self._scope.part, self._scope.escapes)
         most = SIMULATED if self._most is None else min(SIMULATED, self._most)
         trail = simulator.run(simulator.start(), most)
@@ -188,21 +199,21 @@ class Group:
             yield from self._with_invariants(trail)
 
     def _with_invariants(self, trail: Trail) -> Iterator[Event]:
-        hunt = Hunt(self._scope, trail)
+        hunt = InvariantHunt(self._scope, trail)
         for text in hunt.phases():
-            yield Doing(text)
+            yield InductionProgress(text)
             yield from self._attempts(hunt.invariant, min(WINDOW, self.deep), hunt.note)
             if not self.open:
                 return
         self._reason += f", {hunt.answered} counterexamples to induction answered"
-        yield Doing("k-induction along simple paths")
+        yield InductionProgress("k-induction along simple paths")
         yield from self._attempts(hunt.invariant, self.deep, simple=True)
 
     def _attempts(
         self,
         invariant: Consecution,
         window: int,
-        note: Callable[[Cube], None] = _unheard,
+        note: Callable[[TemplateCube], None] = _unheard,
         *,
         simple: bool = False,
     ) -> Iterator[Event]:
@@ -218,7 +229,7 @@ class Group:
             return
         for goal in list(self.open):
             step = induction(scope, goal, invariant.known, window, HELPED, simple=simple)
-            if isinstance(step, Step):
+            if isinstance(step, InductionStep):
                 yield self._closed(goal, step, invariant.support((*step.conjuncts, *safe)))
             else:
                 note(step)

@@ -7,7 +7,7 @@ import z3
 
 from checker.encode.bitvector import Encoder, Term, value
 from checker.encode.cone import Slice
-from checker.encode.invariants import Cube
+from checker.encode.invariants import TemplateCube
 from checker.encode.unrolling import Unrolling
 from spec_model.lang.expr import Expr
 
@@ -63,13 +63,13 @@ class Ticks(Unrolling):
         """The literals among those given that the last query, which had no model, rests on."""
         return [str(c) for c in self.solver.unsat_core() if str(c) in literals]
 
-    def reading(self) -> "Reading":
+    def reading(self) -> "TickReading":
         """The first valuation in the model and the inputs of every tick."""
         model = self.solver.model()
         given = tuple(values(model, self.inputs(t + 1)) for t in range(len(self)))
-        return Reading(values(model, self.valuation(0)), given)
+        return TickReading(values(model, self.valuation(0)), given)
 
-    def cube(self, reading: "Reading", reached: Term) -> Cube:
+    def cube(self, reading: "TickReading", reached: Term) -> TemplateCube:
         """The first valuation of a reading, and those of its variables that make the term true."""
         given = [
             _equal(self.inputs(tick)[name], raw)
@@ -82,11 +82,11 @@ class Ticks(Unrolling):
         if self.sat(query, *map(z3.Bool, named)):
             raise ArithmeticError("Z3 gave a model that is none")
         names = {named[str(c)] for c in self.solver.unsat_core() if str(c) in named}
-        return Cube(reading.start, frozenset(names))
+        return TemplateCube(reading.start, frozenset(names))
 
 
 @dataclass(frozen=True)
-class Reading:
+class TickReading:
     """What determines the ticks of a model: the first valuation, frozen values too, and the inputs."""
 
     start: Mapping[str, int]

@@ -65,7 +65,7 @@ def _decided(
     system: "TransitionSystem", goal: "Var", limits: Limits, orders: "Orders", told: _Told
 ) -> Answer:
     """Refine until a proof of the system with cuts or a run of the system itself is found."""
-    from checker.engines.localisation.bounded import Hit
+    from checker.engines.localisation.bounded import BoundedHit
     from checker.engines.localisation.cuts import with_cuts
 
     depth, kept, asked, deadline = FIRST, frozenset[str](), False, limits.deadline()
@@ -74,7 +74,7 @@ def _decided(
         if limits.depth is not None and depth > limits.depth:
             return Open(f"runs of at most {counted_ticks(limits.depth)} do not decide it", 0)
         why = orders.why(goal.name, depth, kept)
-        if isinstance(why, Hit):
+        if isinstance(why, BoundedHit):
             return Reached(why.run, shortest=False)
         if asked and why.kept == kept:
             return Open("a run of the system with cuts could be neither followed nor excluded", 0)

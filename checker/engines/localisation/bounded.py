@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 from checker.encode.bitvector import Term
 from checker.encode.cone import as_written, cone, folded, straying
-from checker.encode.symbolic import Transition, transition
+from checker.encode.symbolic import SymbolicTransition, transition
 from checker.encode.unrolling import Outside, Unrolling, literal, satisfiable
 from checker.engines.localisation.cuts import with_switches
 from checker.process.isolate import Send
@@ -20,7 +20,7 @@ from spec_model.lang.system import TransitionSystem
 
 
 @dataclass(frozen=True)
-class Hit:
+class BoundedHit:
     """A run of the system itself."""
 
     run: Run
@@ -33,7 +33,7 @@ class Core:
     kept: frozenset[str]
 
 
-class Bounded:
+class BoundedEngine:
     """Answers orders about one system: how far a goal is out of reach, and why."""
 
     def __init__(self, system: TransitionSystem) -> None:
@@ -43,7 +43,7 @@ class Bounded:
         self._searches: dict[str, _Search] = {}
 
     def __call__(self, send: Send, goal: str, depth: int, kept: frozenset[str]) -> None:
-        """Send a ``Hit``, a ``Core`` that adds to what is ``kept``, or a text that says why there is none."""
+        """Send a ``BoundedHit``, a ``Core`` that adds to what is ``kept``, or why there is none as a text."""
         if goal not in self._searches:
             own = self._plain.system
             if straying(self._plain, as_written(own, [goal])):  # a cut variable would never leave its domain
@@ -60,7 +60,7 @@ class _Search:
     """The unrolling for one goal."""
 
     def __init__(
-        self, whole: Transition, system: TransitionSystem, goal: str, switches: Mapping[str, Var]
+        self, whole: SymbolicTransition, system: TransitionSystem, goal: str, switches: Mapping[str, Var]
     ) -> None:
         self._system, self._goal = system, goal
         part = cone(whole, [goal])
@@ -70,7 +70,7 @@ class _Search:
         self._on = {name: first[s.name] for name, s in switches.items() if s.name in inside}
         self._size = {v.name: len(v.domain) for v in part.variables}
 
-    def within(self, depth: int, kept: frozenset[str]) -> Hit | Core:
+    def within(self, depth: int, kept: frozenset[str]) -> BoundedHit | Core:
         """A run of so many ticks, or why there is none.  Raises ``ArithmeticError`` when Z3 gives up."""
         if not self._outside.possible:  # there is no run at all
             return Core(kept)
@@ -80,7 +80,7 @@ class _Search:
         reached = literal(unrolling, unrolling.after(depth, self._goal))
         if satisfiable(unrolling.solver, reached, *self._on.values()):
             run = unrolling.run(unrolling.solver.model(), depth)
-            return Hit(self._own(self._outside.complete(run)))
+            return BoundedHit(self._own(self._outside.complete(run)))
         return Core(self._least(reached, kept))
 
     def _least(self, reached: Term, kept: frozenset[str]) -> frozenset[str]:

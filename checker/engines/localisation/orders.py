@@ -5,7 +5,7 @@ from time import monotonic
 from types import TracebackType
 from typing import Self
 
-from checker.engines.localisation.bounded import Bounded, Core, Hit
+from checker.engines.localisation.bounded import BoundedEngine, BoundedHit, Core
 from checker.process.isolate import Child, End, Stopped
 from spec_model.lang.system import TransitionSystem
 
@@ -16,7 +16,7 @@ class Orders:
     def __init__(self, system: TransitionSystem, deadline: float | None, memory: int) -> None:
         self._inbox: SimpleQueue[object] = SimpleQueue()
         self._deadline = deadline
-        self._child = Child(self._inbox.put, Bounded, system, memory=memory)
+        self._child = Child(self._inbox.put, BoundedEngine, system, memory=memory)
 
     def __enter__(self) -> Self:
         return self
@@ -26,13 +26,13 @@ class Orders:
     ) -> None:
         self._child.kill()
 
-    def why(self, goal: str, depth: int, kept: frozenset[str]) -> Hit | Core:
+    def why(self, goal: str, depth: int, kept: frozenset[str]) -> BoundedHit | Core:
         """A run to the goal of at most so many ticks, or what stands in its way beside what is kept."""
         self._child.order(goal, depth, kept)
-        said: Hit | Core | None = None
+        said: BoundedHit | Core | None = None
         while True:
             match self._next():
-                case Hit() | Core() as found:
+                case BoundedHit() | Core() as found:
                     said = found
                 case str(reason):
                     raise Stopped(reason)

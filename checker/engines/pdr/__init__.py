@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from checker.engines import Limits, Progress
-from checker.engines.pdr.events import Bound, Decided, Event, Undefined
+from checker.engines.pdr.events import Decided, Event, PdrBound, PdrUndefined
 from checker.process.isolate import Send, Stopped, messages
 from checker.results.trace import counted_ticks
 from checker.results.verdict import Answer, Open
@@ -66,10 +66,10 @@ class _State:
         match event:
             case Decided(goal, answer):
                 self.found[goal] = answer
-            case Undefined(goals, variables, tick):
+            case PdrUndefined(goals, variables, tick):
                 names = ", ".join(variables)
                 self.found |= dict.fromkeys(goals, Open(f"{names} may leave its domain in tick {tick}", 0))
-            case Bound(goal, depth, lemmas):
+            case PdrBound(goal, depth, lemmas):
                 self.deep[goal], self._lemmas = depth, lemmas
 
     def line(self) -> str:

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from pysat.solvers import Minisat22
 
-from checker.engines.pdr.machine import Machine
+from checker.engines.pdr.machine import PdrMachine
 
 GARBAGE = 3000
 """Temporary clauses after which a solver is better built anew."""
@@ -23,7 +23,7 @@ class Cones:
     ``inside``: valuations are within their domains.
     """
 
-    def __init__(self, machine: Machine, *, inside: bool) -> None:
+    def __init__(self, machine: PdrMachine, *, inside: bool) -> None:
         self._machine = machine
         self._inside = inside
         self._solver = Minisat22()

@@ -15,7 +15,7 @@ class Decided:
 
 
 @dataclass(frozen=True)
-class Bound:
+class PdrBound:
     """The goal is not reached by any run of at most ``depth`` ticks; ``lemmas`` are in use for that."""
 
     goal: str
@@ -24,7 +24,7 @@ class Bound:
 
 
 @dataclass(frozen=True)
-class Undefined:
+class PdrUndefined:
     """Nothing is said of the goals: a tick of some run takes the variables out of their domains."""
 
     goals: tuple[str, ...]
@@ -32,4 +32,4 @@ class Undefined:
     tick: int
 
 
-Event = Union[Decided, Bound, Undefined]
+Event = Union[Decided, PdrBound, PdrUndefined]

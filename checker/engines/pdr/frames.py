@@ -9,14 +9,14 @@ from collections.abc import Iterator
 from checker.engines.pdr.cones import Cones
 from checker.engines.pdr.cubes import Cube, cube
 from checker.engines.pdr.initial import Initial
-from checker.engines.pdr.lemmas import ALWAYS, Lemma, Step
-from checker.engines.pdr.machine import Machine
+from checker.engines.pdr.lemmas import ALWAYS, Lemma, LemmaStep
+from checker.engines.pdr.machine import PdrMachine
 
 
 class Frames:
     """The frames of one machine and the questions asked of them."""
 
-    def __init__(self, machine: Machine) -> None:
+    def __init__(self, machine: PdrMachine) -> None:
         self.machine = machine
         self.queries = 0
         self.lemmas: list[list[Lemma]] = [[], []]
@@ -102,12 +102,12 @@ class Frames:
         """The frozen latches of an initial valuation in a cube that holds some; others may have any value."""
         return self._start.inside(wanted)
 
-    def hits(self, goal: str, level: int) -> Step | None:
+    def hits(self, goal: str, level: int) -> LemmaStep | None:
         """A valuation of a frame and inputs with which a goal is true after the tick."""
         self.queries += 1
         solver = self._goals
         if solver.solve(level, [solver.cones.literal(self.machine.goals[goal])]):
-            return Step(*solver.cones.model())
+            return LemmaStep(*solver.cones.model())
         return None
 
     def blocked(self, wanted: Cube, level: int, relative: bool = True) -> Cube | None:
@@ -123,9 +123,9 @@ class Frames:
         core = solver.cones.core()
         return self._apart([x for x, y in zip(wanted.literals, primed, strict=True) if y in core], wanted)
 
-    def step(self) -> Step:
+    def step(self) -> LemmaStep:
         """The tick that ``blocked`` found last."""
-        return Step(*self._ticks.cones.model())
+        return LemmaStep(*self._ticks.cones.model())
 
     def witness(self) -> Cube:
         """The valuation before that tick."""

@@ -6,13 +6,13 @@ from typing import Protocol
 from checker.encode.bits import Circuit, Literal
 from checker.encode.bits.model import cut
 from checker.encode.cone import as_written, by_cone, cone, constants, folded, straying
-from checker.encode.symbolic import Transition, transition
+from checker.encode.symbolic import SymbolicTransition, transition
 from checker.engines.pdr.cubes import Cube
-from checker.engines.pdr.events import Bound, Decided, Event, Undefined
+from checker.engines.pdr.events import Decided, Event, PdrBound, PdrUndefined
 from checker.engines.pdr.invariant import conjuncts, equal
 from checker.engines.pdr.machine import LEAVES, machine
 from checker.engines.pdr.runs import others, replayed, run_of
-from checker.engines.pdr.search import Bounded, Excluded, Search, Traced
+from checker.engines.pdr.search import BoundedDepth, Excluded, PdrSearch, Traced
 from checker.engines.pdr.seeds import LARGE, Seed, mined, proved
 from checker.engines.pdr.support import needed
 from checker.results.verdict import Inductive, Reached, Run, Unreachable
@@ -43,7 +43,7 @@ def decisions(
     yield from _in_turns(groups)
 
 
-def _suggested(whole: Transition, circuit: Circuit) -> list[Expr]:
+def _suggested(whole: SymbolicTransition, circuit: Circuit) -> list[Expr]:
     """Candidate invariants, for a circuit that is not too large."""
     part = cone(whole, circuit.goals)
     few = 0 < len(circuit.latches) <= LARGE
@@ -86,7 +86,7 @@ class _Group:
         self.circuit = circuit
         self._fixed, self._seeds = fixed, seeds
         self.depth = depth
-        self.search = Search(machine(circuit, [seed.before for seed in seeds]))
+        self.search = PdrSearch(machine(circuit, [seed.before for seed in seeds]))
         self.events = self._events()
 
     @property
@@ -108,10 +108,10 @@ class _Group:
             match event:
                 case Traced():
                     at = replayed(system, run_of(event, self.circuit, outside))
-                    yield Undefined(goals, _leavers(system, at[-1]), len(at) - 1)
+                    yield PdrUndefined(goals, _leavers(system, at[-1]), len(at) - 1)
                     return False
                 case _:
-                    yield from (Bound(goal, 0, self.search.frames.size) for goal in goals)
+                    yield from (PdrBound(goal, 0, self.search.frames.size) for goal in goals)
         return True
 
     def invariant(self, goal: str, cubes: Sequence[Cube]) -> tuple[Expr, ...]:
@@ -138,8 +138,8 @@ class _Goal:
                     yield Decided(goal, Reached(run, shortest=len(run) == bound + 1))
                 case Excluded(cubes):
                     yield Decided(goal, Unreachable(Inductive(group.invariant(goal, cubes))))
-                case Bounded(bound):
-                    yield Bound(goal, bound, group.search.frames.size)
+                case BoundedDepth(bound):
+                    yield PdrBound(goal, bound, group.search.frames.size)
                     if group.depth is not None and bound >= group.depth:
                         return
             before = group.spent

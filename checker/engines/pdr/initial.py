@@ -2,13 +2,13 @@
 
 from checker.engines.pdr.cones import Cones
 from checker.engines.pdr.cubes import Cube
-from checker.engines.pdr.machine import Machine
+from checker.engines.pdr.machine import PdrMachine
 
 
 class Initial:
     """The initial valuations of a machine."""
 
-    def __init__(self, machine: Machine) -> None:
+    def __init__(self, machine: PdrMachine) -> None:
         self._machine = machine
         self._cones = Cones(machine, inside=False)
         self._free = frozenset(range(1, machine.latches + 1)).difference(map(abs, machine.init))

@@ -9,7 +9,7 @@ ALWAYS = 1 << 30
 
 
 @dataclass(frozen=True, slots=True)
-class Step:
+class LemmaStep:
     """A tick that a solver found: as literals, the latches before it and the inputs that matter to it."""
 
     latches: tuple[int, ...]

@@ -11,7 +11,7 @@ LEAVES = ""
 
 
 @dataclass(frozen=True)
-class Machine:
+class PdrMachine:
     """A transition relation in clauses; latch ``n`` of the circuit is variable ``n + 1``.
 
     definitions  the clauses that define a variable by others, as in ``Cnf``
@@ -38,7 +38,7 @@ class Machine:
     definitions: Mapping[int, tuple[Clause, ...]]
 
 
-def machine(circuit: Circuit, known: Sequence[Literal] = ()) -> Machine:
+def machine(circuit: Circuit, known: Sequence[Literal] = ()) -> PdrMachine:
     """The clauses of everything that is asked of a circuit; ``known`` is inductive and holds at the start."""
     goals = dict(circuit.goals)
     if circuit.leaves:
@@ -51,7 +51,7 @@ def machine(circuit: Circuit, known: Sequence[Literal] = ()) -> Machine:
     cnf = Cnf(circuit.aig, [*latches, *inputs], [*following, *conditions, *domains, *goals.values()])
     after = [cnf.literal(x) for x in following]
     assume, start = map(cnf.literal, conditions)
-    return Machine(
+    return PdrMachine(
         circuit,
         len(latches),
         tuple(range(len(latches) + 1, cnf.true)),

@@ -12,18 +12,18 @@ from itertools import count
 from checker.engines.pdr.cubes import Cube
 from checker.engines.pdr.frames import Frames
 from checker.engines.pdr.generalise import Generaliser
-from checker.engines.pdr.lemmas import ALWAYS, Lemma, Step
+from checker.engines.pdr.lemmas import ALWAYS, Lemma, LemmaStep
 from checker.engines.pdr.lift import Lifter
-from checker.engines.pdr.machine import Machine
+from checker.engines.pdr.machine import PdrMachine
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Obligation:
+class PdrObligation:
     """Every valuation of the cube leads with the inputs to the next obligation, or to the goal."""
 
     cube: Cube
     inputs: tuple[int, ...]
-    next: "Obligation | None"
+    next: "PdrObligation | None"
 
 
 @dataclass(frozen=True)
@@ -42,19 +42,19 @@ class Excluded:
 
 
 @dataclass(frozen=True)
-class Bounded:
+class BoundedDepth:
     """The goal is not reached by any run of at most ``depth`` ticks."""
 
     depth: int
 
 
-Event = Traced | Excluded | Bounded
+Event = Traced | Excluded | BoundedDepth
 
 
-class Search:
+class PdrSearch:
     """Frames of one machine, used for one goal after the other."""
 
-    def __init__(self, machine: Machine) -> None:
+    def __init__(self, machine: PdrMachine) -> None:
         self.frames = Frames(machine)
         self._lifter = Lifter(machine)
         self._generaliser = Generaliser(self.frames)
@@ -73,8 +73,8 @@ class Search:
                 if isinstance(run, Traced):
                     yield run
                     return
-                yield Bounded(level)
-            yield Bounded(level + 1)
+                yield BoundedDepth(level)
+            yield BoundedDepth(level + 1)
             self._propagate()
             if frames.hits(goal, ALWAYS) is None:
                 yield Excluded(tuple(lemma.cube for lemma in frames.always))
@@ -82,18 +82,18 @@ class Search:
 
     # --- obligations -----------------------------------------------------------------------------
 
-    def _one_less(self, goal: str, level: int) -> Traced | Step | None:
+    def _one_less(self, goal: str, level: int) -> Traced | LemmaStep | None:
         """Exclude a valuation of the frame from which the goal is reached: the step is such a one, unless
         it begins a run; None when there is none left."""
         step = self.frames.hits(goal, level)
         if step is None:
             return None
-        first = Obligation(self._lifter.onto(step, goal), step.inputs, None)
+        first = PdrObligation(self._lifter.onto(step, goal), step.inputs, None)
         return self._discharged(first, level) or step
 
-    def _discharged(self, first: Obligation, level: int) -> Traced | None:
+    def _discharged(self, first: PdrObligation, level: int) -> Traced | None:
         frames = self.frames
-        heap: list[tuple[int, int, Obligation]] = []
+        heap: list[tuple[int, int, PdrObligation]] = []
         self._push(heap, level, first)
         while heap:
             level, _, wanted = heappop(heap)
@@ -105,7 +105,7 @@ class Search:
                 blocked = frames.blocked(wanted.cube, level - 1)
                 if blocked is None:
                     step = frames.step()
-                    before = Obligation(self._lifter.into(step, wanted.cube), step.inputs, wanted)
+                    before = PdrObligation(self._lifter.into(step, wanted.cube), step.inputs, wanted)
                     self._push(heap, level, wanted)
                     self._push(heap, level - 1, before)
                     continue
@@ -114,11 +114,11 @@ class Search:
                 self._push(heap, level + 1, wanted)
         return None
 
-    def _push(self, heap: list[tuple[int, int, Obligation]], level: int, wanted: Obligation) -> None:
+    def _push(self, heap: list[tuple[int, int, PdrObligation]], level: int, wanted: PdrObligation) -> None:
         self._made += 1
         heappush(heap, (level, self._made, wanted))
 
-    def _run(self, first: Obligation) -> Traced:
+    def _run(self, first: PdrObligation) -> Traced:
         inputs, obligation = list[tuple[int, ...]](), first
         while True:
             inputs.append(obligation.inputs)

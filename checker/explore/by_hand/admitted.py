@@ -19,7 +19,7 @@ MOST_VALUES = 512
 
 
 @dataclass(frozen=True)
-class Assumed:
+class AssumedInputs:
     """A condition on the inputs of a tick: one conjunct, and the assumption that it belongs to."""
 
     formula: Expr
@@ -38,15 +38,15 @@ class Assumed:
         return f"{of} requires {text(self.formula, unfold=True)}."
 
 
-def assumed(system: TransitionSystem) -> Iterator[Assumed]:
+def assumed(system: TransitionSystem) -> Iterator[AssumedInputs]:
     """Every conjunct of what a system assumes, with the assumption that it belongs to."""
     source = system.source
     if source is None:
-        yield from (Assumed(part) for part in conjuncts(system.assume))
+        yield from (AssumedInputs(part) for part in conjuncts(system.assume))
         return
-    yield from (Assumed(part) for part in conjuncts(source.assume))
+    yield from (AssumedInputs(part) for part in conjuncts(source.assume))
     for one in source.assumptions:
-        yield from (Assumed(part, one.id, one.text) for part in conjuncts(one.formula))
+        yield from (AssumedInputs(part, one.id, one.text) for part in conjuncts(one.formula))
 
 
 def conjuncts(formula: Expr | None) -> Sequence[Expr]:
@@ -61,7 +61,7 @@ def conjuncts(formula: Expr | None) -> Sequence[Expr]:
 
 def broken(
     system: TransitionSystem, before: Mapping[str, int], inputs: Mapping[str, int]
-) -> tuple[Assumed, ...]:
+) -> tuple[AssumedInputs, ...]:
     """The conditions that inputs break in the tick after a valuation."""
     at = {**before, **inputs}
     return tuple(one for one in assumed(system) if not evaluate(one.formula, at))

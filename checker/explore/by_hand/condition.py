@@ -9,7 +9,7 @@ from operator import add, eq, ge, gt, le, lt, mul, ne, sub
 from typing import Any
 
 from checker.explore.by_hand.names import Names
-from checker.explore.by_hand.written import Refused
+from checker.explore.by_hand.written import RefusedInput
 from spec_model.lang.chart import Chart
 from spec_model.lang.domain import Bool, Enum
 from spec_model.lang.errors import ModelError, did_you_mean
@@ -28,7 +28,7 @@ _COMPUTED: Mapping[type[ast.operator], Callable[[Any, Any], Any]] = {
 
 
 def condition(written: str, names: Names) -> Expr:
-    """The formula that is meant.  Raises ``Refused`` for what has no meaning, saying what to write.
+    """The formula that is meant.  Raises ``RefusedInput`` for what has no meaning, saying what to write.
 
     Where a name and a difference are written alike (``B2-B1``), it is the name.
     """
@@ -38,15 +38,15 @@ def condition(written: str, names: Names) -> Expr:
     try:
         tree = ast.parse(parsable, mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        raise Refused(f"{written.strip()!r} is no condition. {names.help}") from None
+        raise RefusedInput(f"{written.strip()!r} is no condition. {names.help}") from None
     try:
         found = _meant(tree.body, names)
     except ModelError as error:
-        raise Refused(str(error)) from None
+        raise RefusedInput(str(error)) from None
     except RecursionError:
-        raise Refused("The condition is nested too deeply. Split it.") from None
+        raise RefusedInput("The condition is nested too deeply. Split it.") from None
     if not isinstance(found.sort, Bool):
-        raise Refused(f"`{found}` is neither true nor false ({found.sort}); compare it. {names.help}")
+        raise RefusedInput(f"`{found}` is neither true nor false ({found.sort}); compare it. {names.help}")
     return found
 
 
@@ -86,11 +86,11 @@ def _meant(node: ast.expr, names: Names) -> Expr:
     raise _meaningless(node, names)
 
 
-def _meaningless(node: ast.expr, names: Names) -> Refused:
+def _meaningless(node: ast.expr, names: Names) -> RefusedInput:
     shown = ast.unparse(node)
     for spelled, var in names.spelled.items():
         shown = shown.replace(spelled, var.name)
-    return Refused(f"`{shown}` has no meaning in a condition. {names.help}")
+    return RefusedInput(f"`{shown}` has no meaning in a condition. {names.help}")
 
 
 def _comparison(node: ast.Compare, names: Names) -> Expr:
@@ -101,7 +101,7 @@ def _comparison(node: ast.Compare, names: Names) -> Expr:
 
 def _compared(left: ast.expr, right: ast.expr, op: ast.cmpop, names: Names) -> Expr:
     if type(op) not in _COMPARED:
-        raise Refused(f"`in` and `is` have no meaning in a condition. {names.help}")
+        raise RefusedInput(f"`in` and `is` have no meaning in a condition. {names.help}")
     like = _enum(left, names) or _enum(right, names)
     first, second = (_side(side, like, names) for side in (left, right))
     found = _COMPARED[type(op)](first, second)
@@ -158,7 +158,7 @@ def _named(name: str, names: Names) -> Expr:
         )
     known = [*(v.name for v in names.variables.values()), *names.states]
     known = [one for one in known if one.startswith(f"{name}-")] or known
-    raise Refused(f"There is no variable or state {name!r}. {did_you_mean(name, known)}")
+    raise RefusedInput(f"There is no variable or state {name!r}. {did_you_mean(name, known)}")
 
 
 def _a_state(chart: Chart) -> str:

@@ -7,8 +7,8 @@ from random import Random
 from checker.explore.by_hand.admitted import KEPT, assumed, broken, drawn
 from checker.explore.by_hand.condition import condition
 from checker.explore.by_hand.names import Names
-from checker.explore.by_hand.simulation import Simulation
-from checker.explore.by_hand.written import Refused, value, variable
+from checker.explore.by_hand.simulation import HandSimulation
+from checker.explore.by_hand.written import RefusedInput, value, variable
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Expr
 from spec_model.lang.system import System
@@ -35,7 +35,7 @@ class Session:
     """A simulation with the choices for its next ticks."""
 
     def __init__(self, system: System) -> None:
-        self.simulation = Simulation(system)
+        self.simulation = HandSimulation(system)
         self.free: set[str] = set()
         self.chosen: set[str] = set()
         self.breaks: list[tuple[str, Expr]] = []
@@ -58,7 +58,7 @@ class Session:
     # --- choosing inputs ---
 
     def set(self, assignments: Iterable[tuple[str, str]]) -> dict[str, int]:
-        """Let inputs stand at values from now on.  Raises ``Refused`` for values that are not possible."""
+        """Let inputs stand at values from now on.  Raises ``RefusedInput`` for values that are impossible."""
         sim = self.simulation
         new = {n: value(variable(n, sim.inputs, "input"), written) for n, written in assignments}
         wanted, free = self.standing | new, self.free - new.keys()
@@ -67,12 +67,12 @@ class Session:
         ]
         if against and drawn(sim.lowered, sim.state(), wanted, free, Random(0), keep=1) is None:
             together = " Set what belongs together in one line, or let other inputs go with free."
-            raise Refused(against[0].said + together)
+            raise RefusedInput(against[0].said + together)
         self.standing, self.free, self.chosen = wanted, free, self.chosen | new.keys()
         return new
 
     def let_run(self, names: Collection[str], seed: int | None = None) -> None:
-        """Draw these inputs at random from now on.  Raises ``Refused`` for what is no input."""
+        """Draw these inputs at random from now on.  Raises ``RefusedInput`` for what is no input."""
         for name in names:
             variable(name, self.simulation.inputs, "input")
         self.free |= set(names)
@@ -86,7 +86,7 @@ class Session:
         self.free.clear()
 
     def fix(self, name: str, written: str) -> int:
-        """Choose a frozen value.  Raises ``Refused``."""
+        """Choose a frozen value.  Raises ``RefusedInput``."""
         sim = self.simulation
         known = {v.name: v for v in sim.lowered.frozen}
         raw = value(variable(name, known, "frozen variable"), written)
@@ -129,7 +129,7 @@ class Session:
         return drawn(sim.lowered, sim.state(), self.standing, others, Random(sim.at), keep=1) or self.standing
 
     def goto(self, tick: int) -> None:
-        """Look at another tick; inputs stand as in it.  Raises ``Refused``."""
+        """Look at another tick; inputs stand as in it.  Raises ``RefusedInput``."""
         self.simulation.goto(tick)
         if tick:
             self.standing = self.simulation.given()
@@ -146,7 +146,7 @@ class Session:
     # --- looking ---
 
     def condition(self, written: str) -> Expr:
-        """The formula that is meant.  Raises ``Refused``."""
+        """The formula that is meant.  Raises ``RefusedInput``."""
         return condition(written, self.names)
 
     def holds(self, formula: Expr) -> bool:
@@ -177,7 +177,7 @@ class Session:
         return "\n".join([*lines, *([f"step {quiet}"] if quiet else [])]) + "\n"
 
 
-def _assigned(sim: Simulation, values: Mapping[str, int]) -> str:
+def _assigned(sim: HandSimulation, values: Mapping[str, int]) -> str:
     """``a=1 "two words"=true``."""
     pairs = (f"{n}={sim.variables[n].domain.show(v)}" for n, v in values.items())
     return " ".join(f'"{p}"' if " " in p or "'" in p else p for p in pairs)

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from checker.explore.by_hand.admitted import broken, conjuncts
-from checker.explore.by_hand.written import Refused, outside
+from checker.explore.by_hand.written import RefusedInput, outside
 from checker.results.trace import Tick, Trace
 from checker.verify.runs.replay import ReplayError, arrow_of, ends
 from spec_model.lang.chart import Path, Transition
@@ -39,7 +39,7 @@ class _Moment:
     fired: tuple[Fired, ...]
 
 
-class Simulation:
+class HandSimulation:
     """A system, the ticks executed so far, and the tick that is looked at (0: before the first).
 
     Each tick is executed by the chart interpreter and by the lowered system, which must agree.
@@ -87,12 +87,12 @@ class Simulation:
     def step(self, inputs: Mapping[str, int]) -> None:
         """Execute a tick after the one that is looked at; ticks executed after it before are forgotten.
 
-        Raises ``Refused`` for inputs that an assumption forbids, ``ModelError`` for a value that leaves its
-        domain, and ``ReplayError`` when interpreter and lowered system disagree.
+        Raises ``RefusedInput`` for inputs that an assumption forbids, ``ModelError`` for a value that leaves
+        its domain, and ``ReplayError`` when interpreter and lowered system disagree.
         """
         before = self.state()
         if against := broken(self.lowered, before, inputs):
-            raise Refused(f"In tick {self.at + 1} these inputs are not possible: {against[0].said}")
+            raise RefusedInput(f"In tick {self.at + 1} these inputs are not possible: {against[0].said}")
         interpreter = self._interpreter()
         self._executed = -1  # until the tick is over: an interpreter that raised is of no more use
         fired = interpreter.step(inputs)
@@ -105,19 +105,19 @@ class Simulation:
         self._executed = self.at
 
     def goto(self, tick: int) -> None:
-        """Look at a tick that was executed.  Raises ``Refused`` for another."""
+        """Look at a tick that was executed.  Raises ``RefusedInput`` for another."""
         if not 0 <= tick <= len(self):
-            raise Refused(
+            raise RefusedInput(
                 f"There is no tick {tick}; the run has {len(self)}. Write goto 0 to goto {len(self)}."
             )
         self.at = tick
 
     def fix(self, name: str, raw: int) -> None:
-        """Choose a frozen value, before the first tick.  Raises ``Refused`` afterwards."""
+        """Choose a frozen value, before the first tick.  Raises ``RefusedInput`` afterwards."""
         if self.at:
-            raise Refused("Frozen values are chosen before the first tick; write goto 0 first.")
+            raise RefusedInput("Frozen values are chosen before the first tick; write goto 0 first.")
         if raw not in self.variables[name].domain:
-            raise Refused(outside(self.variables[name], str(raw)))
+            raise RefusedInput(outside(self.variables[name], str(raw)))
         self.frozen[name] = raw
         self._moments.clear()
         self._executed = -1

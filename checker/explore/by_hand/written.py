@@ -7,7 +7,7 @@ from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.expr import Var
 
 
-class Refused(Exception):
+class RefusedInput(Exception):
     """What a person asked for is not possible here; the sentence says why, and what is."""
 
 
@@ -17,21 +17,21 @@ def outside(var: Var, written: str) -> str:
 
 
 def variable(name: str, known: Mapping[str, Var], kind: str) -> Var:
-    """The variable of that name.  Raises ``Refused`` with the nearest names."""
+    """The variable of that name.  Raises ``RefusedInput`` with the nearest names."""
     if name not in known:
-        raise Refused(f"There is no {kind} {name!r}. {did_you_mean(name, known)}")
+        raise RefusedInput(f"There is no {kind} {name!r}. {did_you_mean(name, known)}")
     return known[name]
 
 
 def value(var: Var, written: str) -> int:
-    """The raw value of what a person wrote.  Raises ``Refused`` outside the domain."""
+    """The raw value of what a person wrote.  Raises ``RefusedInput`` outside the domain."""
     try:
         if isinstance(var.sort, Bool) and written.lower() not in ("true", "false", "0", "1"):
-            raise Refused(f"{var.name} = {written}: {var.name} is a boolean; write true or false.")
+            raise RefusedInput(f"{var.name} = {written}: {var.name} is a boolean; write true or false.")
         if isinstance(var.sort, Enum) and written.lstrip("-").isdigit():
             return var.domain.raw(int(written))
         return var.domain.raw(written.lower() if isinstance(var.sort, Bool) else written)
     except ModelError as error:
-        raise Refused(f"{var.name} = {written}: {error}") from None
+        raise RefusedInput(f"{var.name} = {written}: {error}") from None
     except (ValueError, ZeroDivisionError):
-        raise Refused(f"{var.name} = {written} is no number; {var.name} is {var.domain}.") from None
+        raise RefusedInput(f"{var.name} = {written} is no number; {var.name} is {var.domain}.") from None

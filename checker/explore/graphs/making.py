@@ -8,7 +8,7 @@ from checker.engines import Limits, Progress, quiet
 from checker.explore.graphs.projecting import project
 from checker.explore.graphs.search import Exploration, checks_of, explore
 from checker.explore.graphs.telling import Telling
-from checker.results.graph import StateGraph, Way
+from checker.results.graph import GraphWay, StateGraph
 from checker.results.trace import Trace
 from checker.system.slice import sliced
 from checker.verify.runs.replay import ends, followed
@@ -49,7 +49,7 @@ class Made:
             ways[node.number] = self._way(self.first[node.number])
         return replace(self.graph, ways=ways)
 
-    def _way(self, place: int) -> Way:
+    def _way(self, place: int) -> GraphWay:
         exploration, system = self.exploration, self.exploration.system
         run = exploration.run(place)
         ticks, _ = followed(system, run, self.graph.title)
@@ -65,7 +65,7 @@ class Made:
         )  # fmt: skip
         at = exploration.explored.at(place)
         shown = ((n, table[n].domain.show(raw)) for n, raw in at.items() if not table[n].hidden)
-        return Way(tuple(shown), trace.focused())
+        return GraphWay(tuple(shown), trace.focused())
 
 
 def made(

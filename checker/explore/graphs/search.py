@@ -16,14 +16,14 @@ from checker.encode.native import (
     REACH_TARGET,
     Ended,
     NativeSuccessors,
+    NativeTask,
     OutsideDomain,
-    Task,
     TooWide,
     layout,
 )
 from checker.encode.native import Words as Packed
 from checker.engines import Limits, Progress
-from checker.engines.explicit.levels import Found, initial_valuations
+from checker.engines.explicit.levels import ExplicitFound, initial_valuations
 from checker.engines.explicit.runs import Runs
 from checker.explore.graphs.explored import Explored
 from checker.explore.graphs.numbering import Numbers, numbered
@@ -56,7 +56,7 @@ def explore(
     try:
         packing = layout((*part.frozen, *part.variables))
         progress(f"compiling {len(packing.fields)} variables in {packing.bits} bits")
-        native = NativeSuccessors.compile(Task(part, packing, ()))
+        native = NativeSuccessors.compile(NativeTask(part, packing, ()))
     except (TooWide, ValueError) as problem:
         raise ModelError(f"{system.name} cannot be explored: {problem} Project on other variables.") from None
     return Exploration(system, native, limits, progress)
@@ -229,7 +229,7 @@ class Exploration:
         """Runs of the whole system, from what was found of its part."""
         parents = self.explored.parents.clip(min=0).astype(np.uint32)
         depth = len(self.levels) - 1
-        found = Found(
+        found = ExplicitFound(
             (), (), tuple(self.levels), self.words, parents, self.initial, len(self.words), 0, depth, ""
         )
         return Runs(self.system, self.task, found)

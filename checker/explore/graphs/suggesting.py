@@ -18,7 +18,7 @@ MOST = 12
 
 
 @dataclass(frozen=True)
-class Reached:
+class ReachedValues:
     """A variable, and how many of its values are reached."""
 
     var: Var
@@ -38,7 +38,7 @@ class Offer:
 class Suggestions:
     """What can be projected on; where the exploration is ``cut``, all counts are lower bounds."""
 
-    variables: tuple[Reached, ...]
+    variables: tuple[ReachedValues, ...]
     offers: tuple[Offer, ...]
     valuations: int
     cut: str
@@ -70,7 +70,7 @@ def among(explored: Explored, places: Sequence[str], most: int | None = None) ->
     own = {v.name: v for v in explored.variables}
     first = [name for name in places if name in own]
     names = [*first, *(n for n, v in own.items() if n not in first and _offered(v))]
-    reached = tuple(Reached(own[name], len(set(explored.column(name).tolist()))) for name in names)
+    reached = tuple(ReachedValues(own[name], len(set(explored.column(name).tolist()))) for name in names)
     useful = [r.var.name for r in reached if r.values > 1]
     offers = [
         _offer(explored, group) for group in _groups(explored, [p for p in first if p in useful], useful)

@@ -11,7 +11,7 @@ from checker.results.trace import Trace
 from spec_model.lang.place import Place
 
 
-class Level(StrEnum):
+class FindingLevel(StrEnum):
     """How a verdict counts: as it should be, a violation on record, not decided, or not as it should be."""
 
     PASSED = "passed"
@@ -23,7 +23,7 @@ class Level(StrEnum):
 
 
 @dataclass(frozen=True)
-class Finding:
+class CiFinding:
     """One property as it was decided.
 
     ``word`` is its verdict, ``recorded`` the one on record (empty if there is no record), ``evidence`` what
@@ -35,7 +35,7 @@ class Finding:
     text: str
     system: str
     word: str
-    level: Level
+    level: FindingLevel
     evidence: str
     recorded: str = ""
     because: str = ""
@@ -50,12 +50,12 @@ class Finding:
     @property
     def headline(self) -> str:
         """The verdict, and what is on record of it, in one sentence."""
-        if self.level is Level.REJECTED:
+        if self.level is FindingLevel.REJECTED:
             return f"The proof of {self.id} does not hold when it is checked again"
         verdict = " ".join(filter(None, (self.id, "is", self.word, self.variant)))
-        if self.level is Level.KNOWN:
+        if self.level is FindingLevel.KNOWN:
             return f"{verdict}, as on record"
-        if self.level is Level.PASSED or not self.recorded:
+        if self.level is FindingLevel.PASSED or not self.recorded:
             return verdict
         return (
             f"{verdict}; as specified it is {self.recorded}"
@@ -71,14 +71,14 @@ class Finding:
 
 
 @dataclass(frozen=True)
-class Report:
+class CiReport:
     """What was decided; ``wanted`` counts the properties asked for, more than are here if it ended early.
 
     ``ended`` says why: an error, in the words of the message; nothing where somebody interrupted it.  It may
     be one that ended nothing, as of an engine that failed where others did not.
     """
 
-    findings: tuple[Finding, ...]
+    findings: tuple[CiFinding, ...]
     wanted: int
     variant: str = ""
     ended: str = ""
@@ -102,32 +102,38 @@ class Report:
             return "faulty"
         return "stopped" if self.ended else "interrupted"
 
-    def worst_first(self) -> list[Finding]:
+    def worst_first(self) -> list[CiFinding]:
         """What failed first, then what is open, then what is known."""
-        order = [Level.REJECTED, Level.FAILED, Level.OPEN, Level.KNOWN, Level.PASSED]
+        order = [
+            FindingLevel.REJECTED,
+            FindingLevel.FAILED,
+            FindingLevel.OPEN,
+            FindingLevel.KNOWN,
+            FindingLevel.PASSED,
+        ]
         return sorted(self.findings, key=lambda f: (order.index(f.level), f.id))
 
 
-def of_trace(trace: Trace) -> Report:
+def of_trace(trace: Trace) -> CiReport:
     """The report about the one property of a trace; of a run that is on no record, a violation failed."""
     broken = outcome(trace) == "violated"
     count = len(trace)
     evidence = f"{'counterexample' if broken else 'witness'} of {count} tick{'s' * (count != 1)}"
-    one = Finding(
+    one = CiFinding(
         id=trace.property or trace.system,
         text=trace.text,
         system=trace.system,
         word="violated" if broken else "proved",
-        level=Level.FAILED if broken else Level.PASSED,
+        level=FindingLevel.FAILED if broken else FindingLevel.PASSED,
         evidence=f"{evidence} on {trace.system}",
         place=trace.place,
         trace=trace,
         details={"ticks": str(count)},
     )
-    return Report((one,), 1)
+    return CiReport((one,), 1)
 
 
-def explained(finding: Finding) -> str:
+def explained(finding: CiFinding) -> str:
     """All that a person wants to read below the headline, in lines of 80 columns."""
     told = [finding.text, f"Why: {finding.because}" if finding.because else "", finding.evidence]
     lines = [line for text in told for line in wrap(text, 80, break_long_words=False)]
@@ -137,7 +143,7 @@ def explained(finding: Finding) -> str:
     return "\n".join(lines)
 
 
-def counts(findings: Sequence[Finding]) -> str:
+def counts(findings: Sequence[CiFinding]) -> str:
     """``400 proved, 93 violated``."""
     words = [f.word.split()[0] for f in findings]
     return ", ".join(f"{words.count(w):,} {w}" for w in ("proved", "violated", "unknown") if w in words)

@@ -6,29 +6,29 @@ Workflow commands are lines that the runner finds in the log of a step.
 from collections.abc import Iterator
 from hashlib import sha256
 
-from checker.render.ci import Finding, Level, Report, counts, explained
+from checker.render.ci import CiFinding, CiReport, FindingLevel, counts, explained
 
 MOST = 10
 """Annotations of a kind that GitHub keeps of a step."""
 _KINDS = {
-    Level.REJECTED: "error",
-    Level.FAILED: "error",
-    Level.OPEN: "warning",
-    Level.KNOWN: "notice",
+    FindingLevel.REJECTED: "error",
+    FindingLevel.FAILED: "error",
+    FindingLevel.OPEN: "warning",
+    FindingLevel.KNOWN: "notice",
 }
-_SIGNS = {Level.REJECTED: "💥", Level.FAILED: "❌", Level.OPEN: "❔"}
+_SIGNS = {FindingLevel.REJECTED: "💥", FindingLevel.FAILED: "❌", FindingLevel.OPEN: "❔"}
 BUDGET = 500_000
 """Characters of the runs in a summary, of which GitHub takes 1 MiB in all."""
 
 
-def annotations(report: Report) -> str:
+def annotations(report: CiReport) -> str:
     """One annotation for each verdict that did not simply pass; what exceeds ``MOST`` of a kind is counted.
 
     What failed is explained in the log, in a group that opens on a click.
     """
     lines: list[str] = []
     for finding in report.worst_first():
-        if finding.level in (Level.REJECTED, Level.FAILED, Level.OPEN):
+        if finding.level in (FindingLevel.REJECTED, FindingLevel.FAILED, FindingLevel.OPEN):
             lines += [f"::group::{_data(finding.headline)}", *_log(explained(finding)), "::endgroup::"]
     for kind in ("error", "warning", "notice"):
         lines += _of_kind(kind, [f for f in report.worst_first() if _KINDS.get(f.level) == kind])
@@ -37,7 +37,7 @@ def annotations(report: Report) -> str:
     return "".join(f"{line}\n" for line in lines)
 
 
-def _of_kind(kind: str, findings: list[Finding]) -> Iterator[str]:
+def _of_kind(kind: str, findings: list[CiFinding]) -> Iterator[str]:
     fits = len(findings) <= MOST
     for finding in findings if fits else findings[: MOST - 1]:
         yield annotation(kind, finding)
@@ -47,7 +47,7 @@ def _of_kind(kind: str, findings: list[Finding]) -> Iterator[str]:
         yield command(kind, f"Not shown one by one: {names}", title=f"{len(rest)} more of this kind")
 
 
-def annotation(kind: str, finding: Finding) -> str:
+def annotation(kind: str, finding: CiFinding) -> str:
     """An annotation of the line at which the property is written; ``kind`` is error, warning or notice."""
     message = [finding.text, finding.evidence, f"Why: {finding.because}" if finding.because else ""]
     message += [f"Show it: {finding.shown_with}"] if finding.trace is not None else []
@@ -82,18 +82,22 @@ def _log(text: str) -> Iterator[str]:
     yield f"::{token}::"
 
 
-def summary(report: Report) -> str:
+def summary(report: CiReport) -> str:
     """The job's summary in Markdown: counts, what is not as on record, and the runs that show it."""
     lines = ["### rovercheck", "", f"{len(report.findings):,} properties: {counts(report.findings)}."]
     lines += [] if report.complete else ["", f"**{report.missing}**"]
-    told = [f for f in report.worst_first() if f.level in (Level.REJECTED, Level.FAILED, Level.OPEN)]
-    known = sum(f.level is Level.KNOWN for f in report.findings)
+    told = [
+        f
+        for f in report.worst_first()
+        if f.level in (FindingLevel.REJECTED, FindingLevel.FAILED, FindingLevel.OPEN)
+    ]
+    known = sum(f.level is FindingLevel.KNOWN for f in report.findings)
     lines += ["", f"{known:,} findings are as on record."] if known else []
     if not told:
         return "\n".join([*lines, "", "Every verdict is as on record." if report.complete else "", ""])
     lines += ["", "| | Property | Now | On record | Says |", "|---|---|---|---|---|"]
     for f in told:
-        now = "proof rejected" if f.level is Level.REJECTED else f.word
+        now = "proof rejected" if f.level is FindingLevel.REJECTED else f.word
         cells = [_SIGNS[f.level], *map(_cell, (f.id, now, f.recorded, f.text))]
         lines.append(f"| {' | '.join(cells)} |")
     left = BUDGET

@@ -8,14 +8,14 @@ from itertools import groupby
 from junitparser import Error, Failure, JUnitXml, Skipped, TestCase, TestSuite
 from junitparser.junitparser import FinalResult
 
-from checker.render.ci import Finding, Level, Report, counts, explained
+from checker.render.ci import CiFinding, CiReport, FindingLevel, counts, explained
 
 FIRST = "rovercheck"
 _CONTROL = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 """What XML cannot hold."""
 
 
-def junit(report: Report) -> str:
+def junit(report: CiReport) -> str:
     """The report as XML text.
 
     A violation that is on record has passed and says so; what is not decided is an error, or skipped where
@@ -37,7 +37,7 @@ def junit(report: Report) -> str:
     return out.getvalue().decode() + "\n"
 
 
-def _suite(system: str, findings: list[Finding], variant: str) -> TestSuite:
+def _suite(system: str, findings: list[CiFinding], variant: str) -> TestSuite:
     suite = TestSuite(_clean(system))
     suite.add_property("verdicts", counts(findings))
     engines = sorted({f.details["engine"] for f in findings if f.details.get("engine")})
@@ -48,20 +48,23 @@ def _suite(system: str, findings: list[Finding], variant: str) -> TestSuite:
     return suite
 
 
-def _case(finding: Finding) -> TestCase:
+def _case(finding: CiFinding) -> TestCase:
     case = TestCase(_clean(finding.id), classname=_clean(f"{FIRST}.{finding.system}"))
     case.result = list(_results(finding))
-    lines = [finding.headline, explained(finding) if finding.level is Level.KNOWN else finding.evidence]
+    lines = [
+        finding.headline,
+        explained(finding) if finding.level is FindingLevel.KNOWN else finding.evidence,
+    ]
     lines += [f"{name}: {value}" for name, value in finding.details.items()]
     case.system_out = _clean("\n".join(lines))
     return case
 
 
-def _results(finding: Finding) -> Iterator[FinalResult]:
+def _results(finding: CiFinding) -> Iterator[FinalResult]:
     """What makes a case no pass; nothing for one that passed."""
-    kinds = {Level.FAILED: Failure, Level.REJECTED: Error, Level.OPEN: Error}
+    kinds = {FindingLevel.FAILED: Failure, FindingLevel.REJECTED: Error, FindingLevel.OPEN: Error}
     kind = kinds.get(finding.level)
-    if kind is None and finding.level is Level.KNOWN and finding.word == "unknown":
+    if kind is None and finding.level is FindingLevel.KNOWN and finding.word == "unknown":
         kind = Skipped
     if kind is not None:
         result = kind(_clean(finding.headline), finding.level.value)
@@ -69,7 +72,7 @@ def _results(finding: Finding) -> Iterator[FinalResult]:
         yield result
 
 
-def _interrupted(report: Report) -> TestSuite:
+def _interrupted(report: CiReport) -> TestSuite:
     suite, case = TestSuite("not decided"), TestCase(report.end, classname=FIRST)
     case.result = [Error(_clean(report.missing), "incomplete")]
     suite.add_testcase(case)

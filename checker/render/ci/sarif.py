@@ -10,7 +10,7 @@ from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any
 
-from checker.render.ci import Finding, Level, Report
+from checker.render.ci import CiFinding, CiReport, FindingLevel
 from checker.render.ci.sarif_flow import code_flow, located
 
 SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
@@ -18,19 +18,26 @@ RESULTS = 5_000
 """Results that GitHub shows of a file."""
 TAGS = 20
 """Tags that GitHub takes of a rule."""
-_LEVELS = {Level.REJECTED: "error", Level.FAILED: "error", Level.OPEN: "none", Level.KNOWN: "note"}
+_LEVELS = {
+    FindingLevel.REJECTED: "error",
+    FindingLevel.FAILED: "error",
+    FindingLevel.OPEN: "none",
+    FindingLevel.KNOWN: "note",
+}
 
 
-def sarif(report: Report, witnesses: bool = False) -> str:
+def sarif(report: CiReport, witnesses: bool = False) -> str:
     """The report as JSON text; with ``witnesses`` also runs that show what is wanted."""
     return json.dumps(document(report, witnesses), indent=1, ensure_ascii=False) + "\n"
 
 
-def document(report: Report, witnesses: bool = False) -> dict[str, Any]:
+def document(report: CiReport, witnesses: bool = False) -> dict[str, Any]:
     """The report as plain lists and dictionaries."""
     rules = sorted(report.findings, key=lambda f: f.id)
     told = [
-        f for f in report.worst_first() if f.level is not Level.PASSED or (witnesses and f.trace is not None)
+        f
+        for f in report.worst_first()
+        if f.level is not FindingLevel.PASSED or (witnesses and f.trace is not None)
     ]
     indices = {f.id: number for number, f in enumerate(rules)}
     run = {
@@ -51,10 +58,12 @@ def _version() -> str:
         return "0"
 
 
-def _invocation(report: Report, left_out: Sequence[Finding]) -> dict[str, Any]:
+def _invocation(report: CiReport, left_out: Sequence[CiFinding]) -> dict[str, Any]:
     told = [] if report.complete else [("error", report.missing)]
     told += [
-        ("warning", f"{f.id} is unknown: {f.evidence}") for f in report.findings if f.level is Level.OPEN
+        ("warning", f"{f.id} is unknown: {f.evidence}")
+        for f in report.findings
+        if f.level is FindingLevel.OPEN
     ]
     if left_out:
         all_ = RESULTS + len(left_out)
@@ -66,7 +75,7 @@ def _invocation(report: Report, left_out: Sequence[Finding]) -> dict[str, Any]:
     }
 
 
-def _rule(finding: Finding) -> dict[str, Any]:
+def _rule(finding: CiFinding) -> dict[str, Any]:
     text = finding.text or finding.id
     help_text = finding.help or text
     tags = list(finding.tags[:TAGS])
@@ -80,9 +89,9 @@ def _rule(finding: Finding) -> dict[str, Any]:
     }
 
 
-def _result(finding: Finding, index: int) -> dict[str, Any]:
-    open_ = finding.level is Level.OPEN or finding.word == "unknown"
-    kind = "open" if open_ else "informational" if finding.level is Level.PASSED else "fail"
+def _result(finding: CiFinding, index: int) -> dict[str, Any]:
+    open_ = finding.level is FindingLevel.OPEN or finding.word == "unknown"
+    kind = "open" if open_ else "informational" if finding.level is FindingLevel.PASSED else "fail"
     reason = f" {finding.because}" if finding.because else ""
     text = f"{finding.headline}: {finding.text} {finding.evidence[:1].upper()}{finding.evidence[1:]}.{reason}"
     key = fingerprint(finding)
@@ -104,13 +113,13 @@ def _result(finding: Finding, index: int) -> dict[str, Any]:
     }
 
 
-def fingerprint(finding: Finding) -> str:
+def fingerprint(finding: CiFinding) -> str:
     """What makes two results the same one: the property and its verdict, wherever it is written."""
     return sha256(f"{finding.id}\0{finding.word}".encode()).hexdigest()
 
 
-def _compared(finding: Finding) -> str:
+def _compared(finding: CiFinding) -> str:
     """How the result stands to the verdict on record."""
-    if finding.level is Level.KNOWN:
+    if finding.level is FindingLevel.KNOWN:
         return "unchanged"
     return "new" if finding.recorded.startswith("proved") else "updated"

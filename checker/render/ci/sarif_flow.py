@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from checker.render.ci import Finding
-from checker.render.story import Change, Event, Quiet, Repeats, ending, false_parts, rows, start_of
+from checker.render.ci import CiFinding
+from checker.render.story import Quiet, Repeats, StoryChange, StoryEvent, ending, false_parts, rows, start_of
 from checker.results.trace import Trace
 from spec_model.lang.place import Place
 
@@ -32,7 +32,7 @@ def _physical(place: Place) -> Location:
     return {"artifactLocation": artifact, "region": {"startLine": place.line}}
 
 
-def code_flow(finding: Finding) -> tuple[list[Location], str]:
+def code_flow(finding: CiFinding) -> tuple[list[Location], str]:
     """The run as the list of its one code flow, and a sentence where steps had to be left out."""
     assert finding.trace is not None
     trace = finding.trace.focused() if finding.trace.relevant else finding.trace
@@ -48,11 +48,11 @@ def code_flow(finding: Finding) -> tuple[list[Location], str]:
     return [{"message": {"text": finding.text or finding.id}, "threadFlows": [{"locations": steps}]}], cut
 
 
-def _steps(trace: Trace, finding: Finding) -> Iterator[Location]:
+def _steps(trace: Trace, finding: CiFinding) -> Iterator[Location]:
     now = 1
     for row in rows(trace):
         match row:
-            case Event():
+            case StoryEvent():
                 now = row.number
                 yield from _event(row, finding)
             case Quiet(first, _, _, counters):
@@ -72,7 +72,7 @@ def _steps(trace: Trace, finding: Finding) -> Iterator[Location]:
         yield _step(finding.place, finding.id, text, len(trace), {}, "essential")
 
 
-def _event(event: Event, finding: Finding) -> Iterator[Location]:
+def _event(event: StoryEvent, finding: CiFinding) -> Iterator[Location]:
     """First what was given and computed, then each arrow."""
     when, state = f"tick {event.number}, {event.ms} ms", _values(event.changes)
     given = ", ".join(f"{c} (needed)" if c.needed else str(c) for c in event.changes)
@@ -103,5 +103,5 @@ def _step(
     }
 
 
-def _values(changes: tuple[Change, ...]) -> dict[str, dict[str, str]]:
+def _values(changes: tuple[StoryChange, ...]) -> dict[str, dict[str, str]]:
     return {c.name: {"text": c.new} for c in changes}

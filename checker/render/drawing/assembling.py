@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from checker.render.drawing.cuts import DOT, Cut, padded
-from checker.render.drawing.graph import Edge, Node, Placed
-from checker.render.drawing.picture import Box, Picture, Piece, Spot
+from checker.render.drawing.graph import DrawnNode, Edge, PlacedNode
+from checker.render.drawing.picture import Box, DrawnPicture, PicturePiece, Spot
 from checker.render.drawing.placing import PITCH
 from spec_model.lang.chart import Path
 
@@ -13,39 +13,39 @@ RADIUS = 7
 SMALL = 5
 
 
-def node(name: str, found: Sequence[Cut], inner: Mapping[str, Picture], upright: bool) -> Node:
+def node(name: str, found: Sequence[Cut], inner: Mapping[str, DrawnPicture], upright: bool) -> DrawnNode:
     if name == DOT:
-        return Node(name, 2 * SMALL, 2 * SMALL, round=True)
+        return DrawnNode(name, 2 * SMALL, 2 * SMALL, round=True)
     if name not in inner:
         ends = [sum(c.source == name for c in found), sum(c.target == name for c in found)]
         size = (2 * RADIUS, 2 * RADIUS + PITCH * max(0, *(n - 1 for n in ends)))
         wide, high = size[::-1] if upright else size
-        return Node(name, wide, high, round=True)
+        return DrawnNode(name, wide, high, round=True)
     child = inner[name]
     turns = {c.turn: child.ports[c.name] for c in found if c.name in child.ports}
-    return Node(name, child.width, child.height, {**child.ports, **turns}, lead=child.boxes[0].y)
+    return DrawnNode(name, child.width, child.height, {**child.ports, **turns}, lead=child.boxes[0].y)
 
 
-def turn(cut: Cut, names: Sequence[str]) -> Node:
+def turn(cut: Cut, names: Sequence[str]) -> DrawnNode:
     """The bend of a folded arrow: its label, then two lines, the upper from or to the upper state."""
     wide, high = padded(cut.lines)
     first, second = high + 3, high + 3 + PITCH
     if names.index(cut.source) > names.index(cut.target):
         first, second = second, first
-    return Node(cut.turn, max(wide, 12), high + PITCH + 6, {cut.name: first, cut.turn: second})
+    return DrawnNode(cut.turn, max(wide, 12), high + PITCH + 6, {cut.name: first, cut.turn: second})
 
 
 def assembled(
     level: Path,
     found: Sequence[Cut],
-    inner: Mapping[str, Picture],
+    inner: Mapping[str, DrawnPicture],
     drawn: Mapping[str, Sequence[Edge]],
-    placed: Placed,
+    placed: PlacedNode,
     upright: bool,
-) -> Picture:
+) -> DrawnPicture:
     boxes: list[Box] = []
     spots: list[Spot] = []
-    pieces: list[Piece] = []
+    pieces: list[PicturePiece] = []
     for name, (x, y) in placed.nodes.items():
         if name in inner:
             child = _grown(inner[name], placed.heights[name], upright).moved(x, y)
@@ -60,10 +60,12 @@ def assembled(
         if not cut.loop:
             pieces.append(_piece(cut, drawn[cut.name], placed, upright))
     ports = {c.name: placed.nodes[c.port][not upright] for c in found if c.crosses}
-    return Picture(placed.width, placed.height, tuple(boxes), tuple(spots), tuple(pieces), ports, upright)
+    return DrawnPicture(
+        placed.width, placed.height, tuple(boxes), tuple(spots), tuple(pieces), ports, upright
+    )
 
 
-def _grown(child: Picture, extent: int, upright: bool) -> Picture:
+def _grown(child: DrawnPicture, extent: int, upright: bool) -> DrawnPicture:
     """The child with its frame made higher, or wider if upright, as the layout wanted it."""
     frame = child.boxes[0]
     if upright:
@@ -72,7 +74,7 @@ def _grown(child: Picture, extent: int, upright: bool) -> Picture:
     return replace(child, height=extent, boxes=(frame, *child.boxes[1:]))
 
 
-def _piece(cut: Cut, drawn: Sequence[Edge], placed: Placed, upright: bool) -> Piece:
+def _piece(cut: Cut, drawn: Sequence[Edge], placed: PlacedNode, upright: bool) -> PicturePiece:
     if len(drawn) > 1:
         return _bent(cut, placed)
     points = placed.routes[cut.name]
@@ -80,12 +82,12 @@ def _piece(cut: Cut, drawn: Sequence[Edge], placed: Placed, upright: bool) -> Pi
         points = points[::-1]
     x, y = placed.labels.get(cut.name, (0, 0))
     label = (x + 6, y + 2) if upright else (x + 5, y)
-    return Piece(cut.arrow, points, cut.starts, cut.ends, cut.lines, label)
+    return PicturePiece(cut.arrow, points, cut.starts, cut.ends, cut.lines, label)
 
 
-def _bent(cut: Cut, placed: Placed) -> Piece:
+def _bent(cut: Cut, placed: PlacedNode) -> PicturePiece:
     there, back = placed.routes[cut.name], placed.routes[cut.turn][::-1]
     x, y = placed.nodes[cut.turn]
     end = x + max(padded(cut.lines)[0], 12)
     points = (*there, (end, there[-1][1]), (end, back[0][1]), *back)
-    return Piece(cut.arrow, points, cut.starts, cut.ends, cut.lines, (x + 5, y))
+    return PicturePiece(cut.arrow, points, cut.starts, cut.ends, cut.lines, (x + 5, y))

@@ -8,7 +8,7 @@ from spec_model.lang.chart import Block, Chart
 
 
 @dataclass(frozen=True)
-class Change:
+class DrawnChange:
     """One place with what stood there before and what stands there after; empty for nothing."""
 
     place: str
@@ -16,11 +16,11 @@ class Change:
     after: tuple[str, ...]
 
 
-def changes(before: Chart | Block, after: Chart | Block) -> tuple[Change, ...]:
+def changes(before: Chart | Block, after: Chart | Block) -> tuple[DrawnChange, ...]:
     """Every place that differs, in drawing order, new places last."""
     old, new = dict(_lines(before)), dict(_lines(after))
     places = dict.fromkeys((*old, *new))
-    found = (Change(place, old.get(place, ()), new.get(place, ())) for place in places)
+    found = (DrawnChange(place, old.get(place, ()), new.get(place, ())) for place in places)
     return tuple(change for change in found if change.before != change.after)
 
 

@@ -97,7 +97,7 @@ def _member(path: Path, level: Path) -> str:
 
 
 @dataclass(frozen=True)
-class Way:
+class CutWay:
     """How a level is drawn: arrows that run from right to left, and arrows that leave their source to
     the right and bend back to the right side of their target (``folded``).
 
@@ -110,7 +110,7 @@ class Way:
     upright: bool = False
 
 
-def edges(cut: Cut, way: Way, sides: Sides) -> list[Edge]:
+def edges(cut: Cut, way: CutWay, sides: Sides) -> list[Edge]:
     """The cut as an edge from left to right; for a folded one also the edge that leads back."""
     source, target = cut.source or cut.port, cut.target or cut.port
     label, weight = padded(cut.lines, way.upright), 4 if cut.arrow.default else 1
@@ -131,7 +131,7 @@ def padded(lines: tuple[str, ...], upright: bool = False) -> tuple[int, int]:
     return (wide + around[0], high + around[1]) if lines else (0, 0)
 
 
-def meetings(found: Sequence[Cut], member: str, way: Way) -> dict[str, bool]:
+def meetings(found: Sequence[Cut], member: str, way: CutWay) -> dict[str, bool]:
     """The arrows that meet a member from outside, and whether they meet it on its right side."""
     return {
         c.name: c.name in way.folded or (c.source == member) != (c.name in way.back)

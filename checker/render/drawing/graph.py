@@ -8,7 +8,7 @@ Point = tuple[int, int]
 
 
 @dataclass(frozen=True)
-class Node:
+class DrawnNode:
     """A box of a given size.
 
     ``ports`` are distances from its top at which named edges must meet it; other edges meet it
@@ -36,7 +36,7 @@ class Edge:
 
 
 @dataclass(frozen=True)
-class Placed:
+class PlacedNode:
     """Top-left corners of nodes and labels, a polyline per edge (tail to head), and the whole size."""
 
     nodes: Mapping[str, Point]
@@ -55,7 +55,7 @@ class Item:
     width: int
     above: int
     below: int
-    node: Node | None = None
+    node: DrawnNode | None = None
     edge: Edge | None = None
     labelled: bool = False
 

@@ -8,7 +8,7 @@ import itertools
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
-from checker.render.drawing.graph import Chain, Edge, Item, Node, Placed, Point
+from checker.render.drawing.graph import Chain, DrawnNode, Edge, Item, PlacedNode, Point
 from checker.render.drawing.ordering import untangled
 from checker.render.drawing.placing import LEFT, RIGHT, Port, heights, room
 from checker.render.drawing.ranking import chains, ranks
@@ -16,12 +16,12 @@ from checker.render.drawing.routing import MARGIN, TRACK, Jog, channel, tracks
 
 
 def layered(
-    nodes: Sequence[Node],
+    nodes: Sequence[DrawnNode],
     edges: Sequence[Edge],
     first: Collection[str] = (),
     last: Collection[str] = (),
     upright: bool = False,
-) -> Placed:
+) -> PlacedNode:
     """Place the nodes and route the edges.
 
     The edges must be free of cycles; see ``ranking.backward``.  Nodes in ``first`` and ``last`` get
@@ -39,7 +39,7 @@ def layered(
     return _placed(nodes, layers, links, y, met, used, columns)
 
 
-def _roomy(node: Node, edges: Sequence[Edge], straight: bool) -> Node:
+def _roomy(node: DrawnNode, edges: Sequence[Edge], straight: bool) -> DrawnNode:
     """The node, made high enough for the lines that meet it."""
     leaving = [straight * e.label[1] for e in edges if e.tail == node.name and e.name not in node.ports]
     coming = [straight * e.label[1] for e in edges if e.head == node.name and e.name not in node.ports]
@@ -76,14 +76,14 @@ def _columns(layers: Sequence[Sequence[Item]], used: Sequence[dict[str, int]]) -
 
 
 def _placed(
-    nodes: Sequence[Node],
+    nodes: Sequence[DrawnNode],
     layers: Sequence[Sequence[Item]],
     links: Mapping[str, Chain],
     y: Mapping[Item, int],
     met: Mapping[Port, int],
     used: Sequence[dict[str, int]],
     columns: Sequence[tuple[int, int]],
-) -> Placed:
+) -> PlacedNode:
     top = min((y[i] - i.above for layer in layers for i in layer), default=0)
     corner = {i: (_left(i, columns), y[i] - i.above - top) for layer in layers for i in layer}
     boxes = {i.node.name: corner[i] for layer in layers for i in layer if i.node}
@@ -94,7 +94,7 @@ def _placed(
     }
     right = max((x + w for x, w in columns), default=0)
     bottom = max((y[i] + i.below for layer in layers for i in layer), default=0) - top
-    return Placed(boxes, {n.name: n.height for n in nodes}, labels, routes, right, bottom)
+    return PlacedNode(boxes, {n.name: n.height for n in nodes}, labels, routes, right, bottom)
 
 
 def _left(item: Item, columns: Sequence[tuple[int, int]]) -> int:

@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-from checker.render.drawing.cuts import Cut, Way, cuts
-from checker.render.drawing.picture import Picture
+from checker.render.drawing.cuts import Cut, CutWay, cuts
+from checker.render.drawing.picture import DrawnPicture
 from checker.render.drawing.ranking import backward
 from checker.render.drawing.scheme import ChartArrow
 from spec_model.lang.chart import Chart, Path
@@ -29,23 +29,23 @@ class Sheet:
     chart: Chart
     arrows: tuple[ChartArrow, ...]
     manner: Manner
-    drawn: dict[tuple[object, ...], Picture] = field(default_factory=dict)
+    drawn: dict[tuple[object, ...], DrawnPicture] = field(default_factory=dict)
 
 
-def ways(sheet: Sheet, level: Path, names: Sequence[str], found: Sequence[Cut]) -> Iterable[Way]:
+def ways(sheet: Sheet, level: Path, names: Sequence[str], found: Sequence[Cut]) -> Iterable[CutWay]:
     """The ways of drawing a level that are worth trying."""
     states = sheet.chart.states
     inside = [c for c in found if not c.crosses and not c.loop]
     big = {s.name for s in states[level].states if s.states}
     between = frozenset(c.name for c in inside if {c.source, c.target} <= big)
-    different: dict[Way, None] = {}
+    different: dict[CutWay, None] = {}
     for folded in dict.fromkeys([frozenset[str](), between]):
         straight = [(c.name, c.source, c.target) for c in inside if c.name not in folded]
         for breadth in (False, True):
             back = backward(names, straight, breadth)
-            different[Way(back, folded)] = None
+            different[CutWay(back, folded)] = None
             if not folded and _turns(sheet, level):
-                different[Way(back, upright=True)] = None
+                different[CutWay(back, upright=True)] = None
     return different
 
 

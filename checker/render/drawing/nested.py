@@ -12,12 +12,12 @@ from dataclasses import replace
 from functools import lru_cache
 
 from checker.render.drawing.assembling import assembled, node, turn
-from checker.render.drawing.cuts import DOT, Cut, Sides, Way, cuts, edges, meetings, padded
-from checker.render.drawing.graph import Node
+from checker.render.drawing.cuts import DOT, Cut, CutWay, Sides, cuts, edges, meetings, padded
+from checker.render.drawing.graph import DrawnNode
 from checker.render.drawing.layered import layered
 from checker.render.drawing.manner import MANNERS, Sheet, ways
-from checker.render.drawing.packing import Span, cost, extent, packed
-from checker.render.drawing.picture import Box, Picture, Piece
+from checker.render.drawing.packing import PackedSpan, cost, extent, packed
+from checker.render.drawing.picture import Box, DrawnPicture, PicturePiece
 from checker.render.drawing.placing import EDGE, PITCH
 from checker.render.drawing.scheme import action_lines, arrows, execution_order
 from checker.render.drawing.text import LINE, block, width, wrap
@@ -41,13 +41,13 @@ SHORTER = 1.05
 
 
 @lru_cache(maxsize=64)
-def picture(chart: Chart) -> Picture:
+def picture(chart: Chart) -> DrawnPicture:
     """The chart with coordinates, in the first manner that fits a page or else the best.
 
     Raises ``ModelError`` for an arrow to an unknown name or between parallel regions.
     """
-    every, page = arrows(chart), Span(0, PAGE)
-    tried: list[tuple[float, float, Picture]] = []
+    every, page = arrows(chart), PackedSpan(0, PAGE)
+    tried: list[tuple[float, float, DrawnPicture]] = []
     for number, manner in enumerate(MANNERS):
         found = _level(Sheet(chart, every, manner), (), {}, page, None)
         if found.width <= PAGE and found.height <= TALL:
@@ -56,7 +56,7 @@ def picture(chart: Chart) -> Picture:
     return min(tried, key=lambda option: option[:2])[2]
 
 
-def _level(sheet: Sheet, level: Path, sides: Sides, span: Span, upright: bool | None) -> Picture:
+def _level(sheet: Sheet, level: Path, sides: Sides, span: PackedSpan, upright: bool | None) -> DrawnPicture:
     """What is inside a composite; arrows that cross its border end at the picture's left or right.
 
     Where there are such arrows it is drawn as what is around it, ``upright`` or not.
@@ -67,7 +67,7 @@ def _level(sheet: Sheet, level: Path, sides: Sides, span: Span, upright: bool | 
     return sheet.drawn[key]
 
 
-def _best(sheet: Sheet, level: Path, sides: Sides, span: Span, upright: bool | None) -> Picture:
+def _best(sheet: Sheet, level: Path, sides: Sides, span: PackedSpan, upright: bool | None) -> DrawnPicture:
     """The best drawing of a level: from left to right, or where that is too wide from top to bottom."""
     found = list(cuts(sheet.arrows, level, sheet.manner.label))
     if sheet.chart.states[level].parallel:
@@ -76,7 +76,7 @@ def _best(sheet: Sheet, level: Path, sides: Sides, span: Span, upright: bool | N
     names = [DOT] * bool(state.default) + [s.name for s in state.states] + [j.name for j in state.junctions]
     able = list(ways(sheet, level, names, found))
     turns = [bool(upright)] if any(c.crosses for c in found) else [False, True]
-    options: list[Picture] = []
+    options: list[DrawnPicture] = []
     for turned in turns:
         of_kind = [way for way in able if way.upright == turned]
         options += [_laid(sheet, level, names, found, sides, way, span.most) for way in of_kind]
@@ -91,9 +91,9 @@ def _laid(
     names: Sequence[str],
     found: Sequence[Cut],
     sides: Sides,
-    way: Way,
+    way: CutWay,
     most: int,
-) -> Picture:
+) -> DrawnPicture:
     """A level of exclusive states, drawn in the way given."""
     inner = {
         s.name: _child(sheet, (*level, s.name), found, way, most) for s in sheet.chart.states[level].states
@@ -102,7 +102,7 @@ def _laid(
     lines = [c for c in found if not c.loop]
     drawn = {c.name: edges(c, way, sides) for c in lines}
     ports = [c for c in lines if c.crosses]
-    nodes += [Node(c.port, 0, 0, {c.name: 0}) for c in ports]
+    nodes += [DrawnNode(c.port, 0, 0, {c.name: 0}) for c in ports]
     nodes += [turn(c, names) for c in lines if c.name in way.folded]
     left = [c.port for c in ports if drawn[c.name][0].tail == c.port]
     right = [c.port for c in ports if drawn[c.name][0].head == c.port]
@@ -111,16 +111,18 @@ def _laid(
     return assembled(level, found, inner, drawn, placed, way.upright)
 
 
-def _child(sheet: Sheet, path: Path, found: Sequence[Cut], way: Way, most: int) -> Picture:
+def _child(sheet: Sheet, path: Path, found: Sequence[Cut], way: CutWay, most: int) -> DrawnPicture:
     """A state's box with everything in it and its self loops above it."""
     sides = meetings(found, path[-1], way)
     loops = [c for c in found if c.loop and c.source == path[-1]]
     least = max((padded(c.lines)[0] + 50 for c in loops), default=0)
-    box = _box(sheet, path, sides, Span(least, most), way.upright)
+    box = _box(sheet, path, sides, PackedSpan(least, most), way.upright)
     return _looped(box, loops) if loops else box
 
 
-def _box(sheet: Sheet, path: Path, sides: Sides, span: Span, upright: bool | None = None) -> Picture:
+def _box(
+    sheet: Sheet, path: Path, sides: Sides, span: PackedSpan, upright: bool | None = None
+) -> DrawnPicture:
     """A state's box, its frame first, with ports for the arrows that go on inside."""
     state = sheet.chart.states[path]
     lines = tuple(x for line in action_lines(state) for x in wrap(line, sheet.manner.action, "    "))
@@ -129,8 +131,8 @@ def _box(sheet: Sheet, path: Path, sides: Sides, span: Span, upright: bool | Non
     if not state.states:
         high = max(head + 6, 36)
         frame = Box(path, 0, 0, wide + 2 * PAD, high, lines, execution_order(sheet.chart, path), False)
-        return Picture(frame.width, high, (frame,))
-    content = _level(sheet, path, sides, Span(wide, span.most - 2 * PAD), upright)
+        return DrawnPicture(frame.width, high, (frame,))
+    content = _level(sheet, path, sides, PackedSpan(wide, span.most - 2 * PAD), upright)
     free = [side for name, side in sides.items() if name not in content.ports]
     meet = EDGE + PITCH * max(free.count(True), free.count(False))
     left = _inset(content, sides, wide, meet) if content.upright else PAD
@@ -145,7 +147,7 @@ def _box(sheet: Sheet, path: Path, sides: Sides, span: Span, upright: bool | Non
     return replace(content, width=full, height=high, boxes=(frame, *content.boxes))
 
 
-def _inset(content: Picture, sides: Sides, wide: int, meet: int) -> int:
+def _inset(content: DrawnPicture, sides: Sides, wide: int, meet: int) -> int:
     """How far from the left content that is drawn from top to bottom lies.
 
     Arrows from above pass the heading on its right; those that end at the border meet it before others.
@@ -154,21 +156,21 @@ def _inset(content: Picture, sides: Sides, wide: int, meet: int) -> int:
     return max([PAD, *above, *(meet - at for at in content.ports.values())])
 
 
-def _looped(box: Picture, loops: Sequence[Cut]) -> Picture:
+def _looped(box: DrawnPicture, loops: Sequence[Cut]) -> DrawnPicture:
     """The box with arrows from it to itself over its top."""
-    pieces: list[Piece] = []
+    pieces: list[PicturePiece] = []
     height = 0
     for inset, cut in enumerate(loops):
         wide, high = padded(cut.lines)
         height += high + 14
         left, right = 16 + 9 * inset, max(box.width - 16 - 9 * inset, 40)
         points = ((right, 0), (right, -height + high), (left, -height + high), (left, 0))
-        pieces.append(Piece(cut.arrow, points, lines=cut.lines, label=(right - wide - 6, -height)))
+        pieces.append(PicturePiece(cut.arrow, points, lines=cut.lines, label=(right - wide - 6, -height)))
     whole = replace(box, pieces=(*box.pieces, *pieces), height=box.height + height)
     return whole.moved(0, height)
 
 
-def _regions(sheet: Sheet, level: Path, found: Sequence[Cut], sides: Sides, span: Span) -> Picture:
+def _regions(sheet: Sheet, level: Path, found: Sequence[Cut], sides: Sides, span: PackedSpan) -> DrawnPicture:
     """Parallel regions in rows; in one column where an arrow crosses their borders."""
     for cut in found:
         if not cut.crosses:
@@ -180,26 +182,26 @@ def _regions(sheet: Sheet, level: Path, found: Sequence[Cut], sides: Sides, span
     whole = _packed(sheet, level, found, crossing, span, span)
     if whole.height <= TALL:
         return whole
-    half = Span(span.least, (span.most - PAD) // 2)
+    half = PackedSpan(span.least, (span.most - PAD) // 2)
     options = [whole, _packed(sheet, level, found, crossing, span, half)]
     return min(options, key=lambda p: (span.excess(p.width), cost((p.width, p.height))))
 
 
 def _packed(
-    sheet: Sheet, level: Path, found: Sequence[Cut], crossing: Sides, span: Span, each: Span
-) -> Picture:
+    sheet: Sheet, level: Path, found: Sequence[Cut], crossing: Sides, span: PackedSpan, each: PackedSpan
+) -> DrawnPicture:
     """Parallel regions, ``each`` as wide as given."""
     regions = []
     for state in sheet.chart.states[level].states:
         own = {c.name: crossing[c.name] for c in found if state.name in (c.source, c.target)}
-        regions.append(_box(sheet, (*level, state.name), own, Span(0, each.most)))
+        regions.append(_box(sheet, (*level, state.name), own, PackedSpan(0, each.most)))
     cells = packed([(r.width, r.height) for r in regions], PAD, span, one_column=bool(found))
     grown = [
         _sized(region, size).moved(*corner) for region, (corner, size) in zip(regions, cells, strict=True)
     ]
     wide, high = extent(cells)
     ports = {name: y for r in grown for name, y in r.ports.items()}
-    return Picture(
+    return DrawnPicture(
         wide,
         high,
         tuple(b for r in grown for b in r.boxes),
@@ -209,7 +211,7 @@ def _packed(
     )
 
 
-def _sized(region: Picture, size: tuple[int, int]) -> Picture:
+def _sized(region: DrawnPicture, size: tuple[int, int]) -> DrawnPicture:
     wider = region.bordered((0, region.width), (0, size[0]))
     frame = replace(region.boxes[0], width=size[0], height=size[1])
     return replace(wider, width=size[0], height=size[1], boxes=(frame, *region.boxes[1:]))

@@ -18,7 +18,7 @@ Lines = list[range]
 
 
 @dataclass(frozen=True)
-class Span:
+class PackedSpan:
     """How wide something has to be at least, and should be at most, in pixels."""
 
     least: int
@@ -29,7 +29,7 @@ class Span:
         return max(0, wide - self.most)
 
 
-def packed(sizes: Sequence[Size], gap: int, span: Span, one_column: bool = False) -> Cells:
+def packed(sizes: Sequence[Size], gap: int, span: PackedSpan, one_column: bool = False) -> Cells:
     """A corner and a new size for each box; boxes grow to leave no holes, as wide as ``span`` wants."""
     if one_column:
         return rows(sizes, [range(i, i + 1) for i in range(len(sizes))], gap, span.least)

@@ -34,7 +34,7 @@ class Spot:
 
 
 @dataclass(frozen=True)
-class Piece:
+class PicturePiece:
     """A piece of an arrow between two borders; the label (top left corner) is on the first piece."""
 
     arrow: ChartArrow
@@ -46,7 +46,7 @@ class Piece:
 
 
 @dataclass(frozen=True)
-class Picture:
+class DrawnPicture:
     """Everything to be drawn, from the top left corner.
 
     ``ports`` are the heights at which arrows, known by name, cross the left or right border; in a
@@ -57,11 +57,11 @@ class Picture:
     height: int
     boxes: tuple[Box, ...] = ()
     spots: tuple[Spot, ...] = ()
-    pieces: tuple[Piece, ...] = ()
+    pieces: tuple[PicturePiece, ...] = ()
     ports: Mapping[str, int] = field(default_factory=dict)
     upright: bool = False
 
-    def moved(self, dx: int, dy: int) -> "Picture":
+    def moved(self, dx: int, dy: int) -> "DrawnPicture":
         """The same, shifted; its size stays, its ports shift with it."""
         return replace(
             self,
@@ -71,7 +71,7 @@ class Picture:
             ports={name: at + (dx if self.upright else dy) for name, at in self.ports.items()},
         )
 
-    def bordered(self, old: tuple[int, int], new: tuple[int, int]) -> "Picture":
+    def bordered(self, old: tuple[int, int], new: tuple[int, int]) -> "DrawnPicture":
         """The same, with arrows that cross the border led on from the old left and right x to the new.
 
         In an upright picture from the old upper and lower y.
@@ -83,12 +83,12 @@ class Picture:
         return replace(self, pieces=pieces)
 
 
-def _moved(piece: Piece, dx: int, dy: int) -> Piece:
+def _moved(piece: PicturePiece, dx: int, dy: int) -> PicturePiece:
     points = tuple((x + dx, y + dy) for x, y in piece.points)
     return replace(piece, points=points, label=(piece.label[0] + dx, piece.label[1] + dy))
 
 
-def _led(piece: Piece, change: Mapping[int, int], upright: bool) -> Piece:
+def _led(piece: PicturePiece, change: Mapping[int, int], upright: bool) -> PicturePiece:
     first, *middle, last = piece.points
     ends = [(x, change.get(y, y)) if upright else (change.get(x, x), y) for x, y in (first, last)]
     return replace(piece, points=(ends[0], *middle, ends[1]))

@@ -3,7 +3,7 @@
 import itertools
 from collections.abc import Mapping, Sequence
 
-from checker.render.drawing.graph import Chain, Item, Node
+from checker.render.drawing.graph import Chain, DrawnNode, Item
 from checker.render.drawing.solve import Bound, least_stretch
 
 PITCH = 18
@@ -81,7 +81,7 @@ def _aim(item: Item, edge: str, index: Mapping[Item, int]) -> float:
     return index[item] + (node.ports[edge] / (node.height + 1) if node and edge in node.ports else 0.5)
 
 
-def _side(places: _Places, item: Item, node: Node, side: int, names: Sequence[str]) -> None:
+def _side(places: _Places, item: Item, node: DrawnNode, side: int, names: Sequence[str]) -> None:
     """Lines with a port of their own meet the node there; the others above those, in order."""
     top = places.of[item]
     fixed = [n for n in names if n in node.ports]

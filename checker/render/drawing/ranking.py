@@ -2,7 +2,7 @@
 
 from collections.abc import Collection, Mapping, Sequence
 
-from checker.render.drawing.graph import Chain, Edge, Item, Node
+from checker.render.drawing.graph import Chain, DrawnNode, Edge, Item
 from checker.render.drawing.solve import Bound, least_stretch
 
 
@@ -51,7 +51,7 @@ def _depth(start: str, leaving: Mapping[str, list[str]], place: dict[str, int]) 
 
 
 def ranks(
-    nodes: Sequence[Node], edges: Sequence[Edge], first: Collection[str], last: Collection[str]
+    nodes: Sequence[DrawnNode], edges: Sequence[Edge], first: Collection[str], last: Collection[str]
 ) -> dict[str, int]:
     """The rank of each node from 0; labels get a rank of their own between two nodes."""
     number = {node.name: i for i, node in enumerate(nodes)}
@@ -76,7 +76,7 @@ def _packed(values: list[int]) -> list[int]:
 
 
 def chains(
-    nodes: Sequence[Node], edges: Sequence[Edge], rank: Mapping[str, int], under: bool = False
+    nodes: Sequence[DrawnNode], edges: Sequence[Edge], rank: Mapping[str, int], under: bool = False
 ) -> tuple[list[list[Item]], dict[str, Chain]]:
     """The items of each rank in a first order, and the chain of each edge by name.
 

@@ -6,13 +6,13 @@ Mirrored is what has x and y exchanged: a box of 200 by 40 pixels takes part as 
 from collections.abc import Sequence
 from dataclasses import replace
 
-from checker.render.drawing.graph import Edge, Node, Placed, Point
+from checker.render.drawing.graph import DrawnNode, Edge, PlacedNode, Point
 from checker.render.drawing.layered import layered
 
 
 def from_top(
-    nodes: Sequence[Node], edges: Sequence[Edge], first: Sequence[str], last: Sequence[str]
-) -> Placed:
+    nodes: Sequence[DrawnNode], edges: Sequence[Edge], first: Sequence[str], last: Sequence[str]
+) -> PlacedNode:
     """Like ``layered``, from top to bottom: ports are distances from the left of a node.
 
     Labels lie to the right of their lines, and ``heights`` holds the widths that nodes were given.
@@ -20,7 +20,7 @@ def from_top(
     mirrored = [replace(node, width=node.height, height=node.width) for node in nodes]
     turned = [replace(edge, label=_swapped(edge.label)) for edge in edges]
     placed = layered(mirrored, turned, first, last, upright=True)
-    return Placed(
+    return PlacedNode(
         {name: _swapped(at) for name, at in placed.nodes.items()},
         placed.heights,
         {name: _swapped(at) for name, at in placed.labels.items()},

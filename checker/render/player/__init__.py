@@ -10,9 +10,9 @@ from markupsafe import Markup
 from checker.render.drawing.highlight import segments
 from checker.render.drawing.scheme import arrows
 from checker.render.page import Part, data, templates
-from checker.render.player.steps import Script, States, Step, script, shown_charts
+from checker.render.player.steps import PlayerStep, Script, States, script, shown_charts
 from checker.render.statechart_svg import LEGEND, STYLE, inline, size
-from checker.render.story import Event, ending, false_parts, heading, start_of, value
+from checker.render.story import StoryEvent, ending, false_parts, heading, start_of, value
 from checker.results.trace import Arrow, Trace
 from spec_model.lang.chart import Chart
 
@@ -81,7 +81,7 @@ def _played(trace: Trace, charts: Iterable[Chart], played: Script) -> dict[str, 
     }
 
 
-def _event(trace: Trace, event: Event, charts: dict[str, Chart]) -> dict[str, Any]:
+def _event(trace: Trace, event: StoryEvent, charts: dict[str, Chart]) -> dict[str, Any]:
     return {
         "tick": event.number,
         "inputs": [str(c) for c in event.changes if c.is_input],
@@ -104,7 +104,7 @@ def _forced(trace: Trace, tick: int) -> Iterator[str]:
             yield f"{need.name} = {' or '.join(value(trace, need.name, raw) for raw in sorted(need.values))}"
 
 
-def _changing(steps: Iterable[Step]) -> Iterator[dict[str, Any]]:
+def _changing(steps: Iterable[PlayerStep]) -> Iterator[dict[str, Any]]:
     """Each step with the charts in which something else is active than in the step before."""
     before: States = {}
     for step in steps:
@@ -126,7 +126,7 @@ def _end(trace: Trace) -> Iterator[str]:
         yield f"False now: {falsified.name or falsified.formula}" + (f" ({values})" if values else "")
 
 
-def _told(event: Event) -> tuple[int, int, list[str]]:
+def _told(event: StoryEvent) -> tuple[int, int, list[str]]:
     """A row of the printed table: tick, time and what happened."""
     lines = [f"in {c}" if c.is_input else str(c) for c in event.changes]
     lines += [f"▸ {a.chart}: {start_of(a)}" + (f" {a.label}" if a.label else "") for a in event.arrows]

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from checker.render.drawing.activity import Active, active, followed
-from checker.render.story import Event, Quiet, Repeats, rows
+from checker.render.story import Quiet, Repeats, StoryEvent, rows
 from checker.results.trace import Arrow, Trace
 from spec_model.lang.chart import Chart
 
@@ -13,7 +13,7 @@ States = Mapping[str, Active]
 
 
 @dataclass(frozen=True)
-class Step:
+class PlayerStep:
     """Arrows ``first`` to ``last`` (exclusive) of an event, and what is active after them.
 
     Several arrows are one step if all but the first are default transitions.  ``event`` is a position
@@ -30,10 +30,10 @@ class Step:
 class Script:
     """What is played: the events of a trace, its quiet stretches, where it repeats, and the steps."""
 
-    events: tuple[Event, ...]
+    events: tuple[StoryEvent, ...]
     quiet: tuple[Quiet, ...]
     repeats: Repeats | None
-    steps: tuple[Step, ...]
+    steps: tuple[PlayerStep, ...]
 
 
 def shown_charts(trace: Trace, *, everything: bool = False) -> tuple[Chart, ...]:
@@ -47,23 +47,23 @@ def script(trace: Trace, *, everything: bool = False) -> Script:
     """The steps of a trace and the words for them; ``everything`` tells also what does not matter."""
     charts = shown_charts(trace, everything=everything)
     told = list(rows(trace if everything else trace.focused()))
-    events = tuple(row for row in told if isinstance(row, Event))
+    events = tuple(row for row in told if isinstance(row, StoryEvent))
     quiet = tuple(row for row in told if isinstance(row, Quiet))
     repeats = next((row for row in told if isinstance(row, Repeats)), None)
     return Script(events, quiet, repeats, tuple(_steps(trace, charts, events)))
 
 
-def _steps(trace: Trace, charts: Sequence[Chart], events: Sequence[Event]) -> Iterator[Step]:
+def _steps(trace: Trace, charts: Sequence[Chart], events: Sequence[StoryEvent]) -> Iterator[PlayerStep]:
     states = _states(charts, trace.before)
-    yield Step(None, 0, 0, states)
+    yield PlayerStep(None, 0, 0, states)
     for number, event in enumerate(events):
         after = _states(charts, trace.ticks[event.number - 1].after)
         cuts = _cuts(event.arrows)
         for first, last in cuts[:-1]:
             states = _moved(charts, states, event.arrows[first:last])
-            yield Step(number, first, last, states)
+            yield PlayerStep(number, first, last, states)
         states = after
-        yield Step(number, *cuts[-1], after)
+        yield PlayerStep(number, *cuts[-1], after)
 
 
 def _states(charts: Sequence[Chart], values: Mapping[str, int]) -> States:

@@ -119,7 +119,7 @@ class Ambiguity:
 
 
 @dataclass(frozen=True)
-class Assumed:
+class ReviewAssumption:
     """Something taken for granted of the environment, and the systems that do."""
 
     id: str
@@ -186,7 +186,7 @@ class Seen:
 
 
 @dataclass(frozen=True)
-class Origin:
+class ReviewOrigin:
     """How the page was made: enough to make it again and to compare it."""
 
     command: str
@@ -205,12 +205,12 @@ class Review:
     title: str
     subject: str
     properties: tuple[Checked, ...]
-    origin: Origin
+    origin: ReviewOrigin
     systems: Mapping[str, About]
     charts: Mapping[str, Chart]
     demands: tuple[Demand, ...] = ()
     readings: tuple[Ambiguity, ...] = ()
-    assumptions: tuple[Assumed, ...] = ()
+    assumptions: tuple[ReviewAssumption, ...] = ()
     repairs: tuple[Remedy, ...] = ()
     coverage: tuple[Covered, ...] = ()
     graphs: tuple[Seen, ...] = ()

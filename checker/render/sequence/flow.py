@@ -18,7 +18,7 @@ Names = frozenset[str]
 
 
 @dataclass(frozen=True)
-class Piece:
+class FlowPiece:
     """A chart or block, in execution order, and the lifeline it belongs to (none: it carries values)."""
 
     part: Chart | Block
@@ -37,7 +37,7 @@ class Piece:
 
 
 @dataclass(frozen=True)
-class Source:
+class FlowSource:
     """Where a carrier takes a variable from: what is assigned, and the conditions of the assignment."""
 
     content: Names
@@ -45,10 +45,10 @@ class Source:
 
 
 @dataclass(frozen=True)
-class Flow:
+class SequenceFlow:
     """The parts of a system, and the inputs of its ticks."""
 
-    pieces: tuple[Piece, ...]
+    pieces: tuple[FlowPiece, ...]
     inputs: Names
 
     @cached_property
@@ -57,9 +57,9 @@ class Flow:
         return tuple(dict.fromkeys((ENVIRONMENT, *(p.owner for p in self.pieces if p.owner))))
 
     @cached_property
-    def writers(self) -> Mapping[str, tuple[Piece, ...]]:
+    def writers(self) -> Mapping[str, tuple[FlowPiece, ...]]:
         """By variable, the parts that write it."""
-        found: dict[str, tuple[Piece, ...]] = {}
+        found: dict[str, tuple[FlowPiece, ...]] = {}
         for piece in self.pieces:
             for name in piece.writes:
                 found[name] = (*found.get(name, ()), piece)
@@ -88,9 +88,9 @@ class Flow:
         return frozenset(p.owner for p in self.pieces if p.owner and name in p.reads)
 
     @cached_property
-    def _sources(self) -> dict[str, list[Source]]:
+    def _sources(self) -> dict[str, list[FlowSource]]:
         """By variable, what the carriers assign to it."""
-        found: dict[str, list[Source]] = {}
+        found: dict[str, list[FlowSource]] = {}
         for piece in self.pieces:
             if not piece.owner and isinstance(piece.part, Block):
                 for name, source in _assigned(piece.part.do, frozenset()):
@@ -123,7 +123,7 @@ class Flow:
         theirs = content - {ENVIRONMENT} or self._beside(name, seen)
         return theirs or content or self._of(sources, "conditions", seen)
 
-    def _of(self, sources: Sequence[Source], what: str, seen: Names) -> Names:
+    def _of(self, sources: Sequence[FlowSource], what: str, seen: Names) -> Names:
         names = {n for source in sources for n in getattr(source, what)}
         return frozenset(o for n in sorted(names) for o in self.origins(n, seen))
 
@@ -134,18 +134,18 @@ class Flow:
         return self._of(sources, "content", seen | beside) - {ENVIRONMENT}
 
 
-def _top(piece: Piece) -> str:
+def _top(piece: FlowPiece) -> str:
     return piece.part.name.partition(".")[0]
 
 
-def flow(trace: Trace, *, everything: bool = False) -> Flow:
+def flow(trace: Trace, *, everything: bool = False) -> SequenceFlow:
     """The flow between the parts that the property depends on, where that is known, or between all."""
     components = trace.components or tuple(trace.statecharts.values())
     boards = any(isinstance(c, Enabled) and c.name for c in _nested(components))
     pieces = list(_pieces(components, "", boards, frozenset()))
     if trace.relevant and not everything:
         pieces = [p for p in pieces if p.part.name in trace.charts or p.writes & trace.relevant]
-    return Flow(tuple(_with_devices(pieces)), frozenset(trace.inputs))
+    return SequenceFlow(tuple(_with_devices(pieces)), frozenset(trace.inputs))
 
 
 def _nested(components: Sequence[Component]) -> Iterator[Component]:
@@ -155,32 +155,32 @@ def _nested(components: Sequence[Component]) -> Iterator[Component]:
             yield from _nested(component.components)
 
 
-def _pieces(components: Sequence[Component], owner: str, boards: bool, by: Names) -> Iterator[Piece]:
+def _pieces(components: Sequence[Component], owner: str, boards: bool, by: Names) -> Iterator[FlowPiece]:
     for component in components:
         match component:
             case Enabled():
                 inside = by | frozenset(variables(component.by))
                 yield from _pieces(component.components, owner or component.name, boards, inside)
             case Chart():
-                yield Piece(component, owner if boards else component.name, by)
+                yield FlowPiece(component, owner if boards else component.name, by)
             case Block():
-                yield Piece(component, owner, by)
+                yield FlowPiece(component, owner, by)
 
 
-def _with_devices(pieces: Sequence[Piece]) -> Iterator[Piece]:
+def _with_devices(pieces: Sequence[FlowPiece]) -> Iterator[FlowPiece]:
     """A block that takes values from lifelines and hands nothing on is a lifeline of its own."""
     made = {name for piece in pieces if piece.owner for name in piece.writes}
     for piece in pieces:
         others = {n for p in pieces if p.part is not piece.part for n in p.reads}
         last = not piece.owner and piece.reads & made and not piece.writes & others
-        yield Piece(piece.part, piece.part.name, piece.enabled) if last else piece
+        yield FlowPiece(piece.part, piece.part.name, piece.enabled) if last else piece
 
 
-def _assigned(actions: Sequence[Action], under: Names) -> Iterator[tuple[str, Source]]:
+def _assigned(actions: Sequence[Action], under: Names) -> Iterator[tuple[str, FlowSource]]:
     for action in actions:
         if isinstance(action, Assign):
             content = frozenset(variables(action.value))
-            yield action.var.name, Source(content, under)
+            yield action.var.name, FlowSource(content, under)
         elif isinstance(action, If):
             inside = under | frozenset(variables(action.condition))
             yield from _assigned(action.then, inside)

@@ -9,7 +9,7 @@ from checker.render.drawing.svg import document, tag, text
 from checker.render.drawing.svg import lines as paragraph
 from checker.render.drawing.text import LINE, SIZE, width, wrap
 from checker.render.durations import duration
-from checker.render.sequence.steps import Message, MessageSequence, Note, Pause, Step
+from checker.render.sequence.steps import Message, MessageSequence, Pause, SequenceNote, SequenceStep
 from checker.render.story import Repeats, ending, false_parts, heading
 from checker.render.timeline import forced_by
 from checker.results.trace import Trace
@@ -38,7 +38,7 @@ STYLE = (
 
 
 @dataclass(frozen=True)
-class Columns:
+class SequenceColumns:
     """Where lifelines are across the picture."""
 
     names: tuple[str, ...]
@@ -59,7 +59,7 @@ Piece = tuple[list[str], int]
 def picture(trace: Trace, sequence: MessageSequence) -> str:
     """The SVG document."""
     count = len(sequence.lifelines)
-    columns = Columns(sequence.lifelines, max(LEAST, min(MOST, WIDE // count)))
+    columns = SequenceColumns(sequence.lifelines, max(LEAST, min(MOST, WIDE // count)))
     wide = max(columns.right, 560) + MARGIN
     titles, y = _titles(trace, wide)
     heads, y = _heads(columns, y)
@@ -69,7 +69,7 @@ def picture(trace: Trace, sequence: MessageSequence) -> str:
     loop = 0
     for step in sequence.steps:
         match step:
-            case Step():
+            case SequenceStep():
                 drawn, y = _step(columns, step, y)
             case Pause():
                 drawn, below = _pause(columns, step, trace.ms(step.last) - trace.ms(step.first - 1), y)
@@ -96,7 +96,7 @@ def _titles(trace: Trace, wide: int) -> Piece:
     return drawn, y + 14
 
 
-def _heads(columns: Columns, y: int) -> Piece:
+def _heads(columns: SequenceColumns, y: int) -> Piece:
     """The names of the lifelines in boxes."""
     names = [_broken(name, columns.apart - 30, bold=True) for name in columns.names]
     tall = LINE * max(map(len, names)) + 12
@@ -137,7 +137,7 @@ def _lifeline(x: int, start: int, end: int, pauses: Sequence[tuple[int, int]]) -
     yield tag("path", d=f"M{x} {at}V{end}", class_="life")
 
 
-def _step(columns: Columns, step: Step, y: int) -> Piece:
+def _step(columns: SequenceColumns, step: SequenceStep, y: int) -> Piece:
     y += 6
     drawn = [
         tag("path", d=f"M{MARGIN} {y}H{columns.right}", class_="row"),
@@ -146,8 +146,8 @@ def _step(columns: Columns, step: Step, y: int) -> Piece:
     ]
     top, y = y, y + 4
     for kind, items in groupby(step.items, key=type):
-        if kind is Note:
-            more, y = _notes(columns, [item for item in items if isinstance(item, Note)], y)
+        if kind is SequenceNote:
+            more, y = _notes(columns, [item for item in items if isinstance(item, SequenceNote)], y)
             drawn += more
         else:
             for item in items:
@@ -157,7 +157,7 @@ def _step(columns: Columns, step: Step, y: int) -> Piece:
     return drawn, max(y, top + 34)
 
 
-def _notes(columns: Columns, notes: Sequence[Note], y: int) -> Piece:
+def _notes(columns: SequenceColumns, notes: Sequence[SequenceNote], y: int) -> Piece:
     """Notes that follow each other, side by side where they have room."""
     drawn: list[str] = []
     taken, bottom = 0, y
@@ -179,7 +179,7 @@ def _told(lines: Sequence[str], room: int) -> list[str]:
     return [*shown, f"… and {rest} more"] if rest > 0 else shown
 
 
-def _message(columns: Columns, message: Message, y: int) -> Piece:
+def _message(columns: SequenceColumns, message: Message, y: int) -> Piece:
     start, ends = columns.x(message.sender), [columns.x(name) for name in message.receivers]
     nearest = min(ends, key=lambda x: abs(x - start))
     lines = _told(message.told, abs(nearest - start) - 20)
@@ -213,14 +213,14 @@ def _lost(start: int, far: int, y: int) -> list[str]:
     ]
 
 
-def _note(note: Note, lines: Sequence[str], x: int, wide: int, y: int) -> str:
+def _note(note: SequenceNote, lines: Sequence[str], x: int, wide: int, y: int) -> str:
     box = tag("rect", x=x, y=y + 4, width=wide, height=LINE * len(lines) + 6, rx=7, class_="note")
     told = [text(x + 6, y + 6 + LINE * i + SIZE, line) for i, line in enumerate(lines)]
     title = tag("title", escape(f"{note.lifeline}: {'; '.join(note.told)}"))
     return tag("g", title + box + "".join(told))
 
 
-def _pause(columns: Columns, pause: Pause, ms: int, y: int) -> Piece:
+def _pause(columns: SequenceColumns, pause: Pause, ms: int, y: int) -> Piece:
     """How many ticks are left out here."""
     span = f"ticks {pause.first}–{pause.last}" if pause.last > pause.first else f"tick {pause.first}"
     told = f"{span}: {pause.why} ({duration(ms)})"
@@ -229,14 +229,14 @@ def _pause(columns: Columns, pause: Pause, ms: int, y: int) -> Piece:
     return [box, *_middle(x, y + 13, [told], "soft")], y + 40
 
 
-def _loop(columns: Columns, top: int, bottom: int) -> list[str]:
+def _loop(columns: SequenceColumns, top: int, bottom: int) -> list[str]:
     """The frame around what repeats."""
     frame = tag("rect", x=LEFT - 4, y=top, width=columns.right - LEFT + 4, height=bottom - top, class_="loop")
     tab = tag("path", d=f"M{LEFT - 4} {top}h104v12l-7 7h-97z", class_="tab")
     return [frame, tab, text(LEFT + 3, top + 14, "loop, for ever", "name")]
 
 
-def _end(trace: Trace, sequence: MessageSequence, columns: Columns, y: int) -> Piece:
+def _end(trace: Trace, sequence: MessageSequence, columns: SequenceColumns, y: int) -> Piece:
     """What is false at the end, or what repeats or is out of reach, across all lifelines."""
     letters = round((columns.right - MARGIN) / LETTER) - 6
     lines: list[tuple[str, str]] = []

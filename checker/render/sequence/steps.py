@@ -3,8 +3,8 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from checker.render.sequence.flow import ENVIRONMENT, Flow, flow
-from checker.render.story import Change, Event, Quiet, Repeats, Row, rows, start_of
+from checker.render.sequence.flow import ENVIRONMENT, SequenceFlow, flow
+from checker.render.story import Quiet, Repeats, Row, StoryChange, StoryEvent, rows, start_of
 from checker.results.trace import Arrow, Trace
 from spec_model.lang.errors import ModelError
 from spec_model.lang.walk import variables
@@ -28,7 +28,7 @@ class Message:
 
 
 @dataclass(frozen=True)
-class Note:
+class SequenceNote:
     """What happens on a lifeline: arrows fired, and results that the property speaks of."""
 
     lifeline: str
@@ -36,12 +36,12 @@ class Note:
 
 
 @dataclass(frozen=True)
-class Step:
+class SequenceStep:
     """A tick in which something happened; ``ms`` is the time at its end."""
 
     number: int
     ms: int
-    items: tuple[Message | Note, ...]
+    items: tuple[Message | SequenceNote, ...]
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ class Pause:
     why: str
 
 
-Told = Step | Pause | Repeats
+Told = SequenceStep | Pause | Repeats
 
 
 @dataclass(frozen=True)
@@ -79,19 +79,21 @@ def message_sequence(trace: Trace, *, everything: bool = False) -> MessageSequen
     steps, used = _steps(shown, between, story, apart=True)
     if len(used) > MOST:
         steps, used = _steps(shown, between, story, apart=False)
-    if not any(isinstance(item, Message) for step in steps if isinstance(step, Step) for item in step.items):
+    if not any(
+        isinstance(item, Message) for step in steps if isinstance(step, SequenceStep) for item in step.items
+    ):
         raise ModelError(
             f"In this run of {trace.system} nothing is handed from one chart or board to another, "
             "so there is no message to draw. Use the format svg, which shows every value over time."
         )
     idle = tuple(name for name in used if name not in _busy(steps))
-    busy = [_without(step, idle) if isinstance(step, Step) else step for step in steps]
+    busy = [_without(step, idle) if isinstance(step, SequenceStep) else step for step in steps]
     return MessageSequence(tuple(n for n in used if n not in idle), tuple(_joined(busy)), idle)
 
 
 def _busy(steps: Sequence[Told]) -> set[str]:
     """The lifelines with a message, or with a note after the first tick."""
-    told = ((step, item) for step in steps if isinstance(step, Step) for item in step.items)
+    told = ((step, item) for step in steps if isinstance(step, SequenceStep) for item in step.items)
     return {
         name
         for step, item in told
@@ -100,21 +102,27 @@ def _busy(steps: Sequence[Told]) -> set[str]:
     }  # fmt: skip
 
 
-def _without(step: Step, idle: Sequence[str]) -> Step:
+def _without(step: SequenceStep, idle: Sequence[str]) -> SequenceStep:
     return replace(step, items=tuple(item for item in step.items if _ends(item)[0] not in idle))
 
 
 def _steps(
-    trace: Trace, between: Flow, story: Sequence[Row], *, apart: bool
+    trace: Trace, between: SequenceFlow, story: Sequence[Row], *, apart: bool
 ) -> tuple[list[Told], tuple[str, ...]]:
     """What is told, and the lifelines that take part; ``apart``: sensors have lifelines of their own."""
     steps = [_told(trace, between, row, apart) for row in story]
-    used = {name for step in steps if isinstance(step, Step) for item in step.items for name in _ends(item)}
+    used = {
+        name
+        for step in steps
+        if isinstance(step, SequenceStep)
+        for item in step.items
+        for name in _ends(item)
+    }
     known = dict.fromkeys((ENVIRONMENT, *between.sources, *between.lifelines))
     return steps, tuple(name for name in known if name in used)
 
 
-def _ends(item: Message | Note) -> tuple[str, ...]:
+def _ends(item: Message | SequenceNote) -> tuple[str, ...]:
     return (item.sender, *item.receivers) if isinstance(item, Message) else (item.lifeline,)
 
 
@@ -133,11 +141,11 @@ def _joined(steps: Sequence[Told]) -> Iterator[Told]:
         yield pause
 
 
-def _told(trace: Trace, between: Flow, row: Row, apart: bool) -> Told:
+def _told(trace: Trace, between: SequenceFlow, row: Row, apart: bool) -> Told:
     match row:
         case Quiet():
             return Pause(row.first, row.last, "nothing but timers" if row.counters else "nothing changes")
-        case Event():
+        case StoryEvent():
             step = _step(trace, between, row, apart)
             empty = not step.items and row.number < len(trace)
             return Pause(row.number, row.number, INSIDE) if empty else step
@@ -145,18 +153,20 @@ def _told(trace: Trace, between: Flow, row: Row, apart: bool) -> Told:
             return row
 
 
-def _step(trace: Trace, between: Flow, event: Event, apart: bool) -> Step:
+def _step(trace: Trace, between: SequenceFlow, event: StoryEvent, apart: bool) -> SequenceStep:
     """Messages and notes in the order in which the parts execute."""
-    found: list[tuple[int, Message | Note]] = [
+    found: list[tuple[int, Message | SequenceNote]] = [
         *_messages(trace, between, event, apart), *_notes(trace, between, event)
     ]  # fmt: skip
     found.sort(key=lambda pair: (pair[0], isinstance(pair[1], Message)))
-    return Step(event.number, event.ms, tuple(item for _, item in found))
+    return SequenceStep(event.number, event.ms, tuple(item for _, item in found))
 
 
-def _messages(trace: Trace, between: Flow, event: Event, apart: bool) -> Iterator[tuple[int, Message]]:
+def _messages(
+    trace: Trace, between: SequenceFlow, event: StoryEvent, apart: bool
+) -> Iterator[tuple[int, Message]]:
     """One for each sender and circle of receivers, with every value that changes on the way."""
-    told: dict[tuple[str, tuple[str, ...]], list[Change]] = {}
+    told: dict[tuple[str, tuple[str, ...]], list[StoryChange]] = {}
     for change in event.changes:
         if between.counts(change.name) and _rises(trace, change.name, event.number):
             continue
@@ -177,7 +187,7 @@ def _rises(trace: Trace, name: str, number: int) -> bool:
     return name in before and trace.ticks[number - 1].after.get(name, 0) > before[name]
 
 
-def _notes(trace: Trace, between: Flow, event: Event) -> Iterator[tuple[int, Note]]:
+def _notes(trace: Trace, between: SequenceFlow, event: StoryEvent) -> Iterator[tuple[int, SequenceNote]]:
     """The arrows of each chart, and results of the property that no other lifeline reads."""
     told: dict[str, list[tuple[int, str]]] = {}
     places = {piece.part.name: i for i, piece in enumerate(between.pieces)}
@@ -194,7 +204,7 @@ def _notes(trace: Trace, between: Flow, event: Event) -> Iterator[tuple[int, Not
                     (between.place(change.name), f"{change.name} = {change.new}")
                 )
     for owner, lines in told.items():
-        yield max(place for place, _ in lines), Note(owner, tuple(line for _, line in sorted(lines)))
+        yield max(place for place, _ in lines), SequenceNote(owner, tuple(line for _, line in sorted(lines)))
 
 
 def _fired(arrow: Arrow, owner: str) -> str:

@@ -11,7 +11,7 @@ from checker.render.page import Part, data, templates
 from checker.render.stategraph.findings import findings
 from checker.render.stategraph.picture import LABELLED, drawn
 from checker.render.stategraph.words import LEGEND, named, values
-from checker.results.graph import GraphNode, StateGraph, Way
+from checker.results.graph import GraphNode, GraphWay, StateGraph
 
 TEMPLATES = templates("stategraph")
 PANZOOM = files("checker.render").joinpath("vendor", "panzoom", "panzoom.min.js").read_text(encoding="utf-8")
@@ -107,7 +107,7 @@ def _node(graph: StateGraph, node: GraphNode) -> dict[str, Any]:
     }
 
 
-def rows(way: Way, most: int = MOST_ROWS) -> list[Row]:
+def rows(way: GraphWay, most: int = MOST_ROWS) -> list[Row]:
     """The run to a node as a story; of a very long one the middle is left out, and the gap says so."""
     found = [_row(one) for one in story.rows(way.trace)]
     left = len(found) - most
@@ -119,7 +119,7 @@ def rows(way: Way, most: int = MOST_ROWS) -> list[Row]:
 
 def _row(one: story.Row) -> Row:
     match one:
-        case story.Event(number, ms, changes, arrows):
+        case story.StoryEvent(number, ms, changes, arrows):
             told = [f"in {change}" if change.is_input else str(change) for change in changes]
             fired = [f"▸ {a.chart}: {story.start_of(a)} {a.label}".rstrip() for a in arrows]
             return str(number), str(ms), [*told, *fired] or ["nothing changes"]

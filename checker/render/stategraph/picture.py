@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from checker.render.drawing import svg
 from checker.render.drawing.cuts import padded
-from checker.render.drawing.graph import Edge, Node, Placed, Point
+from checker.render.drawing.graph import DrawnNode, Edge, PlacedNode, Point
 from checker.render.drawing.layered import layered
 from checker.render.drawing.ranking import backward
 from checker.render.drawing.text import LINE, block, wrap
@@ -63,7 +63,7 @@ def _in_rows(graph: StateGraph) -> Picture:
     return Picture(tuple(body), rows.width, rows.height, False)
 
 
-def _placed(graph: StateGraph, labels: Labels) -> tuple[Placed, frozenset[str]]:
+def _placed(graph: StateGraph, labels: Labels) -> tuple[PlacedNode, frozenset[str]]:
     lines = [e for e in graph.edges if e.source != e.target]
     order = sorted(graph.nodes, key=lambda n: (not n.initial, n.depth, n.number))
     back = backward(
@@ -71,7 +71,7 @@ def _placed(graph: StateGraph, labels: Labels) -> tuple[Placed, frozenset[str]]:
         [(_name(e), str(e.source), str(e.target)) for e in lines],
         breadth=True,
     )
-    nodes = [Node(str(n.number), *_size(graph, n)) for n in order]
+    nodes = [DrawnNode(str(n.number), *_size(graph, n)) for n in order]
     edges = [_edge(e, labels[_name(e)], _name(e) in back) for e in lines]
     return layered(nodes, edges), back
 
@@ -142,7 +142,7 @@ def _classes(graph: StateGraph, node: GraphNode) -> str:
     return " ".join(["node", *(name for name, given in flags if given)])
 
 
-def _line(graph: StateGraph, edge: GraphEdge, label: tuple[str, ...], placed: Placed, back: bool) -> str:
+def _line(graph: StateGraph, edge: GraphEdge, label: tuple[str, ...], placed: PlacedNode, back: bool) -> str:
     if edge.source == edge.target:
         return ""
     points: tuple[Point, ...] = placed.routes[_name(edge)]

@@ -24,7 +24,7 @@ Sizes = Mapping[int, tuple[int, int]]
 
 
 @dataclass(frozen=True)
-class Rows:
+class GraphRows:
     """The top-left corner of each box, and the whole size."""
 
     at: Mapping[int, tuple[int, int]]
@@ -55,7 +55,7 @@ def too_long(graph: StateGraph) -> bool:
     return max(rank, default=0) >= LONG or crossed >= DENSE
 
 
-def in_rows(graph: StateGraph, sizes: Sizes) -> Rows:
+def in_rows(graph: StateGraph, sizes: Sizes) -> GraphRows:
     """Columns of boxes, as many beside each other as make the picture neither wide nor high.
 
     A rank of very many boxes has several columns.
@@ -76,7 +76,7 @@ def in_rows(graph: StateGraph, sizes: Sizes) -> Rows:
             at[number] = x, top
             top += sizes[number][1] + GAP_Y
         x, below, right = x + width, max(below, height), max(right, x + width)
-    return Rows(at, right, y + below)
+    return GraphRows(at, right, y + below)
 
 
 def _ordered(graph: StateGraph) -> list[list[int]]:

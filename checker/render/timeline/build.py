@@ -7,7 +7,7 @@ from itertools import groupby
 from checker.render.reasons import forced, reasons
 from checker.render.story import TIMER, Quiet, ending, false_parts, heading, of_model, rows, value
 from checker.render.timeline.limits import Limits, thresholds, time_limits
-from checker.render.timeline.model import Group, Kind, Lane, Limit, Need, Shot, Timeline
+from checker.render.timeline.model import Lane, LaneGroup, LaneKind, Limit, Need, Shot, Timeline
 from checker.render.timeline.runs import Values, runs
 from checker.render.timeline.truths import parts
 from checker.results.trace import Trace
@@ -101,9 +101,15 @@ def _compared(trace: Trace) -> Iterator[Expr]:
 
 def _lane(trace: Trace, name: str, values: Values, limits: Limits, spans: Limits) -> Lane:
     kind = _kind(trace, name)
-    if kind is Kind.LINE and _flat(trace, name, values, limits.get(name, ())):
-        kind = Kind.BAND
-    bounds = spans.get(name, ()) if kind is Kind.RAMP else limits.get(name, ()) if kind is Kind.LINE else ()
+    if kind is LaneKind.LINE and _flat(trace, name, values, limits.get(name, ())):
+        kind = LaneKind.BAND
+    bounds = (
+        spans.get(name, ())
+        if kind is LaneKind.RAMP
+        else limits.get(name, ())
+        if kind is LaneKind.LINE
+        else ()
+    )
     return Lane(
         name=name,
         kind=kind,
@@ -138,14 +144,14 @@ def _needs(trace: Trace, name: str) -> Iterator[Need]:
         yield Need(reason.first, reason.last, reason.what)
 
 
-def _kind(trace: Trace, name: str) -> Kind:
+def _kind(trace: Trace, name: str) -> LaneKind:
     domain = trace.variables[name].domain
     if not isinstance(domain.sort, Num):
-        return Kind.BAND
+        return LaneKind.BAND
     if TIMER.search(name):
-        return Kind.RAMP
+        return LaneKind.RAMP
     code = not str(domain.sort.unit) and domain.sort.resolution == 1
-    return Kind.LINE if len(domain) > (CODES if code else FEW) else Kind.BAND
+    return LaneKind.LINE if len(domain) > (CODES if code else FEW) else LaneKind.BAND
 
 
 def is_location(trace: Trace, name: str) -> bool:
@@ -154,20 +160,20 @@ def is_location(trace: Trace, name: str) -> bool:
     return isinstance(sort, Enum) and sort.name.startswith("states of ")
 
 
-def _group(trace: Trace, name: str) -> Group:
+def _group(trace: Trace, name: str) -> LaneGroup:
     if name in trace.inputs:
-        return Group.INPUTS
-    return Group.CHARTS if is_location(trace, name) or TIMER.search(name) else Group.VALUES
+        return LaneGroup.INPUTS
+    return LaneGroup.CHARTS if is_location(trace, name) or TIMER.search(name) else LaneGroup.VALUES
 
 
 def _place(trace: Trace) -> Callable[[Lane], tuple[int, bool, int, bool, int]]:
     """Needed inputs first; charts as they execute, each above its timers; else as the trace names them."""
     order = {name: i for i, name in enumerate(_names(trace))}
-    groups, charts = list(Group), {name: i for i, name in enumerate(trace.statecharts)}
+    groups, charts = list(LaneGroup), {name: i for i, name in enumerate(trace.statecharts)}
 
     def place(lane: Lane) -> tuple[int, bool, int, bool, int]:
-        chart = charts.get(lane.name.partition(".")[0], -1) if lane.group is Group.CHARTS else -1
-        return groups.index(lane.group), not lane.needed, chart, lane.kind is Kind.RAMP, order[lane.name]
+        chart = charts.get(lane.name.partition(".")[0], -1) if lane.group is LaneGroup.CHARTS else -1
+        return groups.index(lane.group), not lane.needed, chart, lane.kind is LaneKind.RAMP, order[lane.name]
 
     return place
 

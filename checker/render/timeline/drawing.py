@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from checker.render.drawing.svg import tag, text
 from checker.render.drawing.text import LINE, SIZE, width, wrap
 from checker.render.timeline.axis import Axis, labelled
-from checker.render.timeline.model import Group, Kind, Lane, Timeline
+from checker.render.timeline.model import Lane, LaneGroup, LaneKind, Timeline
 from checker.render.timeline.shapes import HEIGHT, shapes
 
 NAMES = 190
@@ -21,7 +21,7 @@ PIECES = re.compile(r"[^._ ]*[._ ]?")
 
 
 @dataclass(frozen=True)
-class Row:
+class TimelineRow:
     """A lane, or the title of a group, in its place; ``name`` in lines that have room."""
 
     top: int
@@ -31,35 +31,35 @@ class Row:
 
 
 @dataclass(frozen=True)
-class Placed:
+class PlacedLane:
     """All rows of a timeline, below each other, and the height of all."""
 
     timeline: Timeline
     axis: Axis
-    rows: tuple[Row, ...]
+    rows: tuple[TimelineRow, ...]
     height: int
 
 
-def place(timeline: Timeline, axis: Axis) -> Placed:
+def place(timeline: Timeline, axis: Axis) -> PlacedLane:
     """Every lane below the others, groups under their titles."""
-    rows: list[Row] = []
+    rows: list[TimelineRow] = []
     top = HEAD
-    for group in Group:
+    for group in LaneGroup:
         lanes = timeline.of(group)
         if lanes:
-            rows.append(Row(top, TITLE, (group.value,)))
+            rows.append(TimelineRow(top, TITLE, (group.value,)))
             top += TITLE
         for lane in lanes:
             name = name_lines(lane)
             tall = max(HEIGHT[lane.kind], LINE * len(name) + 4)
-            rows.append(Row(top, tall, name, lane))
+            rows.append(TimelineRow(top, tall, name, lane))
             top += tall + 4
-    return Placed(timeline, axis, tuple(rows), top + 4)
+    return PlacedLane(timeline, axis, tuple(rows), top + 4)
 
 
 def name_lines(lane: Lane) -> tuple[str, ...]:
     """The name of a lane in lines that fit: broken after dots and underscores, a formula at its spaces."""
-    if lane.kind is Kind.TRUTH and " " in lane.name:
+    if lane.kind is LaneKind.TRUTH and " " in lane.name:
         return wrap(lane.name, NAMES // 7)
     lines = [""]
     for piece in PIECES.findall(lane.name):
@@ -69,7 +69,7 @@ def name_lines(lane: Lane) -> tuple[str, ...]:
     return tuple(lines)
 
 
-def plot(placed: Placed, *, tips: bool = True) -> Iterator[str]:
+def plot(placed: PlacedLane, *, tips: bool = True) -> Iterator[str]:
     """Everything right of the names: axis, shading, lanes, breaks and marks; ``tips`` at values."""
     timeline, axis = placed.timeline, placed.axis
     yield from _loop(placed)
@@ -83,7 +83,7 @@ def plot(placed: Placed, *, tips: bool = True) -> Iterator[str]:
         yield from _end(placed)
 
 
-def _axis(placed: Placed) -> Iterator[str]:
+def _axis(placed: PlacedLane) -> Iterator[str]:
     timeline, axis = placed.timeline, placed.axis
     for tick in labelled(timeline, axis):
         x = axis.middle(tick)
@@ -93,7 +93,7 @@ def _axis(placed: Placed) -> Iterator[str]:
     yield tag("path", d=f"M0 {HEAD}H{axis.width}", class_="tl-base")
 
 
-def _loop(placed: Placed) -> Iterator[str]:
+def _loop(placed: PlacedLane) -> Iterator[str]:
     """The part that repeats, shaded."""
     timeline, axis = placed.timeline, placed.axis
     if timeline.loop is None or not timeline.ticks:
@@ -109,7 +109,7 @@ def _loop(placed: Placed) -> Iterator[str]:
         yield text(x - 4, 13, "repeats for ever ↻", "tl-loop-text", text_anchor="end")
 
 
-def _break(placed: Placed, first: int, last: int) -> Iterator[str]:
+def _break(placed: PlacedLane, first: int, last: int) -> Iterator[str]:
     """A visible cut through all lanes, and what is left out."""
     axis = placed.axis
     x = round((axis.left(first) + axis.right(last)) / 2, 1)
@@ -121,7 +121,7 @@ def _break(placed: Placed, first: int, last: int) -> Iterator[str]:
     yield text(x, HEAD - 5, "≈", "tl-ms", text_anchor="middle")
 
 
-def _end(placed: Placed) -> Iterator[str]:
+def _end(placed: PlacedLane) -> Iterator[str]:
     """The tick in which a part of the property is false, or which shows what the run is to show."""
     told, class_ = (FALSE, "tl-fail") if placed.timeline.wrong else (SHOWN, "tl-end")
     axis, last = placed.axis, placed.timeline.ticks

@@ -10,7 +10,7 @@ from spec_model.lang.chart import Chart, Path
 from spec_model.lang.domain import Num, show
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Apply, Const, Expr, Temporal, Var, When
-from spec_model.lang.lower.timers import Timers
+from spec_model.lang.lower.timers import ChartTimers
 from spec_model.lang.operators import COMPARISONS, Op
 from spec_model.lang.walk import nodes, plain
 
@@ -76,7 +76,7 @@ def time_limits(trace: Trace) -> Limits:
 def _asked(chart: Chart, step_ms: int) -> Iterator[tuple[Var, Temporal]]:
     """Every counter of the chart with each temporal word that reads it."""
     try:
-        timers = Timers(chart, step_ms)
+        timers = ChartTimers(chart, step_ms)
     except ModelError:  # a span is no whole number of these steps: the chart executes in others
         return
     for word, counter in timers.helds.values():

@@ -7,7 +7,7 @@ from fractions import Fraction
 from checker.render.lanes import Tone
 
 
-class Kind(StrEnum):
+class LaneKind(StrEnum):
     """How a lane is drawn: labelled bands, a step line, the ramp of a timer, or true and false."""
 
     BAND = "band"
@@ -16,7 +16,7 @@ class Kind(StrEnum):
     TRUTH = "truth"
 
 
-class Group(StrEnum):
+class LaneGroup(StrEnum):
     """What a lane belongs to; groups are drawn in this order."""
 
     INPUTS = "Inputs"
@@ -26,7 +26,7 @@ class Group(StrEnum):
 
 
 @dataclass(frozen=True)
-class Run:
+class TimelineRun:
     """Ticks ``first`` to ``last`` (from 1, both included) in which a lane shows one thing.
 
     ``low`` and ``high`` are the numbers at its first and last tick: they differ only in a steady count.
@@ -76,9 +76,9 @@ class Lane:
     """
 
     name: str
-    kind: Kind
-    group: Group
-    runs: tuple[Run, ...]
+    kind: LaneKind
+    group: LaneGroup
+    runs: tuple[TimelineRun, ...]
     limits: tuple[Limit, ...] = ()
     needed: tuple[Need, ...] = ()
     shots: tuple[Shot, ...] = ()
@@ -117,6 +117,6 @@ class Timeline:
         """The time at the end of a tick."""
         return self.clock * tick if isinstance(self.clock, int) else self.clock[tick]
 
-    def of(self, group: Group) -> tuple[Lane, ...]:
+    def of(self, group: LaneGroup) -> tuple[Lane, ...]:
         """The lanes of a group, in their order."""
         return tuple(lane for lane in self.lanes if lane.group is group)

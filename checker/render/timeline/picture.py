@@ -6,8 +6,8 @@ from checker.render.drawing.svg import document, lines, tag, text
 from checker.render.drawing.text import LINE, width, wrap
 from checker.render.lanes import Tone
 from checker.render.timeline.axis import SMALL, fit, shortened
-from checker.render.timeline.drawing import Placed, Row, place, plot
-from checker.render.timeline.model import Kind, Lane, Timeline
+from checker.render.timeline.drawing import PlacedLane, TimelineRow, place, plot
+from checker.render.timeline.model import Lane, LaneKind, Timeline
 from checker.render.timeline.shapes import hatch, reach, visible
 from checker.render.timeline.style import MEANINGS, PRINTED, sheet
 
@@ -60,7 +60,7 @@ def _titles(head: list[tuple[str, str, int]]) -> Iterator[str]:
         yield text(12, y, shown, class_)
 
 
-def _names(placed: Placed) -> Iterator[str]:
+def _names(placed: PlacedLane) -> Iterator[str]:
     yield text(LEFT - 8, 32, "tick", "tl-tick", text_anchor="end")
     yield text(LEFT - 8, 45, "ms", "tl-ms", text_anchor="end")
     for row in placed.rows:
@@ -71,12 +71,12 @@ def _names(placed: Placed) -> Iterator[str]:
             yield from _name(row, row.lane)
 
 
-def _name(row: Row, lane: Lane) -> Iterator[str]:
+def _name(row: TimelineRow, lane: Lane) -> Iterator[str]:
     y = row.top + (row.tall - LINE * len(row.name)) // 2
     if lane.needed:
         yield text(12, y + 11, "●", "tl-mark")
     yield from (text(26, y + 11 + LINE * i, line, "tl-name") for i, line in enumerate(row.name))
-    if lane.kind is Kind.LINE:
+    if lane.kind is LaneKind.LINE:
         low, high = (f"{float(v):g}" for v in reach(lane))
         yield text(LEFT - 5, row.top + 20, high, "tl-range", text_anchor="end")
         yield text(LEFT - 5, row.top + row.tall - 3, low, "tl-range", text_anchor="end")
@@ -96,7 +96,12 @@ def _legend(timeline: Timeline, wide: int) -> Iterator[tuple[str, int]]:
 
 def signs(timeline: Timeline) -> Iterator[tuple[str, str]]:
     """Every sign that occurs, 24 pixels wide, and its meaning."""
-    bands = {run.tone for lane in timeline.lanes for run in lane.runs if lane.kind in (Kind.BAND, Kind.TRUTH)}
+    bands = {
+        run.tone
+        for lane in timeline.lanes
+        for run in lane.runs
+        if lane.kind in (LaneKind.BAND, LaneKind.TRUTH)
+    }
     for tone, meaning in MEANINGS.items():
         if tone in bands:
             box = tag("rect", y=2, width=24, height=11, class_=f"tl-is-{tone.value}")
@@ -112,7 +117,7 @@ def signs(timeline: Timeline) -> Iterator[tuple[str, str]]:
         yield tag("rect", y=2, width=24, height=11, class_="tl-loop"), "repeats for ever"
 
 
-def _below(timeline: Timeline, placed: Placed, letters: int) -> Iterator[tuple[tuple[str, ...], str]]:
+def _below(timeline: Timeline, placed: PlacedLane, letters: int) -> Iterator[tuple[tuple[str, ...], str]]:
     """Texts below the lanes with their class: what is false, what repeats, what never changes."""
     for wrong in timeline.wrong:
         yield wrap(f"✗ {wrong}", letters * 9 // 10, "    "), "wrong"
@@ -127,7 +132,7 @@ def _below(timeline: Timeline, placed: Placed, letters: int) -> Iterator[tuple[t
     yield wrap(scale(timeline, placed), letters), "soft"
 
 
-def scale(timeline: Timeline, placed: Placed) -> str:
+def scale(timeline: Timeline, placed: PlacedLane) -> str:
     """Whether the picture is to scale, and what is left out."""
     if not placed.axis.breaks:
         if isinstance(timeline.clock, int):

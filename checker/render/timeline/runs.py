@@ -6,7 +6,7 @@ from fractions import Fraction
 from checker.render.lanes import Tone
 from checker.render.limits import timer
 from checker.render.story import value
-from checker.render.timeline.model import Kind, Run
+from checker.render.timeline.model import LaneKind, TimelineRun
 from checker.render.timeline.tones import tone
 from checker.results.trace import Trace
 from spec_model.lang.domain import Num
@@ -18,22 +18,22 @@ Values = Sequence[int | None]
 """A raw value for each tick; None where there is none."""
 
 
-def runs(trace: Trace, name: str, values: Values, kind: Kind) -> Iterator[Run]:
+def runs(trace: Trace, name: str, values: Values, kind: LaneKind) -> Iterator[TimelineRun]:
     """Equal values in a row are one run; so is a steady count of a number."""
     sort = trace.variables[name].sort
     scale = sort.resolution if isinstance(sort, Num) else Fraction(1)
-    for first, last in stretches(values, steady=kind in (Kind.LINE, Kind.RAMP)):
+    for first, last in stretches(values, steady=kind in (LaneKind.LINE, LaneKind.RAMP)):
         start, end = values[first], values[last]
         if start is None or end is None:
             continue
         shown, until = (_shown(trace, name, raw, kind) for raw in (start, end))
-        meaning = tone(shown) if kind is Kind.BAND else Tone.ACTION
+        meaning = tone(shown) if kind is LaneKind.BAND else Tone.ACTION
         until = until if start != end else ""
-        yield Run(first + 1, last + 1, shown, start * scale, end * scale, meaning, until)
+        yield TimelineRun(first + 1, last + 1, shown, start * scale, end * scale, meaning, until)
 
 
-def _shown(trace: Trace, name: str, raw: int, kind: Kind) -> str:
-    if kind is not Kind.RAMP:
+def _shown(trace: Trace, name: str, raw: int, kind: LaneKind) -> str:
+    if kind is not LaneKind.RAMP:
         return value(trace, name, raw)
     known = timer(trace, name)
     return known.shown(raw) if known else f"{raw} steps"

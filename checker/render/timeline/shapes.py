@@ -8,9 +8,9 @@ from checker.render.drawing.svg import tag, text
 from checker.render.drawing.text import width
 from checker.render.lanes import Tone
 from checker.render.timeline.axis import SMALL, Axis
-from checker.render.timeline.model import Kind, Lane, Limit, Run
+from checker.render.timeline.model import Lane, LaneKind, Limit, TimelineRun
 
-HEIGHT = {Kind.BAND: 20, Kind.TRUTH: 20, Kind.LINE: 62, Kind.RAMP: 40}
+HEIGHT = {LaneKind.BAND: 20, LaneKind.TRUTH: 20, LaneKind.LINE: 62, LaneKind.RAMP: 40}
 STAIR = 5.0
 """Pixels of a tick from which on a steady count is drawn as stairs."""
 HATCHED = 6
@@ -25,7 +25,7 @@ Height = Callable[[Fraction], float]
 
 def shapes(lane: Lane, axis: Axis, top: int, tall: int, *, tips: bool = True) -> Iterator[str]:
     """The lane drawn between y = ``top`` and ``top + tall``; ``tips``: values are told where one points."""
-    if lane.kind in (Kind.BAND, Kind.TRUTH):
+    if lane.kind in (LaneKind.BAND, LaneKind.TRUTH):
         for run in lane.runs:
             yield from _band(run, axis, top + 2, tall - 4, tips)
     else:
@@ -48,13 +48,13 @@ def _span(first: int, last: int) -> str:
     return f"tick {first}" if first == last else f"ticks {first}–{last}"
 
 
-def _told(run: Run) -> str:
+def _told(run: TimelineRun) -> str:
     span = _span(run.first, run.last)
     values = f"{run.label} → {run.until}" if run.until else run.label
     return tag("title", escape(f"{span}: {values}"))
 
 
-def _band(run: Run, axis: Axis, y: int, tall: int, tips: bool) -> Iterator[str]:
+def _band(run: TimelineRun, axis: Axis, y: int, tall: int, tips: bool) -> Iterator[str]:
     x, right = axis.left(run.first), axis.right(run.last)
     wide = round(right - x, 2)
     told = _told(run) if tips else ""
@@ -89,7 +89,7 @@ def hatch(x: float, y: int, right: float, bottom: int) -> str:
 def reach(lane: Lane) -> tuple[Fraction, Fraction]:
     """The range that a graph shows: all values, and the limits inside and next to them."""
     low, high = lane.extent
-    if lane.kind is Kind.RAMP:
+    if lane.kind is LaneKind.RAMP:
         return Fraction(0), max(high, *(limit.value for limit in lane.limits), Fraction(1))
     values = [limit.value for limit in lane.limits]
     low = max((v for v in values if v <= low), default=low)
@@ -105,7 +105,7 @@ def visible(lane: Lane) -> list[Limit]:
 
 def _graph(lane: Lane, axis: Axis, top: int, tall: int, tips: bool) -> Iterator[str]:
     low, high = reach(lane)
-    head, foot = top + (16 if lane.kind is Kind.LINE else 8), top + tall - 6
+    head, foot = top + (16 if lane.kind is LaneKind.LINE else 8), top + tall - 6
 
     def y(value: Fraction) -> float:
         return round(float(foot - (value - low) / (high - low) * (foot - head)), 1)
@@ -113,7 +113,7 @@ def _graph(lane: Lane, axis: Axis, top: int, tall: int, tips: bool) -> Iterator[
     yield tag("path", d=f"M0 {foot + 2}H{axis.width}", class_="tl-base")
     yield from _limits(lane, axis, y)
     line = _steps(lane, axis, y)
-    if lane.kind is Kind.RAMP:
+    if lane.kind is LaneKind.RAMP:
         yield from (_filled(run, axis, y, foot) for run in lane.runs if run.high)
     yield tag("path", d=line, class_="tl-curve")
     for run in lane.runs if tips else ():
@@ -142,7 +142,7 @@ def _steps(lane: Lane, axis: Axis, y: Height) -> str:
     return d
 
 
-def _points(run: Run, axis: Axis, y: Height) -> Iterator[tuple[float, float]]:
+def _points(run: TimelineRun, axis: Axis, y: Height) -> Iterator[tuple[float, float]]:
     count = run.last - run.first
     narrow = axis.right(run.last) - axis.left(run.first) < STAIR * (count + 1)
     if run.low == run.high or narrow:
@@ -155,7 +155,7 @@ def _points(run: Run, axis: Axis, y: Height) -> Iterator[tuple[float, float]]:
         yield axis.right(tick), height
 
 
-def _filled(run: Run, axis: Axis, y: Height, foot: int) -> str:
+def _filled(run: TimelineRun, axis: Axis, y: Height, foot: int) -> str:
     """The area below a timer."""
     points = "L".join(f"{x} {height}" for x, height in _points(run, axis, y))
     d = f"M{axis.left(run.first)} {foot}L{points}L{axis.right(run.last)} {foot}Z"
@@ -169,10 +169,10 @@ def _values(lane: Lane, axis: Axis, y: Height, top: int) -> Iterator[str]:
         shown = f"{run.label} → {run.until}" if run.until else run.label
         start, end = axis.left(run.first) + 3, axis.right(run.last)
         room = width(shown, SMALL)
-        if lane.kind is Kind.RAMP and not run.high:
+        if lane.kind is LaneKind.RAMP and not run.high:
             continue
         if start >= free and (start + room <= end or run is lane.runs[-1]):
             x = min(start, axis.width - room)
-            at = min(y(run.low), y(run.high)) if lane.kind is Kind.LINE else top + HEIGHT[lane.kind] / 2
+            at = min(y(run.low), y(run.high)) if lane.kind is LaneKind.LINE else top + HEIGHT[lane.kind] / 2
             yield text(round(x, 1), round(max(at - 4, top + 9), 1), shown, "tl-value")
             free = x + room + 4

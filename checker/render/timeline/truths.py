@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from checker.render.lanes import Tone
-from checker.render.timeline.model import Group, Kind, Lane, Run
+from checker.render.timeline.model import Lane, LaneGroup, LaneKind, TimelineRun
 from checker.render.timeline.runs import Values, stretches
 from checker.results.trace import Trace
 from spec_model.lang.evaluate import evaluate
@@ -19,13 +19,13 @@ def parts(trace: Trace) -> Iterator[Lane]:
     for expr in (*trace.false_parts, *others):
         truths = _truths(trace, expr)
         runs = [
-            Run(first + 1, last + 1, "true" if truths[first] else "false",
+            TimelineRun(first + 1, last + 1, "true" if truths[first] else "false",
                 tone=Tone.OK if truths[first] else Tone.CRITICAL)
             for first, last in stretches(truths, steady=False)
             if truths[first] is not None
         ]  # fmt: skip
         name = expr.name if isinstance(expr, Named) else text(expr)
-        yield Lane(name, Kind.TRUTH, Group.PROPERTY, tuple(runs), doc=text(expr, unfold=True))
+        yield Lane(name, LaneKind.TRUTH, LaneGroup.PROPERTY, tuple(runs), doc=text(expr, unfold=True))
 
 
 def _truths(trace: Trace, expr: Expr) -> Values:

@@ -20,14 +20,14 @@ CONNECTIVES = (Op.NOT, Op.AND, Op.OR, Op.ITE)
 
 
 @dataclass(frozen=True)
-class Side:
+class AtomSide:
     """A side of a boundary in words, and the condition under which a formula is evaluated there."""
 
     text: str
     condition: Expr
 
 
-def sides(expr: Expr, step_ms: int) -> Iterator[Side]:
+def sides(expr: Expr, step_ms: int) -> Iterator[AtomSide]:
     """Every side of every comparison and timer in a formula; equal ones once."""
     seen: set[tuple[object, ...]] = set()
     for atom in _atoms(expr):
@@ -56,24 +56,24 @@ def _truth_of_a_datum(expr: Expr, child: Expr) -> bool:
     return isinstance(expr, Apply) and expr.op in COMPARISONS and isinstance(child, Var)
 
 
-def _sides(atom: Expr, step_ms: int) -> Iterator[Side]:
+def _sides(atom: Expr, step_ms: int) -> Iterator[AtomSide]:
     match atom:
         case Temporal(when, _, span) if when in COUNTED and span is not None:
             yield from _timer(atom, step_ms)
         case Apply(op, (left, right), _) if op in COMPARISONS and isinstance(left.sort, Num):
             yield from _numbers(atom, left, right)
         case _:
-            yield Side(f"{text(atom)} true", atom)
-            yield Side(f"{text(atom)} false", ~atom)
+            yield AtomSide(f"{text(atom)} true", atom)
+            yield AtomSide(f"{text(atom)} false", ~atom)
 
 
-def _timer(word: Temporal, step_ms: int) -> Iterator[Side]:
+def _timer(word: Temporal, step_ms: int) -> Iterator[AtomSide]:
     """The step before a timer runs out, the step in which it does, and the one after."""
     assert word.span is not None
     last = word.span.ticks(step_ms) + (1 if word.when is When.DURATION and word.strict else 0)
     for count, said in ((last - 1, "one step early"), (last, "just run out"), (last + 1, "one step late")):
         exactly = _at_least(word, count) & ~_at_least(word, count + 1)
-        yield Side(f"{text(word)} {said}", exactly)
+        yield AtomSide(f"{text(word)} {said}", exactly)
 
 
 def _at_least(word: Temporal, count: int) -> Expr:
@@ -82,7 +82,7 @@ def _at_least(word: Temporal, count: int) -> Expr:
     return TRUE if always else replace(word, span=count * ticks, strict=False)
 
 
-def _numbers(atom: Expr, left: Expr, right: Expr) -> Iterator[Side]:
+def _numbers(atom: Expr, left: Expr, right: Expr) -> Iterator[AtomSide]:
     """The nearest difference of two numbers below zero, none, and the nearest above."""
     assert isinstance(left.sort, Num)
     difference = Apply(Op.SUB, (left, right), left.sort)
@@ -93,9 +93,9 @@ def _numbers(atom: Expr, left: Expr, right: Expr) -> Iterator[Side]:
 
     low = TRUE if below is None else compared(Op.GE, below)
     high = TRUE if above is None else compared(Op.LE, above)
-    yield Side(f"{text(atom)} just below", compared(Op.LT, 0) & low)
-    yield Side(f"{text(atom)} at it", compared(Op.EQ, 0))
-    yield Side(f"{text(atom)} just above", compared(Op.GT, 0) & high)
+    yield AtomSide(f"{text(atom)} just below", compared(Op.LT, 0) & low)
+    yield AtomSide(f"{text(atom)} at it", compared(Op.EQ, 0))
+    yield AtomSide(f"{text(atom)} just above", compared(Op.GT, 0) & high)
 
 
 def _nearest(difference: Expr) -> tuple[int | None, int | None]:

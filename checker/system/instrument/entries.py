@@ -10,7 +10,7 @@ from spec_model.lang.wellformed.places import common_composite
 
 
 @dataclass(frozen=True)
-class Group:
+class ArrowGroup:
     """Arrows in priority order that start in one place: a state, a junction, or (default) a composite."""
 
     owner: Path
@@ -21,7 +21,7 @@ class Group:
 class Segment:
     """One segment: where it starts, its position there from 1, and its number in the chart from 1."""
 
-    group: Group
+    group: ArrowGroup
     order: int
     number: int
     drawn: Transition
@@ -37,7 +37,7 @@ class Segment:
 
 
 @dataclass(frozen=True)
-class Origin:
+class EntryOrigin:
     """Where a path begins: in the state that it leaves, or (default) in the composite that is entered."""
 
     path: Path
@@ -50,7 +50,7 @@ class Arrows:
     def __init__(self, chart: Chart) -> None:
         self.chart = chart
         self.segments = tuple(_numbered(chart))
-        self.by_group: dict[Group, list[Segment]] = {}
+        self.by_group: dict[ArrowGroup, list[Segment]] = {}
         for segment in self.segments:
             self.by_group.setdefault(segment.group, []).append(segment)
 
@@ -74,11 +74,11 @@ class Arrows:
         return found.pop() if len(found) == 1 else None
 
     @cached_property
-    def _origins(self) -> dict[Group, set[Origin]]:
+    def _origins(self) -> dict[ArrowGroup, set[EntryOrigin]]:
         """Where the paths begin that run through a place."""
-        found: dict[Group, set[Origin]] = {group: set() for group in self.by_group}
+        found: dict[ArrowGroup, set[EntryOrigin]] = {group: set() for group in self.by_group}
         todo = [
-            (group, Origin(group.owner, group.default))
+            (group, EntryOrigin(group.owner, group.default))
             for group in self.by_group
             if group.default or group.owner in self.chart.states
         ]
@@ -88,11 +88,11 @@ class Arrows:
                 continue
             found[group].add(origin)
             ends = (self.target(s) for s in self.by_group.get(group, ()))
-            todo += [(Group(end), origin) for end in ends if end in self.chart.junctions]
+            todo += [(ArrowGroup(end), origin) for end in ends if end in self.chart.junctions]
         return found
 
 
-def _enters(origin: Origin, state: Path, target: Path) -> bool:
+def _enters(origin: EntryOrigin, state: Path, target: Path) -> bool:
     if origin.default:
         return len(state) > len(origin.path)
     return len(state) > len(common_composite(origin.path, target))
@@ -103,12 +103,12 @@ def _numbered(chart: Chart) -> Iterator[Segment]:
         yield Segment(group, order, number, drawn, level)
 
 
-def _drawn(chart: Chart) -> Iterator[tuple[Group, int, Transition, Path]]:
+def _drawn(chart: Chart) -> Iterator[tuple[ArrowGroup, int, Transition, Path]]:
     for path, state in chart.states.items():
         for order, arrow in enumerate(state.default, start=1):
-            yield Group(path, True), order, arrow, path
+            yield ArrowGroup(path, True), order, arrow, path
         for order, arrow in enumerate(state.transitions, start=1):
-            yield Group(path), order, arrow, path[:-1]
+            yield ArrowGroup(path), order, arrow, path[:-1]
     for path, junction in chart.junctions.items():
         for order, arrow in enumerate(junction.transitions, start=1):
-            yield Group(path), order, arrow, path[:-1]
+            yield ArrowGroup(path), order, arrow, path[:-1]

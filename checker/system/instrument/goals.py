@@ -7,7 +7,7 @@ from spec_model.lang.expr import Var
 from spec_model.lang.system import System
 
 
-class Kind(StrEnum):
+class GoalKind(StrEnum):
     """What a goal is about."""
 
     ARROWS = "arrows"
@@ -20,18 +20,18 @@ class Kind(StrEnum):
     @property
     def one(self) -> str:
         """The word for one of them."""
-        return {Kind.ARROWS: "arrow", Kind.BOUNDARIES: "boundary", Kind.PAIRS: "pair"}[self]
+        return {GoalKind.ARROWS: "arrow", GoalKind.BOUNDARIES: "boundary", GoalKind.PAIRS: "pair"}[self]
 
 
 @dataclass(frozen=True)
-class Goal:
+class CoverGoal:
     """A goal: reached in a tick after which its flag is true.
 
     ``id`` stays the same as long as the part, a chart or block, is drawn as it is; ``text`` says it in words.
     """
 
     id: str
-    kind: Kind
+    kind: GoalKind
     part: str
     text: str
     flag: Var
@@ -42,8 +42,8 @@ class Watched:
     """A system that behaves as before and raises the flag of each goal that a tick reaches."""
 
     system: System
-    goals: tuple[Goal, ...]
+    goals: tuple[CoverGoal, ...]
 
-    def of(self, *kinds: Kind) -> tuple[Goal, ...]:
+    def of(self, *kinds: GoalKind) -> tuple[CoverGoal, ...]:
         """The goals of some kinds."""
         return tuple(g for g in self.goals if g.kind in kinds)

@@ -8,9 +8,9 @@ that its condition action runs and the path goes back (rule G8).  Interpreter an
 from collections.abc import Collection, Container, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from checker.system.instrument.atoms import COUNTED, Side, sides
-from checker.system.instrument.entries import Arrows, Group, Segment
-from checker.system.instrument.goals import Goal, Kind, Watched
+from checker.system.instrument.atoms import COUNTED, AtomSide, sides
+from checker.system.instrument.entries import ArrowGroup, Arrows, Segment
+from checker.system.instrument.goals import CoverGoal, GoalKind, Watched
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, Path, State, Transition
 from spec_model.lang.domain import boolean, integer
@@ -18,12 +18,14 @@ from spec_model.lang.expr import FALSE, TRUE, Const, Expr, Temporal, Var
 from spec_model.lang.system import System
 from spec_model.lang.walk import nodes
 
-EVERY = tuple(Kind)
+EVERY = tuple(GoalKind)
 
 
-def watched(system: System, kinds: Collection[Kind] = EVERY, only: Container[str] | None = None) -> Watched:
+def watched(
+    system: System, kinds: Collection[GoalKind] = EVERY, only: Container[str] | None = None
+) -> Watched:
     """The system with flags for every goal of some kinds, or ``only`` for goals of some ids."""
-    goals: list[Goal] = []
+    goals: list[CoverGoal] = []
     wanted = _Wanted(frozenset(kinds), only, system.step_ms, goals)
     components = tuple(_component(c, wanted) for c in system.components)
     reset = Block("goals not reached", [Assign(goal.flag, FALSE) for goal in goals])
@@ -34,10 +36,10 @@ def watched(system: System, kinds: Collection[Kind] = EVERY, only: Container[str
 class _Wanted:
     """Which goals are wanted, and those found so far."""
 
-    kinds: frozenset[Kind]
+    kinds: frozenset[GoalKind]
     only: Container[str] | None
     step_ms: int
-    found: list[Goal]
+    found: list[CoverGoal]
 
 
 def _component(component: Component, wanted: _Wanted) -> Component:
@@ -59,25 +61,25 @@ class _Goals:
         self._wanted = wanted
         self._boundaries = 0
 
-    def goal(self, kind: Kind, number: str, text: str) -> tuple[Action, ...]:
+    def goal(self, kind: GoalKind, number: str, text: str) -> tuple[Action, ...]:
         """A goal as the action that raises its flag; none for one that is not wanted."""
         id, wanted = f"{self._part}.{kind.one}.{number}", self._wanted
         if kind not in wanted.kinds or not (wanted.only is None or id in wanted.only):
             return ()
         flag = Var(f"goal {id}", boolean, 0, text, hidden=True)
-        wanted.found.append(Goal(id, kind, self._part, text, flag))
+        wanted.found.append(CoverGoal(id, kind, self._part, text, flag))
         return (Assign(flag, TRUE),)
 
-    def wants(self, kind: Kind) -> bool:
+    def wants(self, kind: GoalKind) -> bool:
         return kind in self._wanted.kinds
 
-    def boundaries(self, expr: Expr | None, where: str) -> Iterator[tuple[Side, tuple[Action, ...]]]:
+    def boundaries(self, expr: Expr | None, where: str) -> Iterator[tuple[AtomSide, tuple[Action, ...]]]:
         """A goal for each side of each boundary in a formula."""
-        if expr is None or not self.wants(Kind.BOUNDARIES):
+        if expr is None or not self.wants(GoalKind.BOUNDARIES):
             return
         for side in sides(expr, self._wanted.step_ms):
             self._boundaries += 1
-            raised = self.goal(Kind.BOUNDARIES, str(self._boundaries), f"{side.text}, in {where}")
+            raised = self.goal(GoalKind.BOUNDARIES, str(self._boundaries), f"{side.text}, in {where}")
             if raised:
                 yield side, raised
 
@@ -122,13 +124,13 @@ class _Chart:
             during=self._goals.actions(state.during, f"the during of {at}"),
             exit=self._goals.actions(state.exit, f"the exit of {at}"),
             states=[self._state((*path, child.name), child) for child in state.states],
-            transitions=self._group(Group(path)),
-            junctions=[Junction(j.name, self._group(Group((*path, j.name)))) for j in state.junctions],
-            default=self._group(Group(path, True)),
+            transitions=self._group(ArrowGroup(path)),
+            junctions=[Junction(j.name, self._group(ArrowGroup((*path, j.name)))) for j in state.junctions],
+            default=self._group(ArrowGroup(path, True)),
             parallel=state.parallel,
         )
 
-    def _group(self, group: Group) -> list[Transition]:
+    def _group(self, group: ArrowGroup) -> list[Transition]:
         return [t for s in self._arrows.by_group.get(group, ()) for t in (*self._probes(s), self._taken(s))]
 
     def _probes(self, segment: Segment) -> Iterator[Transition]:
@@ -146,13 +148,13 @@ class _Chart:
         """A junction whose only arrow, never valid, goes where the segment goes: it adds no path."""
         name, goal = f"looked at {segment.number}", self._arrows.target(segment)
         while goal in self._chart.junctions:
-            goal = self._arrows.target(self._arrows.by_group[Group(goal)][0])
+            goal = self._arrows.target(self._arrows.by_group[ArrowGroup(goal)][0])
         self._ends.append(Junction(name, [Transition(".".join(goal), FALSE)]))
         return name
 
     def _taken(self, segment: Segment) -> Transition:
         drawn, goals = segment.drawn, self._goals
-        raised = goals.goal(Kind.ARROWS, str(segment.number), segment.text)
+        raised = goals.goal(GoalKind.ARROWS, str(segment.number), segment.text)
         return replace(
             drawn,
             do=goals.actions(drawn.do, segment.text),
@@ -172,12 +174,12 @@ class _Chart:
             return
         for before in self._arrows.entering[state]:
             text = f"{before.text}, then {segment.text}"
-            raised = self._goals.goal(Kind.PAIRS, f"{before.number}-{segment.number}", text)
+            raised = self._goals.goal(GoalKind.PAIRS, f"{before.number}-{segment.number}", text)
             if raised:
                 yield If(_is(self._memory(state), before.number), raised)
 
     def _entered(self, segment: Segment) -> Iterator[Action]:
-        if not self._goals.wants(Kind.PAIRS):
+        if not self._goals.wants(GoalKind.PAIRS):
             return
         for state, entering in self._arrows.entering.items():
             if segment in entering:

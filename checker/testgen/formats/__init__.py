@@ -4,10 +4,10 @@ from collections.abc import Callable, Mapping, Sequence
 
 from checker.testgen.formats import csv_files, pytest_files
 from checker.testgen.formats.c_files import c_files
-from checker.testgen.formats.expected import Expected
+from checker.testgen.formats.expected import ExpectedTest
 from spec_model.abstraction import Board
 
-Write = Callable[[Board, Sequence[Expected]], Mapping[str, str]]
+Write = Callable[[Board, Sequence[ExpectedTest]], Mapping[str, str]]
 """The files, by name, that tests of a board become."""
 
 FORMATS: Mapping[str, Write] = {
@@ -16,4 +16,4 @@ FORMATS: Mapping[str, Write] = {
     "c": c_files,
 }
 
-__all__ = ["FORMATS", "Expected", "Write"]
+__all__ = ["FORMATS", "ExpectedTest", "Write"]

@@ -2,14 +2,14 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from checker.testgen.formats.expected import Expected, Row, rows
+from checker.testgen.formats.expected import ExpectedRow, ExpectedTest, rows
 from checker.testgen.scripts import CLOCK
-from spec_model.abstraction import Board, Signal, Value
+from spec_model.abstraction import Board, BoardSignal, Value
 from spec_model.lang.domain import Bool, Num
 from spec_model.lang.system import TICK_MS
 
 
-def c_files(board: Board, tests: Sequence[Expected]) -> Mapping[str, str]:
+def c_files(board: Board, tests: Sequence[ExpectedTest]) -> Mapping[str, str]:
     """The program ``cover_<board>.c`` and the header with the functions that it calls."""
     return {f"cover_{board.name}.h": _header(board), f"cover_{board.name}.c": _program(board, tests)}
 
@@ -28,11 +28,11 @@ def _header(board: Board) -> str:
     )
 
 
-def _member(signal: Signal) -> str:
+def _member(signal: BoardSignal) -> str:
     return f"    {_type(signal)} {signal.name}; /* {signal.doc or signal.domain.sort} */\n"
 
 
-def _type(signal: Signal) -> str:
+def _type(signal: BoardSignal) -> str:
     if signal.stamp:
         return "uint32_t"
     match signal.domain.sort:
@@ -43,7 +43,7 @@ def _type(signal: Signal) -> str:
     return "int32_t"
 
 
-def _program(board: Board, tests: Sequence[Expected]) -> str:
+def _program(board: Board, tests: Sequence[ExpectedTest]) -> str:
     parts = (_start(board), *_tables(board, tests), _apply(board), _compare(board), MAIN)
     return "\n".join(parts)
 
@@ -62,7 +62,7 @@ def _start(board: Board) -> str:
     )
 
 
-def _tables(board: Board, tests: Sequence[Expected]) -> Iterator[str]:
+def _tables(board: Board, tests: Sequence[ExpectedTest]) -> Iterator[str]:
     """The changes of all rows of all tests, one after the other."""
     names = [s.name for s in board.inputs] + [o.name for o in board.outputs]
     numbers = {name: number for number, name in enumerate(names)}
@@ -78,8 +78,8 @@ def _tables(board: Board, tests: Sequence[Expected]) -> Iterator[str]:
     yield f"static const struct test tests[] = {{\n{named}}};\n"
 
 
-def _changes(numbers: Mapping[str, int]) -> Callable[[Row], str]:
-    def shown(row: Row) -> str:
+def _changes(numbers: Mapping[str, int]) -> Callable[[ExpectedRow], str]:
+    def shown(row: ExpectedRow) -> str:
         both = {**row.inputs, **row.outputs}
         cells = ", ".join(f"{{{numbers[name]}, {_number(value)}}}" for name, value in both.items())
         return f"    {cells},\n" if cells else ""
@@ -87,7 +87,7 @@ def _changes(numbers: Mapping[str, int]) -> Callable[[Row], str]:
     return shown
 
 
-def _counts(found: Sequence[Row]) -> str:
+def _counts(found: Sequence[ExpectedRow]) -> str:
     return " ".join(f"{{{r.held}, {len(r.inputs) + len(r.outputs)}}}," for r in found)
 
 

@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from io import StringIO
 
 from checker.io.files import csv_cell
-from checker.testgen.formats.expected import Expected
+from checker.testgen.formats.expected import ExpectedTest
 from checker.testgen.scripts import CLOCK
 from spec_model.abstraction import Board, Value
 
@@ -13,14 +13,14 @@ TIME = "time_ms"
 GOALS = "goals.csv"
 
 
-def csv_files(board: Board, tests: Sequence[Expected]) -> Mapping[str, str]:
+def csv_files(board: Board, tests: Sequence[ExpectedTest]) -> Mapping[str, str]:
     """A file for each test, and one that lists the goals of each."""
     files = {f"{test.name}.csv": _text(_table(board, test)) for test in tests}
     pairs = [[test.name, csv_cell(goal)] for test in tests for goal in test.goals]
     return {**files, f"{board.name}_{GOALS}": _text([["test", "goal"], *pairs])}
 
 
-def _table(board: Board, test: Expected) -> Iterator[list[str]]:
+def _table(board: Board, test: ExpectedTest) -> Iterator[list[str]]:
     inputs = [s.name for s in board.inputs if s.name != CLOCK]
     outputs = [o.name for o in board.outputs]
     yield [TIME, *map(csv_cell, (*inputs, *outputs))]

@@ -9,7 +9,7 @@ from spec_model.lang.interpret import Interpreter
 
 
 @dataclass(frozen=True)
-class Expected:
+class ExpectedTest:
     """A test: its name, the goals it reaches in words, its script, and the outputs after each step.
 
     Outputs that the charts leave open in a step are missing there.
@@ -22,10 +22,10 @@ class Expected:
     outputs: tuple[Mapping[str, Value], ...]
 
 
-def expected(board: Board, name: str, goals: Iterable[str], script: Script) -> Expected:
+def expected(board: Board, name: str, goals: Iterable[str], script: Script) -> ExpectedTest:
     """The test with what the interpreter requires of a board with these inputs."""
     inputs = steps(board, script)
-    return Expected(name, tuple(goals), script, inputs, tuple(required(board, inputs)))
+    return ExpectedTest(name, tuple(goals), script, inputs, tuple(required(board, inputs)))
 
 
 def required(board: Board, inputs: Sequence[Mapping[str, Value]]) -> Iterator[dict[str, Value]]:
@@ -37,7 +37,7 @@ def required(board: Board, inputs: Sequence[Mapping[str, Value]]) -> Iterator[di
 
 
 @dataclass(frozen=True)
-class Row:
+class ExpectedRow:
     """Equal steps in a row: how many, and what differs from the row before (an open output is None)."""
 
     held: int
@@ -45,9 +45,9 @@ class Row:
     outputs: Mapping[str, Value | None]
 
 
-def rows(board: Board, test: Expected) -> list[Row]:
+def rows(board: Board, test: ExpectedTest) -> list[ExpectedRow]:
     """A test as rows; before the first, inputs are at rest and outputs are open."""
-    found: list[Row] = []
+    found: list[ExpectedRow] = []
     moment: Moment = {s.name: False if s.stamp else s.initial for s in board.inputs}
     before: Mapping[str, Value | None] = {o.name: None for o in board.outputs}
     for given, required_ in zip(test.script, test.outputs, strict=True):
@@ -55,8 +55,8 @@ def rows(board: Board, test: Expected) -> list[Row]:
         inputs = {name: value for name, value in given.items() if value != moment[name]}
         outputs = {name: value for name, value in after.items() if value != before[name]}
         if found and not inputs and not outputs:
-            found[-1] = Row(found[-1].held + 1, found[-1].inputs, found[-1].outputs)
+            found[-1] = ExpectedRow(found[-1].held + 1, found[-1].inputs, found[-1].outputs)
         else:
-            found.append(Row(1, inputs, outputs))
+            found.append(ExpectedRow(1, inputs, outputs))
         moment, before = given, after
     return found

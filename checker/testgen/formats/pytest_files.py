@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from checker.testgen.formats.expected import Expected, Row, rows
+from checker.testgen.formats.expected import ExpectedRow, ExpectedTest, rows
 from spec_model.abstraction import Board
 
 OURS = {"board1": "python:supervisor.board1:Board1", "board2": "python:supervisor.board2.board:Board2"}
@@ -64,18 +64,18 @@ def pytest_addoption(parser):
 '''
 
 
-def pytest_files(board: Board, tests: Sequence[Expected]) -> Mapping[str, str]:
+def pytest_files(board: Board, tests: Sequence[ExpectedTest]) -> Mapping[str, str]:
     """The file of tests, and the ``conftest.py`` with its option."""
     name = f"test_cover_{board.name}.py"
     head = HEAD.format(board=board.name, file=name, ours=OURS[board.name])
     return {name: head + "".join(_test(board, t) for t in tests) + TAIL, "conftest.py": CONFTEST}
 
 
-def _test(board: Board, test: Expected) -> str:
+def _test(board: Board, test: ExpectedTest) -> str:
     goals = "".join(f"        # {goal}\n" for goal in test.goals)
     shown = "".join(f"        {_row(row)},\n" for row in rows(board, test))
     return f"    {test.name!r}: [\n{goals}{shown}    ],\n"
 
 
-def _row(row: Row) -> str:
+def _row(row: ExpectedRow) -> str:
     return repr((row.held, dict(row.inputs), dict(row.outputs)))

@@ -14,7 +14,7 @@ from spec_model.lang.walk import variables
 
 
 @dataclass(frozen=True)
-class Hunt:
+class LoopHunt:
     """The question for a loop, beside the monitored system and the goal it is about."""
 
     question: Question
@@ -22,9 +22,9 @@ class Hunt:
     lasso: Lasso
 
 
-def hunt(question: Question, goal: Goal) -> Hunt:
+def hunt(question: Question, goal: Goal) -> LoopHunt:
     """What to ask an engine about a goal that only a loop can break."""
-    return Hunt(question, goal, lasso(question.system, goal, _deciding(question, goal)))
+    return LoopHunt(question, goal, lasso(question.system, goal, _deciding(question, goal)))
 
 
 def _deciding(question: Question, goal: Goal) -> tuple[Var, ...]:
@@ -36,7 +36,7 @@ def _deciding(question: Question, goal: Goal) -> tuple[Var, ...]:
     return tuple(v for v in system.variables if v.name in names)
 
 
-def looped(hunt: Hunt, run: Run) -> Trace:
+def looped(hunt: LoopHunt, run: Run) -> Trace:
     """The trace of a run of the lasso system that closes a loop.
 
     Raises ``ReplayError`` unless the same inputs take the charts round the loop once more, tick by
@@ -52,7 +52,7 @@ def looped(hunt: Hunt, run: Run) -> Trace:
     return replace(once, loop=start)
 
 
-def _check(hunt: Hunt, twice: Trace, start: int, end: int) -> None:
+def _check(hunt: LoopHunt, twice: Trace, start: int, end: int) -> None:
     """Both rounds are the same, the condition of the loop is always true in them, the others recur."""
     id, goal = hunt.goal.property.id, hunt.goal
     at = [twice.before, *(tick.after for tick in twice.ticks)]
@@ -70,4 +70,4 @@ def _check(hunt: Hunt, twice: Trace, start: int, end: int) -> None:
             raise ReplayError(f"{id}: {recurring.doc} does not recur in the loop.")
 
 
-__all__ = ["Hunt", "hunt", "looped"]
+__all__ = ["LoopHunt", "hunt", "looped"]

@@ -12,7 +12,7 @@ from checker.results.graph import Values
 from checker.results.verdict import Exhausted, Open, Proved, Reached, Unknown, Verdict, Violated
 from checker.system.lowered import lowered
 from checker.system.slice import sliced
-from checker.verify.reachable import Search, TooLarge
+from checker.verify.reachable import ReachableSearch, TooLarge
 from checker.verify.result import Ask, check_domains
 from checker.verify.runs.calm import calmed
 from checker.verify.runs.replay import replay
@@ -78,7 +78,7 @@ def trapped(question: Question, to: Var, progress: Progress) -> Trap | Exhausted
     part = sliced(question.system, [to])
     carried = [v for v in (*part.frozen, *part.variables) if v.name != to.name]
     variables = (*carried, to)
-    search = Search(part, variables, MOST_VALUATIONS, MOST_TICKS, progress)
+    search = ReachableSearch(part, variables, MOST_VALUATIONS, MOST_TICKS, progress)
     depth = dict.fromkeys(search.initial(), 0)
     following: dict[Values, set[Values]] = {}
     leaving_own: dict[Values, int] = {}

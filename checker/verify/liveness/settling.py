@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from random import Random
 
 from checker.encode.bits import Circuit, circuit
-from checker.encode.bits.simulate import Simulation, Values
+from checker.encode.bits.simulate import BitSimulation, Values
 from checker.engines import Progress
 from checker.results.verdict import Reached, Run
 from checker.system.partition import conjuncts, partitions
-from checker.verify.liveness.loops import Hunt
+from checker.verify.liveness.loops import LoopHunt
 from spec_model.lang.evaluate import admissible, step
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
@@ -38,7 +38,7 @@ FOLLOWED, LONGEST = 3, 2000
 class _Batch:
     """Runs, the values to choose from for each input, and the inputs that others or a valuation restrict."""
 
-    simulation: Simulation
+    simulation: BitSimulation
     choices: Mapping[Var, Sequence[int]]
     bound: frozenset[str]
     random: Random
@@ -49,7 +49,7 @@ class _Batch:
         return {name: self.random.choices(of, k=self.simulation.runs) for name, of in chosen.items()}
 
 
-def settled(hunt: Hunt, progress: Progress, runs: int = RUNS) -> Reached | None:
+def settled(hunt: LoopHunt, progress: Progress, runs: int = RUNS) -> Reached | None:
     """A run of the lasso system that closes a loop which breaks the property; None if none was found."""
     system, goal = hunt.question.system, hunt.goal
     wanted = [goal.var.name, *(v.name for v in goal.recurs)]
@@ -72,7 +72,7 @@ def _batch(system: TransitionSystem, made: Circuit, runs: int, seed: int) -> _Ba
     depends = [variables(c) for c in conjuncts(system.assume)]
     bound = frozenset(n for found in depends if len(found) > 1 for n in found if n in own)
     choices = {v: [c.value for c in cells[v.name].cells] for v in system.inputs}
-    return _Batch(Simulation(made, runs), choices, bound, Random(seed))
+    return _Batch(BitSimulation(made, runs), choices, bound, Random(seed))
 
 
 # --- random runs -----------------------------------------------------------------------------------
@@ -162,7 +162,7 @@ def _calmed(batch: _Batch, values: Values, condition: str) -> tuple[Values, int]
 # --- one run ---------------------------------------------------------------------------------------
 
 
-def _followed(hunt: Hunt, inputs: Sequence[Mapping[str, int]]) -> Run | None:
+def _followed(hunt: LoopHunt, inputs: Sequence[Mapping[str, int]]) -> Run | None:
     """The run of the lasso system that these inputs, the last of them kept, lead round a loop."""
     system, goal = hunt.question.system, hunt.goal
     at, ticks = dict(system.init), list(inputs)
@@ -183,13 +183,13 @@ def _followed(hunt: Hunt, inputs: Sequence[Mapping[str, int]]) -> Run | None:
     return None
 
 
-def _breaks(hunt: Hunt, loop: Sequence[Mapping[str, int]]) -> bool:
+def _breaks(hunt: LoopHunt, loop: Sequence[Mapping[str, int]]) -> bool:
     """Whether the condition is true in every tick of the loop, and in some tick each that must recur."""
     lasting = all(at[hunt.goal.var.name] for at in loop)
     return lasting and all(any(at[v.name] for at in loop) for v in hunt.goal.recurs)
 
 
-def _saved(hunt: Hunt, ticks: Sequence[Mapping[str, int]], start: int) -> Run:
+def _saved(hunt: LoopHunt, ticks: Sequence[Mapping[str, int]], start: int) -> Run:
     """The run of the lasso system that saves its valuation before the tick with which the loop starts."""
     save = hunt.lasso.save.name
     return Run({}, tuple({**tick, save: int(n == start)} for n, tick in enumerate(ticks)))

@@ -13,10 +13,10 @@ from checker.results.trace import counted_ticks
 from checker.results.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Violated
 from checker.system.lowered import lowered
 from checker.system.slice import check_way_back
-from checker.verify.liveness.loops import Hunt, hunt, looped
+from checker.verify.liveness.loops import LoopHunt, hunt, looped
 from checker.verify.liveness.recover import recovered
 from checker.verify.liveness.settling import settled
-from checker.verify.portfolio.question import Hint, Question
+from checker.verify.portfolio.question import Hint, PortfolioQuestion
 from checker.verify.portfolio.shape import VAST, shape
 from checker.verify.result import Ask, Result, check_domains
 from checker.verify.runs.reproduce import only_there
@@ -100,12 +100,12 @@ def _by_loop(prop: Property, systems: Systems, ask: Ask, progress: Progress) -> 
     return result
 
 
-def _hunted(prop: Property, system: System, ask: Ask, progress: Progress) -> tuple[Hunt, Answer, str]:
+def _hunted(prop: Property, system: System, ask: Ask, progress: Progress) -> tuple[LoopHunt, Answer, str]:
     question = reduce(lowered(system), [prop])
     hunted = hunt(question, question.goals[0])
     loop = attempted(SETTLING, system.name, lambda: settled(hunted, progress)) if _vast(hunted) else None
     if isinstance(loop, Reached):
-        if question.system.checks and shape(Question(question.system, ())).enumerable:
+        if question.system.checks and shape(PortfolioQuestion(question.system, ())).enumerable:
             check_domains(question.system, ask(question.system, []))
         return hunted, loop, SETTLING
     found = ask(hunted.lasso.system, [hunted.lasso.goal], Hint.SHORT)
@@ -113,12 +113,12 @@ def _hunted(prop: Property, system: System, ask: Ask, progress: Progress) -> tup
     return hunted, *found[hunted.lasso.goal.name]
 
 
-def _vast(hunted: Hunt) -> bool:
+def _vast(hunted: LoopHunt) -> bool:
     """Whether pairs of valuations are too wide to enumerate, so that a long loop is best met by chance."""
-    return shape(Question(hunted.lasso.system, (hunted.lasso.goal,))).bits > VAST
+    return shape(PortfolioQuestion(hunted.lasso.system, (hunted.lasso.goal,))).bits > VAST
 
 
-def _result(hunted: Hunt, answer: Answer, by: str) -> Result:
+def _result(hunted: LoopHunt, answer: Answer, by: str) -> Result:
     prop, name = hunted.goal.property, hunted.question.system.name
     match answer:
         case Reached(run):

@@ -2,6 +2,6 @@
 
 from checker.verify.portfolio.answers import answers, as_found
 from checker.verify.portfolio.disagreement import Disagreement
-from checker.verify.portfolio.question import Found, Hint, Question, Told
+from checker.verify.portfolio.question import Callbacks, Found, Hint, PortfolioQuestion
 
-__all__ = ["Disagreement", "Found", "Hint", "Question", "Told", "answers", "as_found"]
+__all__ = ["Callbacks", "Disagreement", "Found", "Hint", "PortfolioQuestion", "answers", "as_found"]

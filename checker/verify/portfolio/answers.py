@@ -5,11 +5,11 @@ from collections.abc import Iterator
 from checker.engines import ALL, AUTO, Engine, Limits, engines
 from checker.results.verdict import Answer, Open, Reached, Unreachable
 from checker.verify.portfolio.compare import compared
-from checker.verify.portfolio.question import Found, Question, Told, conclusive, stays
+from checker.verify.portfolio.question import Callbacks, Found, PortfolioQuestion, conclusive, stays
 from checker.verify.portfolio.turns import asked, in_turn
 
 
-def answers(question: Question, engine: str | Engine, limits: Limits, told: Told) -> Found:
+def answers(question: PortfolioQuestion, engine: str | Engine, limits: Limits, told: Callbacks) -> Found:
     """An answer for each goal and each check of the system.  Raises ``Disagreement``."""
     found: dict[str, tuple[Answer, str]] = {}
     for more in as_found(question, engine, limits, told):
@@ -17,7 +17,9 @@ def answers(question: Question, engine: str | Engine, limits: Limits, told: Told
     return found
 
 
-def as_found(question: Question, engine: str | Engine, limits: Limits, told: Told) -> Iterator[Found]:
+def as_found(
+    question: PortfolioQuestion, engine: str | Engine, limits: Limits, told: Callbacks
+) -> Iterator[Found]:
     """The same answers, each once: runs as they are found, the rest when no more can change.
 
     That a goal is never reached counts only if the model never leaves a domain; that it does is told at once.
@@ -32,13 +34,15 @@ def as_found(question: Question, engine: str | Engine, limits: Limits, told: Tol
     yield from _told(question, rest, told)
 
 
-def _told(question: Question, new: Found, told: Told) -> Iterator[Found]:
+def _told(question: PortfolioQuestion, new: Found, told: Callbacks) -> Iterator[Found]:
     if new:
         told.answered(question, new)
         yield new
 
 
-def _rounds(question: Question, engine: str | Engine, limits: Limits, told: Told) -> Iterator[Found]:
+def _rounds(
+    question: PortfolioQuestion, engine: str | Engine, limits: Limits, told: Callbacks
+) -> Iterator[Found]:
     if engine == AUTO:
         yield from in_turn(question, limits, told)
     elif engine == ALL:
@@ -51,7 +55,7 @@ def _rounds(question: Question, engine: str | Engine, limits: Limits, told: Told
         yield alone
 
 
-def _final(question: Question, found: Found, goal: str) -> bool:
+def _final(question: PortfolioQuestion, found: Found, goal: str) -> bool:
     """Whether an answer counts whatever other engines say."""
     answer, _ = found[goal]
     if isinstance(answer, Reached) and goal in {check.name for check in question.checks}:
@@ -59,7 +63,7 @@ def _final(question: Question, found: Found, goal: str) -> bool:
     return conclusive(answer) and (isinstance(answer, Reached) or stays(question, found))
 
 
-def _meant(question: Question, found: Found, goal: str) -> tuple[Answer, str]:
+def _meant(question: PortfolioQuestion, found: Found, goal: str) -> tuple[Answer, str]:
     """The answer, open if it rests on the model staying in its domains and that is not known."""
     answer, by = found[goal]
     if isinstance(answer, Unreachable):

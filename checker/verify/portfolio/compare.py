@@ -6,11 +6,11 @@ from itertools import combinations
 from checker.engines import Limits, engines
 from checker.results.verdict import Answer
 from checker.verify.portfolio.disagreement import contradict, said
-from checker.verify.portfolio.question import Found, Question, Told
+from checker.verify.portfolio.question import Callbacks, Found, PortfolioQuestion
 from checker.verify.portfolio.turns import asked, better
 
 
-def compared(question: Question, limits: Limits, told: Told) -> Found:
+def compared(question: PortfolioQuestion, limits: Limits, told: Callbacks) -> Found:
     """The best answer to each goal, when all engines have been asked.  Raises ``Disagreement``."""
     by_engine = {}
     for name, engine in engines().items():

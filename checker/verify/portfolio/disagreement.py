@@ -10,7 +10,7 @@ from spec_model.lang.system import TransitionSystem
 
 
 @dataclass(frozen=True)
-class Saying:
+class Statement:
     """What one engine says of a goal; ``replayed``: whether its run, if it has one, reaches the goal."""
 
     engine: str
@@ -32,7 +32,7 @@ class Saying:
 class Disagreement(Exception):
     """Two engines gave answers that cannot both be true: a bug of ours."""
 
-    def __init__(self, system: str, goal: str, said: tuple[Saying, ...]) -> None:
+    def __init__(self, system: str, goal: str, said: tuple[Statement, ...]) -> None:
         super().__init__(system, goal, said)
         self.system = system
         self.goal = goal
@@ -56,7 +56,7 @@ def contradict(first: Answer, second: Answer) -> bool:
 
 def said(system: TransitionSystem, goal: Var, each: Iterable[tuple[Answer, str]]) -> Disagreement:
     """What engines say of a goal, as the error that it is."""
-    sayings = (Saying(by, light(answer), _replays(system, goal, answer)) for answer, by in each)
+    sayings = (Statement(by, light(answer), _replays(system, goal, answer)) for answer, by in each)
     return Disagreement(system.name, goal.name, tuple(sayings))
 
 

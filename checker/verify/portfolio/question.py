@@ -14,7 +14,7 @@ Found = Mapping[str, tuple[Answer, str]]
 """An answer for each goal, and the name of the engine that gave it."""
 
 
-def stays(question: "Question", found: Found) -> bool:
+def stays(question: "PortfolioQuestion", found: Found) -> bool:
     """Whether it is shown among the answers that no run leaves a domain."""
     return all(c.name in found and isinstance(found[c.name][0], Unreachable) for c in question.checks)
 
@@ -35,7 +35,7 @@ class Hint(StrEnum):
 
 
 @dataclass(frozen=True)
-class Question:
+class PortfolioQuestion:
     """Is any of the ``wanted`` goals ever true after a tick, and does the model leave a domain?
 
     ``candidates`` are formulas that may be an invariant, from a proof on record: of the same charts, or of
@@ -74,12 +74,12 @@ def _nothing(_: object) -> None:
     pass
 
 
-def _no_answers(_: Question, __: Found) -> None:
+def _no_answers(_: PortfolioQuestion, __: Found) -> None:
     pass
 
 
 @dataclass(frozen=True)
-class Told:
+class Callbacks:
     """Who is told what.
 
     ``granted`` hears, before each engine and when it has answered, how many seconds are left for the
@@ -88,7 +88,7 @@ class Told:
 
     progress: Progress = quiet
     granted: Callable[[float | None], None] = _nothing
-    answered: Callable[[Question, Found], None] = _no_answers
+    answered: Callable[[PortfolioQuestion, Found], None] = _no_answers
 
 
 def in_words(answer: Answer) -> str:

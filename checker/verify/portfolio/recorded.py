@@ -8,7 +8,7 @@ from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import TransitionSystem
 
 
-class Recorded:
+class RecordedInvariants:
     """An engine that tries the conjuncts of earlier proofs and searches for nothing."""
 
     SUMMARY = "the invariants on record"

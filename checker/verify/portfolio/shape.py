@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from checker.system.slice import sliced
-from checker.verify.portfolio.question import Hint, Question
+from checker.verify.portfolio.question import Hint, PortfolioQuestion
 from spec_model.lang.chart import Chart, Path
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
@@ -65,7 +65,7 @@ def _bits(variables: Iterable[Var]) -> int:
     return sum((len(v.domain) - 1).bit_length() for v in variables)
 
 
-def shape(question: Question) -> Shape:
+def shape(question: PortfolioQuestion) -> Shape:
     """The shape of a question."""
     part = sliced(question.system, question.goals)
     bits = {v.name: (len(v.domain) - 1).bit_length() for v in part.variables}

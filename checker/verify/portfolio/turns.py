@@ -9,8 +9,8 @@ from checker.process.faults import Failed, attempted
 from checker.results.verdict import Answer, Open, Reached, Run
 from checker.verify.portfolio.disagreement import contradict, said
 from checker.verify.portfolio.order import CHECKS, ORDERS, RECORDED, SOON, Turn
-from checker.verify.portfolio.question import Found, Question, Told
-from checker.verify.portfolio.recorded import Recorded
+from checker.verify.portfolio.question import Callbacks, Found, PortfolioQuestion
+from checker.verify.portfolio.recorded import RecordedInvariants
 from checker.verify.portfolio.shape import shape
 from checker.verify.runs.domains import stray
 from spec_model.lang.expr import Var
@@ -21,7 +21,7 @@ SHORTENED = 128
 """Ticks of the longest run for which a shorter one is looked for: unrolling further takes minutes."""
 
 
-def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
+def in_turn(question: PortfolioQuestion, limits: Limits, told: Callbacks) -> Iterator[Found]:
     """After each turn all that is found so far; the last one holds an answer for every goal.
 
     Raises ``Disagreement`` when a turn contradicts what an earlier one left to be confirmed.
@@ -31,7 +31,7 @@ def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
     turns: Sequence[Turn] = ORDERS[shape(question).kind]
     prover = known.get(RECORDED.engine)
     if question.candidates is not None and isinstance(prover, Prover):
-        recorded = Recorded(prover, question.candidates)
+        recorded = RecordedInvariants(prover, question.candidates)
         found = _turn(recorded, RECORDED, question, question.goals, found, limits, deadline, told)
         turns = [turn for turn in turns if turn is not SOON]
         yield found
@@ -48,8 +48,8 @@ def in_turn(question: Question, limits: Limits, told: Told) -> Iterator[Found]:
 
 
 def _turn(
-    engine: Engine, turn: Turn, question: Question, goals: Sequence[Var], found: Found, limits: Limits,
-    deadline: float | None, told: Told,
+    engine: Engine, turn: Turn, question: PortfolioQuestion, goals: Sequence[Var], found: Found,
+    limits: Limits, deadline: float | None, told: Callbacks,
 ) -> Found:  # fmt: skip
     """What is found so far, with what an engine says of some goals in its turn."""
     left = None if deadline is None else max(0.0, deadline - monotonic())
@@ -59,14 +59,14 @@ def _turn(
     return {**found, **{g.name: _both(question, g, found.get(g.name), answers[g.name]) for g in goals}}
 
 
-def _affordable(question: Question, deadline: float | None) -> bool:
+def _affordable(question: PortfolioQuestion, deadline: float | None) -> bool:
     """Whether it is soon found out that the model has no meaning, though a run has decided what was asked."""
-    wide = shape(question).enumerable or not shape(Question(question.system, ())).enumerable
+    wide = shape(question).enumerable or not shape(PortfolioQuestion(question.system, ())).enumerable
     return not wide and (deadline is None or monotonic() < deadline)
 
 
 def _both(
-    question: Question, goal: Var, before: tuple[Answer, str] | None, now: tuple[Answer, str]
+    question: PortfolioQuestion, goal: Var, before: tuple[Answer, str] | None, now: tuple[Answer, str]
 ) -> tuple[Answer, str]:
     """What two turns say of a goal together.  Raises ``Disagreement``."""
     if before is None:
@@ -81,7 +81,7 @@ def _worth(known: tuple[Answer, str] | None) -> bool:
     return known is None or not isinstance(known[0], Reached) or len(known[0].run) <= SHORTENED
 
 
-def _over(question: Question, found: Found, limits: Limits, deadline: float | None) -> bool:
+def _over(question: PortfolioQuestion, found: Found, limits: Limits, deadline: float | None) -> bool:
     """Whether no further engine is worth asking."""
     open_ = question.open(found)
     if not open_:
@@ -101,7 +101,7 @@ def _looked(answer: Answer, depth: int) -> bool:
 
 
 def asked(
-    engine: Engine, question: Question, limits: Limits, told: Told, goals: Sequence[Var]
+    engine: Engine, question: PortfolioQuestion, limits: Limits, told: Callbacks, goals: Sequence[Var]
 ) -> dict[str, tuple[Answer, str]]:
     """What one engine says of some goals; nothing, if it fails: the others have their turns all the same."""
     told.progress(Stage(f"{engine.NAME}: searching"))
@@ -123,7 +123,7 @@ def asked(
     return {name: (answer, engine.NAME) for name, answer in meant.items()}
 
 
-def _without_strays(question: Question, answers: Mapping[str, Answer]) -> dict[str, Answer]:
+def _without_strays(question: PortfolioQuestion, answers: Mapping[str, Answer]) -> dict[str, Answer]:
     """The answers, where a run that leaves a domain shows that, and not what it comes to afterwards."""
     meant = dict(answers)
     runs = {goal: answer.run for goal, answer in answers.items() if isinstance(answer, Reached)}

@@ -36,7 +36,7 @@ class TooDeep(Exception):
     """A program is nested more deeply than Python reads."""
 
 
-class Compiled:
+class CompiledStep:
     """Goes through runs of a system and notes when some of its truth values, the goals, are first true.
 
     Raises ``TooDeep`` for a system whose step or formulas are nested beyond all measure.
@@ -180,4 +180,4 @@ def _applied(op: Op, args: Sequence[str]) -> str:
     return f"{_CALLED[op]}({', '.join(args)})"
 
 
-__all__ = ["Compiled", "TooDeep"]
+__all__ = ["CompiledStep", "TooDeep"]

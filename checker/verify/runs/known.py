@@ -62,10 +62,10 @@ def confirm(system: System, prop: Property, run: Run) -> None:
 
 def _first(question: Question) -> Callable[[Run], dict[str, int]]:
     """What says of a run the properties whose goals it reaches, and after how many ticks."""
-    from checker.verify.runs.compiled import Compiled, TooDeep  # not before there is a run to go through
+    from checker.verify.runs.compiled import CompiledStep, TooDeep  # not before there is a run to go through
 
     try:
-        compiled = Compiled(question.system, [goal.var for goal in question.goals])
+        compiled = CompiledStep(question.system, [goal.var for goal in question.goals])
     except TooDeep:
         return lambda run: _reached(question, run)
     ids = {goal.var.name: goal.property.id for goal in question.goals}

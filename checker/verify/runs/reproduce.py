@@ -6,8 +6,7 @@ from dataclasses import replace
 from checker.results.trace import counted_ticks
 from checker.results.verdict import Reached, Unknown
 from checker.system.lowered import lowered
-from checker.verify.portfolio.question import Hint
-from checker.verify.portfolio.question import Question as Asked
+from checker.verify.portfolio.question import Hint, PortfolioQuestion
 from checker.verify.portfolio.shape import shape
 from checker.verify.result import Ask, Result, check_domains, result
 from checker.verify.runs.calm import calmed, transferred
@@ -26,7 +25,7 @@ def reproduced(question: Question, runs: Runs, concrete: System, ask: Ask) -> li
     """
     reached = [g for g in question.goals if g.var.name in runs]
     there = reduce(lowered(concrete), [replace(g.property, on=concrete.name) for g in reached])
-    asked = Asked(there.system, ())
+    asked = PortfolioQuestion(there.system, ())
     if there.system.checks and shape(asked).enumerable:  # else it costs too much
         check_domains(there.system, ask(there.system, []))
     found: list[Result] = []

@@ -10,7 +10,7 @@ from spec_model.lang.domain import Bool, Enum, Num
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.interpret.fired import Fired, path_label
-from spec_model.lang.interpret.words import Words
+from spec_model.lang.interpret.words import InterpretedWords
 
 Values = MutableMapping[str, int]
 Admits = Callable[[Var, int], bool]
@@ -51,7 +51,7 @@ class ChartRun:
         self._at = at
         self._admits = admits or contains
         self._fired = fired
-        self._words = Words(chart, tick_ms, elapsed)
+        self._words = InterpretedWords(chart, tick_ms, elapsed)
         self._active: dict[Path, int] = {}
         self._entries = 0
         self._owners = [(data, {chart.path(o) for o in owners}) for data, owners in chart.local_to]

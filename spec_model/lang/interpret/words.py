@@ -23,7 +23,7 @@ class _Count:
     in_ms: bool = False
 
 
-class Words:
+class InterpretedWords:
     """Counters and memories of the temporal words of one chart."""
 
     def __init__(self, chart: Chart, tick_ms: int, elapsed: Var | None = None) -> None:

@@ -8,7 +8,7 @@ from spec_model.lang.chart import NOWHERE, Chart, Path, Transition
 from spec_model.lang.domain import Bool, boolean
 from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var, any_of
 from spec_model.lang.lower.ranges import guarded
-from spec_model.lang.lower.timers import Timers
+from spec_model.lang.lower.timers import ChartTimers
 from spec_model.lang.operators import Op
 from spec_model.lang.system import Statement
 
@@ -20,7 +20,7 @@ nested as deep as a level has states."""
 
 
 @dataclass(frozen=True)
-class Way:
+class FlowWay:
     """A path being followed: from a source state, or (default) into a composite.
 
     ``then`` collects transition actions; ``done`` are the flags to raise on completion, one for each
@@ -34,12 +34,12 @@ class Way:
     done: tuple[Var, ...] = ()
 
 
-class Flow:
+class ChartFlow:
     """One chart being lowered."""
 
     def __init__(self, chart: Chart, tick_ms: int, elapsed: Var | None = None) -> None:
         self.chart = chart
-        self.timers = Timers(chart, tick_ms, elapsed)
+        self.timers = ChartTimers(chart, tick_ms, elapsed)
         self.flags: list[Var] = []
         self._executions: dict[object, tuple[Statement, ...]] = {}
         self._absent: frozenset[Path] = frozenset()
@@ -63,7 +63,7 @@ class Flow:
         if key not in self._executions:
             state = self.chart.states[path]
             body = self._body(path, event)
-            arrows = self.attempt(state.transitions, path[:-1], Way(path, event), lambda: body)
+            arrows = self.attempt(state.transitions, path[:-1], FlowWay(path, event), lambda: body)
             self._executions[key] = (*self.timers.on_execution(path), *arrows)
         return self._executions[key]
 
@@ -111,7 +111,7 @@ class Flow:
     # --- arrows (G5 to G8) ---
 
     def attempt(
-        self, segments: Sequence[Transition], level: Path, way: Way, otherwise: Callable[[], Statements]
+        self, segments: Sequence[Transition], level: Path, way: FlowWay, otherwise: Callable[[], Statements]
     ) -> Statements:
         """Test segments drawn at ``level`` in order; ``otherwise`` runs if none completes a path."""
         tried: list[_Tried] = []
@@ -131,7 +131,7 @@ class Flow:
                 )
         return _in_order(tried, otherwise())
 
-    def _follow(self, segment: Transition, level: Path, way: Way) -> Statements:
+    def _follow(self, segment: Transition, level: Path, way: FlowWay) -> Statements:
         """What happens once a segment has been found valid."""
         target = self.chart.resolve(level, segment.target)
         assert target is not None
@@ -159,7 +159,7 @@ class Flow:
 
     # --- taking a path (G9) ---
 
-    def take(self, way: Way, target: Path) -> Statements:
+    def take(self, way: FlowWay, target: Path) -> Statements:
         """Exit, run transition actions, enter."""
         if way.source is None:
             return self.actions(way.then) + self.enter(way.composite, target)
@@ -240,7 +240,7 @@ class Flow:
         state = self.chart.states[path]
         if state.parallel:
             return self._in_turn(path, self.complete)
-        return self.attempt(state.default, path, Way(composite=path), lambda: [])
+        return self.attempt(state.default, path, FlowWay(composite=path), lambda: [])
 
     def _activate(self, path: Path) -> Statements:
         parent, state, before = path[:-1], self.chart.states[path], self._absent

@@ -18,7 +18,7 @@ from spec_model.lang.walk import nodes, structure
 from spec_model.lang.words import minimum
 
 
-class Timers:
+class ChartTimers:
     """The counters of one chart, and formulas with their temporal words replaced by them."""
 
     def __init__(self, chart: Chart, tick_ms: int, elapsed: Var | None = None) -> None:

@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from spec_model.lang.action import Assign, If, each_action
 from spec_model.lang.chart import Block, Chart, Component, Enabled
 from spec_model.lang.expr import FALSE, Var
-from spec_model.lang.lower.flow import Flow
+from spec_model.lang.lower.flow import ChartFlow
 from spec_model.lang.lower.ranges import check_of, guarded
 from spec_model.lang.system import Program, Statement, System, TransitionSystem
 from spec_model.lang.wellformed import check_system
@@ -56,7 +56,7 @@ class _Made:
         return tuple(out)
 
     def _chart(self, chart: Chart) -> list[Statement]:
-        flow = Flow(chart, self.tick_ms, self.elapsed)
+        flow = ChartFlow(chart, self.tick_ms, self.elapsed)
         statements = flow.step()
         self.locations += [*([chart.entered] if chart.root.parallel else []), *chart.locations]
         self.timers += flow.timers.variables

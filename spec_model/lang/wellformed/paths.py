@@ -11,7 +11,7 @@ def path_faults(chart: Chart) -> Iterator[str]:
     all_legs = list(legs(chart))
     for leg in all_legs:
         yield from _default_faults(leg) if leg.default else _crossing_faults(chart, leg)
-    reach = Reach(chart, all_legs)
+    reach = PathReach(chart, all_legs)
     yield from _completion_faults(chart, reach.completed)
     yield from _unreachable_faults(chart, reach.entered, all_legs)
 
@@ -38,7 +38,7 @@ def _crossing_faults(chart: Chart, leg: Leg) -> Iterator[str]:
         )
 
 
-class Reach:
+class PathReach:
     """The states that can be active, and the composites ``completed``: entered without an explicit child.
 
     Every state is looked at once, however deeply it lies and in whatever order arrows lead to it.

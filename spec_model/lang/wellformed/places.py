@@ -73,7 +73,7 @@ def _legs(
             todo += [(end[:-1], n, s) for n, s in arrow_names(junction.transitions, end)]
 
 
-class Kind(StrEnum):
+class ActionKind(StrEnum):
     """Where actions stand."""
 
     ENTRY = "entry action"
@@ -84,33 +84,36 @@ class Kind(StrEnum):
 
 
 @dataclass(frozen=True)
-class Place:
+class ActionPlace:
     """Actions of a state, or of a segment of a path that leaves it."""
 
     owner: Path
-    kind: Kind
+    kind: ActionKind
     where: str
     actions: tuple[Action, ...]
     default: bool = False
 
 
 @lru_cache(maxsize=8)
-def places(chart: Chart) -> tuple[Place, ...]:
+def places(chart: Chart) -> tuple[ActionPlace, ...]:
     """Every list of actions that is not empty, with the state that it belongs to."""
     return tuple(_places(chart))
 
 
-def _places(chart: Chart) -> Iterator[Place]:
+def _places(chart: Chart) -> Iterator[ActionPlace]:
     for path, state in chart.states.items():
         of = name_of(path)
-        kinds = {Kind.ENTRY: state.entry, Kind.DURING: state.during, Kind.EXIT: state.exit}
+        kinds = {ActionKind.ENTRY: state.entry, ActionKind.DURING: state.during, ActionKind.EXIT: state.exit}
         for kind, actions in kinds.items():
             if actions:
-                yield Place(path, kind, f"the {kind} of {of}", actions)
+                yield ActionPlace(path, kind, f"the {kind} of {of}", actions)
     for leg in legs(chart):
-        for kind, actions in ((Kind.CONDITION, leg.segment.do), (Kind.TRANSITION, leg.segment.then)):
+        for kind, actions in (
+            (ActionKind.CONDITION, leg.segment.do),
+            (ActionKind.TRANSITION, leg.segment.then),
+        ):
             if actions:
-                yield Place(leg.source, kind, f"the {kind} of {leg.where}", actions, leg.default)
+                yield ActionPlace(leg.source, kind, f"the {kind} of {leg.where}", actions, leg.default)
 
 
 def conditions(actions: Sequence[Action]) -> Iterator[Expr]:

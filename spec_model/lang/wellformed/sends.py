@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from spec_model.lang.action import Send, each_action
 from spec_model.lang.chart import Chart, Path
 from spec_model.lang.errors import ModelError
-from spec_model.lang.wellformed.places import Leg, Place, common_composite, legs, name_of, places
+from spec_model.lang.wellformed.places import ActionPlace, Leg, common_composite, legs, name_of, places
 
 
 @dataclass(frozen=True)
@@ -14,7 +14,7 @@ class _Site:
     """A send, the state whose action or arrow it is in, and the state it executes."""
 
     send: Send
-    place: Place
+    place: ActionPlace
     receiver: Path
 
     def __str__(self) -> str:

@@ -8,7 +8,7 @@ from spec_model.lang.domain import Bool
 from spec_model.lang.errors import ModelError, with_article
 from spec_model.lang.expr import Expr, Temporal, When
 from spec_model.lang.walk import nodes, variables
-from spec_model.lang.wellformed.places import Place, conditions, legs, places
+from spec_model.lang.wellformed.places import ActionPlace, conditions, legs, places
 
 _OF_A_STATE = (When.AFTER, When.DURATION)
 _OF_PROPERTIES = (When.PREVIOUS, When.ONCE)
@@ -29,7 +29,7 @@ def word_faults(chart: Chart, tick_ms: int) -> Iterator[str]:
         yield from _place_faults(place, own, tick_ms)
 
 
-def _place_faults(place: Place, own: set[str], tick_ms: int) -> Iterator[str]:
+def _place_faults(place: ActionPlace, own: set[str], tick_ms: int) -> Iterator[str]:
     for condition in conditions(place.actions):
         yield from _sort_faults(f"a condition in {place.where}", condition)
     for expr in expressions(place.actions):
