@@ -9,8 +9,7 @@ from checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSig
 from checker.results.trace import Tick, Trace
 from checker.testgen.formats.pytest_files import OURS
 from checker.testgen.scripts import CLOCK
-from spec_model.abstraction import Board, boards
-from spec_model.abstraction import BoardSignal
+from spec_model.abstraction import Board, BoardSignal, boards
 from spec_model.lang.chart import parts
 from spec_model.lang.domain import Bool, Num
 from spec_model.lang.errors import ModelError
