@@ -13,7 +13,7 @@ from statistics import median
 from tempfile import TemporaryDirectory
 from time import process_time
 
-from checker.logs.behaviour import Follow
+from checker.logs.check import Follow
 from checker.logs.choosing import choose
 from checker.logs.cones import cones
 from checker.logs.log import LogBlock, LogLayout, open_log

@@ -12,7 +12,7 @@ from checker.encode.bits import circuit
 from checker.encode.bits.inputs import input_cut
 from checker.encode.bits.order import orders
 from checker.engines import Limits, bdd, engines, quiet
-from checker.engines.bdd import kept
+from checker.engines.bdd import search as kept
 from checker.engines.bdd.events import BddBound, BddClosed, BddFound, BddStuck
 from checker.engines.bdd.search import search
 from checker.results.diagram import Diagram

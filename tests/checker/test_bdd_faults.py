@@ -10,10 +10,12 @@ from hypothesis import Phase, given, settings
 
 from benchmarks.roverlite import roverlite
 from checker.encode.bits import TRUE, Circuit, Latch
-from checker.engines.bdd import groups, layers, relation, runs, search
-from checker.engines.bdd.groups import BddGroup
+from checker.engines.bdd import layers, relation, search
+from checker.engines.bdd import search as groups
+from checker.engines.bdd import search as runs
 from checker.engines.bdd.layers import Layers
 from checker.engines.bdd.relation import Relation
+from checker.engines.bdd.search import BddGroup
 from checker.engines.bdd.space import Function, Space
 from spec_model.lang.action import Assign
 from spec_model.lang.domain import integer

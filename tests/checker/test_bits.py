@@ -10,8 +10,7 @@ from hypothesis import strategies as st
 
 from checker.encode.bits import FALSE, TRUE, Aig, Bit, Blaster, Circuit, circuit
 from checker.encode.bits.aig import bits_of
-from checker.encode.bits.blast import as_word, bits_needed
-from checker.encode.bits.words import value_of
+from checker.encode.bits.blast import as_word, bits_needed, value_of
 from spec_model.lang.domain import Bool
 from spec_model.lang.evaluate import admissible, evaluate, step
 from spec_model.lang.expr import Apply, Expr, Var

@@ -9,7 +9,9 @@ from checker.engines import ALL, AUTO, Engine, Limits, Progress
 from checker.process.faults import Fault, InternalError, attempted, listening, tell
 from checker.process.isolate import Send, Stopped, messages
 from checker.results.verdict import Answer, Inductive, Open, Reached, Run, Unreachable
-from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers, compare, turns
+from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
+from checker.verify.portfolio import answers as compare
+from checker.verify.portfolio import answers as turns
 from checker.verify.portfolio.order import ORDERS, Turn
 from spec_model.lang.action import Assign
 from spec_model.lang.errors import ModelError

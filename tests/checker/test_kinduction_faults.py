@@ -7,7 +7,8 @@ import pytest
 from checker.encode.bitvector import Term
 from checker.encode.cone import Slice
 from checker.encode.terms import Terms
-from checker.engines.kinduction import houdini, hunt, induction, search
+from checker.engines.kinduction import houdini, hunt, search
+from checker.engines.kinduction import search as induction
 from checker.engines.kinduction.events import Event, InductionBound, InductionClosed
 from checker.engines.kinduction.ticks import Ticks
 from spec_model.lang.expr import Expr

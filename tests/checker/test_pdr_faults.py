@@ -14,11 +14,10 @@ from checker.engines.pdr import groups, search, seeds
 from checker.engines.pdr.cubes import Cube, cube
 from checker.engines.pdr.events import Decided, PdrBound
 from checker.engines.pdr.frames import Frames
-from checker.engines.pdr.generalise import Generaliser
 from checker.engines.pdr.groups import decisions
 from checker.engines.pdr.lemmas import Lemma, LemmaStep
-from checker.engines.pdr.lift import Lifter
 from checker.engines.pdr.machine import PdrMachine, machine
+from checker.engines.pdr.search import Generaliser, Lifter
 from checker.results.verdict import Reached, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import chosen, integer

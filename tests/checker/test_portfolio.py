@@ -18,9 +18,9 @@ from checker.verify.portfolio import (
     PortfolioQuestion,
     answers,
     as_found,
-    compare,
     turns,
 )
+from checker.verify.portfolio import answers as compare
 from checker.verify.portfolio.order import ORDERS, Turn
 from checker.verify.portfolio.shape import VAST, WIDE, Shape
 from checker.verify.portfolio.turns import better

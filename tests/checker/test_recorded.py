@@ -14,7 +14,7 @@ from checker.results.verdict import Answer, Inductive, Open, Reached, Unreachabl
 from checker.system.formula_json import Tree, Unreadable, formula, readable, size, written
 from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers, turns
 from checker.verify.portfolio.order import ORDERS, SOON
-from checker.verify.portfolio.recorded import RecordedInvariants
+from checker.verify.portfolio.turns import RecordedInvariants
 from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Expr, Var, flag, var

@@ -16,8 +16,8 @@ from checker.encode.native import OutsideDomain, layout
 from checker.encode.values import Values, ends, possible, values
 from checker.engines import Limits, explicit, quiet
 from checker.engines.explicit import answers as explicit_answers
-from checker.engines.explicit import cases as explicit_cases
-from checker.engines.explicit.cases import cases, joined
+from checker.engines.explicit import answers as explicit_cases
+from checker.engines.explicit.answers import cases, joined
 from checker.results.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
 from checker.system.slice import sliced
 from spec_model.lang.action import Assign, If, assign

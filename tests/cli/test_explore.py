@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.explore.commands import COMMANDS, named
+from checker.commands.explore.run import COMMANDS, named
 from checker.commands.shared.codes import Exit
 from checker.explore.by_hand.written import RefusedInput
 from tests.cli.terminal import Terminal

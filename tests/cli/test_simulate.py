@@ -11,7 +11,7 @@ import pytest
 
 from checker.cli import run
 from checker.commands.shared.codes import Exit
-from checker.commands.simulate.lanes import lanes
+from checker.commands.simulate.run import lanes
 from checker.render import run_plot
 from supervisor.bench import judge, loads, simulate
 from supervisor.bench.conditions import BOTH, CONDITIONS

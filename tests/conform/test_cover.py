@@ -8,14 +8,13 @@ import pytest
 from checker.system.instrument.goals import CoverGoal, GoalKind
 from checker.system.instrument.watch import watched
 from checker.testgen.coverage import NOT_TRIED, GoalCoverage, TestgenEffort, chosen, cover
-from checker.testgen.explore import RandomMachine, TriedPlace, explored, first_reached, shortened
+from checker.testgen.explore import RandomMachine, TriedPlace, Weather, explored, first_reached, shortened
 from checker.testgen.fingerprint import fingerprint
 from checker.testgen.keep import KeptTests, kept_of, written
 from checker.testgen.replay import first_reached as replayed
 from checker.testgen.replay import played
 from checker.testgen.scripts import Script, blocks, script, steps, unfolded
 from checker.testgen.search import TestsFound, Uncoverable
-from checker.testgen.weather import Weather
 from spec_model.abstraction import Board, boards
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block

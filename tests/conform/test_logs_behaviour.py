@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.logs import ColumnMap, examine
-from checker.logs.behaviour import Behaviour
+from checker.logs.check import Behaviour
 from checker.logs.cones import LogCone, cones
 from checker.logs.deviations import Deviation
 from checker.logs.mapping import Column

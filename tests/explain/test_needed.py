@@ -9,7 +9,7 @@ from hypothesis import assume, given, settings
 
 from checker.engines.bdd.space import DDMemoryError, Overdrawn
 from checker.explain import backwards, fewest, needed
-from checker.explain.completions import check
+from checker.explain.explained import check
 from checker.explain.needed import Forcing, forcing
 from checker.explain.unrolled import OutOfTime, Unrolled
 from checker.results.trace import Needed

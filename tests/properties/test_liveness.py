@@ -17,10 +17,10 @@ from checker.render.trace_table import render
 from checker.results.trace import Trace
 from checker.results.verdict import Exhausted, Proved, Reached, Unknown, Unreachable, Violated
 from checker.verify.decide import AUTO, Task, decide, tasks
-from checker.verify.liveness import recover, verdicts
+from checker.verify.liveness import verdicts
+from checker.verify.liveness import verdicts as recover
 from checker.verify.liveness.loops import hunt, looped
-from checker.verify.liveness.recover import Trap, trapped
-from checker.verify.liveness.verdicts import NO_LOOP
+from checker.verify.liveness.verdicts import NO_LOOP, Trap, trapped
 from checker.verify.result import Result
 from properties import forms
 from properties.forms import Form, LeadsTo, Property, Recoverable, Settles

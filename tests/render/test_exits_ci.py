@@ -18,8 +18,7 @@ from junitparser import Error, Failure, JUnitXml, Skipped
 from checker.render.ci import CiFinding, CiReport, FindingLevel, github, of_trace
 from checker.render.ci.github import MOST, annotations, command, summary
 from checker.render.ci.junit import junit
-from checker.render.ci.sarif import RESULTS, document, sarif
-from checker.render.ci.sarif_flow import LOCATIONS
+from checker.render.ci.sarif import LOCATIONS, RESULTS, document, sarif
 from checker.results.trace import Trace
 from spec_model.lang.place import Place
 from tests.render.conformance import Suite

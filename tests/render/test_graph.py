@@ -16,8 +16,7 @@ from checker.explore.graphs.projecting import project
 from checker.render import graph_json
 from checker.render.stategraph.findings import findings, told
 from checker.render.stategraph.fragment import document, rows
-from checker.render.stategraph.picture import LABELLED, drawn
-from checker.render.stategraph.rows import in_rows, too_long
+from checker.render.stategraph.picture import LABELLED, drawn, in_rows, too_long
 from checker.render.stategraph.words import brief, several, short, spans
 from checker.results.graph import StateGraph, drawable, with_trace
 from spec_model.lang.action import Assign, assign

@@ -1,14 +1,76 @@
 """The commands of ``rovercheck explore`` that look at a tick."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+
+from rich.console import Console
+from rich.table import Table
+from rich.text import Text
 
 from checker.commands.explore.explorer import Commands, Explorer
-from checker.commands.explore.text import show
-from checker.commands.explore.why import why
+from checker.commands.explore.text import listed, show, timers, where
 from checker.commands.explore.words import split
+from checker.commands.shared.tables import beside, laid
+from checker.explore.by_hand.session import Session
+from checker.explore.by_hand.simulation import Tested
 from checker.explore.by_hand.written import RefusedInput, variable
-from spec_model.lang.chart import Chart
+from checker.results.trace import Trace
+from spec_model.lang.chart import Chart, Transition
 from spec_model.lang.errors import did_you_mean
+from spec_model.lang.expr import Temporal
+from spec_model.lang.label import text
+from spec_model.lang.walk import nodes, variables
+
+# --- why arrows were not taken -------------------------------------------------------------------------
+
+
+def why(console: Console, session: Session, charts: Sequence[str]) -> None:
+    """Every arrow of these charts tested in the tick, with what was true and false of its guard."""
+    sim = session.simulation
+    if not sim.at:
+        console.print("Nothing was tested before the first tick; write step first.")
+        return
+    trace, at = sim.trace(sim.at), {**sim.state(), **sim.given()}
+    tested = sim.tested()
+    for chart in (c for c in sim.system.charts if c.name in charts):
+        own = [t for t in tested if t.chart == chart.name]
+        place = where(chart, sim.state())
+        tested_here = place if own else f"{place}: no arrow was tested in this tick"
+        beside(console, Text(), Text(tested_here, style="bold"))
+        for one in own:
+            beside(console, *_test(chart, one))
+            if one.conjuncts:
+                laid(console, _conjuncts(one, trace, at))
+
+
+def _test(chart: Chart, one: Tested) -> tuple[Text, Text]:
+    through = next((j.name for j in chart.junctions.values() if _has(j.transitions, one.segment)), "")
+    start = through or (".".join(one.source) if one.source else "default")
+    event = f" on {one.segment.event}" if one.segment.event else ""
+    mark, style = ("✓", "green") if one.valid else ("✗", "")
+    indent = "    " if through else "  "
+    shown = Text(f"{start} → {one.segment.target}{event}", style=style)
+    return Text(f"{indent}{mark} ", style=style), shown
+
+
+def _has(arrows: Sequence[Transition], wanted: Transition) -> bool:
+    return any(arrow is wanted for arrow in arrows)
+
+
+def _conjuncts(one: Tested, trace: Trace, at: Mapping[str, int]) -> Table:
+    grid = Table.grid(padding=(0, 1))
+    grid.add_column(width=6)
+    grid.add_column(width=5)
+    grid.add_column(ratio=1)
+    for part, true in one.conjuncts:
+        known = {n: at[n] for n in variables(part) if n in at}
+        values = listed(trace, known)
+        shown = text(part, unfold=True)
+        said = f"{shown}   ({values})" if values and values.replace(" = ", " == ") != shown else shown
+        grid.add_row("", Text("true" if true else "false", style="green" if true else "red"), said)
+        if one.source and any(isinstance(n, Temporal) for n in nodes(part)):
+            for line in timers(trace, at, f"{one.chart}.{'.'.join(one.source)}."):
+                grid.add_row("", "", Text(f"now {line}", style="yellow"))
+    return grid
 
 
 def _show(explorer: Explorer, rest: str) -> None:

@@ -6,16 +6,15 @@ from pathlib import Path
 from shlex import quote
 
 from checker.commands.check.run import evidence, results
-from checker.commands.graph.offers import offered, projections
 from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import err, out, wrapped, write, wrote
+from checker.commands.shared.output import err, out, text_width, wrapped, write, wrote
 from checker.commands.shared.progress import Watch
 from checker.commands.shared.select import pick
 from checker.commands.shared.variant import Variant
 from checker.commands.shared.wrapping import whole
 from checker.engines import AUTO, Limits
 from checker.explore.graphs.making import Made, made
-from checker.explore.graphs.suggesting import among, suggestions
+from checker.explore.graphs.suggesting import Offer, Suggestions, among, suggestions
 from checker.model import names_of
 from checker.render import Renderer, renderers
 from checker.render.stategraph.findings import told
@@ -26,9 +25,55 @@ from properties.forms import Property, Reachable, Unbounded
 from properties.reduce import reduce
 from spec_model.lang.chart import Chart
 from spec_model.lang.errors import ModelError, did_you_mean
+from spec_model.lang.expr import Var
 from spec_model.lang.lower import lower
 from spec_model.lang.system import System, TransitionSystem
 from spec_model.rover import charts_of
+
+# --- how to project ------------------------------------------------------------------------------------
+
+NAMED = 14
+"""Variables that are listed one by one."""
+
+
+def offered(system: str, found: Suggestions, options: str = "") -> str:
+    """What can be projected on, as lines of text; ``options`` is what each command needs besides."""
+    at_least = "at least " if found.cut else ""
+    lines = [f"{system}: {at_least}{found.valuations:,} reachable valuations of the variables below."]
+    if found.cut:
+        lines.append(f"The exploration is cut, so all counts are lower bounds: {found.cut}.")
+    wide = max((len(r.var.name) for r in found.variables[:NAMED]), default=0)
+    lines += ["", f"{'variable':<{wide}}  values reached"]
+    for one in found.variables[:NAMED]:
+        lines.append(f"{one.var.name:<{wide}}  {one.values} of {len(one.var.domain)}{_doc(one.var, wide)}")
+    if len(found.variables) > NAMED:
+        lines.append(f"and {len(found.variables) - NAMED} more")
+    return "\n".join([*lines, *projections(system, found, options), ""])
+
+
+def projections(system: str, found: Suggestions, options: str = "") -> list[str]:
+    """The projections that are worth a look, each with the command to type."""
+    if not found.offers:
+        return ["", "No projection on few variables has more than one node and few enough."]
+    rows = [(f"{o.nodes:,}", _runs(o, found), ",".join(o.names)) for o in found.offers]
+    lines = ["", "nodes  paths that are runs  command"]
+    for nodes, runs, names in rows:
+        command = whole(f"rovercheck graph {system} --project {names}{options}")
+        lines.append(f"{nodes:>5}  {runs:<19}  {command}")
+    return lines
+
+
+def _runs(offer: Offer, found: Suggestions) -> str:
+    """Which paths of a projection are runs of the system."""
+    return "not known" if found.cut else "some" if offer.mixed else "all"
+
+
+def _doc(var: Var, wide: int) -> str:
+    """What the variable is, where that fits into a line of a terminal."""
+    doc = var.doc.split("\n")[0]
+    fits = wide + len("  00 of 00") + 4 + len(doc) <= text_width()
+    return f"    {doc}" if doc and fits and not doc.startswith("active state of") else ""
+
 
 DEFAULT = "svg"
 

@@ -1,9 +1,11 @@
 """``rovercheck simulate``: run both boards in a scenario, tell what happens, and draw it."""
 
 import csv
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from enum import IntEnum
 from io import StringIO
+from itertools import pairwise
+from math import nan
 from pathlib import Path
 
 from checker.commands.shared.codes import Exit, UsageError
@@ -11,13 +13,170 @@ from checker.commands.shared.output import counted, err, out, write
 from checker.commands.shared.progress import ProgressLine
 from checker.commands.shared.silence import silent
 from checker.commands.shared.wrapping import whole
-from checker.commands.simulate.lanes import lanes
 from checker.commands.simulate.story import heading, story, traffic, verdicts
 from checker.io.files import replaced
+from checker.render.lanes import Band, ChartLane, Curve, LaneLimit, LaneRow, LaneRows, Lanes, Mark, Tone
 from checker.render.run_plot import NEEDED, SUFFIXES, PlotError, available, draw
 from supervisor import bench
 from supervisor.bench import Outcome, Record, Scenario, ScenarioError, judge, loads
 from supervisor.bench.columns import Scalar, inputs1, inputs2, outputs1, outputs2
+from supervisor.bench.conditions import WHEELS
+from supervisor.bench.judge import history
+from supervisor.bench.record import Driver, Side
+from supervisor.bench.signals import SIGNALS, name_of
+from supervisor.types import Level, SafetyState, SupervisorCommand
+
+# --- A simulated run in the terms of pictures ----------------------------------------------------------
+
+FULL_SCALE_RPM = 160
+COMMANDS = {
+    SupervisorCommand.CMD_NORMAL: Tone.IDLE,
+    SupervisorCommand.CMD_STOP: Tone.DEGRADED,
+    SupervisorCommand.CMD_ESTOP: Tone.CRITICAL,
+}
+STATUSES1 = ("temp_status", "batt_status", "rx_status", "b2_sup_status")
+ACTS = ("rover_safety_state", "current_action", "actuate_emergency_stop")
+STATUSES2 = ("esp_status", "imu_status", "rx_status", "b1_sup_status")
+
+
+def lanes(scenario: Scenario, record: Record, name: str) -> Lanes:
+    """The picture of a run."""
+    end_s = scenario.duration_us / 10**6
+    phase = f"Board 2 {scenario.phase_us / 1000:g} ms after Board 1"
+    drift = f", its clock {scenario.drift_ppm:+d} ppm" if scenario.drift_ppm else ""
+    return Lanes(
+        title=scenario.title or name,
+        note=f"{phase}{drift}; seed {scenario.seed}",
+        end_s=end_s,
+        lanes=(*_charts(record), *_rows(record, end_s)),
+        marks=[Mark(e.number, e.at_us / 10**6, e.end_us / 10**6, e.label) for e in scenario.events],
+    )
+
+
+def _charts(record: Record) -> Iterable[ChartLane]:
+    yield ChartLane(
+        "joystick",
+        [_curve(record, "board2.ay_norm", "y, forward"), _curve(record, "board2.bx_norm", "x, left")],
+        -1,
+        1,
+        ticks=(-1, -0.5, 0, 0.5, 1),
+    )
+    yield ChartLane(
+        "speed references",
+        [
+            _curve(record, "board1.v_ref", "v_ref, Board 1"),
+            _curve(record, "board2.v_ref_actuation", "v_ref, Board 2"),
+            _curve(record, "board1.omega_ref", "omega_ref, Board 1"),
+            _curve(record, "board2.omega_ref_actuation", "omega_ref, Board 2"),
+        ],
+        -0.2,
+        1,
+        ticks=(-1, -0.5, 0, 0.5, 1),
+    )
+    wheels = [_curve(record, f"rover.wheel_{w}", w, steps=False) for w in WHEELS]
+    yield ChartLane("wheels in rpm", wheels, 0, FULL_SCALE_RPM / 2, ticks=(-160, -80, 0, 80, 160))
+    yield ChartLane("heading in °", [_turning(record)], 0, 360, ticks=(0, 90, 180, 270, 360))
+    yield ChartLane(
+        "obstacles in cm",
+        [
+            _curve(record, "board2.d1", "left"),
+            _curve(record, "board2.d2", "centre"),
+            _curve(record, "board2.d3", "right"),
+        ],
+        0,
+        301,
+        [LaneLimit(70, "70 stop"), LaneLimit(100, "100"), LaneLimit(300, "300 degraded")],
+        ticks=(0, 100, 200, 300),
+    )
+    yield ChartLane(
+        "temperature in °C",
+        [_curve(record, "board1.temperature_degC", "last valid")],
+        20,
+        30,
+        [
+            LaneLimit(-15, "−15"),
+            LaneLimit(-5, "−5"),
+            LaneLimit(55, "55 degraded"),
+            LaneLimit(60, "60 critical"),
+        ],
+    )
+    yield ChartLane(
+        "battery in %",
+        [_curve(record, "board1.battery_pct", "last valid")],
+        0,
+        100,
+        [LaneLimit(15, "15 critical"), LaneLimit(25, "25 OK above"), LaneLimit(23, "")],
+        ticks=(0, 50, 100),
+    )
+
+
+def _curve(record: Record, signal: str, name: str, *, steps: bool = True) -> Curve:
+    """A signal as a curve; one that keeps its values needs only the times at which they change."""
+    told = history(record, signal)
+    points = [(t / 10**6, float(v)) for t, v in zip(told.times_us, told.values, strict=True)]
+    if steps:
+        points = _corners(points)
+    return Curve(name, [t for t, _ in points], [v for _, v in points], steps)
+
+
+def _corners(points: Sequence[tuple[float, float]]) -> list[tuple[float, float]]:
+    kept = [after for before, after in pairwise(points) if after[1] != before[1]]
+    return [*points[:1], *kept, *points[-1:]]
+
+
+def _turning(record: Record) -> Curve:
+    """The heading; where it passes 360° the line is interrupted."""
+    times: list[float] = []
+    values: list[float] = []
+    for sample in record.samples:
+        if values and abs(sample.heading - values[-1]) > 180:
+            times.append(sample.time_us / 10**6)
+            values.append(nan)
+        times.append(sample.time_us / 10**6)
+        values.append(sample.heading)
+    return Curve("clockwise", times, values)
+
+
+def _rows(record: Record, end_s: float) -> Iterable[LaneRows]:
+    wheels = [f"wheel_status_{w}" for w in WHEELS]
+    one = (*STATUSES1, *wheels, *ACTS, "give_b2_actuation")
+    yield LaneRows("Board 1", [_row(record, f"board1.{name}", end_s) for name in one])
+    two = (*STATUSES2, *ACTS, "command", "autorized_to_send_command")
+    yield LaneRows("Board 2", [_row(record, f"board2.{name}", end_s) for name in two])
+    yield LaneRows("relay", [_row(record, f"rover.{n}", end_s) for n in ("relay", "driven_by")])
+
+
+def _row(record: Record, signal: str, end_s: float) -> LaneRow:
+    told = history(record, signal)
+    bands: list[Band] = []
+    since, value = 0.0, SIGNALS[signal].initial
+    for time_us, new in zip(told.times_us, told.values, strict=True):
+        if new != value:
+            bands.append(_band(since, time_us / 10**6, value))
+            since, value = time_us / 10**6, new
+    bands.append(_band(since, end_s, value))
+    return LaneRow(signal.partition(".")[2], bands)
+
+
+def _band(start_s: float, end_s: float, value: Scalar) -> Band:
+    return Band(start_s, end_s, _label(value), _tone(value))
+
+
+def _label(value: Scalar) -> str:
+    if isinstance(value, IntEnum):
+        return value.name.removeprefix("CMD_").removeprefix("SAFETY_").replace("BOARD_", "Board ")
+    return name_of(value)
+
+
+def _tone(value: Scalar) -> Tone:
+    if isinstance(value, Level | SafetyState):
+        return (Tone.OK, Tone.DEGRADED, Tone.CRITICAL)[value]
+    if isinstance(value, Side | Driver):
+        return {"BOARD_1": Tone.FIRST, "BOARD_2": Tone.SECOND}.get(value.name, Tone.IDLE)
+    if isinstance(value, SupervisorCommand):
+        return COMMANDS.get(value, Tone.ACTION)
+    return Tone.ACTION if value is True else Tone.IDLE
+
 
 TABLE = ".csv"
 """The format in which ``--output`` is the motion of the rover instead of a plot."""

@@ -1,22 +1,158 @@
 """The search for the goals of a circuit: an order of variables is chosen, then ring follows ring."""
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from oxidd.util import DDMemoryError
 
-from checker.encode.bits import Circuit
+from checker.encode.bits import Circuit, Literal
+from checker.encode.bits.blast import bits_needed
 from checker.encode.bits.inputs import input_cut
+from checker.encode.bits.model import cut
 from checker.encode.bits.order import orders
+from checker.encode.cone import as_written, cone, constants, folded
+from checker.encode.gather import gathered
+from checker.encode.symbolic import transition
 from checker.engines.bdd.events import BddBound, BddClosed, BddFound, BddStuck, Event
-from checker.engines.bdd.groups import BddGroup, groups
-from checker.engines.bdd.kept import diagram
-from checker.engines.bdd.layers import Layers
-from checker.engines.bdd.runs import last, run_to
-from checker.engines.bdd.space import NodeStore, Overdrawn, Space, meets
-from checker.results.verdict import Exhausted
+from checker.engines.bdd.layers import LayerHit, Layers
+from checker.engines.bdd.space import Function, NodeStore, Overdrawn, Space, meets
+from checker.results.diagram import ALL, NONE, Diagram, DiagramNode
+from checker.results.verdict import Exhausted, Run
+from spec_model.lang.evaluate import admissible, step
+from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
+
+# --- shortest runs, rebuilt backwards through the rings ------------------------------------------------
+
+Bits = dict[Literal, int]
+"""Values of latches, inputs and others."""
+
+
+def run_to(layers: Layers, depth: int, hit: LayerHit) -> Run:
+    """A run of ``depth`` ticks to a valuation of that ring, and one more tick, which is a hit."""
+    space = layers.space
+    at = _picked(layers.rings[depth] & hit.ticks, space.current)
+    ticks = [at]
+    for ring in reversed(layers.rings[:depth]):
+        at = _before(layers, ring, at)
+        ticks.append(at)
+    others = _picked(layers.loose, space.current)
+    outside = {bit.literal: others[bit.literal] for bit in space.circuit.others}
+    return space.circuit.run(at, [outside | _inputs(layers, tick) for tick in reversed(ticks)])
+
+
+def _inputs(layers: Layers, tick: Bits) -> Bits:
+    """The inputs of a tick, hidden ones such that the cut has the values of the tick."""
+    space = layers.space
+    together = space.manager.true()
+    for part in layers.definitions:
+        for literal, function in part:
+            together = together & (function if tick[literal] else ~function)
+    kept = {bit.literal: tick[bit.literal] for bit in space.cut.kept}
+    return kept | _picked(together, space.hidden)
+
+
+def _before(layers: Layers, ring: Function, after: Bits) -> Bits:
+    """A valuation of the ring and inputs that lead to the valuation after the tick."""
+    found = ring & layers.assume
+    for literal, function in layers.next.items():
+        layers.space.pause()
+        found = found & (function if after[literal] else ~function)
+    return _picked(found, layers.space.current)
+
+
+def _picked(function: Function, variables: Mapping[Literal, int]) -> Bits:
+    """Values of bits that make the function true; 0 where both do.
+
+    Raises ``ArithmeticError`` if there are none: a ring that is not reached from the one before it.
+    """
+    cube = function.pick_cube()
+    if cube is None:
+        raise ArithmeticError("the engine is wrong: no tick leads from one ring to the next")
+    return {literal: int(bool(cube[variable])) for literal, variable in variables.items()}
+
+
+def last(system: TransitionSystem, run: Run) -> dict[str, int]:
+    """The valuation after a run, by the reference semantics.  Raises ``ArithmeticError`` if it is none."""
+    at = {**system.init, **run.frozen}
+    for number, inputs in enumerate(run.inputs, 1):
+        if not admissible(system, at, inputs):
+            raise ArithmeticError(f"the engine is wrong: its run is not admissible in tick {number}")
+        at = step(system, at, inputs)
+    return at
+
+
+# --- goals that are searched together ------------------------------------------------------------------
+
+EXTRA = 8
+"""Bits that a goal may add to those of others and still be searched with them."""
+
+
+@dataclass(frozen=True)
+class BddGroup:
+    """A circuit for some goals, and the constants among the variables that the goals depend on.
+
+    Constants keep their value in every run because all of them together do; the circuit has none.
+    """
+
+    circuit: Circuit
+    constants: tuple[tuple[Var, int], ...]
+
+
+def groups(system: TransitionSystem, goals: Sequence[str]) -> Iterator[BddGroup]:
+    """The groups, those with few latches first."""
+    whole = transition(system)
+    fixed = constants(whole)
+    moving = folded(whole, fixed)
+    cones = {
+        goal: {v.name: v for v in cone(moving, [goal]).variables if v.name not in goals} for goal in goals
+    }
+    for together in gathered(cones, EXTRA):
+        kept = tuple((v, fixed[v.name]) for v in as_written(system, together) if v.name in fixed)
+        yield BddGroup(cut(moving, together), kept)
+
+
+# --- the set of valuations reached, as a diagram over bits that other tools can read -------------------
+
+MOST = 100_000
+"""Nodes of the largest diagram that is kept: a certificate is read by people's solvers, too."""
+
+
+def diagram(group: BddGroup, layers: Layers) -> Diagram | None:
+    """The valuations reached, constants among them; None if there are too many nodes."""
+    if 2 * layers.reached.node_count() > MOST:
+        return None
+    bits = {layers.space.current[x.literal]: x.bit for x in group.circuit.latches}
+    nodes: list[DiagramNode] = []
+    numbers: dict[Function, int] = {}
+
+    def number(function: Function) -> int:
+        """A node without complement; the recursion is as deep as there are bits."""
+        if function not in numbers:
+            parts = function.cofactors()
+            if parts is None:
+                return ALL if function.valid() else NONE
+            high, low = map(number, parts)
+            bit = bits[_variable(function)]
+            nodes.append(DiagramNode(bit.var.name, bit.number, low, high))
+            numbers[function] = len(nodes) + 1
+        return numbers[function]
+
+    root = number(layers.reached)
+    for var, value in group.constants:
+        for i in range(bits_needed(var)):
+            low, high = (NONE, root) if value >> i & 1 else (root, NONE)
+            nodes.append(DiagramNode(var.name, i, low, high))
+            root = len(nodes) + 1
+    return Diagram(tuple(nodes), root)
+
+
+def _variable(function: Function) -> int:
+    variable = function.node_var()
+    assert variable is not None
+    return variable
+
 
 TRIAL = 300_000
 """Nodes that may be made to try an order of the variables."""

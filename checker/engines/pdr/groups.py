@@ -1,23 +1,142 @@
 """Goals with the same cone of influence share frames; all goals take turns, least work first."""
 
-from collections.abc import Generator, Iterator, Mapping, Sequence
+from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from typing import Protocol
 
-from checker.encode.bits import Circuit, Literal
+from pysat.solvers import Minisat22
+
+from checker.encode.bits import Bit, Circuit, Literal
+from checker.encode.bits.blast import bits_needed
+from checker.encode.bits.cnf import Cnf
 from checker.encode.bits.model import cut
 from checker.encode.cone import as_written, by_cone, cone, constants, folded, straying
 from checker.encode.symbolic import SymbolicTransition, transition
 from checker.engines.pdr.cubes import Cube
 from checker.engines.pdr.events import Decided, Event, PdrBound, PdrUndefined
-from checker.engines.pdr.invariant import conjuncts, equal
 from checker.engines.pdr.machine import LEAVES, machine
-from checker.engines.pdr.runs import others, replayed, run_of
 from checker.engines.pdr.search import BoundedDepth, Excluded, PdrSearch, Traced
 from checker.engines.pdr.seeds import LARGE, Seed, mined, proved
 from checker.engines.pdr.support import needed
 from checker.results.verdict import Inductive, Reached, Run, Unreachable
-from spec_model.lang.expr import Expr
+from spec_model.lang.domain import Bool, Num
+from spec_model.lang.evaluate import admissible, step
+from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var, any_of
+from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
+
+# --- traces of a circuit as runs of the system, and their replay by the reference semantics ------------
+
+
+def others(circuit: Circuit) -> dict[Literal, int] | None:
+    """Values of the inputs outside the cone that the assumption allows; None if there are none, so that
+    the system has no run at all."""
+    bits = [bit.literal for bit in circuit.others]
+    cnf = Cnf(circuit.aig, bits, [circuit.loose])
+    solver = Minisat22([*cnf.clauses, [cnf.literal(circuit.loose)]])
+    if not solver.solve():
+        return None
+    return {bit: int(x > 0) for bit, x in zip(bits, solver.get_model(), strict=False)}
+
+
+def run_of(traced: Traced, circuit: Circuit, outside: dict[Literal, int]) -> Run:
+    """The run of the whole system that a trace stands for."""
+    leaves = [*(latch.literal for latch in circuit.latches), *(bit.literal for bit in circuit.inputs)]
+
+    def values(literals: tuple[int, ...]) -> dict[Literal, int]:
+        return {leaves[abs(x) - 1]: int(x > 0) for x in literals}
+
+    return circuit.run(values(traced.latches), [values(tick) | outside for tick in traced.inputs])
+
+
+def replayed(system: TransitionSystem, run: Run) -> list[dict[str, int]]:
+    """The valuation before the first tick and after each.  Raises ``ArithmeticError`` if the run is none."""
+    if any(run.frozen[v.name] not in v.domain for v in system.frozen):
+        raise ArithmeticError("the engine is wrong: its run has frozen values outside their domains")
+    at = {**system.init, **run.frozen}
+    visited = [at]
+    for number, inputs in enumerate(run.inputs, 1):
+        if not admissible(system, at, inputs):
+            raise ArithmeticError(f"the engine is wrong: its run is not admissible in tick {number}")
+        at = step(system, at, inputs)
+        visited.append(at)
+    return visited
+
+
+# --- lemmas over bits as formulas over the variables of the system, for certificates and people --------
+
+_LISTED = 1 << 12
+"""Values of a domain that are looked at one by one to find a readable formula."""
+
+
+def conjuncts(cubes: Iterable[Cube], latches: Sequence[Bit]) -> tuple[Expr, ...]:
+    """The negation of each cube; variables are taken to be within their domains."""
+    found = (_negated(excluded, latches) for excluded in cubes)
+    return tuple(formula for formula in found if formula is not TRUE)
+
+
+def equal(var: Var, value: int) -> Expr:
+    """The variable has a value."""
+    if isinstance(var.sort, Bool):
+        return var if value else ~var
+    return _compared(Op.EQ, var, value)
+
+
+def _negated(excluded: Cube, latches: Sequence[Bit]) -> Expr:
+    """Some variable does not have the bits that the cube demands of it; ``TRUE`` if none ever has."""
+    wanted: dict[str, dict[int, bool]] = {}
+    known: dict[str, Var] = {}
+    for literal in excluded.literals:
+        bit = latches[abs(literal) - 1]
+        known[bit.var.name] = bit.var
+        wanted.setdefault(bit.var.name, {})[bit.number] = literal > 0
+    parts = [_different(known[name], bits) for name, bits in wanted.items()]
+    if any(part is TRUE for part in parts):
+        return TRUE
+    return any_of(*(part for part in parts if part is not FALSE))
+
+
+def _different(var: Var, bits: Mapping[int, bool]) -> Expr:
+    """The variable differs in at least one of these bits."""
+    if isinstance(var.sort, Bool):
+        allowed = [value for value in var.domain.values if value != bits[0]]
+    elif len(var.domain) <= _LISTED:
+        allowed = [v for v in var.domain.values if any((v >> n & 1) != bit for n, bit in bits.items())]
+    else:
+        return any_of(*(_bit(var, n) if not bit else ~_bit(var, n) for n, bit in bits.items()))
+    return _among(var, allowed, bits)
+
+
+def _among(var: Var, allowed: Sequence[int], bits: Mapping[int, bool]) -> Expr:
+    """The variable has one of the allowed values: as a comparison where there is a short one."""
+    values = list(var.domain.values)
+    if len(allowed) in (0, len(values)):
+        return TRUE if allowed else FALSE
+    if isinstance(var.sort, Bool):
+        return var if allowed[0] else ~var
+    excluded = sorted(set(values) - set(allowed))
+    if len(excluded) == 1:
+        return _compared(Op.NE, var, excluded[0])
+    if len(allowed) == 1:
+        return _compared(Op.EQ, var, allowed[0])
+    if excluded == values[: len(excluded)]:
+        return _compared(Op.GE, var, allowed[0])
+    if excluded == values[-len(excluded) :]:
+        return _compared(Op.LE, var, allowed[-1])
+    if not isinstance(var.sort, Num):
+        return any_of(*(_compared(Op.EQ, var, value) for value in allowed))
+    return any_of(*(~_bit(var, n) if bit else _bit(var, n) for n, bit in bits.items()))
+
+
+def _compared(op: Op, var: Var, value: int) -> Expr:
+    return Apply(op, (var, Const(value, var.sort)), Bool())
+
+
+def _bit(var: Var, number: int) -> Expr:
+    """A bit of the two's complement, by an offset that makes the number non-negative."""
+    base: Expr = var
+    if var.domain.low < 0:
+        base = Apply(Op.ADD, (var, Const(1 << bits_needed(var), var.sort)), var.sort)
+    return Apply(Op.BIT, (base, Const(number, Num())), Bool())
 
 
 def decisions(

@@ -9,12 +9,89 @@ from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import count
 
-from checker.engines.pdr.cubes import Cube
+from checker.engines.pdr.cones import Cones
+from checker.engines.pdr.cubes import Cube, cube
 from checker.engines.pdr.frames import Frames
-from checker.engines.pdr.generalise import Generaliser
 from checker.engines.pdr.lemmas import ALWAYS, Lemma, LemmaStep
-from checker.engines.pdr.lift import Lifter
 from checker.engines.pdr.machine import PdrMachine
+
+# --- lifting -------------------------------------------------------------------------------------------
+
+
+class Lifter:
+    """Generalises one valuation and its inputs to all valuations in which the same inputs do the same."""
+
+    def __init__(self, machine: PdrMachine) -> None:
+        self._machine = machine
+        self._cones = Cones(machine, inside=False)
+
+    def into(self, step: LemmaStep, target: Cube) -> Cube:
+        """The valuations from which, as the step shows of one, the inputs lead into the target."""
+        after = self._machine.after
+        return self._lifted(step, [after[x] for x in target.literals])
+
+    def onto(self, step: LemmaStep, goal: str) -> Cube:
+        """The valuations from which, as the step shows of one, the inputs make the goal true."""
+        return self._lifted(step, [self._machine.goals[goal]])
+
+    def _lifted(self, step: LemmaStep, wanted: list[int]) -> Cube:
+        """By a core of why the inputs cannot fail to do what is wanted and be assumed."""
+        if self._cones.bloated:
+            self._cones = Cones(self._machine, inside=False)
+        cones = self._cones
+        active = cones.fresh()
+        cones.add([-active, *(-x for x in cones.literals([self._machine.assume, *wanted]))])
+        latches = cones.literals(step.latches)
+        if cones.solve([active, *cones.literals(step.inputs), *latches]):
+            raise ArithmeticError("the engine is wrong: a tick does not do what it was found to do")
+        core = cones.core()
+        cones.retire(active)
+        return cube(x for x, y in zip(step.latches, latches, strict=True) if y in core)
+
+
+# --- inductive generalisation --------------------------------------------------------------------------
+
+_AGING = 1.02
+
+
+class Generaliser:
+    """Makes lemmas of blocked cubes; latches that occur in many recent lemmas are dropped last."""
+
+    def __init__(self, frames: Frames) -> None:
+        self._frames = frames
+        self._activity = [0.0] * (frames.machine.latches + 1)
+        self._step = 1.0
+
+    def lemma(self, blocked: Cube, level: int) -> Lemma:
+        """A lemma that excludes a cube, at the highest level that holds; the cube is blocked at ``level``."""
+        frames = self._frames
+        lemma = Lemma(self._smallest(blocked, level), level)
+        while lemma.level < frames.top and lemma.witness is None:
+            if frames.blocked(lemma.cube, lemma.level) is None:
+                lemma.witness = frames.witness()
+            else:
+                lemma.level += 1
+        self._bump(lemma.cube)
+        frames.add(lemma)
+        return lemma
+
+    def _smallest(self, blocked: Cube, level: int) -> Cube:
+        """Literals are dropped one by one as long as the rest is blocked and holds no initial valuation."""
+        activity, frames = self._activity, self._frames
+        for literal in sorted(blocked.literals, key=lambda x: activity[abs(x)]):
+            if literal in blocked.literals:
+                part = cube(x for x in blocked.literals if x != literal)
+                if not frames.initial(part):
+                    blocked = frames.blocked(part, level - 1) or blocked
+        return blocked
+
+    def _bump(self, small: Cube) -> None:
+        self._step *= _AGING
+        for literal in small.literals:
+            self._activity[abs(literal)] += self._step
+        if self._step > 1e100:
+            self._activity = [x / self._step for x in self._activity]
+            self._step = 1.0
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -1,19 +1,42 @@
-"""Engines in turn: each is asked what the ones before it left open, until every goal is decided."""
+"""What a user's choice of engine makes of a question: its answers, each as soon as it counts."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
+from functools import reduce
+from itertools import combinations
 from time import monotonic
 
-from checker.engines import Engine, Limits, Prover, Stage, engines
+from checker.engines import ALL, AUTO, Engine, Limits, Progress, Prover, Stage, engines
 from checker.process.faults import Failed, attempted
-from checker.results.verdict import Answer, Open, Reached, Run
+from checker.results.verdict import Answer, Open, Reached, Run, Unreachable
 from checker.verify.portfolio.disagreement import contradict, said
 from checker.verify.portfolio.order import CHECKS, ORDERS, RECORDED, SOON, Turn
-from checker.verify.portfolio.question import Callbacks, Found, PortfolioQuestion
-from checker.verify.portfolio.recorded import RecordedInvariants
+from checker.verify.portfolio.question import Callbacks, Found, PortfolioQuestion, conclusive, stays
 from checker.verify.portfolio.shape import shape
 from checker.verify.runs.domains import stray
-from spec_model.lang.expr import Var
+from spec_model.lang.expr import Expr, Var
+from spec_model.lang.system import TransitionSystem
+
+# --- engines in turn -----------------------------------------------------------------------------------
+
+# --- proofs on record, tried before anything is searched -----------------------------------------------
+
+
+class RecordedInvariants:
+    """An engine that tries the conjuncts of earlier proofs and searches for nothing."""
+
+    SUMMARY = "the invariants on record"
+
+    def __init__(self, prover: Prover, candidates: Sequence[Expr]) -> None:
+        self.NAME = prover.NAME
+        self._prover, self._candidates = prover, candidates
+
+    def check(
+        self, system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
+    ) -> Mapping[str, Answer]:
+        """An answer for each goal, by name: open what the conjuncts do not exclude."""
+        return self._prover.show(system, goals, limits, progress, self._candidates)
+
 
 OUT_OF_MEMORY = "the memory limit is reached"
 
@@ -165,3 +188,89 @@ def _deeper(first: tuple[Answer, str], second: tuple[Answer, str]) -> tuple[Answ
 def _by(engine: str, reason: str) -> str:
     """The reason with the engine whose it is, unless those that were put together already say it."""
     return reason if reason.startswith(tuple(f"{name}: " for name in engines())) else f"{engine}: {reason}"
+
+
+# --- every engine on the same question, and their answers compared -------------------------------------
+
+
+def compared(question: PortfolioQuestion, limits: Limits, told: Callbacks) -> Found:
+    """The best answer to each goal, when all engines have been asked.  Raises ``Disagreement``."""
+    by_engine = {}
+    for name, engine in engines().items():
+        told.granted(limits.seconds)
+        by_engine[name] = asked(engine, question, limits, told, question.goals)
+    told.granted(limits.seconds)
+    goals = {g.name: g for g in question.goals}
+    merged: dict[str, tuple[Answer, str]] = {}
+    for name, goal in goals.items():
+        each = [found[name] for found in by_engine.values()]
+        if any(contradict(a, b) for (a, _), (b, _) in combinations(each, 2)):
+            raise said(question.system, goal, each)
+        merged[name] = reduce(better, each)
+    return merged
+
+
+def answers(question: PortfolioQuestion, engine: str | Engine, limits: Limits, told: Callbacks) -> Found:
+    """An answer for each goal and each check of the system.  Raises ``Disagreement``."""
+    found: dict[str, tuple[Answer, str]] = {}
+    for more in as_found(question, engine, limits, told):
+        found |= more
+    return found
+
+
+def as_found(
+    question: PortfolioQuestion, engine: str | Engine, limits: Limits, told: Callbacks
+) -> Iterator[Found]:
+    """The same answers, each once: runs as they are found, the rest when no more can change.
+
+    That a goal is never reached counts only if the model never leaves a domain; that it does is told at once.
+    """
+    given: set[str] = set()
+    found: Found = {}
+    for found in _rounds(question, engine, limits, told):
+        new = {n: a for n, a in found.items() if n not in given and _final(question, found, n)}
+        given |= new.keys()
+        yield from _told(question, new, told)
+    rest = {n: _meant(question, found, n) for n in found if n not in given}
+    yield from _told(question, rest, told)
+
+
+def _told(question: PortfolioQuestion, new: Found, told: Callbacks) -> Iterator[Found]:
+    if new:
+        told.answered(question, new)
+        yield new
+
+
+def _rounds(
+    question: PortfolioQuestion, engine: str | Engine, limits: Limits, told: Callbacks
+) -> Iterator[Found]:
+    if engine == AUTO:
+        yield from in_turn(question, limits, told)
+    elif engine == ALL:
+        yield compared(question, limits, told)
+    else:
+        one = engines()[engine] if isinstance(engine, str) else engine
+        told.granted(limits.seconds)
+        alone = asked(one, question, limits, told, question.goals)
+        told.granted(limits.seconds)
+        yield alone
+
+
+def _final(question: PortfolioQuestion, found: Found, goal: str) -> bool:
+    """Whether an answer counts whatever other engines say."""
+    answer, _ = found[goal]
+    if isinstance(answer, Reached) and goal in {check.name for check in question.checks}:
+        return True
+    return conclusive(answer) and (isinstance(answer, Reached) or stays(question, found))
+
+
+def _meant(question: PortfolioQuestion, found: Found, goal: str) -> tuple[Answer, str]:
+    """The answer, open if it rests on the model staying in its domains and that is not known."""
+    answer, by = found[goal]
+    if isinstance(answer, Unreachable):
+        for check in question.checks:
+            staying = found[check.name][0]
+            if isinstance(staying, Open) and goal != check.name:
+                reason = f"not reached as long as values stay in their domains; {check.doc}? {staying.reason}"
+                return Open(reason, staying.depth), by
+    return answer, by
