@@ -9,9 +9,7 @@ from checker.engines import ALL, AUTO, Engine, Limits, Progress
 from checker.process.faults import Fault, InternalError, attempted, listening, tell
 from checker.process.isolate import Send, Stopped, messages
 from checker.results.verdict import Answer, Inductive, Open, Reached, Run, Unreachable
-from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
-from checker.verify.portfolio import answers as compare
-from checker.verify.portfolio import answers as turns
+from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers, turns
 from checker.verify.portfolio.order import ORDERS, Turn
 from spec_model.lang.action import Assign
 from spec_model.lang.errors import ModelError
@@ -80,7 +78,7 @@ def asked(
     """What is answered by these engines, the only ones there are, and the faults that are told."""
     known = {engine.NAME: engine for engine in engines}
     monkeypatch.setattr(turns, "engines", lambda: known)
-    monkeypatch.setattr(compare, "engines", lambda: known)
+    monkeypatch.setattr(turns, "engines", lambda: known)
     monkeypatch.setattr(turns, "ORDERS", dict.fromkeys(ORDERS, tuple(map(Turn, known))))
     faults: list[Fault] = []
     with listening(faults.append):

@@ -20,7 +20,6 @@ from checker.verify.portfolio import (
     as_found,
     turns,
 )
-from checker.verify.portfolio import answers as compare
 from checker.verify.portfolio.order import ORDERS, Turn
 from checker.verify.portfolio.shape import VAST, WIDE, Shape
 from checker.verify.portfolio.turns import better
@@ -75,7 +74,7 @@ def using(monkeypatch: pytest.MonkeyPatch):
         known: dict[str, Engine] = {fake.NAME: fake for fake in fakes}
         orders = dict.fromkeys(ORDERS, tuple(Turn(fake.NAME) for fake in fakes))
         monkeypatch.setattr(turns, "engines", lambda: known)
-        monkeypatch.setattr(compare, "engines", lambda: known)
+        monkeypatch.setattr(turns, "engines", lambda: known)
         monkeypatch.setattr(turns, "ORDERS", orders)
 
     return use
