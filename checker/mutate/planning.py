@@ -162,12 +162,12 @@ class Plan:
         return frozenset(n for p in self.properties for n in variables(*formulas(p.form)))
 
     def _abroad(self, original: System) -> frozenset[str]:
-        """What parts read that other systems have, and this one has not."""
+        """What parts read that other systems have, and this one has not; but no bookkeeping of the model."""
         if original.name not in self._read_abroad:
             own = {part.name for part in parts(original.components)}
             others = (part for system in self.systems.values() for part in parts(system.components))
             self._read_abroad[original.name] = frozenset(
-                n for part in others if part.name not in own for n in part.read
+                n for part in others if part.name not in own for n, v in part.read.items() if not v.hidden
             )
         return self._read_abroad[original.name]
 

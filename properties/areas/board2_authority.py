@@ -11,6 +11,7 @@ from properties.forms import (
     leaves_only_if,
     reachable,
 )
+from properties.past import STEPPED
 from spec_model.board2.failure_check import check_board1
 from spec_model.board2.safety import safety_state_2
 from spec_model.lang.expr import implies
@@ -39,6 +40,11 @@ PB2_14b = enters_only_if(
     "PB2-14b", "Board 2 becomes authorised only in a step with a request to switch or a critical link.",
     entering=autorized, only_if=q,
     covers=["B2-ACT-01"], on=ON, from_tick=2, readings=["E22"],
+)  # fmt: skip
+PB2_14_first = always(
+    "PB2-14-first", "In the very first step Board 2 is not authorised, whatever it hears.",
+    that=implies(~STEPPED, ~autorized),
+    covers=["B2-ACT-01"], on=ON,
 )  # fmt: skip
 PB2_14c = always(
     "PB2-14c", "Board 2 is authorised in every step in which Board 1 is silent.",

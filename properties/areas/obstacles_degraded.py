@@ -121,6 +121,12 @@ PB2_56_command = always(
     covers=("B2-OBS-04", "B2-OBS-22"), on="references_2", readings=("E04", "E22"),
 )  # fmt: skip
 
+PB2_56_before = always(
+    "PB2-56-before", "Until Board 2 drives, the chart that only then executes has decided nothing: it says 0.",
+    that=implies(~once(drives), B2DecDriving == 0),
+    covers=["B2-OBS-22"], on="references_2", readings=["E22"],
+)  # fmt: skip
+
 PB2_56_first = always(
     "PB2-56-first", "In the first step in which Board 2 drives it goes on, whatever the distances.",
     that=implies(drives & ~drove_before, B2DecDriving == 5),

@@ -14,10 +14,20 @@ from spec_model.signals.board1 import (
     batt_reading,
     batt_update,
     battery_pct,
+    cmd,
+    crit_mask_b2,
+    current_yaw,
+    degr_mask_b2,
+    is_motion_consistent,
+    rx_update,
     temp_reading,
     temp_update,
     temperature_degC,
+    x_norm,
+    y_norm,
 )
+from spec_model.signals.board1 import btn1 as b1_btn1
+from spec_model.signals.board1 import btn2 as b1_btn2
 from spec_model.signals.board2 import SONARS
 from spec_model.signals.board2_motion import ay_norm, btn1, btn2, bx_norm, yaw
 from spec_model.signals.board2_supervisor import (
@@ -59,6 +69,37 @@ PB1_42_TEMP = _reading(
 PB1_42_BATT = _reading(
     "PB1-42-BATT", "The battery", batt_update, battery_pct, batt_reading, "B1-BATT-05", "battery"
 )
+
+
+def _payload(letter: str, text: str, at_first: Expr, data: Sequence[Var], covers: list[str]) -> Property:
+    new = [Var(f"frame_{d.name}", d.domain, d.init, f"{d.name} of the frame") for d in data]
+    return always(
+        f"PB1-47{letter}", text,
+        that=all_of(*(_kept(rx_update, d, frame) for d, frame in zip(data, new, strict=True)))
+        & implies(~once(rx_update), at_first),
+        covers=covers, on="board1",
+    )  # fmt: skip
+
+
+PB1_47a = _payload(
+    "a", "A frame replaces the command of Board 2; without one it stays, CMD_NORMAL at first.",
+    cmd == "CMD_NORMAL", [cmd], ["B1-IN-01"],
+)  # fmt: skip
+PB1_47b = _payload(
+    "b", "A frame replaces the stick, the heading and the buttons; without one they stay, at rest, 0 and "
+    "released at first.",
+    all_of(x_norm == 0, y_norm == 0, current_yaw == 0, ~b1_btn1, ~b1_btn2),
+    [x_norm, y_norm, current_yaw, b1_btn1, b1_btn2], ["B1-IN-01"],
+)  # fmt: skip
+PB1_47c = _payload(
+    "c", "A frame replaces the two masks of Board 2, each by its own; without one they stay, 0 at first.",
+    (crit_mask_b2 == 0) & (degr_mask_b2 == 0), [crit_mask_b2, degr_mask_b2], ["B1-IN-01"],
+)  # fmt: skip
+PB1_47d = _payload(
+    "d", "A frame replaces what Board 2 says of wheels and rotation; without one it stays, consistent at first "
+    "[modelling choice].",
+    is_motion_consistent, [is_motion_consistent], ["B1-IN-01"],
+)  # fmt: skip
 
 
 def _snapshot(letter: str, text: str, update: Var, data: Sequence[Var], covers: list[str]) -> Property:

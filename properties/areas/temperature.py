@@ -9,6 +9,7 @@ from properties.document.temperature import (
     stale_above_65,
 )
 from properties.forms import always, holds_after, reachable, until
+from properties.past import STEPPED
 from spec_model.board1.temperature import monitor_temperature
 from spec_model.lang.expr import implies
 from spec_model.lang.time import sec
@@ -29,6 +30,12 @@ PB1_01b = always(
     "PB1-01b", "A fresh temperature in ]-15;-5] or [55;60[ is reported degraded in the same step.",
     that=implies(fresh & degraded_range, DEGRADED),
     covers=["B1-TEMP-02"], on=ON, from_tick=2, readings=["S01", "S05", "S65"],
+)  # fmt: skip
+PB1_01c = always(
+    "PB1-01c", "In the very first step, too, a reading is classified: OK in ]-5;55[, degraded in ]-15;-5] or "
+    "[55;60[.",
+    that=implies(~STEPPED & fresh, implies(ok_range, OK) & implies(degraded_range, DEGRADED)),
+    covers=["B1-TEMP-01", "B1-TEMP-02"], on=ON, readings=["S01", "S65"],
 )  # fmt: skip
 PB1_02a = holds_after(
     "PB1-02a", "When the temperature has been in the critical range for 4 s, it is reported critical.",

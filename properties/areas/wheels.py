@@ -4,8 +4,9 @@ from collections.abc import Callable, Iterator
 
 from properties.document.masks import WHEELS
 from properties.forms import Property, always, reachable
+from properties.past import STEPPED
 from spec_model.board1.wheels import monitor_wheel_FL, monitor_wheel_FR
-from spec_model.lang.expr import Expr, implies
+from spec_model.lang.expr import Expr, implies, ite
 from spec_model.signals.board1 import has_no_feedback, is_motion_consistent, wheel_status
 
 consistent = is_motion_consistent
@@ -24,13 +25,18 @@ def _critical(wheel: str) -> Expr:
 
 
 def _each(
-    id: str, text: str, that: Callable[[str, Expr], Expr], covers: str, readings: list[str]
+    id: str,
+    text: str,
+    that: Callable[[str, Expr], Expr],
+    covers: str,
+    readings: list[str],
+    from_tick: int = 2,
 ) -> Iterator[Property]:
     """The sentence for FL, FR, RL and RR, of a wheel and its lost feedback."""
     for wheel in WHEELS:
         yield always(
             f"{id}-{wheel}", f"Wheel {wheel} {text}", that=that(wheel, has_no_feedback[wheel]),
-            covers=[covers], on=f"wheel_{wheel}", from_tick=2, readings=readings,
+            covers=[covers], on=f"wheel_{wheel}", from_tick=from_tick, readings=readings,
         )  # fmt: skip
 
 
@@ -63,6 +69,12 @@ PB1_30d_FL, PB1_30d_FR, PB1_30d_RL, PB1_30d_RR = _each(
     "PB1-30d", "with feedback and inconsistent motion has a degraded encoder in the same step.",
     lambda wheel, lost: implies(~lost & ~consistent, _degraded(wheel)),
     "B1-WHL-04", ["S27", "S29", "S31"],
+)  # fmt: skip
+PB1_30e_FL, PB1_30e_FR, PB1_30e_RL, PB1_30e_RR = _each(
+    "PB1-30e", "is classified in the very first step, too: with consistent motion it has a degraded encoder if "
+    "its feedback is lost, else it is OK.",
+    lambda wheel, lost: implies(~STEPPED & consistent, ite(lost, _degraded(wheel), _ok(wheel))),
+    "B1-WHL-01", ["S30", "S65"], from_tick=1,
 )  # fmt: skip
 
 REACH_WHEEL_DEG = reachable(
