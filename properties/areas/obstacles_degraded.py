@@ -122,7 +122,8 @@ PB2_56_command = always(
 )  # fmt: skip
 
 PB2_56_before = always(
-    "PB2-56-before", "Until Board 2 drives, the chart that only then executes has decided nothing: it says 0.",
+    "PB2-56-before", "Until Board 2 drives, the chart that only then executes has decided nothing: it says "
+                     "0.",
     that=implies(~once(drives), B2DecDriving == 0),
     covers=["B2-OBS-22"], on="references_2", readings=["E22"],
 )  # fmt: skip

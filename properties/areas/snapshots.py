@@ -96,8 +96,8 @@ PB1_47c = _payload(
     (crit_mask_b2 == 0) & (degr_mask_b2 == 0), [crit_mask_b2, degr_mask_b2], ["B1-IN-01"],
 )  # fmt: skip
 PB1_47d = _payload(
-    "d", "A frame replaces what Board 2 says of wheels and rotation; without one it stays, consistent at first "
-    "[modelling choice].",
+    "d", "A frame replaces what Board 2 says of wheels and rotation; without one it stays, consistent at "
+    "first [modelling choice].",
     is_motion_consistent, [is_motion_consistent], ["B1-IN-01"],
 )  # fmt: skip
 

@@ -71,8 +71,9 @@ PB1_30d_FL, PB1_30d_FR, PB1_30d_RL, PB1_30d_RR = _each(
     "B1-WHL-04", ["S27", "S29", "S31"],
 )  # fmt: skip
 PB1_30e_FL, PB1_30e_FR, PB1_30e_RL, PB1_30e_RR = _each(
-    "PB1-30e", "is classified in the very first step, too: with consistent motion it has a degraded encoder if "
-    "its feedback is lost, else it is OK.",
+    "PB1-30e",
+    "is classified in the very first step, too: with consistent motion it has a degraded encoder if its "
+    "feedback is lost, else it is OK.",
     lambda wheel, lost: implies(~STEPPED & consistent, ite(lost, _degraded(wheel), _ok(wheel))),
     "B1-WHL-01", ["S30", "S65"], from_tick=1,
 )  # fmt: skip
