@@ -6,9 +6,8 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.check import _selection
 from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.select import pick_properties
+from checker.commands.shared.select import again, pick_properties
 from properties.catalogue import catalogue
 
 
@@ -27,7 +26,7 @@ def test_a_system_that_is_not_there_is_refused_among_others() -> None:
 
 
 def test_the_command_shown_again_has_every_system() -> None:
-    assert _selection(("A",), ("relay", "b c"), True) == "A --system relay --system 'b c' --full"
+    assert again(("A",), ("relay", "b c"), True) == "A --system relay --system 'b c' --full"
 
 
 def test_check_and_export_take_several_systems(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,11 +1,23 @@
 """The verb ``certify``: proofs checked again."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import click
 
 from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import SECONDS, modelling, quietly
+from checker.commands.shared.options import SECONDS, gathered, modelling, quietly
+
+
+@dataclass(frozen=True)
+class CertificationOptions:
+    """How the proofs are checked, and how much is said."""
+
+    solver: str
+    smt2: Path | None
+    timeout: float | None
+    verbose: bool
+    as_json: bool
 
 
 @click.command(short_help="Check certificates of proofs again.")
@@ -25,17 +37,17 @@ from checker.commands.shared.options import SECONDS, modelling, quietly
 )
 @modelling
 @quietly
-def certify(
-    paths: tuple[Path, ...],
-    solver: str,
-    smt2: Path | None,
-    timeout: float | None,
-    verbose: bool,
-    as_json: bool,
-    model: Path | None,
-) -> Exit:
+@gathered(CertificationOptions, "options")
+def certify(paths: tuple[Path, ...], options: CertificationOptions, model: Path | None) -> Exit:
     """Check the certificates of proofs again, by other means than found them."""
     from checker.certify.check import By, CheckEffort
     from checker.commands.certify.run import certify as run
 
-    return run(paths, CheckEffort(By(solver), timeout), smt2, verbose, model, as_json)
+    return run(
+        paths,
+        CheckEffort(By(options.solver), options.timeout),
+        options.smt2,
+        options.verbose,
+        model,
+        options.as_json,
+    )

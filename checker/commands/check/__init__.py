@@ -1,21 +1,51 @@
 """The verb ``check``: properties against the verdicts on record."""
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from pathlib import Path
-from shlex import join
 from typing import TYPE_CHECKING
 
 import click
 
 from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.options import GIB, modelling, searching, varying
-from checker.engines import ALL, AUTO, LOADED, Limits, Timers
+from checker.commands.shared.options import (
+    GIB,
+    SearchOptions,
+    VariantOptions,
+    gathered,
+    modelling,
+    searching,
+    varying,
+)
+from checker.engines import ALL, AUTO, LOADED, Limits
 
 if TYPE_CHECKING:
     from checker.commands.check.further import Further
     from checker.commands.check.premises import PremiseSearch
     from checker.commands.check.standing import Chains
     from checker.commands.shared.variant import Variant
+
+
+@dataclass(frozen=True)
+class CheckOptions:
+    """Which properties are asked for, how strictly, and where the verdicts go."""
+
+    ids: tuple[str, ...]
+    about: tuple[str, ...]
+    full: bool
+    strict: bool
+    no_premises: bool
+    record_premises: bool
+    record_invariants: bool
+    as_json: bool
+    quiet: bool
+    jobs: int | None
+    memory: float
+    all_engines: bool
+    certify: bool
+    certificates: Path | None
+    junit: Path | None
+    sarif: Path | None
+    annotations: str | None
 
 
 @click.command(short_help="Check properties, and compare with the verdicts on record.")
@@ -82,33 +112,8 @@ if TYPE_CHECKING:
 @modelling
 @varying
 @searching
-def check(
-    ids: tuple[str, ...],
-    about: tuple[str, ...],
-    full: bool,
-    strict: bool,
-    no_premises: bool,
-    record_premises: bool,
-    record_invariants: bool,
-    as_json: bool,
-    quiet: bool,
-    jobs: int | None,
-    memory: float,
-    all_engines: bool,
-    certify: bool,
-    certificates: Path | None,
-    junit: Path | None,
-    sarif: Path | None,
-    annotations: str | None,
-    model: Path | None,
-    chosen: tuple[str, ...],
-    repair: str | None,
-    dropped: tuple[str, ...],
-    engine: str,
-    depth: int | None,
-    timeout: float | None,
-    timers: str,
-) -> Exit:
+@gathered(CheckOptions, "options")
+def check(options: CheckOptions, charts: VariantOptions, search: SearchOptions) -> Exit:
     """Check properties and compare the verdicts with the baseline."""
     from checker.process.isolate import prepared
 
@@ -117,44 +122,60 @@ def check(
         from checker.commands.check.findings import Guide, causes
         from checker.commands.check.run import check as run
         from checker.commands.check.run import undelivered
-        from checker.commands.shared.select import pick_engine, pick_properties
-        from checker.commands.shared.variant import pick_variant
+        from checker.commands.shared.select import again, pick_engine, pick_properties
         from checker.model.kept_invariants import invariants_of
 
-        variant = pick_variant(chosen, repair, dropped, model)
-        properties = pick_properties(ids, about, variant.properties(), full, variant.unchanged())
-        if variant.name and not ids:
+        variant = charts.variant()
+        properties = pick_properties(
+            options.ids, options.about, variant.properties(), options.full, variant.unchanged()
+        )
+        if variant.name and not options.ids:
             properties = list(filter(variant.concerns(), properties))
-        chains = _chains(variant) if not ids and not about and (full or variant.name) else None
+        every = not options.ids and not options.about
+        chains = _chains(variant) if every and (options.full or variant.name) else None
         if chains is not None:
             properties = list(
                 {p.id: p for p in (*properties, *variant.promised(), *chains.links.values())}.values()
             )
         if variant.name:
             properties = variant.askable(properties)
-        if no_premises and (strict or record_premises):
-            other = "--strict" if strict else "--record-premises"
+        if options.no_premises and (options.strict or options.record_premises):
+            other = "--strict" if options.strict else "--record-premises"
             raise UsageError(f"--no-premises leaves out what {other} asks for; write one of them.")
-        limits = Limits(depth, timeout, int(memory * 2**30), timers=Timers(timers))
-        asked = _asked(pick_engine(engine), all_engines)
-        if certificates:
-            writable(certificates)
-        certifying = variant.certifying(certificates, certify) if certify or certificates else None
+        limits = search.limits(options.memory)
+        asked = _asked(pick_engine(search.engine), options.all_engines)
+        if options.certificates:
+            writable(options.certificates)
+        certifying = (
+            variant.certifying(options.certificates, options.certify)
+            if options.certify or options.certificates
+            else None
+        )
         systems = variant.systems()
         deliver = undelivered
-        if junit or sarif or annotations:
+        if options.junit or options.sarif or options.annotations:
             from checker.commands.check.ci import Reports
 
-            again = _again(variant.model.options, chosen, repair, dropped)
-            reports = Reports(systems, junit, sarif, annotations or "", variant.name, again, as_json)
+            charted = _again(variant.model.options, charts.chosen, charts.repair, charts.dropped)
+            reports = Reports(
+                systems,
+                options.junit,
+                options.sarif,
+                options.annotations or "",
+                variant.name,
+                charted,
+                options.as_json,
+            )
             reports.possible()
             deliver = reports.write
         further = _further(
             variant,
-            None if no_premises else _premises(variant, asked, limits, jobs, quiet, record_premises),
+            None
+            if options.no_premises
+            else _premises(variant, asked, limits, options.jobs, options.quiet, options.record_premises),
             chains,
         )
-        if record_invariants:
+        if options.record_invariants:
             from checker.commands.check.invariants import Recording
 
             further = replace(further, keep=Recording(variant.model, variant.name))
@@ -163,16 +184,21 @@ def check(
             systems,
             asked,
             limits,
-            as_json,
+            options.as_json,
             variant.name,
             variant.expected,
-            jobs,
+            options.jobs,
             certifying,
-            Guide(variant.options, _selection(ids, about, full), variant.model.by_gravity, causes(variant)),
+            Guide(
+                variant.options,
+                again(options.ids, options.about, options.full),
+                variant.model.by_gravity,
+                causes(variant),
+            ),
             deliver,
-            quiet,
+            options.quiet,
             further,
-            strict,
+            options.strict,
             invariants_of(variant.model),
         )
 
@@ -207,12 +233,6 @@ def _premises(
     if keep:
         recordable(model, variant.name)
     return PremiseSearch(model, variant.systems(), read(file_of(model)), engine, limits, jobs, quiet, keep)
-
-
-def _selection(ids: tuple[str, ...], about: tuple[str, ...], full: bool) -> str:
-    """The words that choose the same properties again."""
-    systems = (word for name in about for word in ("--system", name))
-    return join([*ids, *systems, *(("--full",) if full else ())])
 
 
 def _again(options: str, chosen: tuple[str, ...], repair: str | None, dropped: tuple[str, ...]) -> str:

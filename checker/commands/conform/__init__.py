@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import changing, quietly
+from checker.commands.shared.options import VariantOptions, changing, quietly
 
 
 @click.command(short_help="Check logs recorded on a board.")
@@ -28,10 +28,9 @@ def conform(
     system: str | None,
     as_json: bool,
     verbose: bool,
-    chosen: tuple[str, ...],
-    repair: str | None,
+    charts: VariantOptions,
 ) -> Exit:
     """Check a log, or all logs of a folder: every property as a monitor, and as a run of the charts."""
     from checker.commands.conform.run import conform as run
 
-    return run(place, map_file, system, as_json, verbose, chosen, repair)
+    return run(place, map_file, system, as_json, verbose, charts.chosen, charts.repair)

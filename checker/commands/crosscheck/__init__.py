@@ -1,11 +1,26 @@
 """The verb ``crosscheck``: an implementation and the charts side by side."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import click
 
 from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import changing, quietly
+from checker.commands.shared.options import VariantOptions, changing, gathered, quietly
+
+
+@dataclass(frozen=True)
+class ComparisonOptions:
+    """What is compared, on how many runs, and how much is told."""
+
+    system: str | None
+    impl: str | None
+    profile: str
+    examples: int | None
+    seed: int | None
+    tests: Path | None
+    mismatches: int
+    failures: int
 
 
 @click.command(short_help="Compare a supervisor with the charts, step by step.")
@@ -45,25 +60,25 @@ from checker.commands.shared.options import changing, quietly
 )
 @changing
 @quietly
+@gathered(ComparisonOptions, "options")
 def crosscheck(
-    system: str | None,
-    impl: str | None,
-    profile: str,
-    examples: int | None,
-    seed: int | None,
-    tests: Path | None,
-    mismatches: int,
-    failures: int,
-    as_json: bool,
-    output: Path | None,
-    chosen: tuple[str, ...],
-    repair: str | None,
+    options: ComparisonOptions, as_json: bool, output: Path | None, charts: VariantOptions
 ) -> Exit:
     """Run a supervisor and the charts side by side; exit code 1 where they differ."""
     from checker.commands.crosscheck.run import CrosscheckOptions
     from checker.commands.crosscheck.run import crosscheck as run
     from checker.compare import Allowance
 
-    allowed = Allowance(mismatches, failures)
-    asked = CrosscheckOptions(system, impl, profile, examples, seed, tests, allowed, chosen, repair)
+    allowed = Allowance(options.mismatches, options.failures)
+    asked = CrosscheckOptions(
+        options.system,
+        options.impl,
+        options.profile,
+        options.examples,
+        options.seed,
+        options.tests,
+        allowed,
+        charts.chosen,
+        charts.repair,
+    )
     return run(asked, output, as_json)

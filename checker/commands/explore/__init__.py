@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import modelling, quietly, varying
+from checker.commands.shared.options import VariantOptions, modelling, quietly, varying
 
 EXAMPLES = """\b
 Examples:
@@ -27,21 +27,12 @@ Examples:
 @modelling
 @varying
 @quietly
-def explore(
-    name: str | None,
-    traced: str | None,
-    script: Path | None,
-    model: Path | None,
-    chosen: tuple[str, ...],
-    repair: str | None,
-    dropped: tuple[str, ...],
-) -> Exit:
+def explore(name: str | None, traced: str | None, script: Path | None, charts: VariantOptions) -> Exit:
     """Step through a chart alone or a system: choose inputs or let them run, go back, ask why.
 
     Commands come from the terminal, a file or standard input; docs/explore.md shows a session.
     Exit code 4 at the first bad command of a script.
     """
     from checker.commands.explore.run import explore as run
-    from checker.commands.shared.variant import pick_variant
 
-    return run(name, pick_variant(chosen, repair, dropped, model), traced, script)
+    return run(name, charts.variant(), traced, script)

@@ -5,7 +5,7 @@ from pathlib import Path
 import click
 
 from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import modelling, quietly, varying, writing
+from checker.commands.shared.options import VariantOptions, modelling, quietly, varying, writing
 
 
 @click.command(short_help="Write properties for other model checkers.")
@@ -25,17 +25,9 @@ from checker.commands.shared.options import modelling, quietly, varying, writing
 @writing
 @quietly
 def export(
-    ids: tuple[str, ...],
-    about: tuple[str, ...],
-    format: str,
-    model: Path | None,
-    chosen: tuple[str, ...],
-    repair: str | None,
-    dropped: tuple[str, ...],
-    output: Path | None,
+    ids: tuple[str, ...], about: tuple[str, ...], format: str, charts: VariantOptions, output: Path | None
 ) -> Exit:
     """Write properties for other model checkers: a file, or a folder of them."""
     from checker.commands.export.run import export as run
-    from checker.commands.shared.variant import pick_variant
 
-    return run(ids, about, format, pick_variant(chosen, repair, dropped, model), output)
+    return run(ids, about, format, charts.variant(), output)

@@ -1,11 +1,21 @@
 """The verb ``graph``: charts as drawn, and reachable states."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import click
 
 from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import GIB, SECONDS, modelling, quietly, varying, writing
+from checker.commands.shared.options import (
+    GIB,
+    SECONDS,
+    VariantOptions,
+    gathered,
+    modelling,
+    quietly,
+    varying,
+    writing,
+)
 
 EXAMPLES = """\b
 Examples:
@@ -14,6 +24,20 @@ Examples:
   rovercheck graph relay --project Relay -o relay-states.svg
   rovercheck graph relay --project Relay --trace PB1-15 --format html
 """
+
+
+@dataclass(frozen=True)
+class ViewOptions:
+    """Through which variables the states are seen, what is marked, and what it may take."""
+
+    project: str | None
+    trace: str | None
+    bad: str | None
+    most: int
+    summary: bool
+    depth: int | None
+    timeout: float
+    memory: float
 
 
 @click.command(short_help="Draw a chart, or the reachable states of a system.", epilog=EXAMPLES)
@@ -48,22 +72,9 @@ Examples:
 @varying
 @writing
 @quietly
+@gathered(ViewOptions, "options")
 def graph(
-    name: str,
-    project: str | None,
-    trace: str | None,
-    bad: str | None,
-    format: str | None,
-    most: int,
-    summary: bool,
-    depth: int | None,
-    timeout: float,
-    memory: float,
-    model: Path | None,
-    chosen: tuple[str, ...],
-    repair: str | None,
-    dropped: tuple[str, ...],
-    output: Path | None,
+    name: str, options: ViewOptions, format: str | None, charts: VariantOptions, output: Path | None
 ) -> Exit:
     """Draw a chart, or the reachable graph of a system projected on some variables.
 
@@ -71,9 +82,8 @@ def graph(
     """
     from checker.commands.graph.run import View
     from checker.commands.graph.run import graph as run
-    from checker.commands.shared.variant import pick_variant
     from checker.engines import Limits
 
-    limits = Limits(depth, timeout, int(memory * (1 << 30)))
-    view = View(project, trace, bad, most, summary, limits)
-    return run(name, view, format, pick_variant(chosen, repair, dropped, model), output)
+    limits = Limits(options.depth, options.timeout, int(options.memory * (1 << 30)))
+    view = View(options.project, options.trace, options.bad, options.most, options.summary, limits)
+    return run(name, view, format, charts.variant(), output)

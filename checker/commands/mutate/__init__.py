@@ -1,12 +1,27 @@
 """The verb ``mutate``: how strong the properties are."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import click
 
 from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import GIB, SECONDS, modelling, quietly
+from checker.commands.shared.options import GIB, SECONDS, gathered, modelling, quietly
 from checker.engines import LOADED, Limits
+
+
+@dataclass(frozen=True)
+class FaultOptions:
+    """Which faults are made, how many, and who is asked."""
+
+    about: tuple[str, ...]
+    part: tuple[str, ...]
+    alone: bool
+    jobs: int | None
+    sample: int | None
+    seed: int
+    record_mutants: bool
+    by_place: bool
 
 
 @click.command(short_help="Put faults into the charts, and see whether the properties notice.")
@@ -42,18 +57,12 @@ from checker.engines import LOADED, Limits
 @click.option("--json", "as_json", is_flag=True, help="Every mutant as JSON (checker/schemas/mutate-1.json).")
 @modelling
 @quietly
+@gathered(FaultOptions, "options")
 def mutate(
-    about: tuple[str, ...],
-    part: tuple[str, ...],
-    alone: bool,
+    options: FaultOptions,
     timeout: float,
     memory: float,
-    jobs: int | None,
-    sample: int | None,
-    seed: int,
     record_kills: bool,
-    record_mutants: bool,
-    by_place: bool,
     as_json: bool,
     model: Path | None,
 ) -> Exit:
@@ -72,7 +81,16 @@ def mutate(
             from checker.commands.mutate.kills import record_kills as recorded
 
             limits = Limits(None, timeout, int(memory * 2**30))
-            return recorded(pick_variant((), None, (), model).model, limits, jobs, about)
-        wanted = MutateOptions(about, part, sample, seed, alone, by_place, jobs, record_mutants)
+            return recorded(pick_variant((), None, (), model).model, limits, options.jobs, options.about)
+        wanted = MutateOptions(
+            options.about,
+            options.part,
+            options.sample,
+            options.seed,
+            options.alone,
+            options.by_place,
+            options.jobs,
+            options.record_mutants,
+        )
         limits = Limits(None, timeout, int(memory * 2**30))
         return run(pick_variant((), None, (), model).model, wanted, limits, as_json)

@@ -1,5 +1,6 @@
 """The verb ``report``: one page with all verdicts and their evidence, for reviewers."""
 
+from dataclasses import dataclass
 from pathlib import Path
 from shlex import join
 
@@ -7,11 +8,36 @@ import click
 from click.core import ParameterSource
 
 from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import GIB, modelling, quietly, searching, varying
-from checker.engines import LOADED, Limits, Timers
+from checker.commands.shared.options import (
+    GIB,
+    SearchOptions,
+    VariantOptions,
+    gathered,
+    modelling,
+    quietly,
+    searching,
+    varying,
+)
+from checker.engines import LOADED
 
 FILE = "FILE"
 """What stands for the file in the command that the page shows."""
+
+
+@dataclass(frozen=True)
+class PageOptions:
+    """Which properties the page is about, and what it shows of them."""
+
+    ids: tuple[str, ...]
+    about: tuple[str, ...]
+    full: bool
+    certify: bool
+    no_repairs: bool
+    premises: bool
+    explain: bool
+    date: str
+    jobs: int | None
+    memory: float
 
 
 @click.command(short_help="Write one page with all verdicts, for reviewers.")
@@ -52,27 +78,9 @@ FILE = "FILE"
 @searching
 @quietly
 @click.pass_context
+@gathered(PageOptions, "options")
 def report(
-    context: click.Context,
-    ids: tuple[str, ...],
-    output: Path,
-    about: tuple[str, ...],
-    full: bool,
-    certify: bool,
-    no_repairs: bool,
-    premises: bool,
-    explain: bool,
-    date: str,
-    jobs: int | None,
-    memory: float,
-    model: Path | None,
-    chosen: tuple[str, ...],
-    repair: str | None,
-    dropped: tuple[str, ...],
-    engine: str,
-    depth: int | None,
-    timeout: float | None,
-    timers: str,
+    context: click.Context, options: PageOptions, output: Path, charts: VariantOptions, search: SearchOptions
 ) -> Exit:
     """Check properties and write one HTML page for reviewers, which needs no network."""
     from checker.process.isolate import prepared
@@ -81,24 +89,32 @@ def report(
         from checker.commands.report.run import ReportOptions
         from checker.commands.report.run import report as run
         from checker.commands.shared.select import pick_engine, pick_properties
-        from checker.commands.shared.variant import pick_variant
 
-        variant = pick_variant(chosen, repair, dropped, model)
-        properties = pick_properties(ids, about, variant.properties(), full, variant.unchanged())
-        if variant.name and not ids:
+        variant = charts.variant()
+        properties = pick_properties(
+            options.ids, options.about, variant.properties(), options.full, variant.unchanged()
+        )
+        if variant.name and not options.ids:
             properties = list(filter(variant.concerns(), properties))
         if variant.name:
             properties = variant.askable(properties)
-        whole = not (ids or about or variant.name)
+        whole = not (options.ids or options.about or variant.name)
         return run(
             variant,
             properties,
-            ReportOptions(command(context), whole, not no_repairs, premises, explain, date),
+            ReportOptions(
+                command(context),
+                whole,
+                not options.no_repairs,
+                options.premises,
+                options.explain,
+                options.date,
+            ),
             output,
-            pick_engine(engine),
-            Limits(depth, timeout, int(memory * 2**30), timers=Timers(timers)),
-            jobs,
-            variant.certifying(None, True) if certify else None,
+            pick_engine(search.engine),
+            search.limits(options.memory),
+            options.jobs,
+            variant.certifying(None, True) if options.certify else None,
         )
 
 

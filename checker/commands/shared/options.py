@@ -1,15 +1,20 @@
 """The options that several verbs share, and the numbers that may be written for them."""
 
 from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from functools import wraps
 from math import isnan
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from checker.commands.shared.codes import Exit
 from checker.commands.shared.silence import silence
-from checker.engines import AUTO, Timers
+from checker.engines import AUTO, Limits, Timers
+
+if TYPE_CHECKING:
+    from checker.commands.shared.variant import Variant
 
 
 class Amount(click.FloatRange):
@@ -23,6 +28,58 @@ class Amount(click.FloatRange):
 
 SECONDS = Amount(min=0, min_open=True, max=100_000_000)
 GIB = Amount(min=0.25, max=1_000_000)
+
+
+@dataclass(frozen=True)
+class VariantOptions:
+    """Which charts are meant: a user's own model, readings, a repair, fewer assumptions."""
+
+    chosen: tuple[str, ...] = ()
+    repair: str | None = None
+    dropped: tuple[str, ...] = ()
+    model: Path | None = None
+
+    def variant(self) -> "Variant":
+        """The charts so meant.  Raises ``UsageError`` or ``ModelError``."""
+        from checker.commands.shared.variant import pick_variant
+
+        return pick_variant(self.chosen, self.repair, self.dropped, self.model)
+
+
+@dataclass(frozen=True)
+class SearchOptions:
+    """Who searches, and what a search may take: ticks, seconds."""
+
+    engine: str
+    depth: int | None
+    timeout: float | None
+    timers: str
+
+    def limits(self, memory: float | None = None) -> Limits:
+        """The same as limits, with so many GiB of memory."""
+        limits = Limits(self.depth, self.timeout, timers=Timers(self.timers))
+        return limits if memory is None else replace(limits, memory=int(memory * 2**30))
+
+
+Verb = Callable[..., Exit]
+
+
+def gathered(record: type[object], name: str) -> Callable[[Verb], Verb]:
+    """Hands a verb the options named as the fields of a record as this record, under one name.
+
+    Fields that no option is named as keep their defaults.
+    """
+    names = [field.name for field in fields(record)]  # type: ignore[arg-type]  # a dataclass
+
+    def around(command: Verb) -> Verb:
+        @wraps(command)
+        def called(*args: object, **given: object) -> Exit:
+            of = {n: given.pop(n) for n in names if n in given}
+            return command(*args, **given, **{name: record(**of)})
+
+        return called
+
+    return around
 
 
 def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
@@ -50,6 +107,7 @@ def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
             help="Count every tick, skip quiet ones, or try with timers that run out at will.",
         ),
     ]
+    command = gathered(SearchOptions, "search")(command)
     for option in reversed(options):
         command = option(command)
     return command
@@ -105,6 +163,7 @@ def varying(command: Callable[..., Exit]) -> Callable[..., Exit]:
             help="Drop an assumption about the environment; see list assumptions.",
         ),
     ]
+    command = gathered(VariantOptions, "charts")(command)
     for option in reversed(options):
         command = option(command)
     return command
@@ -128,6 +187,7 @@ def changing(command: Callable[..., Exit]) -> Callable[..., Exit]:
         ),
         click.option("--repair", metavar="NAME", help="With a proposed repair; see list repairs."),
     ]
+    command = gathered(VariantOptions, "charts")(command)
     for option in reversed(options):
         command = option(command)
     return command

@@ -1,12 +1,28 @@
 """The verb ``testgen``: tests that cover the charts."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import click
 
 from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import SECONDS, quietly
+from checker.commands.shared.options import SECONDS, gathered, quietly
 from checker.engines import LOADED
+
+
+@dataclass(frozen=True)
+class GenerationOptions:
+    """What is to be covered, in which form, and what it may take."""
+
+    names: tuple[str, ...]
+    kinds: tuple[str, ...]
+    format: str
+    kept: bool
+    keep: Path | None
+    timeout: float
+    ticks: int
+    seed: int
+    jobs: int | None
 
 
 @click.command(short_help="Write tests that cover the charts, with expected outputs.")
@@ -65,19 +81,8 @@ from checker.engines import LOADED
     help="The folder to write into.",
 )
 @quietly
-def testgen(
-    names: tuple[str, ...],
-    kinds: tuple[str, ...],
-    format: str,
-    kept: bool,
-    keep: Path | None,
-    timeout: float,
-    ticks: int,
-    seed: int,
-    jobs: int | None,
-    as_json: bool,
-    output: Path,
-) -> Exit:
+@gathered(GenerationOptions, "options")
+def testgen(options: GenerationOptions, as_json: bool, output: Path) -> Exit:
     """Write short input sequences that cover the charts, with the outputs that the charts require.
 
     Exit code 0 if every goal is reached by a test or proved out of reach, 2 if some are not known to be
@@ -91,6 +96,15 @@ def testgen(
         from checker.system.instrument.goals import GoalKind
         from checker.testgen.coverage import TestgenEffort
 
-        wanted = tuple(map(GoalKind, kinds)) or (tuple(GoalKind) if keep else (GoalKind.ARROWS,))
-        asked = TestgenOptions(names, wanted, format, TestgenEffort(timeout, ticks, jobs, seed), kept, keep)
+        wanted = tuple(map(GoalKind, options.kinds)) or (
+            tuple(GoalKind) if options.keep else (GoalKind.ARROWS,)
+        )
+        asked = TestgenOptions(
+            options.names,
+            wanted,
+            options.format,
+            TestgenEffort(options.timeout, options.ticks, options.jobs, options.seed),
+            options.kept,
+            options.keep,
+        )
         return run(asked, output, as_json)

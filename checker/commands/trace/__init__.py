@@ -1,12 +1,37 @@
 """The verb ``trace``: the run that a verdict rests on, in every form."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import click
 
 from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import modelling, quietly, searching, varying, writing
-from checker.engines import Limits, Timers
+from checker.commands.shared.options import (
+    SearchOptions,
+    VariantOptions,
+    gathered,
+    modelling,
+    quietly,
+    searching,
+    varying,
+    writing,
+)
+
+
+@dataclass(frozen=True)
+class TraceOptions:
+    """What the run is to show, and in which form."""
+
+    id: str | None
+    state: str | None
+    arrow: str | None
+    system: str | None
+    format: str
+    everything: bool
+    explain: bool | None
+    witnesses: int
+    by: str
+    output: Path | None
 
 
 @click.command(short_help="Show a counterexample or a witness, tick by tick.")
@@ -46,26 +71,8 @@ from checker.engines import Limits, Timers
 @searching
 @writing
 @quietly
-def trace(
-    id: str | None,
-    state: str | None,
-    arrow: str | None,
-    system: str | None,
-    format: str,
-    everything: bool,
-    explain: bool | None,
-    witnesses: int,
-    by: str,
-    model: Path | None,
-    chosen: tuple[str, ...],
-    repair: str | None,
-    dropped: tuple[str, ...],
-    engine: str,
-    depth: int | None,
-    timeout: float | None,
-    timers: str,
-    output: Path | None,
-) -> Exit:
+@gathered(TraceOptions, "options")
+def trace(options: TraceOptions, charts: VariantOptions, search: SearchOptions) -> Exit:
     """Show the counterexample of a violated property, or the witness of a reachable one.
 
     \b
@@ -75,14 +82,19 @@ def trace(
       rovercheck trace --arrow 'Relay: B1_actuating -> B2_actuating'
     """
     from checker.commands.shared.select import pick_engine
-    from checker.commands.shared.variant import pick_variant
     from checker.commands.trace.examples import asked
     from checker.commands.trace.explain import Explaining
     from checker.commands.trace.run import Showing
     from checker.commands.trace.run import trace as run
 
-    variant = pick_variant(chosen, repair, dropped, model)
-    wanted = asked(variant, id, state, arrow, system)
-    limits = Limits(depth, timeout, timers=Timers(timers))
-    showing = Showing(format, everything, output, Explaining.chosen(explain), witnesses, by)
-    return run(wanted, pick_engine(engine), limits, showing)
+    variant = charts.variant()
+    wanted = asked(variant, options.id, options.state, options.arrow, options.system)
+    showing = Showing(
+        options.format,
+        options.everything,
+        options.output,
+        Explaining.chosen(options.explain),
+        options.witnesses,
+        options.by,
+    )
+    return run(wanted, pick_engine(search.engine), search.limits(), showing)
