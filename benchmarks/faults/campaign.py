@@ -19,7 +19,7 @@ from checker.cache import opened, sealed, secret
 from checker.compare.check import recorded_suite
 
 BOARDS = ("board1", "board2")
-READ = ("supervisor", "spec_model", "checker/adapters", "checker/compare")
+READ = ("supervisor", "spec_model", "checker/adapters", "checker/compare", "checker/testgen")
 """What the answers depend on."""
 LOOK = 20
 """Runs of a board on which a judged mutant is tried all the same: the judgement might be wrong."""
