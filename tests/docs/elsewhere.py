@@ -61,6 +61,7 @@ COMMANDS = {
     "rovercheck mutate --sample 50 --seed 1": MUTATES,
     "rovercheck mutate --system masks --timeout 10": MUTATES,
     "rovercheck mutate --system masks --json": MUTATES,
+    "rovercheck mutate --record-mutants": MUTATES,
     "rovercheck simulate SCENARIO.toml -o run.png": Instead(
         "any scenario; tests/cli/test_simulate.py draws the pictures",
         "rovercheck simulate examples/scenarios/link_loss.toml --log logs -o run.csv",
