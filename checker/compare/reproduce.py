@@ -62,7 +62,7 @@ def pytest_file(
     stimulus = stimulus_of(found)
     what = "is not what the charts require" if isinstance(found, StepMismatch) else "fail"
     blocks = "\n".join(_block(block) for block in stimulus.blocks)
-    names = ["Block", "Stimulus", "replay"]
+    names = ["InputBlock", "Stimulus", "replay"]
     names += [word for word in ("SILENT", "Every") if word in blocks]
     return TEMPLATE.format(
         title=f"{found.board.name}: {_subject(found)} {what} in step {found.tick}.",
@@ -96,11 +96,11 @@ def _told(found: StepMismatch | Failure) -> Iterator[str]:
 
 def _block(block: InputBlock) -> str:
     pairs = [f"({dumps(name)}, {_change(change)})" for name, change in block.changes]
-    one_line = f"        Block({block.steps}, ({', '.join(pairs)}{',' * (len(pairs) == 1)})),"
+    one_line = f"        InputBlock({block.steps}, ({', '.join(pairs)}{',' * (len(pairs) == 1)})),"
     if len(one_line) <= WIDTH:
         return one_line
     inside = "\n".join(f"            {pair}," for pair in pairs)
-    return f"        Block({block.steps}, (\n{inside}\n        )),"
+    return f"        InputBlock({block.steps}, (\n{inside}\n        )),"
 
 
 def _change(change: Change) -> str:

@@ -13,9 +13,9 @@ from checker.testgen.replay import first_reached as replayed
 from checker.testgen.scripts import Script, steps
 from checker.testgen.search import (
     Answer,
+    CoverFound,
     OpenGoal,
     SearchProgress,
-    TestsFound,
     Uncoverable,
     refuted,
     searched,
@@ -30,7 +30,7 @@ SHORTENING = 3000
 
 
 @dataclass(frozen=True)
-class TestgenEffort:
+class GenerationEffort:
     """What a generation may spend: seconds for each search by engines, ticks of random runs, processes."""
 
     seconds: float = 20.0
@@ -74,7 +74,7 @@ class GoalCoverage:
     def shortest(self) -> set[str]:
         """The goals whose shortest run is known to be as short as any."""
         lengths = self.covered
-        exact = [a for a in self.answers.values() if isinstance(a, TestsFound) and a.shortest]
+        exact = [a for a in self.answers.values() if isinstance(a, CoverFound) and a.shortest]
         return {a.goal for a in exact if lengths.get(a.goal) == len(a.script)}
 
     @property
@@ -111,10 +111,10 @@ class GoalCoverage:
             self.answers |= {id: Uncoverable.of(id, how) for id, how in proved if id in self.wanted}
             self.answers |= {id: self._as_before(id) for id in sorted(shortest)}
 
-    def _as_before(self, goal: str) -> TestsFound:
+    def _as_before(self, goal: str) -> CoverFound:
         length = self.covered[goal]
         script = next(script for script, reached in self.scripts if reached.get(goal) == length)
-        return TestsFound(goal, script[:length], "kept", True)
+        return CoverFound(goal, script[:length], "kept", True)
 
     def kept(self, charts: str = "") -> KeptTests:
         """Few tests that reach what is covered, and what is known of the other goals.
@@ -136,7 +136,7 @@ Tell = Callable[[str], None]
 def cover(
     coverage: GoalCoverage,
     model: System,
-    effort: TestgenEffort,
+    effort: GenerationEffort,
     tell: Tell,
     only: Collection[str] | None = None,
 ) -> None:
@@ -158,7 +158,7 @@ def cover(
 
 
 def _by_engines(
-    coverage: GoalCoverage, model: System, goals: Sequence[CoverGoal], effort: TestgenEffort, tell: Tell
+    coverage: GoalCoverage, model: System, goals: Sequence[CoverGoal], effort: GenerationEffort, tell: Tell
 ) -> None:
     for answer in searched(coverage.board, model, goals, Limits(seconds=effort.seconds), effort.jobs):
         _note(coverage, answer, tell)
@@ -168,7 +168,7 @@ def _note(coverage: GoalCoverage, answer: Answer | SearchProgress, tell: Tell) -
     match answer:
         case SearchProgress(line):
             tell(line)
-        case TestsFound():
+        case CoverFound():
             coverage.add(answer.script)
             coverage.answers[answer.goal] = answer if answer.goal in coverage.covered else _astray(answer)
         case Uncoverable():
@@ -179,7 +179,7 @@ def _note(coverage: GoalCoverage, answer: Answer | SearchProgress, tell: Tell) -
             coverage.answers[goal] = OpenGoal(goal, said)
 
 
-def _astray(found: TestsFound) -> OpenGoal:
+def _astray(found: CoverFound) -> OpenGoal:
     """What is said of a run of the model that does not reach its goal on the board."""
     steps_ = len(found.script)
     return OpenGoal(
@@ -187,7 +187,7 @@ def _astray(found: TestsFound) -> OpenGoal:
     )
 
 
-def _by_weather(coverage: GoalCoverage, asked: Collection[str], effort: TestgenEffort, tell: Tell) -> None:
+def _by_weather(coverage: GoalCoverage, asked: Collection[str], effort: GenerationEffort, tell: Tell) -> None:
     known = [script for script, _ in coverage.scripts]
     wanted = coverage.unknown.keys() & asked
     for find in explored(coverage.machine, wanted, Random(effort.seed), effort.ticks, known):

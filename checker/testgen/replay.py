@@ -17,7 +17,7 @@ class ReplayedStep:
     reached: frozenset[str]
 
 
-class TestPlayer:
+class CoverPlayer:
     """A board at power-up whose charts tell which goals they reach."""
 
     def __init__(self, board: Board, watched: Watched) -> None:
@@ -43,7 +43,7 @@ class TestPlayer:
 
 def played(board: Board, watched: Watched, steps: Sequence[Mapping[str, Value]]) -> Iterator[ReplayedStep]:
     """Every step of a test, run on the interpreter from power-up."""
-    player = TestPlayer(board, watched)
+    player = CoverPlayer(board, watched)
     for inputs in steps:
         reached = player.step(inputs)
         yield ReplayedStep(inputs, player.outputs(), reached)
@@ -52,7 +52,7 @@ def played(board: Board, watched: Watched, steps: Sequence[Mapping[str, Value]])
 def first_reached(board: Board, watched: Watched, steps: Sequence[Mapping[str, Value]]) -> dict[str, int]:
     """The first step, from 1, in which each goal is reached."""
     found: dict[str, int] = {}
-    player = TestPlayer(board, watched)
+    player = CoverPlayer(board, watched)
     for number, inputs in enumerate(steps, start=1):
         for id in player.step(inputs):
             found.setdefault(id, number)

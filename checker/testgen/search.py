@@ -27,7 +27,7 @@ SHORTEST_FIRST = ("bmc", "bdd", "explicit")
 
 
 @dataclass(frozen=True)
-class TestsFound:
+class CoverFound:
     """A run that reaches a goal in its last tick, as a script; ``shortest``: no shorter one reaches it."""
 
     goal: str
@@ -66,7 +66,7 @@ class OpenGoal:
     reason: str
 
 
-Answer = TestsFound | Uncoverable | OpenGoal
+Answer = CoverFound | Uncoverable | OpenGoal
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ def searched(
         match verdict:
             case Proved(Trace() as trace, engine):
                 inputs = list(board.run({**t.after, **t.inputs} for t in trace.ticks))
-                yield TestsFound(goal, script(board, inputs), engine, engine in SHORTEST_FIRST)
+                yield CoverFound(goal, script(board, inputs), engine, engine in SHORTEST_FIRST)
             case Violated(because, engine) if not isinstance(because, Trace):
                 yield Uncoverable(goal, system.name, engine, because.how)
             case Unknown(reason, _, _):

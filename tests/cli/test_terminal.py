@@ -198,7 +198,7 @@ LONG = [
 RAISING = f"""
 import sys
 from checker.cli import main
-from checker.commands import check
+from checker.commands.check import run as check
 def broken(compared): raise {{error}}
 check.line = broken
 sys.argv[1:] = {CHECK[3:]}

@@ -11,7 +11,7 @@ import checker
 from checker.cli import run
 from checker.commands.shared.codes import Exit
 from checker.commands.testgen import run as generating
-from checker.commands.testgen.run import TestgenProgress
+from checker.commands.testgen.run import GenerationProgress
 from checker.system.instrument.watch import watched
 from checker.testgen.fingerprint import fingerprint
 from checker.testgen.generate import Aim
@@ -88,11 +88,11 @@ def test_a_place_that_cannot_be_written_is_one_message(
 def test_ctrl_c_writes_what_was_found(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def ctrl_c(say: TestgenProgress, doing: str) -> None:
+    def ctrl_c(say: GenerationProgress, doing: str) -> None:
         if say.coverage.covered:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr(TestgenProgress, "__call__", ctrl_c)
+    monkeypatch.setattr(GenerationProgress, "__call__", ctrl_c)
     arguments = ["--system", "checkStop", "--cover", "boundaries", "--ticks", "3000", "--timeout", "0.1"]
     assert run(["testgen", *arguments, "--jobs", "1", "-o", str(tmp_path)]) is Exit.INTERRUPTED
     said = capsys.readouterr().out

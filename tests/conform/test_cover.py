@@ -7,14 +7,14 @@ import pytest
 
 from checker.system.instrument.goals import CoverGoal, GoalKind
 from checker.system.instrument.watch import watched
-from checker.testgen.coverage import NOT_TRIED, GoalCoverage, TestgenEffort, chosen, cover
+from checker.testgen.coverage import NOT_TRIED, GenerationEffort, GoalCoverage, chosen, cover
 from checker.testgen.explore import RandomMachine, TriedPlace, Weather, explored, first_reached, shortened
 from checker.testgen.fingerprint import fingerprint
 from checker.testgen.keep import KeptTests, kept_of, written
 from checker.testgen.replay import first_reached as replayed
 from checker.testgen.replay import played
 from checker.testgen.scripts import Script, blocks, script, steps, unfolded
-from checker.testgen.search import TestsFound, Uncoverable
+from checker.testgen.search import CoverFound, Uncoverable
 from spec_model.abstraction import Board, boards
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block
@@ -150,7 +150,7 @@ def test_random_runs_are_reproducible() -> None:
 @pytest.fixture(scope="module")
 def covered() -> GoalCoverage:
     coverage = GoalCoverage(TOY, LOOKED.goals)
-    cover(coverage, SYSTEM, TestgenEffort(seconds=60, ticks=400, jobs=1), lambda line: None)
+    cover(coverage, SYSTEM, GenerationEffort(seconds=60, ticks=400, jobs=1), lambda line: None)
     return coverage
 
 
@@ -209,7 +209,7 @@ def test_a_goal_reached_sooner_by_another_run_is_left_to_that_one() -> None:
     both, soon = toy("0001111"), toy("01")
     on = "Lamp.arrow.2"
     coverage.scripts += [(both, {on: 4, "Lamp.arrow.4": 7}), (soon, {on: 2})]
-    coverage.answers[on] = TestsFound(on, soon, "bmc", shortest=True)
+    coverage.answers[on] = CoverFound(on, soon, "bmc", shortest=True)
     assert {goals for _, goals, _ in chosen(coverage)} == {("Lamp.arrow.4",), (on,)}
 
 
@@ -229,7 +229,7 @@ def test_going_on_asks_for_nothing_that_is_settled(
         return ()
 
     monkeypatch.setattr("checker.testgen.coverage.searched", search)
-    cover(again, SYSTEM, TestgenEffort(ticks=0), lambda line: None)
+    cover(again, SYSTEM, GenerationEffort(ticks=0), lambda line: None)
     assert asked == [] and again.kept("as drawn") == covered.kept("as drawn")
 
 
@@ -262,7 +262,7 @@ def test_a_fingerprint_is_of_the_charts_and_of_nothing_else() -> None:
 
 
 def test_answers_say_where_runs_come_from(covered: GoalCoverage) -> None:
-    runs = [a for a in covered.answers.values() if isinstance(a, TestsFound)]
+    runs = [a for a in covered.answers.values() if isinstance(a, CoverFound)]
     assert runs and all(a.engine for a in runs)
 
 

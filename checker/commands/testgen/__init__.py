@@ -91,19 +91,19 @@ def testgen(options: GenerationOptions, as_json: bool, output: Path) -> Exit:
     from checker.process.isolate import prepared
 
     with prepared(*LOADED):
-        from checker.commands.testgen.run import TestgenOptions
+        from checker.commands.testgen.run import CoveringRequest
         from checker.commands.testgen.run import testgen as run
         from checker.system.instrument.goals import GoalKind
-        from checker.testgen.coverage import TestgenEffort
+        from checker.testgen.coverage import GenerationEffort
 
         wanted = tuple(map(GoalKind, options.kinds)) or (
             tuple(GoalKind) if options.keep else (GoalKind.ARROWS,)
         )
-        asked = TestgenOptions(
+        asked = CoveringRequest(
             options.names,
             wanted,
             options.format,
-            TestgenEffort(options.timeout, options.ticks, options.jobs, options.seed),
+            GenerationEffort(options.timeout, options.ticks, options.jobs, options.seed),
             options.kept,
             options.keep,
         )

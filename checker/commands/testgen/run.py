@@ -13,7 +13,7 @@ from checker.io.printable import json_text
 from checker.system.instrument.goals import CoverGoal, GoalKind
 from checker.system.instrument.watch import watched
 from checker.testgen import kept_text
-from checker.testgen.coverage import GoalCoverage, TestgenEffort, cover
+from checker.testgen.coverage import GenerationEffort, GoalCoverage, cover
 from checker.testgen.fingerprint import fingerprint
 from checker.testgen.generate import Aim, aims, files, only
 from checker.testgen.keep import KeptTests, kept_of, written
@@ -27,13 +27,13 @@ SHOWN = 10
 
 
 @dataclass(frozen=True)
-class TestgenOptions:
+class CoveringRequest:
     """What the command line asks for."""
 
     names: tuple[str, ...]
     kinds: tuple[GoalKind, ...]
     format: str
-    effort: TestgenEffort
+    effort: GenerationEffort
     kept: bool
     keep: Path | None = None
     """The folder in which a set goes on from the tests it has."""
@@ -49,7 +49,7 @@ class Generated:
     interrupted: bool = False
 
 
-def testgen(asked: TestgenOptions, output: Path, as_json: bool) -> Exit:
+def testgen(asked: CoveringRequest, output: Path, as_json: bool) -> Exit:
     """Generate tests, write them, and say exactly what they cover.
 
     Raises ``ModelError`` for a name of no board or chart, ``UsageError`` where nothing can be written.
@@ -68,7 +68,7 @@ def testgen(asked: TestgenOptions, output: Path, as_json: bool) -> Exit:
     return _code(found)
 
 
-def _generated(aim: Aim, asked: TestgenOptions, output: Path) -> Generated:
+def _generated(aim: Aim, asked: CoveringRequest, output: Path) -> Generated:
     if asked.kept:
         known, interrupted = only(_set_of(aim.board, None), aim.goals), False
     else:
@@ -81,7 +81,7 @@ def _generated(aim: Aim, asked: TestgenOptions, output: Path) -> Generated:
     return Generated(aim, known, tuple(contents), interrupted)
 
 
-def _kept(aim: Aim, asked: TestgenOptions, folder: Path) -> Generated:
+def _kept(aim: Aim, asked: CoveringRequest, folder: Path) -> Generated:
     """Go on from the set of a folder, or from that of the project, and keep all that is covered.
 
     A set is always one of all goals of a board; only those of ``aim`` are searched for.
@@ -116,19 +116,19 @@ def _write(content: str, place: Path) -> None:
     write(content, place)
 
 
-def _searched(coverage: GoalCoverage, aim: Aim, effort: TestgenEffort) -> bool:
+def _searched(coverage: GoalCoverage, aim: Aim, effort: GenerationEffort) -> bool:
     """Search until all is known or the user has seen enough; whether that was so."""
     wanted = {g.id for g in aim.goals}
     with ProgressLine() as line:
         try:
-            cover(coverage, systems()[aim.board.name], effort, TestgenProgress(line, coverage), wanted)
+            cover(coverage, systems()[aim.board.name], effort, GenerationProgress(line, coverage), wanted)
         except KeyboardInterrupt:
             return True
     return False
 
 
 @dataclass
-class TestgenProgress:
+class GenerationProgress:
     """Tells how many goals are decided, and what is being done."""
 
     line: ProgressLine
@@ -145,7 +145,7 @@ class TestgenProgress:
 # --- what is said --------------------------------------------------------------------------------------
 
 
-def report(found: Generated, asked: TestgenOptions, output: Path) -> Iterator[str]:
+def report(found: Generated, asked: CoveringRequest, output: Path) -> Iterator[str]:
     """The counts of each kind, the goals without a test, and what was written, in 80 columns."""
     kept, goals = found.kept, found.aim.goals
     yield found.aim.board.name
@@ -160,7 +160,7 @@ def report(found: Generated, asked: TestgenOptions, output: Path) -> Iterator[st
         yield "  Interrupted: this is what was found so far."
 
 
-def _tests(found: Generated, asked: TestgenOptions, output: Path) -> str:
+def _tests(found: Generated, asked: CoveringRequest, output: Path) -> str:
     tests = found.kept.tests
     steps = sum(len(script) for _, _, script in tests)
     number = f"{counted(len(tests), 'test', 'tests')} of {counted(steps, 'step', 'steps')} together"
