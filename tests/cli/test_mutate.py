@@ -172,6 +172,18 @@ def test_runs_of_mutants_that_are_gone_are_dropped(
     assert "Lock/block/gone" not in kept and "Door/block/dead" in kept
 
 
+def test_what_survives_alone_keeps_its_run_of_another_system(tmp_path: Path) -> None:
+    """It was dropped, though properties of that system were not asked."""
+    file = tmp_path / "lock_model.py"
+    file.write_text(RARE.replace("THAT", "out | ~out") + OPENED, encoding="utf-8")
+    command = ["mutate", "--model", str(file), "--part", "Lock", "--quiet", "--record-mutants"]
+    run(command)
+    before = (tmp_path / "mutants.json").read_text(encoding="utf-8")
+    assert json.loads(before)["runs"]
+    assert run([*command, "--system", "locked", "--alone"]) is Exit.CHANGED
+    assert (tmp_path / "mutants.json").read_text(encoding="utf-8") == before
+
+
 def test_a_file_of_mutants_that_holds_something_else_stays_as_it_is(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -249,6 +261,7 @@ def test_alone_asks_only_properties_about_the_system(capsys: pytest.CaptureFixtu
         (["--model", "nowhere.py"], Exit.USAGE, "nowhere.py"),
         (["--sample", "0"], Exit.USAGE, "0"),
         (["--timeout", "nan"], Exit.USAGE, "is not a number"),
+        (["--record-kills", "--record-mutants"], Exit.USAGE, "keep different runs; write one of them."),
     ],
 )
 def test_mistakes_are_told_at_once(

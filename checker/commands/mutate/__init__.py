@@ -5,14 +5,19 @@ from pathlib import Path
 
 import click
 
-from checker.commands.shared.codes import Exit
+from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.options import GIB, SECONDS, gathered, modelling, quietly
 from checker.engines import LOADED, Limits
 
 
 @dataclass(frozen=True)
-class FaultOptions:
-    """Which faults are made, how many, and who is asked."""
+class MutateOptions:
+    """Which faults are made, how many, and who is asked.
+
+    ``about`` are systems, ``part`` charts and blocks; without any, all are meant.  ``alone``: only properties
+    about the systems named count; ``by_place``: also which properties constrain each place;
+    ``record_mutants``: the runs that searches find are kept.
+    """
 
     about: tuple[str, ...]
     part: tuple[str, ...]
@@ -57,9 +62,9 @@ class FaultOptions:
 @click.option("--json", "as_json", is_flag=True, help="Every mutant as JSON (checker/schemas/mutate-1.json).")
 @modelling
 @quietly
-@gathered(FaultOptions, "options")
+@gathered(MutateOptions, "options")
 def mutate(
-    options: FaultOptions,
+    options: MutateOptions,
     timeout: float,
     memory: float,
     record_kills: bool,
@@ -73,24 +78,14 @@ def mutate(
     from checker.process.isolate import prepared
 
     with prepared(*LOADED):
-        from checker.commands.mutate.run import MutateOptions
         from checker.commands.mutate.run import mutate as run
         from checker.commands.shared.variant import pick_variant
 
+        limits = Limits(None, timeout, int(memory * 2**30))
+        if record_kills and options.record_mutants:
+            raise UsageError("--record-kills and --record-mutants keep different runs; write one of them.")
         if record_kills:
             from checker.commands.mutate.kills import record_kills as recorded
 
-            limits = Limits(None, timeout, int(memory * 2**30))
             return recorded(pick_variant((), None, (), model).model, limits, options.jobs, options.about)
-        wanted = MutateOptions(
-            options.about,
-            options.part,
-            options.sample,
-            options.seed,
-            options.alone,
-            options.by_place,
-            options.jobs,
-            options.record_mutants,
-        )
-        limits = Limits(None, timeout, int(memory * 2**30))
-        return run(pick_variant((), None, (), model).model, wanted, limits, as_json)
+        return run(pick_variant((), None, (), model).model, options, limits, as_json)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from random import Random
 
 from checker.commands.check.premises import recordable
+from checker.commands.mutate import MutateOptions
 from checker.commands.mutate.document import document
 from checker.commands.mutate.found import MutationResults, One
 from checker.commands.mutate.judge import judge
@@ -63,32 +64,13 @@ def sites(found: MutationResults) -> Iterator[Site]:
     return (Site(name, tuple(told)) for name, told in by.items())
 
 
-@dataclass(frozen=True)
-class MutateOptions:
-    """What the command line asks for.
-
-    ``named`` are systems, ``parts`` charts and blocks; without any, all are meant.  ``alone``: only
-    properties about the named systems count; ``by_place``: also which properties constrain each place;
-    ``record``: the runs that searches find are kept.
-    """
-
-    named: tuple[str, ...]
-    parts: tuple[str, ...] = ()
-    sample: int | None = None
-    seed: int = 0
-    alone: bool = False
-    by_place: bool = False
-    jobs: int | None = None
-    record: bool = False
-
-
 def mutate(model: Model, wanted: MutateOptions, limits: Limits, as_json: bool) -> Exit:
     """Judge the mutants of a model, and tell what becomes of each.
 
     Raises ``UsageError`` for an unknown system, or where what is found cannot be kept, ``ModelError`` where
     the model has no meaning.
     """
-    if wanted.record:
+    if wanted.record_mutants:
         recordable(model, "", MUTANTS)
     properties = [p for p in model.stated().values() if not p.costly]
     at_home = _homes(model, wanted, {p.on for p in properties})
@@ -96,7 +78,7 @@ def mutate(model: Model, wanted: MutateOptions, limits: Limits, as_json: bool) -
         err.print("Nothing to check: no property is about what was selected.")
         return Exit.NOTHING
     made = todo = _chosen(model.systems, at_home, wanted)
-    named = wanted.named if wanted.named and not wanted.parts else tuple(at_home)
+    named = wanted.about if wanted.about and not wanted.part else tuple(at_home)
     found = MutationResults(named, len(todo), seed=None if wanted.sample is None else wanted.seed)
     if wanted.sample is not None and wanted.sample < len(todo):
         kept = sorted(Random(wanted.seed).sample(range(len(todo)), wanted.sample))
@@ -108,8 +90,8 @@ def mutate(model: Model, wanted: MutateOptions, limits: Limits, as_json: bool) -
         code = found.code
     except KeyboardInterrupt:
         err.print(f"Interrupted: {len(found.told)} of {found.chosen} mutants judged.")
-    if wanted.record:
-        _record(model, found, {mutant.id for _, mutant in made})
+    if wanted.record_mutants:
+        _record(model, found, {mutant.id for _, mutant in made}, wanted.alone)
     if as_json:
         print(json_text(document(found, code), ascii=True))
     else:
@@ -122,11 +104,11 @@ def mutate(model: Model, wanted: MutateOptions, limits: Limits, as_json: bool) -
     return code
 
 
-def _record(model: Model, found: MutationResults, made: Collection[str]) -> None:
+def _record(model: Model, found: MutationResults, made: Collection[str], alone: bool) -> None:
     """Keep the runs by which searches killed mutants.
 
-    What is on record stays, but for mutants that no run kills, and those of the same parts that are not
-    ``made`` any more.
+    What is on record stays, but for mutants that no run kills, if not only properties of some systems were
+    asked (``alone``), and those of the same parts that are not ``made`` any more.
     """
     place, parts_of = file_of(model, MUTANTS), {id.partition("/")[0] for id in made}
     rows = {
@@ -134,7 +116,8 @@ def _record(model: Model, found: MutationResults, made: Collection[str]) -> None
         for _, mutant, judged in found.told
         if judged.fate is Fate.KILLED and judged.run is not None and mutant.id in found.searched
     }
-    alive = {mutant.id for _, mutant, judged in found.told if judged.fate not in (Fate.KILLED, Fate.UNKNOWN)}
+    judged_so = () if alone else found.told
+    alive = {mutant.id for _, mutant, judged in judged_so if judged.fate not in (Fate.KILLED, Fate.UNKNOWN)}
     known = {
         id: row
         for id, row in read(place, MUTANTS).items()
@@ -149,9 +132,9 @@ def _homes(model: Model, wanted: MutateOptions, stated: Collection[str]) -> dict
 
     That is one of the systems named, if properties of no other count.
     """
-    systems = {name: pick("system", name, model.systems) for name in wanted.named}
+    systems = {name: pick("system", name, model.systems) for name in wanted.about}
     known = {p.name: p for system in model.systems.values() for p in parts(system.components)}
-    chosen = {pick("chart or block", name, known).name for name in wanted.parts} or known.keys()
+    chosen = {pick("chart or block", name, known).name for name in wanted.part} or known.keys()
     if systems:
         chosen = chosen & {p.name for system in systems.values() for p in parts(system.components)}
     among = [name for name in model.systems if name in stated]
@@ -173,4 +156,4 @@ def _chosen(
     ]
 
 
-__all__ = ["MutateOptions", "MutationResults", "mutate"]
+__all__ = ["MutationResults", "mutate"]

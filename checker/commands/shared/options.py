@@ -64,12 +64,12 @@ class SearchOptions:
 Verb = Callable[..., Exit]
 
 
-def gathered(record: type[object], name: str) -> Callable[[Verb], Verb]:
+def gathered(record: type[Any], name: str) -> Callable[[Verb], Verb]:
     """Hands a verb the options named as the fields of a record as this record, under one name.
 
     Fields that no option is named as keep their defaults.
     """
-    names = [field.name for field in fields(record)]  # type: ignore[arg-type]  # a dataclass
+    names = [field.name for field in fields(record)]
 
     def around(command: Verb) -> Verb:
         @wraps(command)
@@ -84,7 +84,8 @@ def gathered(record: type[object], name: str) -> Callable[[Verb], Verb]:
 
 def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
     """The options of every verb that searches."""
-    options: list[Callable[[Any], Any]] = [
+    return _with(
+        gathered(SearchOptions, "search")(command),
         click.option(
             "--engine",
             default=AUTO,
@@ -106,11 +107,7 @@ def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
             show_default=True,
             help="Count every tick, skip quiet ones, or try with timers that run out at will.",
         ),
-    ]
-    command = gathered(SearchOptions, "search")(command)
-    for option in reversed(options):
-        command = option(command)
-    return command
+    )
 
 
 def quietly(command: Callable[..., Exit]) -> Callable[..., Exit]:
@@ -146,15 +143,10 @@ def modelling(command: Callable[..., Exit]) -> Callable[..., Exit]:
 
 def varying(command: Callable[..., Exit]) -> Callable[..., Exit]:
     """The options of every verb that looks at the charts: other readings, a proposed repair."""
-    options: list[Callable[[Any], Any]] = [
-        click.option(
-            "--reading",
-            "chosen",
-            multiple=True,
-            metavar="ID=CHOICE",
-            help="Read a sentence otherwise: S43=AND; S43=any leaves it open.",
-        ),
-        click.option("--repair", metavar="NAME", help="With a proposed repair; see list repairs."),
+    return _with(
+        gathered(VariantOptions, "charts")(command),
+        _reading("Read a sentence otherwise: S43=AND; S43=any leaves it open."),
+        REPAIR,
         click.option(
             "--without",
             "dropped",
@@ -162,11 +154,7 @@ def varying(command: Callable[..., Exit]) -> Callable[..., Exit]:
             metavar="ID",
             help="Drop an assumption about the environment; see list assumptions.",
         ),
-    ]
-    command = gathered(VariantOptions, "charts")(command)
-    for option in reversed(options):
-        command = option(command)
-    return command
+    )
 
 
 def writing(command: Callable[..., Exit]) -> Callable[..., Exit]:
@@ -177,17 +165,22 @@ def writing(command: Callable[..., Exit]) -> Callable[..., Exit]:
 
 def changing(command: Callable[..., Exit]) -> Callable[..., Exit]:
     """The options that change the charts compared with; assumptions about the environment play no part."""
-    options: list[Callable[[Any], Any]] = [
-        click.option(
-            "--reading",
-            "chosen",
-            multiple=True,
-            metavar="ID=CHOICE",
-            help="Read a sentence otherwise: S43=AND.",
-        ),
-        click.option("--repair", metavar="NAME", help="With a proposed repair; see list repairs."),
-    ]
-    command = gathered(VariantOptions, "charts")(command)
+    return _with(
+        gathered(VariantOptions, "charts")(command),
+        _reading("Read a sentence otherwise: S43=AND."),
+        REPAIR,
+    )
+
+
+REPAIR = click.option("--repair", metavar="NAME", help="With a proposed repair; see list repairs.")
+
+
+def _reading(help: str) -> Callable[[Verb], Verb]:
+    return click.option("--reading", "chosen", multiple=True, metavar="ID=CHOICE", help=help)
+
+
+def _with(command: Verb, *options: Callable[[Verb], Verb]) -> Verb:
+    """The command with some options, in the order in which its help shows them."""
     for option in reversed(options):
         command = option(command)
     return command
