@@ -37,19 +37,19 @@ help:
 	@echo "make clean          remove the environment and every cache"
 
 check: $(STAMP)
-	@$(RUN) -m checker check --strict $(ARGS)
+	@$(RUN) -m rovercheck check --strict $(ARGS)
 
 docs: $(STAMP)
 	@$(RUN) -m docs.reference
 	@NO_MKDOCS_2_WARNING=1 $(RUN) -m mkdocs build --strict --quiet
 
 check-full: $(STAMP)
-	@$(RUN) -m checker check --strict --full --certify $(ARGS)
+	@$(RUN) -m rovercheck check --strict --full --certify $(ARGS)
 
 check-repairs: $(STAMP)
-	@worst=0; for repair in $$($(RUN) -c 'from spec_model.repairs import proposals; print(*proposals())'); do \
+	@worst=0; for repair in $$($(RUN) -c 'from rovercheck.spec_model.repairs import proposals; print(*proposals())'); do \
 		echo; echo "With $$repair:"; \
-		$(RUN) -m checker check --repair "$$repair" --timers free --timeout 600 $(ARGS) || worst=$$?; \
+		$(RUN) -m rovercheck check --repair "$$repair" --timers free --timeout 600 $(ARGS) || worst=$$?; \
 	done; exit $$worst
 
 test: lint types
@@ -69,7 +69,7 @@ format: $(STAMP)
 	@$(RUN) -m ruff format .
 
 reports: $(STAMP)
-	@$(RUN) -m checker reports $(ARGS)
+	@$(RUN) -m rovercheck reports $(ARGS)
 
 bench: $(STAMP)
 	@$(RUN) -m benchmarks.compare $(ARGS)

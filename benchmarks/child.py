@@ -18,9 +18,9 @@ from time import perf_counter, process_time
 from benchmarks.evidence import evidence
 from benchmarks.measure import Sample
 from benchmarks.roverlite import roverlite
-from checker.engines import AUTO, Limits, engines
-from checker.results.verdict import Answer, Open, Reached, Unreachable
-from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
+from rovercheck.checker.engines import AUTO, Limits, engines
+from rovercheck.checker.results.verdict import Answer, Open, Reached, Unreachable
+from rovercheck.checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
 
 SEARCHED = ("P1", "P2", "P3", "P5", "broken")
 """Goals of an exhaustive search: C and SPIN check as much; ``broken`` is never reached."""

@@ -21,7 +21,7 @@ from benchmarks.measure import Cost, Sample, Tool, interleaved, seconds
 from benchmarks.results import write
 from benchmarks.targets import Target, targets
 from benchmarks.tools import MODELS, PROPERTIES
-from checker.engines import engines
+from rovercheck.checker.engines import engines
 
 Runs = Mapping[str, Sequence[Sample]]
 SEARCH_LIMIT = 600.0

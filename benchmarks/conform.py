@@ -13,18 +13,18 @@ from statistics import median
 from tempfile import TemporaryDirectory
 from time import process_time
 
-from checker.logs.check import Follow
-from checker.logs.choosing import choose
-from checker.logs.cones import cones
-from checker.logs.log import LogBlock, LogLayout, open_log
-from checker.logs.mapping import ColumnMap
-from checker.logs.monitors import LogMonitors
-from checker.logs.sight import Eyes
-from checker.logs.signals import Vocabulary
-from properties.catalogue import catalogue
-from spec_model.abstraction import boards
-from spec_model.lang.system import TICK_MS
-from spec_model.rover import systems
+from rovercheck.checker.logs.check import Follow
+from rovercheck.checker.logs.choosing import choose
+from rovercheck.checker.logs.cones import cones
+from rovercheck.checker.logs.log import LogBlock, LogLayout, open_log
+from rovercheck.checker.logs.mapping import ColumnMap
+from rovercheck.checker.logs.monitors import LogMonitors
+from rovercheck.checker.logs.sight import Eyes
+from rovercheck.checker.logs.signals import Vocabulary
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.spec_model.abstraction import boards
+from rovercheck.spec_model.lang.system import TICK_MS
+from rovercheck.spec_model.rover import systems
 from tests.conform.recorded import long_log, record, written
 
 LONG = 20_000

@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping
 
-from checker.certify.certificate import certificates
-from checker.certify.check import CheckEffort, check
-from checker.certify.outcome import Accepted, Rejected
-from checker.results.verdict import Answer, Open, Reached, Run, Unreachable
-from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.certify.certificate import certificates
+from rovercheck.checker.certify.check import CheckEffort, check
+from rovercheck.checker.certify.outcome import Accepted, Rejected
+from rovercheck.checker.results.verdict import Answer, Open, Reached, Run, Unreachable
+from rovercheck.spec_model.lang.evaluate import admissible, step
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 REPLAYED, CERTIFIED = "replayed", "certified"
 STANDS = frozenset({REPLAYED, CERTIFIED})

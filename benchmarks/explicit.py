@@ -23,17 +23,17 @@ from statistics import median
 from time import process_time
 
 from benchmarks.roverlite import roverlite
-from checker import cache
-from checker.encode.native import NativeSearch, NativeTask, layout
-from checker.engines import Limits, quiet
-from checker.engines.explicit.levels import ExplicitFound, LevelSearch
-from checker.system.slice import sliced
-from properties.catalogue import catalogue
-from properties.reduce import reduce
-from spec_model.lang.expr import Var
-from spec_model.lang.lower import lower
-from spec_model.lang.system import TransitionSystem
-from spec_model.rover import systems
+from rovercheck.checker import cache
+from rovercheck.checker.encode.native import NativeSearch, NativeTask, layout
+from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.engines.explicit.levels import ExplicitFound, LevelSearch
+from rovercheck.checker.system.slice import sliced
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.rover import systems
 
 SOURCE = Path(__file__).parent / "peers" / "c"
 MODELS = ((3, 1), (28, 1), (32, 1), (31, 10), (85, 1))

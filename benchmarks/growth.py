@@ -17,7 +17,7 @@ from benchmarks.measure import Sample, Tool, interleaved, seconds
 from benchmarks.plot import plot
 from benchmarks.results import FILE, write
 from benchmarks.roverlite import FULL
-from checker.engines import engines, explicit
+from rovercheck.checker.engines import engines, explicit
 
 SCALES = (20, 10, 5, 4, 2, 1)
 """Divisors of the timers: 1 is full timing."""

@@ -15,7 +15,10 @@ import networkx as nx
 from benchmarks.markdown import table
 
 ROOT = Path(__file__).parents[1]
-SHIPPED = ("rovercheck", "spec_model", "properties", "checker", "supervisor")
+TOP = "rovercheck"
+SHIPPED = (TOP, "spec_model", "properties", "checker", "supervisor")
+"""The folders of what is installed; each but the first is a package below it."""
+CHECKER = f"{TOP}.checker"
 CHOICES = ("choose", "under")
 """What a chart file must not call: a choice between interpretations belongs beside the figure."""
 
@@ -40,7 +43,8 @@ def modules(root: Path = ROOT) -> dict[str, Module]:
     for package in SHIPPED:
         for file in sorted((root / package).rglob("*.py")):
             parts = file.relative_to(root).with_suffix("").parts
-            name = ".".join(parts[:-1] if parts[-1] == "__init__" else parts)
+            inside = parts[:-1] if parts[-1] == "__init__" else parts
+            name = ".".join(inside if package == TOP else (TOP, *inside))
             text = file.read_text(encoding="utf-8")
             found[name] = Module(name, ast.parse(text), len(text.splitlines()))
     return found
@@ -95,7 +99,11 @@ def _classes(known: Mapping[str, Module]) -> Counter[str]:
 
 def _choices(known: Mapping[str, Module]) -> int:
     """Calls in chart files that choose between interpretations."""
-    charts = [m for n, m in known.items() if n.startswith(("spec_model.board1", "spec_model.board2"))]
+    charts = [
+        m
+        for n, m in known.items()
+        if n.startswith(("rovercheck.spec_model.board1", "rovercheck.spec_model.board2"))
+    ]
     calls = (n for m in charts for n in ast.walk(m.tree) if isinstance(n, ast.Call))
     return sum(isinstance(call.func, ast.Name) and call.func.id in CHOICES for call in calls)
 
@@ -104,8 +112,8 @@ def figures(root: Path = ROOT) -> list[tuple[str, str]]:
     """What is measured, and how much it is."""
     known = modules(root)
     graph = imports(known)
-    checker = [m for n, m in known.items() if n.partition(".")[0] == "checker"]
-    loose = [m for m in checker if m.folder == "checker" and not any(n.folder == m.name for n in checker)]
+    checker = [m for n, m in known.items() if n.startswith(CHECKER)]
+    loose = [m for m in checker if m.folder == CHECKER and not any(n.folder == m.name for n in checker)]
     name, most = max((pair for m in known.values() for pair in _functions(m)), key=lambda pair: pair[1])
     twice = {n: count for n, count in _classes(known).items() if count > 1}
     return [

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import dist, inf
 
-from checker.render.drawing.text import width
+from rovercheck.checker.render.drawing.text import width
 
 SIZE, HEIGHT = 12, 14
 """Pixels of the letters, and of the box around them."""

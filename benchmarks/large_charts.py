@@ -38,13 +38,13 @@ STAGES = ("read", "well-formed", "lower", "slice", "partition", "encode", "compi
 
 _HEAD = '''"""A chart of {n} states, {shape}."""
 
-from properties.forms import always, reachable
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import flag, implies, var
-from spec_model.lang.time import ms
-from spec_model.lang.words import after
+from rovercheck.properties.forms import always, reachable
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import flag, implies, var
+from rovercheck.spec_model.lang.time import ms
+from rovercheck.spec_model.lang.words import after
 
 go = flag("go")
 stop = flag("stop")
@@ -152,17 +152,17 @@ def staged(path: Path) -> None:
 
     Reading holds well-formedness, which is then measured once more, by itself.
     """
-    from checker.encode.native import NativeSearch, NativeTask, OptimisationLevel, layout
-    from checker.encode.symbolic import transition
-    from checker.model.load import load
-    from checker.process.garbage import collect_seldom
-    from checker.process.isolate import DEEP
-    from checker.system.partition import partitions
-    from checker.system.slice import sliced
-    from properties.reduce import reduce
-    from spec_model.lang.interpret import Interpreter
-    from spec_model.lang.lower import lower
-    from spec_model.lang.wellformed import check_chart
+    from rovercheck.checker.encode.native import NativeSearch, NativeTask, OptimisationLevel, layout
+    from rovercheck.checker.encode.symbolic import transition
+    from rovercheck.checker.model.load import load
+    from rovercheck.checker.process.garbage import collect_seldom
+    from rovercheck.checker.process.isolate import DEEP
+    from rovercheck.checker.system.partition import partitions
+    from rovercheck.checker.system.slice import sliced
+    from rovercheck.properties.reduce import reduce
+    from rovercheck.spec_model.lang.interpret import Interpreter
+    from rovercheck.spec_model.lang.lower import lower
+    from rovercheck.spec_model.lang.wellformed import check_chart
 
     sys.setrecursionlimit(DEEP)  # as in every child that searches
     collect_seldom()
@@ -199,7 +199,7 @@ def stages(path: Path) -> Mapping[str, float]:
 
 def verdicts(path: Path, limit: float) -> list[str]:
     """Wall seconds to the first verdict and to the last, and the verdicts, of ``check --timeout``."""
-    own = [sys.executable, "-m", "checker", "check", "--model", str(path), "--timeout", f"{limit:g}"]
+    own = [sys.executable, "-m", "rovercheck", "check", "--model", str(path), "--timeout", f"{limit:g}"]
     began = perf_counter()
     first: float | None = None
     words: list[str] = []

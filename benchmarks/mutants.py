@@ -26,7 +26,7 @@ from benchmarks.faults.mutate import Mutant
 from benchmarks.faults.own_tests import examine, of_the_link, outside
 from benchmarks.faults.report import of_faults, of_mutants, of_own_tests, sort, write
 from benchmarks.measure import ROOT
-from checker.compare.search import CI_EXAMPLES
+from rovercheck.checker.compare.search import CI_EXAMPLES
 
 SEED = 5
 EVERY = 25

@@ -12,20 +12,20 @@ import resource
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.engines import Limits, engines
-from checker.process.isolate import Send
-from checker.process.pool import Granted, Order, Pool
-from checker.results.verdict import Open
-from checker.system.lowered import lowered
-from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
-from checker.verify.portfolio.question import conclusive
-from checker.verify.portfolio.shape import shape
-from checker.verify.tasks import Task, tasks
-from properties.catalogue import catalogue
-from properties.forms import Property, Unbounded
-from properties.reduce import reduce
-from spec_model.lang.system import System
-from spec_model.rover import systems
+from rovercheck.checker.engines import Limits, engines
+from rovercheck.checker.process.isolate import Send
+from rovercheck.checker.process.pool import Granted, Order, Pool
+from rovercheck.checker.results.verdict import Open
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
+from rovercheck.checker.verify.portfolio.question import conclusive
+from rovercheck.checker.verify.portfolio.shape import shape
+from rovercheck.checker.verify.tasks import Task, tasks
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.properties.forms import Property, Unbounded
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.rover import systems
 
 MEMORY = 2 << 30
 

@@ -13,8 +13,8 @@ from pathlib import Path
 from benchmarks.measure import ROOT, Cost, Sample, Tool, run
 from benchmarks.peers.spin import promela
 from benchmarks.roverlite import FULL, question
-from checker.export import exporters, problem
-from spec_model.lang.lower import lower
+from rovercheck.checker.export import exporters, problem
+from rovercheck.spec_model.lang.lower import lower
 
 PEERS = ROOT / "benchmarks" / "peers"
 ABC = "berkeley-abc"

@@ -7,13 +7,13 @@ the same model for other tools, ``tests/checker/test_roverlite.py`` as a plain r
 
 from collections.abc import Sequence
 
-from properties.forms import Property, never
-from spec_model.lang.action import Assign, If
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import Domain, boolean, enumeration, integer
-from spec_model.lang.expr import FALSE, TRUE, Expr, Var, any_of, const, flag, ite, member, var
-from spec_model.lang.system import Program, Statement, System, TransitionSystem, in_order
-from spec_model.lang.words import maximum, minimum
+from rovercheck.properties.forms import Property, never
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import Domain, boolean, enumeration, integer
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var, any_of, const, flag, ite, member, var
+from rovercheck.spec_model.lang.system import Program, Statement, System, TransitionSystem, in_order
+from rovercheck.spec_model.lang.words import maximum, minimum
 
 STATUS = enumeration("Status", ["OK", "DEGRADED", "CRITICAL"])
 OK, DEGRADED, CRITICAL = (member(STATUS, name) for name in ("OK", "DEGRADED", "CRITICAL"))

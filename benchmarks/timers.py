@@ -13,14 +13,14 @@ from dataclasses import dataclass, replace
 from statistics import median
 from time import process_time
 
-from checker.engines import Limits, Timers, explicit, quiet
-from checker.results.verdict import Answer, Exhausted, Open, Unreachable
-from properties.catalogue import catalogue
-from properties.reduce import reduce
-from spec_model.lang.expiry import free_timers
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System
-from spec_model.rover import systems
+from rovercheck.checker.engines import Limits, Timers, explicit, quiet
+from rovercheck.checker.results.verdict import Answer, Exhausted, Open, Unreachable
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.expiry import free_timers
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.rover import systems
 
 CASES = (
     ("relay", "PB1-13b"),

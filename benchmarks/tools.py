@@ -74,7 +74,7 @@ def cell(sample: Sample) -> str:
 
 def start_up() -> Cost:
     """The command line on a small property, the compiled code for which is in the cache (Python's too)."""
-    command = [sys.executable, "-m", "checker", "check", "PB1-13b"]
+    command = [sys.executable, "-m", "rovercheck", "check", "PB1-13b"]
     writing = {"PYTHONDONTWRITEBYTECODE": ""}
     checked(run(command, folder=ROOT, changed=writing))
     return checked(run(command, folder=ROOT, changed=writing))

@@ -11,14 +11,14 @@ from pathlib import Path
 
 import click
 
-from checker import commands
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.completing import completed
-from checker.commands.shared.failure import alarm, no_room, told
-from checker.commands.shared.help_examples import helped
-from checker.process.faults import Fault, listening
-from checker.process.garbage import collect_seldom
-from spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.checker import commands
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.completing import completed
+from rovercheck.checker.commands.shared.failure import alarm, no_room, told
+from rovercheck.checker.commands.shared.help_examples import helped
+from rovercheck.checker.process.faults import Fault, listening
+from rovercheck.checker.process.garbage import collect_seldom
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 
 CODES = (
     "Exit codes: 0 all as expected; 1 a violation, or an expected violation that is gone; "
@@ -109,11 +109,11 @@ def _run(arguments: list[str]) -> Exit:
 
 def _internal(error: Exception, arguments: list[str]) -> str:
     """What is said of a fault of ours; what shows that an engine is wrong is kept."""
-    from checker.verify.portfolio import Disagreement
+    from rovercheck.checker.verify.portfolio import Disagreement
 
     if not isinstance(error, Disagreement):
         return told(error)
-    from checker.commands.shared.disagreement import again, bundle
+    from rovercheck.checker.commands.shared.disagreement import again, bundle
 
     try:
         kept = f"All of it is in {bundle(error, again(error, arguments), Path())}; please report it."
@@ -123,7 +123,7 @@ def _internal(error: Exception, arguments: list[str]) -> str:
 
 
 def _say(message: str, code: Exit) -> Exit:
-    from checker.commands.shared.output import err
+    from rovercheck.checker.commands.shared.output import err
 
     with suppress(OSError):  # the code says it too
         err.print(message, markup=False)

@@ -11,16 +11,16 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from properties.forms import Property, formulas
-from properties.requirements import requirement
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.place import Place
-from spec_model.lang.walk import variables
-from spec_model.readings import fixed, readings
-from spec_model.rover import readings_of
+from rovercheck.properties.forms import Property, formulas
+from rovercheck.properties.requirements import requirement
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.place import Place
+from rovercheck.spec_model.lang.walk import variables
+from rovercheck.spec_model.readings import fixed, readings
+from rovercheck.spec_model.rover import readings_of
 
 if TYPE_CHECKING:
-    from properties.promises.promise import Promise
+    from rovercheck.properties.promises.promise import Promise
 
 EXCEPTIONS = ("violated", "unknown")
 FIELDS: dict[str, type] = {"verdict": str, "depth": int, "because": str, "no_repair": str, "no_fault": str}
@@ -77,7 +77,7 @@ def as_written() -> dict[str, Property]:
 @cache
 def promises() -> tuple["Promise", ...]:
     """What the document promises of the rover, those first that it names first."""
-    from properties.promises.promise import ORDER, Promise
+    from rovercheck.properties.promises.promise import ORDER, Promise
 
     found = [thing for _, thing in _stated_in("promises") if isinstance(thing, Promise)]
     return tuple(sorted(found, key=lambda promise: ORDER.index(promise.id)))

@@ -3,9 +3,9 @@
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from properties.forms import Property, Reachable
-from properties.requirements import Requirement, requirements
-from spec_model.lang.errors import ModelError
+from rovercheck.properties.forms import Property, Reachable
+from rovercheck.properties.requirements import Requirement, requirements
+from rovercheck.spec_model.lang.errors import ModelError
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ The sentence of a property says what people mean; this one says, in words, what 
 from collections.abc import Iterator
 from dataclasses import fields
 
-from properties.forms import (
+from rovercheck.properties.forms import (
     Always,
     EntersOnlyIf,
     Form,
@@ -23,12 +23,22 @@ from properties.forms import (
     Settles,
     Until,
 )
-from properties.phrases import Voice, as_implication, begins, clause, ends, final, part, quoted, term
-from spec_model.lang.domain import Bool
-from spec_model.lang.expr import Apply, Expr, Named
-from spec_model.lang.operators import Op
-from spec_model.lang.time import Span
-from spec_model.lang.walk import nodes
+from rovercheck.properties.phrases import (
+    Voice,
+    as_implication,
+    begins,
+    clause,
+    ends,
+    final,
+    part,
+    quoted,
+    term,
+)
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.expr import Apply, Expr, Named
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.time import Span
+from rovercheck.spec_model.lang.walk import nodes
 
 HOW_TO_READ = (
     "A step is one tick of the system; formulas are read at its end. Milliseconds run from the end of "

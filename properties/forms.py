@@ -9,12 +9,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import Union
 
-from spec_model.lang.chart import Chart
-from spec_model.lang.errors import ModelError, several
-from spec_model.lang.expr import Expr
-from spec_model.lang.place import Place, here
-from spec_model.lang.system import System
-from spec_model.lang.time import Span
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.errors import ModelError, several
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.place import Place, here
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.time import Span
 
 
 @dataclass(frozen=True)

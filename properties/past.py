@@ -1,7 +1,7 @@
 """Formulas about steps before this one that more than one area states."""
 
-from spec_model.lang.expr import TRUE, Expr
-from spec_model.lang.words import once, previous
+from rovercheck.spec_model.lang.expr import TRUE, Expr
+from rovercheck.spec_model.lang.words import once, previous
 
 STEPPED = previous(once(TRUE))
 """A step was made before this one."""

@@ -11,12 +11,12 @@ A formula with a name is quoted by it: “a link is critical” holds.  Conventi
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from spec_model.lang.domain import Bool, Enum, Num
-from spec_model.lang.expr import FALSE, Apply, Const, Expr, Named, Temporal, Var, When
-from spec_model.lang.label import constant
-from spec_model.lang.operators import Op
-from spec_model.lang.time import Span
-from spec_model.lang.walk import structure
+from rovercheck.spec_model.lang.domain import Bool, Enum, Num
+from rovercheck.spec_model.lang.expr import FALSE, Apply, Const, Expr, Named, Temporal, Var, When
+from rovercheck.spec_model.lang.label import constant
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.time import Span
+from rovercheck.spec_model.lang.walk import structure
 
 _COMPARED = {
     Op.EQ: "", Op.NE: "not ",

@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from properties.forms import (
+from rovercheck.properties.forms import (
     Always,
     EntersOnlyIf,
     HoldsAfter,
@@ -18,10 +18,10 @@ from properties.forms import (
     Settles,
     Until,
 )
-from properties.phrases import as_implication
-from spec_model.lang.expr import Apply, Expr
-from spec_model.lang.operators import Op
-from spec_model.lang.words import held, previous
+from rovercheck.properties.phrases import as_implication
+from rovercheck.spec_model.lang.expr import Apply, Expr
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.words import held, previous
 
 
 def premise(prop: Property) -> Property | None:

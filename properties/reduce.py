@@ -7,7 +7,7 @@ properties share (the same ``previous(x)``, the same tick counter) are made once
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from properties.forms import (
+from rovercheck.properties.forms import (
     Always,
     EntersOnlyIf,
     HoldsAfter,
@@ -23,18 +23,18 @@ from properties.forms import (
     Settles,
     Until,
 )
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import MOST, Domain, boolean, integer
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Temporal, Var, When, all_of, ite
-from spec_model.lang.lower.ranges import possible
-from spec_model.lang.operators import Op
-from spec_model.lang.system import Statement, System, TransitionSystem
-from spec_model.lang.time import Span
-from spec_model.lang.walk import plain, structure, variables
-from spec_model.lang.wellformed.data import twin_faults
-from spec_model.lang.words import maximum, minimum
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import MOST, Domain, boolean, integer
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Temporal, Var, When, all_of, ite
+from rovercheck.spec_model.lang.lower.ranges import possible
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import Statement, System, TransitionSystem
+from rovercheck.spec_model.lang.time import Span
+from rovercheck.spec_model.lang.walk import plain, structure, variables
+from rovercheck.spec_model.lang.wellformed.data import twin_faults
+from rovercheck.spec_model.lang.words import maximum, minimum
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
-from spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 
 
 @dataclass(frozen=True)

@@ -10,10 +10,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from rovercheck import own
-
 if TYPE_CHECKING:
-    from checker.pytest_plugin.collect import Models
+    from rovercheck.checker.pytest_plugin.collect import Models
 
 PATTERNS = ("*_model.py", "model_*.py")
 WHOLE = "rovercheck_whole"
@@ -40,10 +38,9 @@ def pytest_configure(config: pytest.Config) -> None:
     named, anywhere = config.getini("rovercheck_models"), config.getoption("rovercheck")
     if not named and not anywhere:
         return
-    with own():
-        from checker.pytest_plugin.collect import models_of
+    from rovercheck.checker.pytest_plugin.collect import models_of
 
-        config.stash[_models] = models_of(config, named, PATTERNS if anywhere else ())
+    config.stash[_models] = models_of(config, named, PATTERNS if anywhere else ())
 
 
 @pytest.hookimpl(optionalhook=True)
@@ -60,26 +57,7 @@ def whole(config: pytest.Config) -> bool:
 
 def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
     models = parent.config.stash.get(_models, None)
-    if models is None:
-        return None
-    with own():
-        return models.met(file_path, parent)
-
-
-class ModelModule(pytest.Module):
-    """A file of a model as pytest itself sees it, where it is named, or looks like a test."""
-
-    @own()
-    def collect(self) -> list[pytest.Item | pytest.Collector]:
-        """Its test functions, of which a model has none as a rule."""
-        return list(super().collect())
-
-
-@pytest.hookimpl(tryfirst=True)
-def pytest_pycollect_makemodule(module_path: Path, parent: pytest.Collector) -> pytest.Module | None:
-    models = parent.config.stash.get(_models, None)
-    found = models is not None and models.hold(module_path)
-    return ModelModule.from_parent(parent, path=module_path) if found else None
+    return None if models is None else models.met(file_path, parent)
 
 
 @pytest.hookimpl(wrapper=True)
@@ -90,6 +68,5 @@ def pytest_make_collect_report(
     report = yield
     models = collector.config.stash.get(_models, None)
     if models is not None and isinstance(collector, pytest.Session) and report.passed:
-        with own():
-            report.result = [*(report.result or ()), *models.meant(collector)]
+        report.result = [*(report.result or ()), *models.meant(collector)]
     return report

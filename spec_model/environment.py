@@ -14,12 +14,12 @@ can change beyond it:
 * both 500 ms later where the estimate counts from 0.5 s on (S09, S24).
 """
 
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.expr import Expr, Var, all_of, const, implies
-from spec_model.lang.words import absolute, minimum
-from spec_model.readings import choose
-from spec_model.signals import board1 as b1
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.expr import Expr, Var, all_of, const, implies
+from rovercheck.spec_model.lang.words import absolute, minimum
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals import board1 as b1
 
 
 def _older(age: Var, last_ms: int) -> Expr:

@@ -8,13 +8,13 @@ scan time of up to 20 ms, by which one replacement may come a step later, is lef
 Without ``turns_as_told`` the heading is arbitrary in every step, which covers every rover.
 """
 
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import TRUE, Expr, Var, all_of, any_of, flag, implies, ite, var
-from spec_model.lang.words import maximum, wrap
-from spec_model.readings import choose, under
-from spec_model.signals.board2 import SONARS, B2Decision, number, sonar_fault
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import chosen, integer
+from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, all_of, any_of, flag, implies, ite, var
+from rovercheck.spec_model.lang.words import maximum, wrap
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board2 import SONARS, B2Decision, number, sonar_fault
 
 # One distance for each set that no limit of the charts divides: ..70, 71..100, 101..300, 301..
 cell = chosen([70, 100, 300, 301], "cm")

@@ -7,16 +7,16 @@ step is at 20 ms.
 
 from dataclasses import replace
 
-from spec_model.intervals import STEP, Arrivals, any_mean
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.expr import Expr, Var, const
-from spec_model.lang.system import Note
-from spec_model.lang.words import minimum
-from spec_model.readings import under
-from spec_model.records import window_of
-from spec_model.signals import board1 as b1
-from spec_model.signals import board1_fine as fine
+from rovercheck.spec_model.intervals import STEP, Arrivals, any_mean
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.expr import Expr, Var, const
+from rovercheck.spec_model.lang.system import Note
+from rovercheck.spec_model.lang.words import minimum
+from rovercheck.spec_model.readings import under
+from rovercheck.spec_model.records import window_of
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board1_fine as fine
 
 CONSTANT_PHASE = Note(
     "A frame or datum is stamped 0 to 19 ms before the step that sees it, always as many for one source (no "

@@ -7,16 +7,16 @@ and what a monitor of Table 2 holds for seconds are differences of time stamps, 
 
 from dataclasses import replace
 
-from spec_model.environment_fine import clock
-from spec_model.intervals import Arrivals, any_mean, interval_record
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import FALSE, TRUE, Var, const, flag, var
-from spec_model.lang.system import Note
-from spec_model.lang.words import minimum
-from spec_model.signals import board1 as b1
-from spec_model.signals import board1_fine as fine
+from rovercheck.spec_model.environment_fine import clock
+from rovercheck.spec_model.intervals import Arrivals, any_mean, interval_record
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Var, const, flag, var
+from rovercheck.spec_model.lang.system import Note
+from rovercheck.spec_model.lang.words import minimum
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board1_fine as fine
 
 PERIOD = integer(19, 21, "ms")
 """A period of 20 ms with a jitter of 1 ms either way."""

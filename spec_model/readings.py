@@ -12,10 +12,10 @@ from dataclasses import dataclass, field
 from functools import cache, cached_property
 from pathlib import Path
 
-from spec_model.lang.domain import Bool, Num, Sort, enumeration
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.expr import Const, Expr, Operand, Var, all_of, any_of, ite, lift
-from spec_model.lang.specialise import Fixing
+from rovercheck.spec_model.lang.domain import Bool, Num, Sort, enumeration
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.expr import Const, Expr, Operand, Var, all_of, any_of, ite, lift
+from rovercheck.spec_model.lang.specialise import Fixing
 
 ANY = "any"
 """In place of a choice: the reading stays open, and a verdict holds for every choice."""

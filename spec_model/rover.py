@@ -7,30 +7,30 @@ from importlib import import_module
 from importlib.util import find_spec
 from types import MappingProxyType
 
-from spec_model.lang.chart import Chart
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import System
-from spec_model.readings import fixed, left_open, modelled_only, readings
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.readings import fixed, left_open, modelled_only, readings
 
 AS_READ: Mapping[str, str] = MappingProxyType({})
 """Every reading at its default."""
 
 BOARDS = (
-    "spec_model.board1.systems",
-    "spec_model.board1.fine_systems",
-    "spec_model.board2.systems",
-    "spec_model.board2.motion_systems",
-    "spec_model.board2.monitor_systems",
-    "spec_model.board2.supervisor_systems",
-    "spec_model.plain_systems",
-    "spec_model.composition.systems",
-    "spec_model.composition.fine_systems",
-    "spec_model.composition.rover_ms",
-    "spec_model.composition.weather",
-    "spec_model.composition.receiver",
-    "spec_model.composition.counters",
-    "spec_model.board1.jitter_systems",
-    "spec_model.board2.jitter_systems",
+    "rovercheck.spec_model.board1.systems",
+    "rovercheck.spec_model.board1.fine_systems",
+    "rovercheck.spec_model.board2.systems",
+    "rovercheck.spec_model.board2.motion_systems",
+    "rovercheck.spec_model.board2.monitor_systems",
+    "rovercheck.spec_model.board2.supervisor_systems",
+    "rovercheck.spec_model.plain_systems",
+    "rovercheck.spec_model.composition.systems",
+    "rovercheck.spec_model.composition.fine_systems",
+    "rovercheck.spec_model.composition.rover_ms",
+    "rovercheck.spec_model.composition.weather",
+    "rovercheck.spec_model.composition.receiver",
+    "rovercheck.spec_model.composition.counters",
+    "rovercheck.spec_model.board1.jitter_systems",
+    "rovercheck.spec_model.board2.jitter_systems",
 )
 """Modules with a tuple SYSTEMS, in the order in which the systems are listed."""
 

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 from enum import Enum, auto
 
-from supervisor.timing import After, Rising, steps
+from rovercheck.supervisor.timing import After, Rising, steps
 
 
 class Combo(Enum):

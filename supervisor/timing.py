@@ -3,7 +3,7 @@
 from collections import deque
 from dataclasses import dataclass, field
 
-from supervisor.types import STEP_MS
+from rovercheck.supervisor.types import STEP_MS
 
 CLOCK = 1 << 32
 """The millisecond clock of a board starts again at 0 after 49.7 days."""

@@ -5,13 +5,13 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from checker.certify.file import CertificateOrigin, write
-from checker.certify.record import Recorder, certified
-from checker.engines import Limits, quiet
-from checker.verify.decide import Task, decide
-from checker.verify.portfolio import Callbacks as Listeners
-from properties.catalogue import under
-from spec_model.rover import systems
+from rovercheck.checker.certify.file import CertificateOrigin, write
+from rovercheck.checker.certify.record import Recorder, certified
+from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.verify.decide import Task, decide
+from rovercheck.checker.verify.portfolio import Callbacks as Listeners
+from rovercheck.properties.catalogue import under
+from rovercheck.spec_model.rover import systems
 from tests.certifying import Naive
 
 COUNTERS = ("PSY-21a",)

@@ -11,21 +11,21 @@ from hypothesis import HealthCheck, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
-from checker.certify import solver
-from checker.certify.certificate import Certificate, certificates
-from checker.certify.check import By, CheckEffort
-from checker.certify.diagram import CertifiedDiagram
-from checker.certify.invariant import Conjuncts
-from checker.certify.question import question
-from checker.certify.tick import executed
-from checker.engines import Limits, Progress
-from checker.results.closed import BitPlace, ClosedSet
-from checker.results.verdict import Answer, Exhausted, Inductive, Open, Unreachable
-from checker.system.slice import sliced
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import Expr, Var, const, flag, ite, var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.certify import solver
+from rovercheck.checker.certify.certificate import Certificate, certificates
+from rovercheck.checker.certify.check import By, CheckEffort
+from rovercheck.checker.certify.diagram import CertifiedDiagram
+from rovercheck.checker.certify.invariant import Conjuncts
+from rovercheck.checker.certify.question import question
+from rovercheck.checker.certify.tick import executed
+from rovercheck.checker.engines import Limits, Progress
+from rovercheck.checker.results.closed import BitPlace, ClosedSet
+from rovercheck.checker.results.verdict import Answer, Exhausted, Inductive, Open, Unreachable
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import Expr, Var, const, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.naive import projected, search
 from tests.strategies_ts import goals, transition_systems
 

@@ -7,11 +7,11 @@ from typing import Any
 
 import pytest
 
-from checker.certify import solver
-from checker.engines import engines
-from checker.engines.localisation import orders
-from checker.engines.simulation import batches
-from checker.process.isolate import End, Stopped
+from rovercheck.checker.certify import solver
+from rovercheck.checker.engines import engines
+from rovercheck.checker.engines.localisation import orders
+from rovercheck.checker.engines.simulation import batches
+from rovercheck.checker.process.isolate import End, Stopped
 from tests.certifying import inline
 
 LIMIT = "the time limit of 2.5 s is reached"

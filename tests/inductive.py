@@ -3,12 +3,12 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 
-from checker.results.verdict import Inductive
-from checker.system.slice import sliced
-from spec_model.lang.evaluate import admissible, evaluate, step
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.checker.results.verdict import Inductive
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.evaluate import admissible, evaluate, step
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 from tests.naive import vectors
 
 Key = tuple[int, ...]

@@ -4,11 +4,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
 
-from spec_model.lang.action import Action, assign, send
-from spec_model.lang.chart import Chart, Junction, Path, State, Transition, to
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Var
-from spec_model.lang.wellformed import check_chart
+from rovercheck.spec_model.lang.action import Action, assign, send
+from rovercheck.spec_model.lang.chart import Chart, Junction, Path, State, Transition, to
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.wellformed import check_chart
 from tests.random_formulas import Source
 
 

@@ -6,11 +6,11 @@ from typing import TypeVar
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.domain import Bool, Domain, Enum, Num, boolean, enumeration, fixed, integer
-from spec_model.lang.expr import Const, Expr, Var, const, ite
-from spec_model.lang.time import Span, ms, ticks
-from spec_model.lang.words import (
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.domain import Bool, Domain, Enum, Num, boolean, enumeration, fixed, integer
+from rovercheck.spec_model.lang.expr import Const, Expr, Var, const, ite
+from rovercheck.spec_model.lang.time import Span, ms, ticks
+from rovercheck.spec_model.lang.words import (
     absolute,
     after,
     bit,

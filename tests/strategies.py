@@ -8,10 +8,10 @@ timers are seldom met by inputs that change in every tick.
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
-from spec_model.lang.chart import Block, Chart, Component, Enabled
-from spec_model.lang.domain import boolean, fixed, integer
-from spec_model.lang.expr import Expr, Var, flag, var
-from spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
+from rovercheck.spec_model.lang.domain import boolean, fixed, integer
+from rovercheck.spec_model.lang.expr import Expr, Var, flag, var
+from rovercheck.spec_model.lang.system import System, in_order
 from tests.random_charts import charts
 from tests.random_formulas import DOMAINS, MODE, Choices, Source
 

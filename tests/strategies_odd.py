@@ -10,11 +10,11 @@ from collections.abc import Sequence
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import Bool, Num, chosen
-from spec_model.lang.expr import TRUE, Apply, Const, Expr, Var, all_of
-from spec_model.lang.operators import Op
-from spec_model.lang.system import Statement, TransitionSystem
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import Bool, Num, chosen
+from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Var, all_of
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import Statement, TransitionSystem
 from tests.strategies_ts import DOMAINS, booleans, fitting, integers, programs
 
 ODD = (*DOMAINS, chosen([4]), chosen([-3]), chosen([2, 3, 5]))

@@ -7,11 +7,11 @@ after what they read is overwritten.  The assumption may link inputs, statements
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import Bool, Num, chosen, integer
-from spec_model.lang.expr import TRUE, Apply, Const, Expr, Var, all_of, any_of, flag
-from spec_model.lang.operators import Op
-from spec_model.lang.system import Statement, TransitionSystem
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import Bool, Num, chosen, integer
+from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Var, all_of, any_of, flag
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import Statement, TransitionSystem
 from tests.strategies_ts import MODE
 
 INPUTS = (integer(0, 4), integer(-2, 2), chosen([-7, 0, 1, 30]), MODE)

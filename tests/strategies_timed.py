@@ -7,11 +7,11 @@ reached only after an input has been held for as long as several timers together
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import TRUE, Expr, Var, all_of, any_of, flag, ite, var
-from spec_model.lang.system import Statement, TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, all_of, any_of, flag, ite, var
+from rovercheck.spec_model.lang.system import Statement, TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 
 LONGEST = 9
 """Ticks of the longest timer."""

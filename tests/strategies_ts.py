@@ -11,11 +11,11 @@ from collections.abc import Sequence
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import Bool, Domain, Enum, Num, boolean, chosen, enumeration, integer
-from spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Var, flag
-from spec_model.lang.operators import COMPARISONS, Op
-from spec_model.lang.system import Program, Statement, TransitionSystem
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import Bool, Domain, Enum, Num, boolean, chosen, enumeration, integer
+from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Var, flag
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.spec_model.lang.system import Program, Statement, TransitionSystem
 
 MODE = enumeration("Mode", {"IDLE": 2, "BUSY": 3, "LOST": 7})
 DOMAINS: tuple[Domain, ...] = (

@@ -14,7 +14,9 @@ ROOT = Path(__file__).parents[1]
 CONFIG = ROOT / "pyproject.toml"
 SETTINGS = tomllib.loads(CONFIG.read_text(encoding="utf-8"))
 CONTRACTS = {c["id"]: c for c in SETTINGS["tool"]["importlinter"]["contracts"]}
-PACKAGES = SETTINGS["tool"]["importlinter"]["root_packages"]
+TOP = "rovercheck"
+PACKAGES = (TOP, *sorted(SETTINGS["tool"]["hatch"]["build"]["targets"]["wheel"]["sources"]))
+"""The folders of what is installed: the first, and those that are packages below it."""
 DISTRIBUTION = {"pysat": "python-sat", "vcd": "pyvcd", "z3": "z3-solver"}
 """Import names that differ from the name to install."""
 
@@ -35,7 +37,7 @@ def imports(file: Path) -> Iterator[str]:
 def third_party(package: str) -> dict[str, Path]:
     """Top-level names that are neither the standard library's nor ours, each with a file that needs it."""
     found = {name.partition(".")[0]: file for file in modules(package) for name in imports(file)}
-    return {n: f for n, f in found.items() if n not in sys.stdlib_module_names and n not in PACKAGES}
+    return {n: f for n, f in found.items() if n not in sys.stdlib_module_names and n != TOP}
 
 
 @pytest.mark.parametrize("contract", CONTRACTS)
@@ -60,4 +62,20 @@ def test_every_third_party_import_is_a_declared_dependency(package: str) -> None
 def test_every_package_is_shipped_and_under_contract() -> None:
     found = {p.parent.name for p in ROOT.glob("*/__init__.py")} - {"tests", "benchmarks", "reports"}
     assert found == set(PACKAGES)
-    assert found == set(SETTINGS["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"])
+    assert found == set(SETTINGS["tool"]["hatch"]["build"]["targets"]["wheel"]["only-include"])
+    assert SETTINGS["tool"]["importlinter"]["root_packages"] == [TOP]
+
+
+def test_every_folder_has_its_link_below_the_one_name() -> None:
+    """Python, mypy and editors find in the repository what is installed elsewhere, under the same name."""
+    links = {p.name: p.resolve() for p in (ROOT / TOP).iterdir() if p.is_symlink()}
+    assert links == {name: ROOT / name for name in PACKAGES if name != TOP}
+
+
+def test_nobody_imports_a_folder_by_another_name() -> None:
+    """``checker.cli`` and ``rovercheck.checker.cli`` would be two modules with two of each class."""
+    folders = (*PACKAGES, "tests", "benchmarks", "docs")
+    found = {
+        n: f for p in folders for f in modules(p) for n in imports(f) if n.partition(".")[0] in PACKAGES[1:]
+    }
+    assert found == {}

@@ -9,19 +9,19 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.check.findings import Guide, about_cases, about_faults, read_on
-from checker.commands.check.further import Further, noticing
-from checker.commands.check.premises import cases
-from checker.commands.check.run import Compared, line, results, summary
-from checker.commands.reports.run import differences, pages
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.wrapping import plain
-from checker.engines import AUTO, Limits
-from checker.model.kept_invariants import invariants_of_rover
-from checker.model.kept_runs import file_of, read
-from checker.model.rover import rover
-from properties.catalogue import catalogue, expected
-from spec_model.rover import systems
+from rovercheck.checker.commands.check.findings import Guide, about_cases, about_faults, read_on
+from rovercheck.checker.commands.check.further import Further, noticing
+from rovercheck.checker.commands.check.premises import cases
+from rovercheck.checker.commands.check.run import Compared, line, results, summary
+from rovercheck.checker.commands.reports.run import differences, pages
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.wrapping import plain
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.model.kept_invariants import invariants_of_rover
+from rovercheck.checker.model.kept_runs import file_of, read
+from rovercheck.checker.model.rover import rover
+from rovercheck.properties.catalogue import catalogue, expected
+from rovercheck.spec_model.rover import systems
 
 ROOT = Path(__file__).parent.parent
 REPORTS = ROOT / "reports"

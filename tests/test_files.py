@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.io.files import csv_cell, csv_plain
+from rovercheck.checker.io.files import csv_cell, csv_plain
 
 
 @pytest.mark.parametrize(

@@ -6,15 +6,15 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from spec_model.lang.action import assign, send
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.domain import integer
-from spec_model.lang.evaluate import step
-from spec_model.lang.expr import flag, var
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System, in_order
-from spec_model.lang.words import minimum
+from rovercheck.spec_model.lang.action import assign, send
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.words import minimum
 from tests.profiles import examples
 from tests.strategies import frozen_values, input_blocks, systems
 

@@ -13,8 +13,8 @@ from rich.padding import Padding
 from rich.table import Table
 from rich.text import Text
 
-from checker.io.console import UnmarkedConsole
-from checker.io.printable import json_text, one_line, printable
+from rovercheck.checker.io.console import UnmarkedConsole
+from rovercheck.checker.io.printable import json_text, one_line, printable
 
 CHECKER = Path(__file__).parents[1] / "checker"
 HOSTILE = "\x1b]0;owned\x07\x1b[31m:1234: :smile: [red]x[/red] [/] \x9b2J \u202eabc \r\b\x7f \ud800 \u2028"

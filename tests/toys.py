@@ -1,10 +1,10 @@
 """Tiny systems with a goal or two, of which it is known whether and when they are reached."""
 
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import FALSE, TRUE, flag, ite, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import chosen, integer
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 
 GOAL = flag("goal")
 

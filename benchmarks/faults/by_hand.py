@@ -7,11 +7,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 from benchmarks.faults.inside import IMPLEMENTATIONS
-from checker.adapters.python_calls import Instance
-from spec_model.abstraction import Board, boards
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block, Chart
-from spec_model.lang.edit import (
+from rovercheck.checker.adapters.python_calls import Instance
+from rovercheck.spec_model.abstraction import Board, boards
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block, Chart
+from rovercheck.spec_model.lang.edit import (
     arrow,
     constant,
     drop,
@@ -26,13 +26,13 @@ from spec_model.lang.edit import (
     swap,
     timer,
 )
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.time import sec
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board2 import objDetected
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.board2 import objDetected
 
 Edit = Callable[[Chart], Chart]
 BlockEdit = Callable[[Block], Block]

@@ -15,8 +15,8 @@ from benchmarks.faults.package import modules
 from benchmarks.faults.recorded import Found, Run, prepared
 from benchmarks.faults.worker import Answer, Runs, examine_all, loads
 from benchmarks.measure import ROOT
-from checker.cache import opened, sealed, secret
-from checker.compare.check import recorded_suite
+from rovercheck.checker.cache import opened, sealed, secret
+from rovercheck.checker.compare.check import recorded_suite
 
 BOARDS = ("board1", "board2")
 READ = ("supervisor", "spec_model", "checker/adapters", "checker/compare", "checker/testgen")
@@ -82,7 +82,9 @@ def _decoded(answer: list[str | int] | int) -> Answer:
 
 def of_the_boards() -> Iterator[Mutant]:
     """The mutants of everything that the boards are made of, the link left out."""
-    return (m for name in modules() if not name.startswith("supervisor.link") for m in mutants(name))
+    return (
+        m for name in modules() if not name.startswith("rovercheck.supervisor.link") for m in mutants(name)
+    )
 
 
 def campaign(

@@ -5,11 +5,11 @@ from typing import cast
 
 from benchmarks.faults.by_hand import Fault
 from benchmarks.faults.recorded import supervisor
-from checker.adapters.implementation import Implementation, Value, Values
-from checker.adapters.python_calls import Instance
-from checker.compare import effort, known_runs
-from checker.compare.search import CompareSearch
-from checker.compare.strategy import ENVIRONMENTS
+from rovercheck.checker.adapters.implementation import Implementation, Value, Values
+from rovercheck.checker.adapters.python_calls import Instance
+from rovercheck.checker.compare import effort, known_runs
+from rovercheck.checker.compare.search import CompareSearch
+from rovercheck.checker.compare.strategy import ENVIRONMENTS
 
 
 @dataclass(frozen=True)

@@ -4,10 +4,10 @@ from collections.abc import Callable, Mapping
 from dataclasses import replace
 from functools import partial
 
-from checker.adapters.python_calls import Instance
-from supervisor.board1 import Board1, Board1Inputs, Board1Outputs
-from supervisor.board2.board import Board2
-from supervisor.board2.signals import Board2Inputs, Board2Outputs
+from rovercheck.checker.adapters.python_calls import Instance
+from rovercheck.supervisor.board1 import Board1, Board1Inputs, Board1Outputs
+from rovercheck.supervisor.board2.board import Board2
+from rovercheck.supervisor.board2.signals import Board2Inputs, Board2Outputs
 
 
 class OneRecord(Board1):

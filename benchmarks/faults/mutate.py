@@ -31,7 +31,7 @@ class Mutant:
     @property
     def name(self) -> str:
         """What the mutant is called in ``judged.toml``: its place, then the line before and after."""
-        place = f"{self.module.removeprefix('supervisor.')} {self.within}".rstrip()
+        place = f"{self.module.removeprefix('rovercheck.supervisor.')} {self.within}".rstrip()
         again = f" [{self.nth}]" if self.nth > 1 else ""
         return f"{place}: {self.before} => {self.after}{again}"
 

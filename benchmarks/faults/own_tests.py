@@ -13,7 +13,14 @@ from benchmarks.faults.mutate import Mutant, mutants, path
 from benchmarks.faults.package import PACKAGE, modules
 from benchmarks.measure import ROOT
 
-COPIED = (PACKAGE, "tests/supervisor", "tests/conftest.py", "tests/profiles.py", "pyproject.toml")
+COPIED = (
+    "rovercheck/__init__.py",
+    "rovercheck/supervisor",
+    "tests/supervisor",
+    "tests/conftest.py",
+    "tests/profiles.py",
+    "pyproject.toml",
+)
 LINK = f"{PACKAGE}.link"
 OF_THE_LINK = tuple(f"tests/supervisor/test_{name}.py" for name in ("crc", "frame", "heartbeat", "receiver"))
 """The tests of the link."""

@@ -13,13 +13,13 @@ from types import CodeType, ModuleType
 from benchmarks.faults.mutate import path
 from benchmarks.measure import ROOT
 
-PACKAGE = "supervisor"
+PACKAGE = "rovercheck.supervisor"
 
 
 @cache
 def modules() -> Mapping[str, CodeType]:
     """Every module of the package but the bench, compiled."""
-    files = sorted((ROOT / PACKAGE).rglob("*.py"))
+    files = sorted((ROOT / PACKAGE.replace(".", "/")).rglob("*.py"))
     parts = [f.relative_to(ROOT).with_suffix("").parts for f in files]
     names = [".".join(p[:-1] if p[-1] == "__init__" else p) for p in parts]
     kept = [name for name in names if not name.startswith(f"{PACKAGE}.bench")]

@@ -10,12 +10,15 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import Any, get_type_hints
 
-from checker.adapters import firmware
-from checker.adapters.implementation import Values
-from checker.adapters.records import builder, reader
-from checker.compare.beside import differs
+from rovercheck.checker.adapters import firmware
+from rovercheck.checker.adapters.implementation import Values
+from rovercheck.checker.adapters.records import builder, reader
+from rovercheck.checker.compare.beside import differs
 
-CLASSES = {"board1": ("supervisor.board1.board", "Board1"), "board2": ("supervisor.board2.board", "Board2")}
+CLASSES = {
+    "board1": ("rovercheck.supervisor.board1.board", "Board1"),
+    "board2": ("rovercheck.supervisor.board2.board", "Board2"),
+}
 PowerUp = type[Any]
 
 

@@ -99,7 +99,7 @@ def _wrong(result: Sorted) -> str:
 
 
 def _by_module(result: Sorted) -> Iterator[tuple[str, str, str]]:
-    module = {m.name: m.module.removeprefix("supervisor.") for m in result.run}
+    module = {m.name: m.module.removeprefix("rovercheck.supervisor.") for m in result.run}
     found = Counter(module[name] for name in result.found if name in module)
     missed = Counter(module[m.name] for m in result.missed)
     for name in sorted(found.keys() | missed.keys()):

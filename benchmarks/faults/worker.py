@@ -11,7 +11,7 @@ from multiprocessing.connection import Connection
 from benchmarks.faults.mutate import Mutant
 from benchmarks.faults.package import modules, replaced
 from benchmarks.faults.recorded import Found, Run, search
-from checker.adapters.launch import end_with_parent
+from rovercheck.checker.adapters.launch import end_with_parent
 
 MEMORY = 6 << 30
 START, STEP = 20.0, 0.002
@@ -40,7 +40,7 @@ def loads(mutant: Mutant) -> bool:
         warnings.simplefilter("ignore")
         try:
             with replaced(mutant.module, mutant.source):
-                from supervisor import Board1, Board2
+                from rovercheck.supervisor import Board1, Board2
 
                 Board1(), Board2()
         except Exception:

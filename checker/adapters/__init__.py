@@ -9,11 +9,11 @@ import pkgutil
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
-from checker.adapters.implementation import Implementation, ImplementationError
-from spec_model.lang.errors import did_you_mean
+from rovercheck.checker.adapters.implementation import Implementation, ImplementationError
+from rovercheck.spec_model.lang.errors import did_you_mean
 
 if TYPE_CHECKING:
-    from spec_model.abstraction import Board
+    from rovercheck.spec_model.abstraction import Board
 
 
 @dataclass(frozen=True)

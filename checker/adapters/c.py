@@ -6,14 +6,14 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from checker.adapters import LIMITS, AdapterLimits, c_calls
-from checker.adapters.c_build import built, is_library
-from checker.adapters.c_map import CMap, read
-from checker.adapters.implementation import Implementation, ImplementationError
-from checker.adapters.process import Process, ours
+from rovercheck.checker.adapters import LIMITS, AdapterLimits, c_calls
+from rovercheck.checker.adapters.c_build import built, is_library
+from rovercheck.checker.adapters.c_map import CMap, read
+from rovercheck.checker.adapters.implementation import Implementation, ImplementationError
+from rovercheck.checker.adapters.process import Process, ours
 
 if TYPE_CHECKING:
-    from spec_model.abstraction import Board
+    from rovercheck.spec_model.abstraction import Board
 
 KIND = "c"
 FORM = "c:PATH[,map=FILE]"

@@ -8,10 +8,10 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from checker.adapters.c_map import CMap
-from checker.adapters.c_shim import OWN, shim
-from checker.adapters.implementation import ImplementationError
-from spec_model.lang.errors import did_you_mean
+from rovercheck.checker.adapters.c_map import CMap
+from rovercheck.checker.adapters.c_shim import OWN, shim
+from rovercheck.checker.adapters.implementation import ImplementationError
+from rovercheck.spec_model.lang.errors import did_you_mean
 
 COMPILERS = ("cc", "gcc", "clang")
 LIBRARIES = (".so", ".dylib", ".dll")

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
 
-from checker.adapters.child import PowerUp, RefusedStep
-from checker.adapters.implementation import Value, Values
-from spec_model.lang.domain import exact
+from rovercheck.checker.adapters.child import PowerUp, RefusedStep
+from rovercheck.checker.adapters.implementation import Value, Values
+from rovercheck.spec_model.lang.domain import exact
 
 INTEGERS = frozenset({
     "bool", "char", "signed char", "unsigned char", "short", "unsigned short", "int", "unsigned int", "long",

@@ -6,13 +6,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from checker.adapters.implementation import ImplementationError
-from spec_model.lang.domain import Enum
-from spec_model.lang.errors import did_you_mean
+from rovercheck.checker.adapters.implementation import ImplementationError
+from rovercheck.spec_model.lang.domain import Enum
+from rovercheck.spec_model.lang.errors import did_you_mean
 
 if TYPE_CHECKING:
-    from spec_model.abstraction import Board
-    from spec_model.abstraction.board import BoardSignal
+    from rovercheck.spec_model.abstraction import Board
+    from rovercheck.spec_model.abstraction.board import BoardSignal
 
 ROUNDINGS = ("nearest", "floor", "truncate")
 PLACE_KEYS = ("at", "scale", "offset", "rounding", "values")

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from checker.adapters.c_map import CMap, CPlace
+from rovercheck.checker.adapters.c_map import CMap, CPlace
 
 OWN = "rovercheck.c"
 """What the compiler calls the lines that are not of the mapping file."""

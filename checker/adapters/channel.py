@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from typing import IO
 
-from checker.adapters.lines import shown
+from rovercheck.checker.adapters.lines import shown
 
 LONGEST = 1 << 20
 """Bytes of an answer; a longer one is an error."""

@@ -17,9 +17,9 @@ from importlib import import_module
 from pathlib import Path
 from typing import Protocol
 
-from checker.adapters import lines
-from checker.adapters.implementation import Value, Values
-from checker.adapters.launch import confine, end_with_parent
+from rovercheck.checker.adapters import lines
+from rovercheck.checker.adapters.implementation import Value, Values
+from rovercheck.checker.adapters.launch import confine, end_with_parent
 
 CHUNK = 1 << 16
 

@@ -5,12 +5,12 @@ import shutil
 from functools import partial
 from typing import TYPE_CHECKING
 
-from checker.adapters import LIMITS, AdapterLimits
-from checker.adapters.implementation import Implementation, ImplementationError
-from checker.adapters.process import Process, theirs
+from rovercheck.checker.adapters import LIMITS, AdapterLimits
+from rovercheck.checker.adapters.implementation import Implementation, ImplementationError
+from rovercheck.checker.adapters.process import Process, theirs
 
 if TYPE_CHECKING:
-    from spec_model.abstraction import Board
+    from rovercheck.spec_model.abstraction import Board
 
 KIND = "command"
 FORM = "command:CMD ARGS"

@@ -74,7 +74,7 @@ OUTPUTS = {"Board1Outputs": BOARD1_OUTPUTS, "Board2Outputs": BOARD2_OUTPUTS}
 def _paths(tables: Mapping[str, Paths], record: type) -> Paths:
     from dataclasses import fields
 
-    ours = record.__module__.startswith("supervisor.")
+    ours = record.__module__.startswith("rovercheck.supervisor.")
     return tables[record.__name__] if ours else same(*(field.name for field in fields(record)))
 
 

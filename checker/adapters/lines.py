@@ -8,7 +8,7 @@ import math
 from collections.abc import Mapping
 from enum import Enum
 
-from checker.adapters.implementation import Value
+from rovercheck.checker.adapters.implementation import Value
 
 NOT_FINITE = {"NaN": math.nan, "Infinity": math.inf, "-Infinity": -math.inf}
 PLAIN = frozenset((bool, int, float))

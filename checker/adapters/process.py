@@ -7,13 +7,13 @@ from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 
-from checker.adapters import AdapterLimits, launch, lines
-from checker.adapters.channel import BrokenChannel, Channel
-from checker.adapters.implementation import ImplementationError, Value, Values
-from spec_model.lang.errors import did_you_mean
+from rovercheck.checker.adapters import AdapterLimits, launch, lines
+from rovercheck.checker.adapters.channel import BrokenChannel, Channel
+from rovercheck.checker.adapters.implementation import ImplementationError, Value, Values
+from rovercheck.spec_model.lang.errors import did_you_mean
 
 RESET = lines.encoded({"reset": True})
-MAIN = "from rovercheck import claim; claim(); from checker.adapters.child import main; main()"
+MAIN = "from rovercheck.checker.adapters.child import main; main()"
 
 
 class Reported(BrokenChannel):

@@ -5,13 +5,13 @@ from contextlib import contextmanager
 from functools import partial
 from typing import TYPE_CHECKING
 
-from checker.adapters import LIMITS, AdapterLimits, python_calls
-from checker.adapters.child import PowerUp, Running, reason
-from checker.adapters.implementation import Implementation, Value, Values
-from checker.adapters.process import Process, check_names, failure, ours
+from rovercheck.checker.adapters import LIMITS, AdapterLimits, python_calls
+from rovercheck.checker.adapters.child import PowerUp, Running, reason
+from rovercheck.checker.adapters.implementation import Implementation, Value, Values
+from rovercheck.checker.adapters.process import Process, check_names, failure, ours
 
 if TYPE_CHECKING:
-    from spec_model.abstraction import Board
+    from rovercheck.spec_model.abstraction import Board
 
 KIND = "python"
 FORM = "python:MODULE:CLASS"

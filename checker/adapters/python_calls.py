@@ -10,12 +10,12 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, get_type_hints
 
-from checker.adapters import firmware
-from checker.adapters.child import PowerUp, RefusedStep
-from checker.adapters.implementation import Value, Values
-from checker.adapters.lines import plain
-from checker.adapters.records import builder, reader
-from spec_model.lang.errors import did_you_mean
+from rovercheck.checker.adapters import firmware
+from rovercheck.checker.adapters.child import PowerUp, RefusedStep
+from rovercheck.checker.adapters.implementation import Value, Values
+from rovercheck.checker.adapters.lines import plain
+from rovercheck.checker.adapters.records import builder, reader
+from rovercheck.spec_model.lang.errors import did_you_mean
 
 
 class Instance:

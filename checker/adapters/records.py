@@ -9,8 +9,8 @@ from dataclasses import fields, is_dataclass
 from enum import Enum
 from typing import Any, get_args, get_type_hints
 
-from checker.adapters.implementation import Value, Values
-from checker.adapters.lines import plain
+from rovercheck.checker.adapters.implementation import Value, Values
+from rovercheck.checker.adapters.lines import plain
 
 Path = tuple[str | int, ...]
 Build = Callable[[Values], Any]

@@ -5,10 +5,10 @@ if this user's rovercheck wrote it, under that name: whoever can write to the fo
 secret can make entries go missing, nothing else.  The same holds for a folder from another machine.
 """
 
-from checker.cache.entries import ENDING, MOST_BYTES, opened, read, remove, sealed, write
-from checker.cache.places import VARIABLE, Unsafe, chosen, usable
-from checker.cache.secret_file import SECRET, secret, secret_place
-from checker.cache.telling import CacheRefused, Taken, listening
+from rovercheck.checker.cache.entries import ENDING, MOST_BYTES, opened, read, remove, sealed, write
+from rovercheck.checker.cache.places import VARIABLE, Unsafe, chosen, usable
+from rovercheck.checker.cache.secret_file import SECRET, secret, secret_place
+from rovercheck.checker.cache.telling import CacheRefused, Taken, listening
 
 __all__ = [
     "ENDING",

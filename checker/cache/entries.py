@@ -11,10 +11,10 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
-from checker.cache import running
-from checker.cache.places import Unsafe, carefully, chosen, usable
-from checker.cache.secret_file import secret
-from checker.cache.telling import CacheRefused, Taken, anew, heard, tell
+from rovercheck.checker.cache import running
+from rovercheck.checker.cache.places import Unsafe, carefully, chosen, usable
+from rovercheck.checker.cache.secret_file import secret
+from rovercheck.checker.cache.telling import CacheRefused, Taken, anew, heard, tell
 
 ENDING = ".o"
 MOST_BYTES = 256 << 20

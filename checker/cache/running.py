@@ -10,7 +10,7 @@ import sys
 from contextlib import suppress
 from pathlib import Path
 
-from checker.cache.places import carefully
+from rovercheck.checker.cache.places import carefully
 
 ENDING = ".running"
 _MOST = 300

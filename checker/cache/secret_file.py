@@ -9,7 +9,7 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
-from checker.cache.places import Unsafe, carefully, usable, users_state
+from rovercheck.checker.cache.places import Unsafe, carefully, usable, users_state
 
 SECRET = "ROVERCHECK_SECRET"
 """Names the file; empty: there is none, and therefore no cache."""

@@ -8,22 +8,22 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.certify.diagram import CertifiedDiagram, CertifiedNode, Column, Nodes, positions
-from checker.certify.invariant import Conjuncts, Invariant, conjuncts
-from checker.certify.question import CertifyQuestion, question
-from checker.certify.reduction import diagram
-from checker.certify.terms import TRUTH, Malformed, definitions
-from checker.certify.tick import conjuncts as parts
-from checker.certify.tick import executed
-from checker.results.closed import ClosedSet
-from checker.results.diagram import Diagram as Bits
-from checker.results.diagram import formula
-from checker.results.verdict import Answer, Evidence, Exhausted, Inductive, Unreachable
-from checker.system.slice import sliced
-from spec_model.lang.domain import Domain
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.checker.certify.diagram import CertifiedDiagram, CertifiedNode, Column, Nodes, positions
+from rovercheck.checker.certify.invariant import Conjuncts, Invariant, conjuncts
+from rovercheck.checker.certify.question import CertifyQuestion, question
+from rovercheck.checker.certify.reduction import diagram
+from rovercheck.checker.certify.terms import TRUTH, Malformed, definitions
+from rovercheck.checker.certify.tick import conjuncts as parts
+from rovercheck.checker.certify.tick import executed
+from rovercheck.checker.results.closed import ClosedSet
+from rovercheck.checker.results.diagram import Diagram as Bits
+from rovercheck.checker.results.diagram import formula
+from rovercheck.checker.results.verdict import Answer, Evidence, Exhausted, Inductive, Unreachable
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.domain import Domain
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 
 MOST = 1 << 31
 """Values (valuations times variables) of a closed set of which a diagram is made: 4 GiB of 16 bits each."""

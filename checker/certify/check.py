@@ -4,19 +4,19 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 
-from checker.certify import solver
-from checker.certify.certificate import Certificate, meaningful
-from checker.certify.diagram import CertifiedDiagram, size
-from checker.certify.enumeration import enumerated
-from checker.certify.invariant import Invariant
-from checker.certify.obligations import Obligation, obligations, too_long
-from checker.certify.outcome import Accepted, Outcome, Rejected, TooMuch, Undecided, told
-from checker.certify.question import CertifyQuestion, question
-from checker.certify.sweep import swept
-from checker.certify.terms import Malformed
-from checker.certify.tick import Executed, executed
-from spec_model.lang.domain import Bool
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.certify import solver
+from rovercheck.checker.certify.certificate import Certificate, meaningful
+from rovercheck.checker.certify.diagram import CertifiedDiagram, size
+from rovercheck.checker.certify.enumeration import enumerated
+from rovercheck.checker.certify.invariant import Invariant
+from rovercheck.checker.certify.obligations import Obligation, obligations, too_long
+from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, TooMuch, Undecided, told
+from rovercheck.checker.certify.question import CertifyQuestion, question
+from rovercheck.checker.certify.sweep import swept
+from rovercheck.checker.certify.terms import Malformed
+from rovercheck.checker.certify.tick import Executed, executed
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 LARGE = 20_000
 """Nodes and edges of a diagram above which all valuations are tried.

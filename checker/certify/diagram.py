@@ -17,7 +17,7 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
-from spec_model.lang.domain import Domain
+from rovercheck.spec_model.lang.domain import Domain
 
 TRUE = 0
 """The number of the node at which a path of the set ends."""

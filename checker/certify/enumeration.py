@@ -7,19 +7,19 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from itertools import product
 from math import prod
 
-from checker.certify.diagram import CertifiedDiagram, count, members
-from checker.certify.invariant import Conjuncts, Invariant
-from checker.certify.outcome import Accepted, Rejected, TooMuch, told
-from checker.certify.question import CertifyQuestion
-from checker.certify.smtlib import width
-from checker.certify.terms import Value, definitions, evaluate
-from checker.certify.tick import conjuncts
-from spec_model.lang.domain import Bool
-from spec_model.lang.evaluate import evaluate as value_of
-from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import nodes, variables
+from rovercheck.checker.certify.diagram import CertifiedDiagram, count, members
+from rovercheck.checker.certify.invariant import Conjuncts, Invariant
+from rovercheck.checker.certify.outcome import Accepted, Rejected, TooMuch, told
+from rovercheck.checker.certify.question import CertifyQuestion
+from rovercheck.checker.certify.smtlib import width
+from rovercheck.checker.certify.terms import Value, definitions, evaluate
+from rovercheck.checker.certify.tick import conjuncts
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.evaluate import evaluate as value_of
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import nodes, variables
 
 MOST = 4_000_000
 """Nodes of formulas that are evaluated at most: a few seconds."""

@@ -9,9 +9,9 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
-from checker.certify.certificate import Certificate, certificate, document
-from checker.certify.terms import Malformed
-from checker.io.files import replaced
+from rovercheck.checker.certify.certificate import Certificate, certificate, document
+from rovercheck.checker.certify.terms import Malformed
+from rovercheck.checker.io.files import replaced
 
 SCHEMA = "rovercheck/certificate/1"
 LARGE = 1 << 17

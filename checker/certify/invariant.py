@@ -4,11 +4,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Union
 
-from checker.certify.diagram import CertifiedDiagram, CertifiedNode
-from checker.certify.question import CertifyQuestion
-from checker.certify.smtlib import Printer, among, define, joined, own, quoted
-from checker.results.verdict import Inductive
-from spec_model.lang.expr import Var
+from rovercheck.checker.certify.diagram import CertifiedDiagram, CertifiedNode
+from rovercheck.checker.certify.question import CertifyQuestion
+from rovercheck.checker.certify.smtlib import Printer, among, define, joined, own, quoted
+from rovercheck.checker.results.verdict import Inductive
+from rovercheck.spec_model.lang.expr import Var
 
 
 @dataclass(frozen=True)

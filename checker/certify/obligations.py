@@ -18,9 +18,9 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from checker.certify.invariant import Conjuncts, Invariant, holds
-from checker.certify.question import CertifyQuestion
-from checker.certify.smtlib import joined, own, quoted
+from rovercheck.checker.certify.invariant import Conjuncts, Invariant, holds
+from rovercheck.checker.certify.question import CertifyQuestion
+from rovercheck.checker.certify.smtlib import joined, own, quoted
 
 LONGEST = 1 << 30
 """Characters of a script above which it is not written."""

@@ -4,8 +4,8 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Union
 
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Var
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,20 @@ from dataclasses import dataclass
 from functools import cached_property
 from hashlib import sha256
 
-from checker.certify.smtlib import Printer, among, define, joined, own, quoted, sort, sort_bits, within
-from checker.certify.terms import Sort
-from checker.certify.tick import CertifiedTick, Executed
-from spec_model.lang.expr import Var
+from rovercheck.checker.certify.smtlib import (
+    Printer,
+    among,
+    define,
+    joined,
+    own,
+    quoted,
+    sort,
+    sort_bits,
+    within,
+)
+from rovercheck.checker.certify.terms import Sort
+from rovercheck.checker.certify.tick import CertifiedTick, Executed
+from rovercheck.spec_model.lang.expr import Var
 
 
 @dataclass(frozen=True)

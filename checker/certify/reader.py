@@ -6,13 +6,13 @@ Verdicts that are decided with it are derived again, from the model as it is now
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 
-from checker.certify.certificate import Certificate
-from checker.certify.diagram import CertifiedDiagram
-from checker.certify.outcome import Accepted, Outcome
-from checker.engines import Limits, Progress
-from checker.results.verdict import Answer, Exhausted, Inductive, Open, Unreachable
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.certify.certificate import Certificate
+from rovercheck.checker.certify.diagram import CertifiedDiagram
+from rovercheck.checker.certify.outcome import Accepted, Outcome
+from rovercheck.checker.engines import Limits, Progress
+from rovercheck.checker.results.verdict import Answer, Exhausted, Inductive, Open, Unreachable
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 Checked = Callable[[Certificate, TransitionSystem], Outcome]
 """How a certificate is checked against a system (``checker.certify.check.check``)."""

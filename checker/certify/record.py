@@ -5,10 +5,10 @@ from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from checker.certify.certificate import Certificate, certificates
-from checker.results.verdict import Answer, Exhausted, Inductive, Proved, Verdict, Violated
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.certify.certificate import Certificate, certificates
+from rovercheck.checker.results.verdict import Answer, Exhausted, Inductive, Proved, Verdict, Violated
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 
 class CertifyRequest(Protocol):

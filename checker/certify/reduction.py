@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.certify.diagram import TRUE, CertifiedDiagram, Nodes
-from checker.results.closed import BitPlace, ClosedSet
+from rovercheck.checker.certify.diagram import TRUE, CertifiedDiagram, Nodes
+from rovercheck.checker.results.closed import BitPlace, ClosedSet
 
 Codes = NDArray[np.signedinteger[Any]]
 Words = NDArray[np.uint64]

@@ -7,13 +7,13 @@ and result, so nothing can overflow (Barrett, Fontaine, Tinelli, *The SMT-LIB St
 import re
 from collections.abc import Callable, Mapping, Sequence
 
-from checker.certify.terms import TRUTH, Sort
-from checker.system.intervals import Interval, interval, postorder
-from spec_model.lang.domain import Bool, Domain
-from spec_model.lang.domain import Sort as Kind
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
+from rovercheck.checker.certify.terms import TRUTH, Sort
+from rovercheck.checker.system.intervals import Interval, interval, postorder
+from rovercheck.spec_model.lang.domain import Bool, Domain
+from rovercheck.spec_model.lang.domain import Sort as Kind
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
 
 _SPECIAL = re.compile(r"[%|\\@:]|[^ -~]")
 

@@ -8,9 +8,9 @@ from contextlib import closing
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from checker.certify.obligations import Obligation
-from checker.certify.terms import Malformed
-from checker.process.isolate import Send, Stopped, messages
+from rovercheck.checker.certify.obligations import Obligation
+from rovercheck.checker.certify.terms import Malformed
+from rovercheck.checker.process.isolate import Send, Stopped, messages
 
 if TYPE_CHECKING:
     import bitwuzla

@@ -16,14 +16,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.certify.diagram import CertifiedDiagram, count, positions
-from checker.certify.outcome import Accepted, Rejected, TooMuch, told
-from checker.certify.question import CertifyQuestion
-from checker.system.intervals import intervals, postorder
-from spec_model.lang.domain import Bool, Domain
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.walk import variables
+from rovercheck.checker.certify.diagram import CertifiedDiagram, count, positions
+from rovercheck.checker.certify.outcome import Accepted, Rejected, TooMuch, told
+from rovercheck.checker.certify.question import CertifyQuestion
+from rovercheck.checker.system.intervals import intervals, postorder
+from rovercheck.spec_model.lang.domain import Bool, Domain
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.walk import variables
 
 MOST = 60_000_000_000
 """Numbers that are computed at most: three or four minutes."""

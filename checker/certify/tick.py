@@ -7,13 +7,13 @@ alike are one node, so that formulas stay as long as the program.
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.system.intervals import postorder
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import plain, variables
+from rovercheck.checker.system.intervals import postorder
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import plain, variables
 
 Store = dict[str, Expr]
 

@@ -2,7 +2,7 @@
 
 import click
 
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.codes import Exit
 
 SHELLS = ("bash", "zsh", "fish")
 VARIABLE = "_ROVERCHECK_COMPLETE"
@@ -23,7 +23,7 @@ def completion(context: click.Context, shell: str) -> Exit:
     """Print the script that lets SHELL complete verbs, options, properties, systems, charts and formats."""
     from click.shell_completion import get_completion_class
 
-    from checker.commands.shared.output import write
+    from rovercheck.checker.commands.shared.output import write
 
     made = get_completion_class(shell)
     assert made is not None, "click knows these shells"

@@ -6,17 +6,17 @@ from fractions import Fraction
 from functools import cache
 from itertools import pairwise, product
 
-from spec_model.abstraction import Board, Value
-from spec_model.abstraction.board import BoardSignal, Raw, computed
-from spec_model.abstraction.signals import plain
-from spec_model.lang.action import Action, Assign, each_action, expressions
-from spec_model.lang.chart import Component, Enabled
-from spec_model.lang.domain import Num, Unit
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var
-from spec_model.lang.operators import COMPARISONS, Op
-from spec_model.lang.system import System
-from spec_model.lang.walk import nodes, variables
+from rovercheck.spec_model.abstraction import Board, Value
+from rovercheck.spec_model.abstraction.board import BoardSignal, Raw, computed
+from rovercheck.spec_model.abstraction.signals import plain
+from rovercheck.spec_model.lang.action import Action, Assign, each_action, expressions
+from rovercheck.spec_model.lang.chart import Component, Enabled
+from rovercheck.spec_model.lang.domain import Num, Unit
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.walk import nodes, variables
 
 CHOICES = 8
 """A parameter with more values is left at 0."""

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 from functools import cache
 from math import isclose
 
-from checker.adapters.implementation import Implementation, Value, Values, run
-from checker.compare.stimulus import Stimulus, StimulusPlayer
-from spec_model.abstraction import Board
-from spec_model.lang.chart import parts
-from spec_model.lang.domain import Num
-from spec_model.lang.interpret import Fired, Interpreter
+from rovercheck.checker.adapters.implementation import Implementation, Value, Values, run
+from rovercheck.checker.compare.stimulus import Stimulus, StimulusPlayer
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.chart import parts
+from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.interpret import Fired, Interpreter
 
 NEAR = 1e-6
 """Numbers that differ by no more, in their unit or as a part of the larger one, are equal: single precision

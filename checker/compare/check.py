@@ -6,20 +6,28 @@ from functools import cache
 from itertools import chain, count, islice
 from pathlib import Path
 
-from checker.adapters import start
-from checker.adapters.implementation import Implementation, Value, Values
-from checker.compare.beside import ComparedStep, StepMismatch, compared, differences, differs, played, rerun
-from checker.compare.environment import Environment
-from checker.compare.fixed import fixed
-from checker.compare.recorded import counterexamples, tests
-from checker.compare.result import ALLOWED, Allowance, CompareResult
-from checker.compare.search import CompareEffort, CompareSearch, Progress, Run, effort
-from checker.compare.smaller import BUDGET
-from checker.compare.stimulus import Stimulus
-from checker.compare.strategy import ENVIRONMENTS
-from checker.compare.varied import named
-from checker.testgen import kept
-from spec_model.abstraction import Board
+from rovercheck.checker.adapters import start
+from rovercheck.checker.adapters.implementation import Implementation, Value, Values
+from rovercheck.checker.compare.beside import (
+    ComparedStep,
+    StepMismatch,
+    compared,
+    differences,
+    differs,
+    played,
+    rerun,
+)
+from rovercheck.checker.compare.environment import Environment
+from rovercheck.checker.compare.fixed import fixed
+from rovercheck.checker.compare.recorded import counterexamples, tests
+from rovercheck.checker.compare.result import ALLOWED, Allowance, CompareResult
+from rovercheck.checker.compare.search import CompareEffort, CompareSearch, Progress, Run, effort
+from rovercheck.checker.compare.smaller import BUDGET
+from rovercheck.checker.compare.stimulus import Stimulus
+from rovercheck.checker.compare.strategy import ENVIRONMENTS
+from rovercheck.checker.compare.varied import named
+from rovercheck.checker.testgen import kept
+from rovercheck.spec_model.abstraction import Board
 
 # --- the runs of a profile with what the charts require, kept to compare many implementations quickly
 

@@ -5,13 +5,13 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cache
 
-from checker.compare.aims import aims
-from checker.compare.beside import ComparedStep
-from spec_model.abstraction import Board
-from spec_model.lang.chart import Chart, Path, Transition
-from spec_model.lang.expr import Const
-from spec_model.lang.interpret import Fired
-from spec_model.lang.interpret.fired import path_label
+from rovercheck.checker.compare.aims import aims
+from rovercheck.checker.compare.beside import ComparedStep
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.chart import Chart, Path, Transition
+from rovercheck.spec_model.lang.expr import Const
+from rovercheck.spec_model.lang.interpret import Fired
+from rovercheck.spec_model.lang.interpret.fired import path_label
 
 NEAR_SHARE = Fraction(1, 100)
 """The share of a signal's range within which a value counts as beside a boundary."""

@@ -6,9 +6,9 @@ from functools import cached_property
 
 from hypothesis import strategies as st
 
-from checker.compare.stimulus import Change, Every, InputBlock
-from checker.compare.values import Values
-from spec_model.abstraction import Board, Value
+from rovercheck.checker.compare.stimulus import Change, Every, InputBlock
+from rovercheck.checker.compare.values import Values
+from rovercheck.spec_model.abstraction import Board, Value
 
 Blocks = list[InputBlock]
 Phase = Callable[["Environment"], st.SearchStrategy[Blocks]]

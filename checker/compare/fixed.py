@@ -3,16 +3,16 @@
 from collections.abc import Iterator
 from itertools import combinations, groupby, pairwise, zip_longest
 
-from checker.compare.aims import formulas
-from checker.compare.environment import AROUND, Blocks, Environment
-from checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus
-from spec_model.abstraction import Value
-from spec_model.abstraction.board import computed
-from spec_model.abstraction.signals import plain
-from spec_model.lang.domain import Bool
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Temporal, When
-from spec_model.lang.walk import nodes, variables
+from rovercheck.checker.compare.aims import formulas
+from rovercheck.checker.compare.environment import AROUND, Blocks, Environment
+from rovercheck.checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus
+from rovercheck.spec_model.abstraction import Value
+from rovercheck.spec_model.abstraction.board import computed
+from rovercheck.spec_model.abstraction.signals import plain
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Temporal, When
+from rovercheck.spec_model.lang.walk import nodes, variables
 
 CLOSE = 0.0011
 """How far from a moving boundary a value of a fixed run lies at most."""

@@ -4,10 +4,10 @@ from collections.abc import Callable, Sequence
 
 from hypothesis import strategies as st
 
-from checker.compare.environment import SHORT, Blocks, Environment
-from checker.compare.stimulus import SILENT, Change, InputBlock, Turning
-from checker.compare.values import PARTS
-from spec_model.abstraction import Value
+from rovercheck.checker.compare.environment import SHORT, Blocks, Environment
+from rovercheck.checker.compare.stimulus import SILENT, Change, InputBlock, Turning
+from rovercheck.checker.compare.values import PARTS
+from rovercheck.spec_model.abstraction import Value
 
 Draw = Callable[[st.SearchStrategy], object]
 LONGEST_AGE = 250

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 from hypothesis import strategies as st
 
-from checker.compare.environment import Blocks, Environment
-from checker.compare.phases import (
+from rovercheck.checker.compare.environment import Blocks, Environment
+from rovercheck.checker.compare.phases import (
     age,
     combination,
     disturb,
@@ -19,11 +19,11 @@ from checker.compare.phases import (
     value,
     wait,
 )
-from checker.compare.scenes import combinations
-from checker.compare.stimulus import SILENT, Change, Every, InputBlock, Toward
-from spec_model.abstraction import boards
-from spec_model.signals.board1 import WHEELS
-from spec_model.signals.common import COMMAND
+from rovercheck.checker.compare.scenes import combinations
+from rovercheck.checker.compare.stimulus import SILENT, Change, Every, InputBlock, Toward
+from rovercheck.spec_model.abstraction import boards
+from rovercheck.spec_model.signals.board1 import WHEELS
+from rovercheck.spec_model.signals.common import COMMAND
 
 COMMANDS = tuple(COMMAND.values)
 NORMAL, ESTOP = COMMAND.raw("CMD_NORMAL"), COMMAND.raw("CMD_ESTOP")

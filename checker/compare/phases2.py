@@ -4,8 +4,8 @@ from collections.abc import Iterator
 
 from hypothesis import strategies as st
 
-from checker.compare.environment import Blocks, Environment
-from checker.compare.phases import (
+from rovercheck.checker.compare.environment import Blocks, Environment
+from rovercheck.checker.compare.phases import (
     combination,
     disturb,
     flicker,
@@ -18,11 +18,11 @@ from checker.compare.phases import (
     value,
     wait,
 )
-from checker.compare.scenes import braking, combinations, recovering, resuming, rotating, turning
-from checker.compare.scenes import passing as passing_in_time
-from checker.compare.stimulus import SILENT, Change, Every, InputBlock, Toward
-from spec_model.abstraction import boards
-from spec_model.signals.board1 import WHEELS
+from rovercheck.checker.compare.scenes import braking, combinations, recovering, resuming, rotating, turning
+from rovercheck.checker.compare.scenes import passing as passing_in_time
+from rovercheck.checker.compare.stimulus import SILENT, Change, Every, InputBlock, Toward
+from rovercheck.spec_model.abstraction import boards
+from rovercheck.spec_model.signals.board1 import WHEELS
 
 SONARS = ("d1", "d2", "d3")
 NO_ECHO = 301

@@ -8,15 +8,15 @@ from importlib.resources import files
 from pathlib import Path
 from typing import cast
 
-from checker.adapters.implementation import Value
-from checker.compare.beside import ComparedStep, played, rerun
-from checker.compare.search import Run
-from checker.compare.smaller import columns
-from checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus
-from checker.io.files import csv_plain
-from spec_model.abstraction import Board
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import TICK_MS
+from rovercheck.checker.adapters.implementation import Value
+from rovercheck.checker.compare.beside import ComparedStep, played, rerun
+from rovercheck.checker.compare.search import Run
+from rovercheck.checker.compare.smaller import columns
+from rovercheck.checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus
+from rovercheck.checker.io.files import csv_plain
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import TICK_MS
 
 COUNTEREXAMPLES = "counterexamples.json"
 """The runs with which the model checker broke properties or showed that something can be reached.

@@ -4,10 +4,10 @@ from collections.abc import Iterator, Mapping
 from hashlib import sha256
 from json import dumps
 
-from checker.compare.beside import StepMismatch
-from checker.compare.result import Failure
-from checker.compare.smaller import columns
-from checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus
+from rovercheck.checker.compare.beside import StepMismatch
+from rovercheck.checker.compare.result import Failure
+from rovercheck.checker.compare.smaller import columns
+from rovercheck.checker.compare.stimulus import SILENT, Change, Every, InputBlock, Stimulus
 
 WIDTH = 100
 AS_READ: Mapping[str, str] = {}
@@ -18,7 +18,7 @@ Written by rovercheck crosscheck.  It fails while the implementation has the fau
 {expected}
 """
 
-from checker.compare import {names}
+from rovercheck.checker.compare import {names}
 
 IMPLEMENTATION = {address}
 STIMULUS = Stimulus(

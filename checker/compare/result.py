@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from checker.compare.beside import ComparedStep, StepMismatch
-from checker.compare.coverage import ArrowCoverage, CoveredArrow, arrows
-from spec_model.abstraction import Board
+from rovercheck.checker.compare.beside import ComparedStep, StepMismatch
+from rovercheck.checker.compare.coverage import ArrowCoverage, CoveredArrow, arrows
+from rovercheck.spec_model.abstraction import Board
 
 FIXED, RANDOM = "fixed runs", "random runs"
 """The two kinds of runs, in the order in which they are tried."""

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
-from checker.compare.environment import Blocks, Environment
-from checker.compare.stimulus import SILENT, Change, Every, InputBlock, Toward
+from rovercheck.checker.compare.environment import Blocks, Environment
+from rovercheck.checker.compare.stimulus import SILENT, Change, Every, InputBlock, Toward
 
 QUICK = 3
 """Steps from one press of a button to the next, where nothing waits for them."""

@@ -7,14 +7,22 @@ from random import SystemRandom
 
 from hypothesis import HealthCheck, Phase, given, seed, settings
 
-from checker.adapters.implementation import Implementation, ImplementationError, Values, notes, run
-from checker.compare.beside import ComparedStep, StepMismatch, compared, played
-from checker.compare.coverage import ArrowCoverage
-from checker.compare.environment import Environment
-from checker.compare.result import ALLOWED, FIXED, RANDOM, Allowance, CompareResult, CompareStage, Failure
-from checker.compare.smaller import BUDGET, Budget, smaller
-from checker.compare.stimulus import Stimulus
-from checker.compare.strategy import stimuli
+from rovercheck.checker.adapters.implementation import Implementation, ImplementationError, Values, notes, run
+from rovercheck.checker.compare.beside import ComparedStep, StepMismatch, compared, played
+from rovercheck.checker.compare.coverage import ArrowCoverage
+from rovercheck.checker.compare.environment import Environment
+from rovercheck.checker.compare.result import (
+    ALLOWED,
+    FIXED,
+    RANDOM,
+    Allowance,
+    CompareResult,
+    CompareStage,
+    Failure,
+)
+from rovercheck.checker.compare.smaller import BUDGET, Budget, smaller
+from rovercheck.checker.compare.stimulus import Stimulus
+from rovercheck.checker.compare.strategy import stimuli
 
 CI_SEED = 5
 NIGHTLY = 20

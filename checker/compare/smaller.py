@@ -7,14 +7,14 @@ the step it was renewed, or None.  So a step can be left out without the clock n
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.adapters.implementation import Implementation, ImplementationError, Value, Values
-from checker.compare.beside import StepMismatch, compared, rerun
-from checker.compare.environment import Environment
-from checker.compare.stimulus import NOW, SILENT, Change, Every, InputBlock, Stimulus, clocked
-from spec_model.abstraction import Board
-from spec_model.abstraction.stamps import CLOCK, since
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import TICK_MS
+from rovercheck.checker.adapters.implementation import Implementation, ImplementationError, Value, Values
+from rovercheck.checker.compare.beside import StepMismatch, compared, rerun
+from rovercheck.checker.compare.environment import Environment
+from rovercheck.checker.compare.stimulus import NOW, SILENT, Change, Every, InputBlock, Stimulus, clocked
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.abstraction.stamps import CLOCK, since
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import TICK_MS
 
 BUDGET = 30_000
 """Steps of the charts that may be spent on making one mismatch small."""

@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from itertools import cycle
 from typing import Protocol
 
-from spec_model.abstraction import Board, BoardSignal, Value
-from spec_model.abstraction.stamps import CLOCK
-from spec_model.lang.domain import Num
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TICK_MS
+from rovercheck.spec_model.abstraction import Board, BoardSignal, Value
+from rovercheck.spec_model.abstraction.stamps import CLOCK
+from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TICK_MS
 
 NOW = "now_ms"
 FULL_TURN = 360

@@ -4,13 +4,13 @@ from collections.abc import Mapping
 
 from hypothesis import strategies as st
 
-from checker.compare.environment import Blocks, Environment
-from checker.compare.phases import changes, one_after_another, short, steps
-from checker.compare.phases1 import BOARD1
-from checker.compare.phases2 import BOARD2
-from checker.compare.stimulus import InputBlock, Stimulus
-from spec_model.abstraction.stamps import CLOCK
-from spec_model.lang.system import TICK_MS
+from rovercheck.checker.compare.environment import Blocks, Environment
+from rovercheck.checker.compare.phases import changes, one_after_another, short, steps
+from rovercheck.checker.compare.phases1 import BOARD1
+from rovercheck.checker.compare.phases2 import BOARD2
+from rovercheck.checker.compare.stimulus import InputBlock, Stimulus
+from rovercheck.spec_model.abstraction.stamps import CLOCK
+from rovercheck.spec_model.lang.system import TICK_MS
 
 ENVIRONMENTS: Mapping[str, Environment] = {"board1": BOARD1, "board2": BOARD2}
 """The environment of each board, by its name."""

@@ -8,11 +8,11 @@ from itertools import pairwise
 
 import numpy as np
 
-from checker.compare.aims import Aims, Boundary, aims
-from checker.compare.stimulus import NOW, Toward, clocked
-from spec_model.abstraction import Board, BoardSignal, Value
-from spec_model.abstraction.board import units
-from spec_model.lang.domain import Num, Unit
+from rovercheck.checker.compare.aims import Aims, Boundary, aims
+from rovercheck.checker.compare.stimulus import NOW, Toward, clocked
+from rovercheck.spec_model.abstraction import Board, BoardSignal, Value
+from rovercheck.spec_model.abstraction.board import units
+from rovercheck.spec_model.lang.domain import Num, Unit
 
 DEGREES = Unit.of("°")
 TOP = Fraction(2879, 8)

@@ -3,10 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from spec_model.abstraction import Board, boards
-from spec_model.lang.errors import ModelError
-from spec_model.readings import ANY, fixed
-from spec_model.repairs import Repair, proposals, repaired
+from rovercheck.spec_model.abstraction import Board, boards
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.readings import ANY, fixed
+from rovercheck.spec_model.repairs import Repair, proposals, repaired
 
 
 def varied(choices: Mapping[str, str], repair: Repair | None = None) -> Mapping[str, Board]:

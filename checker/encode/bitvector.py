@@ -9,10 +9,10 @@ from typing import Any
 
 import z3
 
-from checker.system.intervals import Interval, interval, postorder
-from spec_model.lang.domain import Bool, Domain, Sort
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
+from rovercheck.checker.system.intervals import Interval, interval, postorder
+from rovercheck.spec_model.lang.domain import Bool, Domain, Sort
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
 
 Term = Any
 """A Z3 Boolean or bit-vector (Z3 has no types for the checker to read)."""

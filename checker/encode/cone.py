@@ -7,14 +7,14 @@ conjuncts does not restrict the rest, provided it can be satisfied at all, which
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from checker.encode.symbolic import SymbolicTransition
-from checker.encode.terms import Terms
-from checker.system.intervals import Interval, postorder
-from checker.system.slice import sliced
-from spec_model.lang.expr import Apply, Const, Expr, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.checker.encode.symbolic import SymbolicTransition
+from rovercheck.checker.encode.terms import Terms
+from rovercheck.checker.system.intervals import Interval, postorder
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 
 
 @dataclass(frozen=True)

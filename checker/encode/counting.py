@@ -8,10 +8,10 @@ one in which every running counter has moved on and nothing else has changed (se
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from spec_model.lang.action import Assign, each_action
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.action import Assign, each_action
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 
 @dataclass(frozen=True)

@@ -3,9 +3,9 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from checker.system.intervals import Interval
-from spec_model.lang.expr import Apply, Const, Expr
-from spec_model.lang.operators import Op
+from rovercheck.checker.system.intervals import Interval
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr
+from rovercheck.spec_model.lang.operators import Op
 
 Range = Callable[[Expr], Interval]
 """The interval of a formula."""

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from checker.encode.bits.blast import bits_needed
-from spec_model.lang.expr import Var
+from rovercheck.checker.encode.bits.blast import bits_needed
+from rovercheck.spec_model.lang.expr import Var
 
 Part = Mapping[str, Var]
 """The variables that a goal depends on, by name."""

@@ -12,14 +12,14 @@ from itertools import combinations
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.encode.cone import Slice
-from checker.encode.simulate import Column, Columns, Vectorised, column
-from checker.encode.terms import Terms
-from checker.system.intervals import postorder
-from spec_model.lang.domain import Bool, Enum, Num
-from spec_model.lang.expr import Apply, Const, Expr, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.walk import variables
+from rovercheck.checker.encode.cone import Slice
+from rovercheck.checker.encode.simulate import Column, Columns, Vectorised, column
+from rovercheck.checker.encode.terms import Terms
+from rovercheck.checker.system.intervals import postorder
+from rovercheck.spec_model.lang.domain import Bool, Enum, Num
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.walk import variables
 
 _MOST_MEMBERS = 12
 """Members of an enumeration, or values of a number, that are told apart one by one."""

@@ -4,9 +4,9 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Union
 
-from checker.system.slice import names
-from spec_model.lang.action import Assign
-from spec_model.lang.expr import Expr, Var
+from rovercheck.checker.system.slice import names
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.expr import Expr, Var
 
 Names = frozenset[str]
 

@@ -14,7 +14,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import accumulate, pairwise, takewhile
 
-from checker.encode.path_statements import (
+from rovercheck.checker.encode.path_statements import (
     Branch,
     Choose,
     Complete,
@@ -28,15 +28,15 @@ from checker.encode.path_statements import (
     chooses,
     weight,
 )
-from checker.encode.sinking import sunk
-from checker.system.partition import Partition, conjuncts, expressions, partitions
-from checker.system.slice import names
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.domain import Bool, Domain, Num
-from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Named, Var, flag
-from spec_model.lang.operators import Op
-from spec_model.lang.system import Program, TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.checker.encode.sinking import sunk
+from rovercheck.checker.system.partition import Partition, conjuncts, expressions, partitions
+from rovercheck.checker.system.slice import names
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.domain import Bool, Domain, Num
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Named, Var, flag
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import Program, TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 
 Cells = Mapping[str, Partition]
 

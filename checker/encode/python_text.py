@@ -2,8 +2,8 @@
 
 from collections.abc import Callable, Sequence
 
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
 
 _BETWEEN = {
     Op.AND: " and ", Op.OR: " or ", Op.EQ: " == ", Op.NE: " != ", Op.LT: " < ", Op.LE: " <= ",

@@ -12,13 +12,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.encode.cone import Slice
-from checker.results.verdict import Run
-from checker.system.intervals import Interval, intervals, postorder
-from spec_model.lang.domain import Bool, Domain
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.walk import variables
+from rovercheck.checker.encode.cone import Slice
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.intervals import Interval, intervals, postorder
+from rovercheck.spec_model.lang.domain import Bool, Domain
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.walk import variables
 
 Column = NDArray[Any]
 """A value for each of many valuations: truth values of numpy's bool, numbers of int64, or Python's own

@@ -6,10 +6,10 @@ store that valuation first, and then ask of it which goals are reached.
 
 from collections.abc import Iterator
 
-from checker.system.partition import expressions
-from checker.system.slice import Names, live_before, names
-from spec_model.lang.action import Assign, If
-from spec_model.lang.system import Program, Statement
+from rovercheck.checker.system.partition import expressions
+from rovercheck.checker.system.slice import Names, live_before, names
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.system import Program, Statement
 
 
 def sunk(step: Program, stored: Names) -> tuple[Program, Program]:

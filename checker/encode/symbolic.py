@@ -8,14 +8,14 @@ way in is a constant further down.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.encode.facts import Facts
-from checker.encode.terms import Terms, is_apply
-from checker.system.intervals import postorder
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.facts import Facts
+from rovercheck.checker.encode.terms import Terms, is_apply
+from rovercheck.checker.system.intervals import postorder
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 
 class SymbolicStore(dict[str, Expr]):

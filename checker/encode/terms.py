@@ -9,12 +9,12 @@ Simplification relies on variables being within the hulls of their domains.
 from collections.abc import Sequence
 from typing import TypeGuard
 
-from checker.encode.facts import Facts
-from checker.system.intervals import Interval, interval, transfer
-from spec_model.lang.domain import Bool, Sort
-from spec_model.lang.evaluate import operate
-from spec_model.lang.expr import Apply, Const, Expr, Var
-from spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.checker.encode.facts import Facts
+from rovercheck.checker.system.intervals import Interval, interval, transfer
+from rovercheck.spec_model.lang.domain import Bool, Sort
+from rovercheck.spec_model.lang.evaluate import operate
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 
 _FLAT = 8  # longer conjunctions are not copied into larger ones: chains would grow quadratically
 

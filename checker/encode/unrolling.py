@@ -10,12 +10,12 @@ from collections.abc import Mapping, Sequence
 
 import z3
 
-from checker.encode.bitvector import Encoder, Term, member, symbol, value, width
-from checker.encode.bitvector import literal as constant
-from checker.encode.cone import Slice
-from checker.results.verdict import Run
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.bitvector import Encoder, Term, member, symbol, value, width
+from rovercheck.checker.encode.bitvector import literal as constant
+from rovercheck.checker.encode.cone import Slice
+from rovercheck.checker.results.verdict import Run
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 
 class Unrolling:

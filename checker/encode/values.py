@@ -8,13 +8,13 @@ from collections.abc import Iterable, Mapping, MutableMapping, Sequence
 from itertools import count, product
 from math import prod
 
-from checker.system.intervals import Interval, postorder, transfer
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.domain import Domain
-from spec_model.lang.evaluate import operate
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.system.intervals import Interval, postorder, transfer
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.domain import Domain
+from rovercheck.spec_model.lang.evaluate import operate
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 Values = frozenset[int] | Interval
 """Every value there is, or two between which all are."""

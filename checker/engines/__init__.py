@@ -15,14 +15,14 @@ from time import monotonic
 from typing import TYPE_CHECKING, Protocol, runtime_checkable
 
 if TYPE_CHECKING:  # the command line reads this module for its options
-    from checker.results.verdict import Answer
-    from spec_model.lang.expr import Expr, Var
-    from spec_model.lang.system import TransitionSystem
+    from rovercheck.checker.results.verdict import Answer
+    from rovercheck.spec_model.lang.expr import Expr, Var
+    from rovercheck.spec_model.lang.system import TransitionSystem
 
 ALL, AUTO = "all", "auto"
 """What may be written instead of the name of an engine: every engine, or engines in turn."""
 
-LOADED = ("checker.verify.decide", "checker.engines.explicit.answers")
+LOADED = ("rovercheck.checker.verify.decide", "rovercheck.checker.engines.explicit.answers")
 """The modules of nearly every search: a process loads them while the command reads its model."""
 
 

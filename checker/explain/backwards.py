@@ -9,17 +9,17 @@ so many runs of a few.
 from collections.abc import Mapping, Sequence
 from functools import cache
 
-from checker.encode.bits import Bit, Circuit
-from checker.encode.bits.inputs import InputCut
-from checker.encode.bits.order import orders
-from checker.engines import Progress
-from checker.engines.bdd.relation import relation
-from checker.engines.bdd.space import DDMemoryError, Function, NodeStore, Overdrawn, Space, meets
-from checker.explain.unrolled import Over, Place, never
-from checker.explain.widening import widest
-from checker.results.verdict import Run
-from checker.system.partition import Partition
-from checker.verify.runs.replay import ReplayError
+from rovercheck.checker.encode.bits import Bit, Circuit
+from rovercheck.checker.encode.bits.inputs import InputCut
+from rovercheck.checker.encode.bits.order import orders
+from rovercheck.checker.engines import Progress
+from rovercheck.checker.engines.bdd.relation import relation
+from rovercheck.checker.engines.bdd.space import DDMemoryError, Function, NodeStore, Overdrawn, Space, meets
+from rovercheck.checker.explain.unrolled import Over, Place, never
+from rovercheck.checker.explain.widening import widest
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.partition import Partition
+from rovercheck.checker.verify.runs.replay import ReplayError
 
 NODES = 1 << 22
 """Nodes of decision diagrams at a time."""

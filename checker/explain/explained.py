@@ -4,20 +4,20 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from random import Random
 
-from checker.engines import Progress, quiet
-from checker.explain.needed import Forcing, forcing
-from checker.explain.unrolled import Over, never
-from checker.results.trace import Trace
-from checker.results.verdict import Run
-from checker.system.lowered import lowered
-from checker.system.partition import partitions
-from checker.system.slice import sliced
-from checker.verify.runs.replay import ReplayError, followed
-from properties.forms import Property
-from properties.reduce import reduce
-from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.expr import Var
-from spec_model.lang.system import System, TransitionSystem
+from rovercheck.checker.engines import Progress, quiet
+from rovercheck.checker.explain.needed import Forcing, forcing
+from rovercheck.checker.explain.unrolled import Over, never
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.partition import partitions
+from rovercheck.checker.system.slice import sliced
+from rovercheck.checker.verify.runs.replay import ReplayError, followed
+from rovercheck.properties.forms import Property
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.evaluate import admissible, step
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 # --- are the needed inputs enough?  Runs with these inputs and any others are replayed, and must end alike
 

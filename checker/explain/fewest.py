@@ -14,11 +14,11 @@ from itertools import islice
 from pysat.card import ITotalizer
 from pysat.solvers import Minisat22
 
-from checker.encode.bits import Circuit
-from checker.encode.bits.simulate import BitSimulation, Values
-from checker.explain.unrolled import CONFLICTS, LANES, Over, Place, Unrolled
-from checker.results.verdict import Run
-from checker.system.partition import Partition
+from rovercheck.checker.encode.bits import Circuit
+from rovercheck.checker.encode.bits.simulate import BitSimulation, Values
+from rovercheck.checker.explain.unrolled import CONFLICTS, LANES, Over, Place, Unrolled
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.partition import Partition
 
 ROUNDS = 256
 """Correction sets after which a smaller set is no longer looked for."""

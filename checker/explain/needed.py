@@ -11,19 +11,19 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 
-from checker.encode.bits import Circuit, circuit
-from checker.engines import Progress, quiet
-from checker.explain.backwards import ExplanationTooLarge, backwards
-from checker.explain.fewest import fewest, indispensable, simulated
-from checker.explain.unrolled import Over, Place, Unrolled, never
-from checker.explain.widening import widened
-from checker.results.trace import Needed
-from checker.results.verdict import Run
-from checker.system.partition import Partition, partitions
-from checker.system.slice import sliced
-from checker.verify.runs.replay import ReplayError
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.bits import Circuit, circuit
+from rovercheck.checker.engines import Progress, quiet
+from rovercheck.checker.explain.backwards import ExplanationTooLarge, backwards
+from rovercheck.checker.explain.fewest import fewest, indispensable, simulated
+from rovercheck.checker.explain.unrolled import Over, Place, Unrolled, never
+from rovercheck.checker.explain.widening import widened
+from rovercheck.checker.results.trace import Needed
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.partition import Partition, partitions
+from rovercheck.checker.system.slice import sliced
+from rovercheck.checker.verify.runs.replay import ReplayError
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 FAR = (1, -1, 1 << 30, -(1 << 30))
 """By how many cells inputs are changed in a simulation: to the next value that matters, to the last one."""

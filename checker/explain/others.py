@@ -8,26 +8,26 @@ like anything else.
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from checker.engines import Limits, Progress, quiet
-from checker.process.isolate import Send, Stopped, messages
-from checker.results.trace import Trace, counted_ticks
-from checker.results.verdict import Answer, Open, Reached, Run, Unreachable
-from checker.system.instrument.goals import CoverGoal, GoalKind, Watched
-from checker.system.instrument.watch import watched
-from checker.system.lowered import lowered
-from checker.verify.decide import EngineCall
-from checker.verify.portfolio import Callbacks, Hint
-from checker.verify.portfolio.question import light
-from checker.verify.result import check_domains
-from checker.verify.runs.calm import calmed
-from checker.verify.runs.replay import followed, replay
-from checker.verify.searches import SLACK
-from properties.forms import Property
-from properties.reduce import Question, reduce
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import boolean
-from spec_model.lang.expr import Expr, Var, all_of, any_of
-from spec_model.lang.system import System, TransitionSystem
+from rovercheck.checker.engines import Limits, Progress, quiet
+from rovercheck.checker.process.isolate import Send, Stopped, messages
+from rovercheck.checker.results.trace import Trace, counted_ticks
+from rovercheck.checker.results.verdict import Answer, Open, Reached, Run, Unreachable
+from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind, Watched
+from rovercheck.checker.system.instrument.watch import watched
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.decide import EngineCall
+from rovercheck.checker.verify.portfolio import Callbacks, Hint
+from rovercheck.checker.verify.portfolio.question import light
+from rovercheck.checker.verify.result import check_domains
+from rovercheck.checker.verify.runs.calm import calmed
+from rovercheck.checker.verify.runs.replay import followed, replay
+from rovercheck.checker.verify.searches import SLACK
+from rovercheck.properties.forms import Property
+from rovercheck.properties.reduce import Question, reduce
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import boolean
+from rovercheck.spec_model.lang.expr import Expr, Var, all_of, any_of
+from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 MOST = 4
 """Arrows that are named to tell two runs apart."""

@@ -8,19 +8,19 @@ they are.
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import replace
 
-from checker.engines import Limits, Progress, quiet
-from checker.explain.others import NoMore, answered
-from checker.results.trace import Trace
-from checker.results.verdict import Open, Reached, Unreachable
-from checker.system.lowered import lowered
-from checker.verify.runs.calm import calmed
-from checker.verify.runs.replay import replay
-from properties.forms import Property
-from properties.reduce import Question, reduce
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import Num, boolean
-from spec_model.lang.expr import TRUE, Const, Expr, Var, all_of, any_of
-from spec_model.lang.system import System
+from rovercheck.checker.engines import Limits, Progress, quiet
+from rovercheck.checker.explain.others import NoMore, answered
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Open, Reached, Unreachable
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.runs.calm import calmed
+from rovercheck.checker.verify.runs.replay import replay
+from rovercheck.properties.forms import Property
+from rovercheck.properties.reduce import Question, reduce
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import Num, boolean
+from rovercheck.spec_model.lang.expr import TRUE, Const, Expr, Var, all_of, any_of
+from rovercheck.spec_model.lang.system import System
 
 
 class Unlike:

@@ -11,9 +11,9 @@ from functools import cached_property
 
 from pysat.solvers import Minisat22
 
-from checker.encode.bits import FALSE, TRUE, Aig, Circuit, Literal
-from checker.encode.bits.cnf import Cnf
-from checker.results.verdict import Run
+from rovercheck.checker.encode.bits import FALSE, TRUE, Aig, Circuit, Literal
+from rovercheck.checker.encode.bits.cnf import Cnf
+from rovercheck.checker.results.verdict import Run
 
 CONFLICTS = 20_000
 """What the solver may spend on one question; counted, so that the answer is the same on every machine."""

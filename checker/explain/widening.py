@@ -7,9 +7,9 @@ cases, to any other of these.
 
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping, Sequence
 
-from checker.explain.unrolled import Over, Place, Unrolled
-from checker.system.partition import Partition
-from spec_model.lang.domain import Num
+from rovercheck.checker.explain.unrolled import Over, Place, Unrolled
+from rovercheck.checker.system.partition import Partition
+from rovercheck.spec_model.lang.domain import Num
 
 FEW = 24
 """Cells of an input that are tried one by one."""

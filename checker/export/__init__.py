@@ -9,7 +9,7 @@ import importlib
 import pkgutil
 from typing import Any, Protocol
 
-from checker.export.problem import Bad, Problem, problem
+from rovercheck.checker.export.problem import Bad, Problem, problem
 
 
 class Exporter(Protocol):

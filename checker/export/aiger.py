@@ -3,8 +3,8 @@
 Armin Biere, Keijo Heljanko, Siert Wieringa: AIGER 1.9 and Beyond, 2011.
 """
 
-from checker.export.netlist import netlist
-from checker.export.problem import Problem
+from rovercheck.checker.export.netlist import netlist
+from rovercheck.checker.export.problem import Problem
 
 NAME = "aiger"
 SUFFIX = "aig"

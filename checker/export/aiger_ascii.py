@@ -1,7 +1,7 @@
 """The ASCII AIGER 1.9 format, which people can read: see the binary one for what it holds."""
 
-from checker.export.netlist import netlist
-from checker.export.problem import Problem
+from rovercheck.checker.export.netlist import netlist
+from rovercheck.checker.export.problem import Problem
 
 NAME = "aag"
 SUFFIX = "aag"

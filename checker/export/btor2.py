@@ -6,13 +6,13 @@ Aina Niemetz, Mathias Preiner, Clifford Wolf, Armin Biere: BTOR2, BtorMC and Boo
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.export.machine import ExportMachine, machine, meaning
-from checker.export.names import one_line, symbols
-from checker.export.problem import Problem
-from checker.system.intervals import Interval, interval, postorder
-from spec_model.lang.domain import Bool, Sort
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
+from rovercheck.checker.export.machine import ExportMachine, machine, meaning
+from rovercheck.checker.export.names import one_line, symbols
+from rovercheck.checker.export.problem import Problem
+from rovercheck.checker.system.intervals import Interval, interval, postorder
+from rovercheck.spec_model.lang.domain import Bool, Sort
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
 
 NAME = "btor2"
 SUFFIX = "btor2"

@@ -6,11 +6,11 @@ enough to choose machine types.
 
 from dataclasses import dataclass
 
-from checker.system.intervals import Interval, interval, postorder
-from spec_model.lang.domain import Bool
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.system.intervals import Interval, interval, postorder
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 TYPES = (("byte", Interval(0, 255)), ("short", Interval(-(1 << 15), (1 << 15) - 1)))
 INT = Interval(-(1 << 31), (1 << 31) - 1)

@@ -3,12 +3,12 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from checker.encode.cone import Slice, as_written, cone, folded, straying
-from checker.encode.symbolic import SymbolicTransition, transition
-from checker.export.problem import LEAVES, Problem
-from spec_model.lang.domain import Bool, Num
-from spec_model.lang.expr import Expr, Var, flag
-from spec_model.lang.walk import variables
+from rovercheck.checker.encode.cone import Slice, as_written, cone, folded, straying
+from rovercheck.checker.encode.symbolic import SymbolicTransition, transition
+from rovercheck.checker.export.problem import LEAVES, Problem
+from rovercheck.spec_model.lang.domain import Bool, Num
+from rovercheck.spec_model.lang.expr import Expr, Var, flag
+from rovercheck.spec_model.lang.walk import variables
 
 
 @dataclass(frozen=True)

@@ -3,11 +3,11 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from checker.encode.bits import Aig, Bit, Circuit, Latch, Literal
-from checker.encode.bits.model import cut
-from checker.export.machine import demanded
-from checker.export.names import one_line
-from checker.export.problem import Problem
+from rovercheck.checker.encode.bits import Aig, Bit, Circuit, Latch, Literal
+from rovercheck.checker.encode.bits.model import cut
+from rovercheck.checker.export.machine import demanded
+from rovercheck.checker.export.names import one_line
+from rovercheck.checker.export.problem import Problem
 
 Gate = tuple[int, int, int]
 """A conjunction: its literal and those of what it conjoins, the larger one first."""

@@ -4,13 +4,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 
-from checker.export.names import one_line
-from checker.verify.liveness.loops import hunt
-from properties.forms import LeadsTo, Property, Recoverable, Settles
-from properties.reduce import reduce
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.export.names import one_line
+from rovercheck.checker.verify.liveness.loops import hunt
+from rovercheck.properties.forms import LeadsTo, Property, Recoverable, Settles
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 LEAVES = "a variable leaves its domain"
 """The name of the bad state that stands for a model without meaning."""

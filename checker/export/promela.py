@@ -6,15 +6,15 @@ violation is a shortest one.
 
 from collections.abc import Iterator, Sequence
 
-from checker.export.flow import ExportFlow, ExportReach
-from checker.export.machine import meaning
-from checker.export.names import identifiers, one_line
-from checker.export.problem import Problem
-from checker.export.statements import Text
-from checker.system.slice import sliced
-from spec_model.lang.domain import Bool
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.export.flow import ExportFlow, ExportReach
+from rovercheck.checker.export.machine import meaning
+from rovercheck.checker.export.names import identifiers, one_line
+from rovercheck.checker.export.problem import Problem
+from rovercheck.checker.export.statements import Text
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 NAME = "promela"
 SUFFIX = "pml"

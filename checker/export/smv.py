@@ -6,14 +6,14 @@ Roberto Cavada et al.: The nuXmv Symbolic Model Checker, CAV 2014.
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
-from checker.export.machine import ExportMachine, machine, meaning
-from checker.export.names import identifiers, one_line
-from checker.export.problem import Problem
-from checker.system.intervals import intervals, postorder
-from spec_model.lang.domain import Bool
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.walk import children
+from rovercheck.checker.export.machine import ExportMachine, machine, meaning
+from rovercheck.checker.export.names import identifiers, one_line
+from rovercheck.checker.export.problem import Problem
+from rovercheck.checker.system.intervals import intervals, postorder
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.walk import children
 
 NAME = "smv"
 SUFFIX = "smv"

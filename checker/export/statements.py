@@ -3,12 +3,12 @@
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import count
 
-from checker.export.flow import INT, ExportFlow, ExportReach
-from checker.system.intervals import Interval, postorder
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
+from rovercheck.checker.export.flow import INT, ExportFlow, ExportReach
+from rovercheck.checker.system.intervals import Interval, postorder
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
 
 SIGNS = {
     Op.AND: "&&", Op.OR: "||", Op.EQ: "==", Op.NE: "!=", Op.LT: "<", Op.LE: "<=", Op.GT: ">", Op.GE: ">=",

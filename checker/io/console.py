@@ -8,7 +8,7 @@ from rich.segment import Segment
 from rich.style import Style
 from rich.text import Text
 
-from checker.io.printable import printable
+from rovercheck.checker.io.printable import printable
 
 
 class UnmarkedConsole(Console):

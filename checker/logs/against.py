@@ -3,14 +3,14 @@
 from collections.abc import Callable, Mapping
 from functools import cache
 
-from checker.logs.choosing import Choice, choose
-from checker.logs.cones import LogCone, cones
-from checker.logs.signals import Vocabulary
-from properties.catalogue import catalogue, expected
-from properties.forms import Property
-from spec_model.abstraction import Board, boards
-from spec_model.lang.system import System
-from spec_model.rover import systems
+from rovercheck.checker.logs.choosing import Choice, choose
+from rovercheck.checker.logs.cones import LogCone, cones
+from rovercheck.checker.logs.signals import Vocabulary
+from rovercheck.properties.catalogue import catalogue, expected
+from rovercheck.properties.forms import Property
+from rovercheck.spec_model.abstraction import Board, boards
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.rover import systems
 
 
 class Against:

@@ -4,10 +4,10 @@ from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.logs.cells import Raw
-from checker.logs.cones import LogCone
-from checker.logs.program import Known, NeededInputs
-from spec_model.lang.domain import Num
+from rovercheck.checker.logs.cells import Raw
+from rovercheck.checker.logs.cones import LogCone
+from rovercheck.checker.logs.program import Known, NeededInputs
+from rovercheck.spec_model.lang.domain import Num
 
 MOST_VALUATIONS = 512
 """Valuations that are followed at a time."""

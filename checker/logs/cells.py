@@ -4,11 +4,11 @@ from collections.abc import Callable, Mapping, Sequence
 from fractions import Fraction
 from math import isfinite, isnan
 
-from checker.logs.errors import SHORT, LogError, shortened
-from checker.logs.mapping import Column, conversion
-from spec_model.abstraction import BoardSignal
-from spec_model.lang.domain import Bool, Enum, Num, exact
-from spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.checker.logs.errors import SHORT, LogError, shortened
+from rovercheck.checker.logs.mapping import Column, conversion
+from rovercheck.spec_model.abstraction import BoardSignal
+from rovercheck.spec_model.lang.domain import Bool, Enum, Num, exact
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 
 Raw = int | Fraction
 """A raw value, as in the charts; a fraction lies between two values of a domain."""

@@ -6,21 +6,21 @@ from dataclasses import dataclass
 from itertools import permutations
 from pathlib import Path
 
-from checker.logs.against import Against, as_drawn
-from checker.logs.belief import differs
-from checker.logs.cells import Raw
-from checker.logs.choosing import Choice
-from checker.logs.cones import LogCone
-from checker.logs.deviations import Deviation, Grouping, always_late, swapped
-from checker.logs.invalid import Invalid
-from checker.logs.log import Cells, Log, LogBlock, LogLayout, open_log
-from checker.logs.mapping import ColumnMap
-from checker.logs.mismatch import LogMismatch
-from checker.logs.monitors import LogMonitors, Verdict
-from checker.logs.sight import Eyes
-from checker.logs.tracker import TrackedRow, Tracker, UndecidedRow
-from properties.forms import Reachable
-from spec_model.lang.system import TICK_MS
+from rovercheck.checker.logs.against import Against, as_drawn
+from rovercheck.checker.logs.belief import differs
+from rovercheck.checker.logs.cells import Raw
+from rovercheck.checker.logs.choosing import Choice
+from rovercheck.checker.logs.cones import LogCone
+from rovercheck.checker.logs.deviations import Deviation, Grouping, always_late, swapped
+from rovercheck.checker.logs.invalid import Invalid
+from rovercheck.checker.logs.log import Cells, Log, LogBlock, LogLayout, open_log
+from rovercheck.checker.logs.mapping import ColumnMap
+from rovercheck.checker.logs.mismatch import LogMismatch
+from rovercheck.checker.logs.monitors import LogMonitors, Verdict
+from rovercheck.checker.logs.sight import Eyes
+from rovercheck.checker.logs.tracker import TrackedRow, Tracker, UndecidedRow
+from rovercheck.properties.forms import Reachable
+from rovercheck.spec_model.lang.system import TICK_MS
 
 # --- is a log a run of the charts?  Every part of the board is followed; what differs is grouped by cause
 

@@ -4,15 +4,15 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from checker.logs.cones import parts_of
-from checker.logs.judge import finite
-from checker.logs.signals import Vocabulary
-from properties.forms import Property, formulas
-from spec_model.lang.action import Action, Assign
-from spec_model.lang.chart import Block, Chart, Component, Enabled
-from spec_model.lang.expr import Const, Expr
-from spec_model.lang.system import TICK_MS, System
-from spec_model.lang.walk import structure, variables
+from rovercheck.checker.logs.cones import parts_of
+from rovercheck.checker.logs.judge import finite
+from rovercheck.checker.logs.signals import Vocabulary
+from rovercheck.properties.forms import Property, formulas
+from rovercheck.spec_model.lang.action import Action, Assign
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
+from rovercheck.spec_model.lang.expr import Const, Expr
+from rovercheck.spec_model.lang.system import TICK_MS, System
+from rovercheck.spec_model.lang.walk import structure, variables
 
 
 @dataclass(frozen=True)

@@ -9,16 +9,16 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from checker.logs.program import Shown, Step, compiled
-from checker.system.partition import expressions, partition
-from checker.system.slice import sliced
-from spec_model.abstraction import Board, Output
-from spec_model.lang.chart import Block, Chart, Component, Enabled
-from spec_model.lang.domain import Bool, Num
-from spec_model.lang.expr import Apply, Const, Expr, Var
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System, TransitionSystem
-from spec_model.lang.walk import children, variables
+from rovercheck.checker.logs.program import Shown, Step, compiled
+from rovercheck.checker.system.partition import expressions, partition
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.abstraction import Board, Output
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
+from rovercheck.spec_model.lang.domain import Bool, Num
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System, TransitionSystem
+from rovercheck.spec_model.lang.walk import children, variables
 
 MOST_VALUES = 300
 """Values of one variable that are tried where it is not known."""

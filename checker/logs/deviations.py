@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from checker.logs.mismatch import LogDifference, LogMismatch
+from rovercheck.checker.logs.mismatch import LogDifference, LogMismatch
 
 Key = tuple[object, ...]
 

@@ -13,10 +13,17 @@ from itertools import chain, islice
 from pathlib import Path
 from typing import Any
 
-from checker.io.files import csv_plain
-from checker.logs.errors import LogError, at, shortened
-from checker.logs.limits import MOST_COLUMNS, MOST_GROUP, MOST_TEXT, BoundedReader, Guarded, LimitError
-from checker.logs.mapping import ColumnMap
+from rovercheck.checker.io.files import csv_plain
+from rovercheck.checker.logs.errors import LogError, at, shortened
+from rovercheck.checker.logs.limits import (
+    MOST_COLUMNS,
+    MOST_GROUP,
+    MOST_TEXT,
+    BoundedReader,
+    Guarded,
+    LimitError,
+)
+from rovercheck.checker.logs.mapping import ColumnMap
 
 SEPARATORS = ",;\t|"
 BLOCK = 1024

@@ -7,12 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from spec_model.lang.domain import Bool
-from spec_model.lang.evaluate import operate as on_values
-from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
-from spec_model.lang.operators import COMPARISONS, Op
-from spec_model.lang.system import TICK_MS
-from spec_model.lang.walk import nodes, variables
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.evaluate import operate as on_values
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.spec_model.lang.system import TICK_MS
+from rovercheck.spec_model.lang.walk import nodes, variables
 
 Array = NDArray[Any]
 """A value for each row: booleans, or raw numbers."""

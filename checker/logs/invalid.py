@@ -4,8 +4,8 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
-from checker.io.printable import one_line
-from checker.logs.errors import shortened
+from rovercheck.checker.io.printable import one_line
+from rovercheck.checker.logs.errors import shortened
 
 MOST_VALUES = 20
 """Different values of a column that are told each on its own; cells with others are only counted."""

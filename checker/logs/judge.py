@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from checker.logs.formula import Array, FormulaRows, Past, run_lengths, shifted
-from properties.forms import (
+from rovercheck.checker.logs.formula import Array, FormulaRows, Past, run_lengths, shifted
+from rovercheck.properties.forms import (
     Always,
     EntersOnlyIf,
     HoldsAfter,
@@ -21,10 +21,10 @@ from properties.forms import (
     Until,
     formulas,
 )
-from spec_model.lang.expr import Apply, Expr
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TICK_MS
-from spec_model.lang.walk import plain
+from rovercheck.spec_model.lang.expr import Apply, Expr
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TICK_MS
+from rovercheck.spec_model.lang.walk import plain
 
 Truth = Callable[[Expr], Array]
 

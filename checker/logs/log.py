@@ -5,17 +5,17 @@ from dataclasses import dataclass, field, replace
 from itertools import compress, islice
 from pathlib import Path
 
-from checker.io.printable import one_line
-from checker.logs.cells import Convert, Raw, converter
-from checker.logs.errors import LogError, at, shortened
-from checker.logs.files import FileRows, opened
-from checker.logs.invalid import Invalid, InvalidCell
-from checker.logs.mapping import Column, ColumnMap
-from checker.logs.signals import TIME, Vocabulary
-from spec_model.abstraction import BoardSignal, boards
-from spec_model.lang.domain import boolean
-from spec_model.lang.errors import did_you_mean
-from spec_model.lang.system import TICK_MS
+from rovercheck.checker.io.printable import one_line
+from rovercheck.checker.logs.cells import Convert, Raw, converter
+from rovercheck.checker.logs.errors import LogError, at, shortened
+from rovercheck.checker.logs.files import FileRows, opened
+from rovercheck.checker.logs.invalid import Invalid, InvalidCell
+from rovercheck.checker.logs.mapping import Column, ColumnMap
+from rovercheck.checker.logs.signals import TIME, Vocabulary
+from rovercheck.spec_model.abstraction import BoardSignal, boards
+from rovercheck.spec_model.lang.domain import boolean
+from rovercheck.spec_model.lang.errors import did_you_mean
+from rovercheck.spec_model.lang.system import TICK_MS
 
 TIMES = ("time_ms", "time", "t", "timestamp", "timestamp_ms")
 """Columns that hold the time of the step where none is named ``now_ms``."""

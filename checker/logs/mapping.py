@@ -7,10 +7,10 @@ from math import isnan
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
-from checker.io.printable import one_line
-from checker.io.toml_lines import line_of
-from checker.logs.errors import LogError, shortened
-from spec_model.lang.errors import did_you_mean
+from rovercheck.checker.io.printable import one_line
+from rovercheck.checker.io.toml_lines import line_of
+from rovercheck.checker.logs.errors import LogError, shortened
+from rovercheck.spec_model.lang.errors import did_you_mean
 
 TO_UNIT: Mapping[tuple[str, str], tuple[float, float]] = {
     ("s", "ms"): (1000, 0), ("us", "ms"): (0.001, 0), ("ns", "ms"): (0.000001, 0),

@@ -3,14 +3,14 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.logs.belief import BeliefOutcome
-from checker.logs.cells import Raw
-from checker.logs.cones import LogCone
-from checker.logs.program import Known
-from spec_model.abstraction import Output
-from spec_model.lang.chart import Chart
-from spec_model.lang.domain import Domain, Num
-from spec_model.lang.label import text
+from rovercheck.checker.logs.belief import BeliefOutcome
+from rovercheck.checker.logs.cells import Raw
+from rovercheck.checker.logs.cones import LogCone
+from rovercheck.checker.logs.program import Known
+from rovercheck.spec_model.abstraction import Output
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.domain import Domain, Num
+from rovercheck.spec_model.lang.label import text
 
 MOST_EXPECTED = 8
 

@@ -6,14 +6,14 @@ from fractions import Fraction
 
 import numpy as np
 
-from checker.logs.choosing import Choice, Chosen, Wires
-from checker.logs.cones import measured
-from checker.logs.formula import Array, FormulaRows
-from checker.logs.judge import Judge
-from checker.logs.log import Cells, LogBlock
-from checker.logs.mismatch import shown
-from checker.logs.signals import Vocabulary
-from properties.forms import (
+from rovercheck.checker.logs.choosing import Choice, Chosen, Wires
+from rovercheck.checker.logs.cones import measured
+from rovercheck.checker.logs.formula import Array, FormulaRows
+from rovercheck.checker.logs.judge import Judge
+from rovercheck.checker.logs.log import Cells, LogBlock
+from rovercheck.checker.logs.mismatch import shown
+from rovercheck.checker.logs.signals import Vocabulary
+from rovercheck.properties.forms import (
     Always,
     EntersOnlyIf,
     Form,
@@ -27,10 +27,10 @@ from properties.forms import (
     Responds,
     Until,
 )
-from spec_model.lang.expr import FALSE, Apply, Expr, Var
-from spec_model.lang.label import text
-from spec_model.lang.operators import Op
-from spec_model.lang.walk import plain, variables
+from rovercheck.spec_model.lang.expr import FALSE, Apply, Expr, Var
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.walk import plain, variables
 
 
 @dataclass(frozen=True)

@@ -4,11 +4,11 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import cast
 
-from checker.encode.python_text import text_of
-from checker.logs.cells import Raw
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.expr import Expr, Named, Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.python_text import text_of
+from rovercheck.checker.logs.cells import Raw
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.expr import Expr, Named, Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 Known = tuple[Raw | None, ...]
 """Values in the order of the variables; ``None``: any value."""

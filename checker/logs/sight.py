@@ -3,12 +3,12 @@
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 
-from checker.logs.cells import Raw
-from checker.logs.log import Cells, LogBlock
-from checker.logs.signals import TIME, Sight, Vocabulary
-from spec_model.abstraction.board1 import MEAN_MS
-from spec_model.abstraction.stamps import CLOCK, MeanOfTen
-from spec_model.lang.system import TICK_MS
+from rovercheck.checker.logs.cells import Raw
+from rovercheck.checker.logs.log import Cells, LogBlock
+from rovercheck.checker.logs.signals import TIME, Sight, Vocabulary
+from rovercheck.spec_model.abstraction.board1 import MEAN_MS
+from rovercheck.spec_model.abstraction.stamps import CLOCK, MeanOfTen
+from rovercheck.spec_model.lang.system import TICK_MS
 
 See = Callable[[LogBlock], Cells]
 

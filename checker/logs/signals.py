@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
 
-from spec_model.abstraction import Board, BoardSignal, board1, board2, gaps
-from spec_model.lang.expr import Var
+from rovercheck.spec_model.abstraction import Board, BoardSignal, board1, board2, gaps
+from rovercheck.spec_model.lang.expr import Var
 
 TIME = "now_ms"
 """The time stamp of the step itself."""

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 from itertools import product
 from math import prod
 
-from checker.logs.belief import FIRST_RUNS, MORE_RUNS, BeliefOutcome, Follower, TooMany
-from checker.logs.cells import Raw
-from checker.logs.cones import LogCone
-from checker.logs.mismatch import LogMismatch, differences, moves, shown
-from checker.logs.program import Known
+from rovercheck.checker.logs.belief import FIRST_RUNS, MORE_RUNS, BeliefOutcome, Follower, TooMany
+from rovercheck.checker.logs.cells import Raw
+from rovercheck.checker.logs.cones import LogCone
+from rovercheck.checker.logs.mismatch import LogMismatch, differences, moves, shown
+from rovercheck.checker.logs.program import Known
 
 MOST_LOST = 20
 """How often the valuations may become too many before the part is given up."""

@@ -9,13 +9,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from shlex import quote
 
-from properties.catalogue import Expected
-from properties.forms import Property
-from properties.requirements import Requirement
-from spec_model.lang.chart import Chart
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import System
-from spec_model.rover import charts_of
+from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.forms import Property
+from rovercheck.properties.requirements import Requirement
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.rover import charts_of
 
 EXAMPLE = "`rovercheck init FOLDER` writes an example."
 
@@ -58,7 +58,7 @@ class Model:
     def stated(self) -> Mapping[str, Property]:
         """The properties, of which there is one at least.  Raises ``ModelError`` if there is none."""
         if not self.properties:
-            forms = "Write one with a form of properties.forms"
+            forms = "Write one with a form of rovercheck, such as always(...)"
             raise ModelError(f"{self.name} holds no property: there is nothing to check. {forms}; {EXAMPLE}")
         return self.properties
 

@@ -7,21 +7,21 @@ from pathlib import Path
 from pickle import PicklingError, Unpickler
 from typing import Any
 
-from checker.model import shown
-from checker.model.texts import text_faults
-from checker.process.isolate import pickled
-from checker.system.slice import check_way_back
-from properties.forms import Property, formulas
-from properties.reduce import reduce, without_step
-from spec_model.lang.chart import Chart, parts
-from spec_model.lang.domain import Bool
-from spec_model.lang.errors import ModelError, did_you_mean, with_article
-from spec_model.lang.place import Place
-from spec_model.lang.system import System, enabled_in
-from spec_model.lang.walk import variables
-from spec_model.lang.wellformed import check_system
-from spec_model.lang.wellformed.data import twin_faults
-from spec_model.lang.wellformed.places import arrow_names, name_of
+from rovercheck.checker.model import shown
+from rovercheck.checker.model.texts import text_faults
+from rovercheck.checker.process.isolate import pickled
+from rovercheck.checker.system.slice import check_way_back
+from rovercheck.properties.forms import Property, formulas
+from rovercheck.properties.reduce import reduce, without_step
+from rovercheck.spec_model.lang.chart import Chart, parts
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean, with_article
+from rovercheck.spec_model.lang.place import Place
+from rovercheck.spec_model.lang.system import System, enabled_in
+from rovercheck.spec_model.lang.walk import variables
+from rovercheck.spec_model.lang.wellformed import check_system
+from rovercheck.spec_model.lang.wellformed.data import twin_faults
+from rovercheck.spec_model.lang.wellformed.places import arrow_names, name_of
 
 
 def system_faults(system: System, place: str) -> Iterator[str]:
@@ -160,5 +160,5 @@ def check_portable(model: object, package: str, path: Path) -> None:
         return
     raise ModelError(
         f"{shown(path)}: the model cannot be sent to the processes that search it: {why}. "
-        "Build charts and properties from plain texts, numbers and the words of spec_model.lang only."
+        "Build charts and properties from plain texts, numbers and the words of rovercheck only."
     )

@@ -7,10 +7,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from types import ModuleType
 
-from checker.model import shown
-from checker.model.neighbours import Neighbours
-from spec_model.lang.errors import ModelError
-from spec_model.lang.place import Place
+from rovercheck.checker.model import shown
+from rovercheck.checker.model.neighbours import Neighbours
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.place import Place
 
 _FORMULA = re.compile(r"'(Var|Const|Apply|Named|Temporal)' object is not iterable")
 TESTS = ("test_*.py", "*_test.py", "conftest.py")
@@ -80,10 +80,12 @@ def _within(filename: str, folder: Path) -> bool:
 
 
 def _hint(error: BaseException, neighbours: Neighbours) -> str:
-    """For a formula taken for a list, and an import that finds an installed package, not a neighbour."""
+    """For a formula taken for a list, an import of what has moved or of an installed package's name."""
     if isinstance(error, TypeError) and _FORMULA.fullmatch(str(error)):
         return " A formula is no list; join conditions with & and |, or with all_of(...) and any_of(...)."
     name = (getattr(error, "name", None) or "").partition(".")[0]
+    if isinstance(error, ModuleNotFoundError) and name in ("spec_model", "properties"):
+        return " What a model needs is imported from one place: write `from rovercheck import ...`."
     if isinstance(error, ImportError) and name in neighbours.hidden():
         return (
             f" An installed package is named {name} too: write `from .{name} import ...`, or rename the file."

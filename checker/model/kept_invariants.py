@@ -8,10 +8,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from checker.model import Model
-from checker.model.kept_runs import INVARIANTS, ROVER, contents, file_of, lines
-from checker.results.verdict import Inductive
-from checker.system.formula_json import Tree, size, written
+from rovercheck.checker.model import Model
+from rovercheck.checker.model.kept_runs import INVARIANTS, ROVER, contents, file_of, lines
+from rovercheck.checker.results.verdict import Inductive
+from rovercheck.checker.system.formula_json import Tree, size, written
 
 Recorded = Mapping[str, tuple[Tree, ...]]
 """By the id of a property the conjuncts of its proof, as ``checker.system.formula_json`` writes formulas."""

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
-from checker.model import Model, shown
-from checker.model.records import baseline_of
-from checker.results.verdict import Run
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.model import Model, shown
+from rovercheck.checker.model.records import baseline_of
+from rovercheck.checker.results.verdict import Run
+from rovercheck.spec_model.lang.errors import ModelError
 
 T = TypeVar("T")
 SCHEMA = "rovercheck/{}/1"

@@ -11,15 +11,15 @@ from functools import cache
 from types import UnionType
 from typing import Any, Union, get_args, get_origin, get_type_hints
 
-from properties.forms import Form, Property
-from spec_model.lang.action import Action
-from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, State, Transition
-from spec_model.lang.domain import Domain
-from spec_model.lang.errors import brief, with_article
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.place import Place
-from spec_model.lang.system import Assumption, System
-from spec_model.lang.time import Span
+from rovercheck.properties.forms import Form, Property
+from rovercheck.spec_model.lang.action import Action
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, State, Transition
+from rovercheck.spec_model.lang.domain import Domain
+from rovercheck.spec_model.lang.errors import brief, with_article
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.place import Place
+from rovercheck.spec_model.lang.system import Assumption, System
+from rovercheck.spec_model.lang.time import Span
 
 PLAIN: Mapping[type, Mapping[str, Any]] = {
     Chart: {"name": str, "text": str, "local_to": tuple[tuple[Var, tuple[str, ...]], ...], "root": State},
@@ -45,7 +45,7 @@ WORDS: Mapping[Any, str] = {
     Component: "a chart, a block or an enabled subsystem",
     Assumption: "an assumption, Assumption(...)",
     Domain: "a domain, such as integer(0, 100)",
-    Form: "a form of properties.forms",
+    Form: "a form of rovercheck, such as always(...)",
 }
 
 

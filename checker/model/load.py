@@ -6,8 +6,8 @@ from dataclasses import replace
 from pathlib import Path
 from types import ModuleType
 
-from checker.model import EXAMPLE, Model, shown
-from checker.model.checks import (
+from rovercheck.checker.model import EXAMPLE, Model, shown
+from rovercheck.checker.model.checks import (
     check_portable,
     concrete_faults,
     monitor_faults,
@@ -15,15 +15,15 @@ from checker.model.checks import (
     property_faults,
     system_faults,
 )
-from checker.model.execute import files_of, modules_of
-from checker.model.kinds import kind_faults
-from checker.model.records import REGISTER, recorded, register
-from checker.model.texts import one_line, text_faults
-from properties.forms import Property
-from properties.requirements import Requirement
-from spec_model.lang.chart import Chart
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import System, in_order
+from rovercheck.checker.model.execute import files_of, modules_of
+from rovercheck.checker.model.kinds import kind_faults
+from rovercheck.checker.model.records import REGISTER, recorded, register
+from rovercheck.checker.model.texts import one_line, text_faults
+from rovercheck.properties.forms import Property
+from rovercheck.properties.requirements import Requirement
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System, in_order
 
 
 def load(path: Path) -> Model:

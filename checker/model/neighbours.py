@@ -17,9 +17,9 @@ from itertools import count
 from pathlib import Path
 from types import CodeType, ModuleType
 
-from checker.io.printable import PrintableStream
+from rovercheck.checker.io.printable import PrintableStream
 
-OURS = frozenset({"checker", "properties", "spec_model", "supervisor"})
+_TAKEN = (*sys.stdlib_module_names, "rovercheck", "__main__")
 _numbers = count(1)
 
 
@@ -129,7 +129,7 @@ def _no_results() -> Iterator[None]:
 
 def installed(name: str) -> bool:
     """Whether a plain name belongs to Python, to rovercheck or to an installed package."""
-    if name in sys.stdlib_module_names or name in OURS or name == "__main__":
+    if name in _TAKEN:
         return True
     places = [*site.getsitepackages(), site.getusersitepackages()]
     return PathFinder.find_spec(name, places) is not None

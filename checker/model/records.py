@@ -8,13 +8,13 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from checker.io.toml_lines import line_of
-from checker.model import shown
-from properties.catalogue import Expected, on_record
-from properties.forms import Property
-from properties.requirements import Requirement
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.place import Place
+from rovercheck.checker.io.toml_lines import line_of
+from rovercheck.checker.model import shown
+from rovercheck.properties.catalogue import Expected, on_record
+from rovercheck.properties.forms import Property
+from rovercheck.properties.requirements import Requirement
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.place import Place
 
 REGISTER = "REQUIREMENTS"
 _KEYS = tuple(f.name for f in fields(Requirement) if f.name != "id")

@@ -3,10 +3,10 @@
 from collections.abc import Mapping
 from functools import cache
 
-from checker.model import Model
-from properties.catalogue import baseline, under
-from properties.requirements import PROMISES, requirements
-from spec_model.rover import AS_READ, systems
+from rovercheck.checker.model import Model
+from rovercheck.properties.catalogue import baseline, under
+from rovercheck.properties.requirements import PROMISES, requirements
+from rovercheck.spec_model.rover import AS_READ, systems
 
 
 def rover(choices: Mapping[str, str] = AS_READ) -> Model:

@@ -4,11 +4,11 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
 
-from checker.model.kinds import PLAIN
-from properties.forms import Property
-from spec_model.lang.chart import Enabled
-from spec_model.lang.place import Place
-from spec_model.lang.system import System
+from rovercheck.checker.model.kinds import PLAIN
+from rovercheck.properties.forms import Property
+from rovercheck.spec_model.lang.chart import Enabled
+from rovercheck.spec_model.lang.place import Place
+from rovercheck.spec_model.lang.system import System
 
 ID = re.compile(r"\w[\w.:+/-]*")
 PROSE = frozenset({"text", "doc", "notes"})

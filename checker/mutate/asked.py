@@ -3,15 +3,15 @@
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from checker.mutate.product import same
-from checker.mutate.wiring import written_by
-from checker.system.lowered import lowered
-from checker.system.slice import sliced
-from properties.forms import Property
-from properties.reduce import reduce
-from spec_model.lang.action import writes
-from spec_model.lang.chart import parts
-from spec_model.lang.system import System, TransitionSystem
+from rovercheck.checker.mutate.product import same
+from rovercheck.checker.mutate.wiring import written_by
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.slice import sliced
+from rovercheck.properties.forms import Property
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.action import writes
+from rovercheck.spec_model.lang.chart import parts
+from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 
 @dataclass(frozen=True)

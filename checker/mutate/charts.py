@@ -3,15 +3,15 @@
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from checker.mutate.formulas import BESIDE, other, slips
-from spec_model.lang.action import Action, Assign, If, each_action, reads, writes
-from spec_model.lang.chart import Block, Chart, Junction, Path, State, Transition
-from spec_model.lang.domain import Bool
-from spec_model.lang.edit import edit_at
-from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.place import Place
-from spec_model.lang.walk import plain, variables
+from rovercheck.checker.mutate.formulas import BESIDE, other, slips
+from rovercheck.spec_model.lang.action import Action, Assign, If, each_action, reads, writes
+from rovercheck.spec_model.lang.chart import Block, Chart, Junction, Path, State, Transition
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.edit import edit_at
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.place import Place
+from rovercheck.spec_model.lang.walk import plain, variables
 
 # --- slips in lists of actions -------------------------------------------------------------------------
 

@@ -4,10 +4,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from spec_model.lang.domain import Bool, Enum, Num
-from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, When
-from spec_model.lang.operators import COMPARISONS, Op
-from spec_model.lang.time import Span
+from rovercheck.spec_model.lang.domain import Bool, Enum, Num
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, When
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.spec_model.lang.time import Span
 
 BESIDE = {Op.LT: Op.LE, Op.LE: Op.LT, Op.GT: Op.GE, Op.GE: Op.GT, Op.EQ: Op.NE, Op.NE: Op.EQ}
 """The comparison that is written for another by mistake."""

@@ -5,24 +5,24 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from time import monotonic
 
-from checker.engines import AUTO, Limits, Progress
-from checker.mutate.observing import MutantDifference, difference, observable
-from checker.mutate.product import Product, at_the_fault, described, product, same
-from checker.mutate.step_equality import equal_in_every_step
-from checker.results.trace import Trace
-from checker.results.verdict import Open, Proved, Reached, Run, Unknown, Unreachable, Violated
-from checker.system.lowered import lowered
-from checker.verify.decide import decide
-from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
-from checker.verify.portfolio.question import stays
-from checker.verify.result import Result, check_domains
-from checker.verify.runs.domains import LeavesDomain
-from checker.verify.runs.known import confirm, reaching, run_of
-from checker.verify.tasks import Task, tasks
-from properties.forms import Property, Reachable
-from spec_model.lang.errors import ModelError
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System
+from rovercheck.checker.engines import AUTO, Limits, Progress
+from rovercheck.checker.mutate.observing import MutantDifference, difference, observable
+from rovercheck.checker.mutate.product import Product, at_the_fault, described, product, same
+from rovercheck.checker.mutate.step_equality import equal_in_every_step
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Open, Proved, Reached, Run, Unknown, Unreachable, Violated
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.decide import decide
+from rovercheck.checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
+from rovercheck.checker.verify.portfolio.question import stays
+from rovercheck.checker.verify.result import Result, check_domains
+from rovercheck.checker.verify.runs.domains import LeavesDomain
+from rovercheck.checker.verify.runs.known import confirm, reaching, run_of
+from rovercheck.checker.verify.tasks import Task, tasks
+from rovercheck.properties.forms import Property, Reachable
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System
 
 DOMAINS, REFUSED = "(leaves a domain)", "(refused)"
 """Who kills a mutant that no property is needed for: the commands refuse such a model whatever is asked."""

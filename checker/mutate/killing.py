@@ -6,19 +6,19 @@ from dataclasses import dataclass, replace
 from time import monotonic
 from types import MappingProxyType
 
-from checker.engines import AUTO, Limits, quiet
-from checker.mutate.asked import as_it_is, changed
-from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.tries import RandomRuns, spread, tried
-from checker.results.verdict import Run, Violated
-from checker.system.lowered import lowered
-from checker.verify.decide import decide
-from checker.verify.runs.known import reached, run_of
-from checker.verify.tasks import tasks
-from properties.forms import Property, formulas
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import System
-from spec_model.lang.walk import variables
+from rovercheck.checker.engines import AUTO, Limits, quiet
+from rovercheck.checker.mutate.asked import as_it_is, changed
+from rovercheck.checker.mutate.mutants import Mutant, mutants
+from rovercheck.checker.mutate.tries import RandomRuns, spread, tried
+from rovercheck.checker.results.verdict import Run, Violated
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.decide import decide
+from rovercheck.checker.verify.runs.known import reached, run_of
+from rovercheck.checker.verify.tasks import tasks
+from rovercheck.properties.forms import Property, formulas
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.walk import variables
 
 SEARCHES = (
     ("bmc", Limits(depth=6, seconds=2.0)),

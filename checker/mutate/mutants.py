@@ -5,12 +5,12 @@ from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 
-from checker.mutate.charts import block_faults, chart_faults
-from checker.mutate.wiring import Wrong, kept, wiring_faults
-from spec_model.lang.chart import Block, Chart, parts
-from spec_model.lang.edit import in_system
-from spec_model.lang.place import Place
-from spec_model.lang.system import System
+from rovercheck.checker.mutate.charts import block_faults, chart_faults
+from rovercheck.checker.mutate.wiring import Wrong, kept, wiring_faults
+from rovercheck.spec_model.lang.chart import Block, Chart, parts
+from rovercheck.spec_model.lang.edit import in_system
+from rovercheck.spec_model.lang.place import Place
+from rovercheck.spec_model.lang.system import System
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,14 +3,14 @@
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 
-from checker.mutate.product import Product
-from checker.results.trace import Tick
-from checker.results.verdict import Run
-from checker.verify.runs.calm import calmed
-from checker.verify.runs.replay import ReplayError, followed
-from spec_model.lang.chart import Chart, parts
-from spec_model.lang.evaluate import admissible
-from spec_model.lang.system import System, TransitionSystem
+from rovercheck.checker.mutate.product import Product
+from rovercheck.checker.results.trace import Tick
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.verify.runs.calm import calmed
+from rovercheck.checker.verify.runs.replay import ReplayError, followed
+from rovercheck.spec_model.lang.chart import Chart, parts
+from rovercheck.spec_model.lang.evaluate import admissible
+from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 
 @dataclass(frozen=True)
@@ -102,7 +102,7 @@ def _own(system: TransitionSystem, run: Run) -> Run:
 
 
 def _allows(system: TransitionSystem, run: Run) -> bool:
-    from spec_model.lang.evaluate import step
+    from rovercheck.spec_model.lang.evaluate import step
 
     at: Mapping[str, int] = {**system.init, **run.frozen}
     for inputs in run.inputs:

@@ -4,18 +4,18 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from checker.mutate.asked import Cone, as_it_is, concerned, cones
-from checker.mutate.judging import Fate, Judged, MutantCase
-from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.tries import ROUNDS, RandomRuns, tried
-from checker.results.verdict import Proved, Run, Unknown
-from checker.verify.result import Result
-from checker.verify.runs.known import run_of
-from checker.verify.tasks import Task
-from properties.forms import Property, formulas
-from spec_model.lang.chart import parts
-from spec_model.lang.system import System
-from spec_model.lang.walk import variables
+from rovercheck.checker.mutate.asked import Cone, as_it_is, concerned, cones
+from rovercheck.checker.mutate.judging import Fate, Judged, MutantCase
+from rovercheck.checker.mutate.mutants import Mutant, mutants
+from rovercheck.checker.mutate.tries import ROUNDS, RandomRuns, tried
+from rovercheck.checker.results.verdict import Proved, Run, Unknown
+from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.runs.known import run_of
+from rovercheck.checker.verify.tasks import Task
+from rovercheck.properties.forms import Property, formulas
+from rovercheck.spec_model.lang.chart import parts
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.walk import variables
 
 PROVERS = ("kinduction", "pdr")
 """Engines that also look for short runs as they look for a proof: what they proved of the original, they are

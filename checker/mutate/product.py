@@ -7,13 +7,13 @@ allowed for one system only.  A smaller question comes before it: does the fault
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from checker.system.slice import names
-from spec_model.lang.action import Action, Assign, If, each_action, writes
-from spec_model.lang.domain import Bool, boolean
-from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, any_of
-from spec_model.lang.operators import Op
-from spec_model.lang.system import Program, Statement, TransitionSystem
-from spec_model.lang.walk import structure
+from rovercheck.checker.system.slice import names
+from rovercheck.spec_model.lang.action import Action, Assign, If, each_action, writes
+from rovercheck.spec_model.lang.domain import Bool, boolean
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, any_of
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import Program, Statement, TransitionSystem
+from rovercheck.spec_model.lang.walk import structure
 
 TOLD_APART, REFUSED, COMPUTED = "told apart", "refused by one", "computed otherwise"
 

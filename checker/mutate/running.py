@@ -4,16 +4,16 @@ from collections.abc import Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 
-from checker.cache.telling import listening
-from checker.engines import Limits
-from checker.mutate.judging import Fate, Judged, MutantCase
-from checker.mutate.mutants import Mutant
-from checker.mutate.planning import Planned
-from checker.process.faults import Fault, described, is_fault, tell
-from checker.process.faults import listening as attending
-from checker.process.isolate import Send
-from checker.process.pool import Granted, Order, Pool, PoolEvent
-from checker.verify.searches import SLACK, cores
+from rovercheck.checker.cache.telling import listening
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.mutate.judging import Fate, Judged, MutantCase
+from rovercheck.checker.mutate.mutants import Mutant
+from rovercheck.checker.mutate.planning import Planned
+from rovercheck.checker.process.faults import Fault, described, is_fault, tell
+from rovercheck.checker.process.faults import listening as attending
+from rovercheck.checker.process.isolate import Send
+from rovercheck.checker.process.pool import Granted, Order, Pool, PoolEvent
+from rovercheck.checker.verify.searches import SLACK, cores
 
 
 @dataclass(frozen=True)
@@ -85,9 +85,9 @@ class _Judging:
         self._limits, self._search = limits, search
 
     def __call__(self, send: Send, id: str, cases: tuple[MutantCase, ...], before: Judged | None) -> None:
-        from checker.mutate.judging import judged
-        from checker.verify.portfolio import Disagreement
-        from checker.verify.runs.replay import ReplayError
+        from rovercheck.checker.mutate.judging import judged
+        from rovercheck.checker.verify.portfolio import Disagreement
+        from rovercheck.checker.verify.runs.replay import ReplayError
 
         send(Granted(self._limits.seconds))
         try:

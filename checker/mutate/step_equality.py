@@ -7,14 +7,14 @@ two systems that differ only where no run leads are not equal in this sense.
 
 from collections.abc import Sequence
 
-from checker.encode.cone import with_values
-from checker.encode.symbolic import transition
-from checker.encode.terms import Terms
-from checker.encode.unrolling import model_of
-from checker.mutate.product import described
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.checker.encode.cone import with_values
+from rovercheck.checker.encode.symbolic import transition
+from rovercheck.checker.encode.terms import Terms
+from rovercheck.checker.encode.unrolling import model_of
+from rovercheck.checker.mutate.product import described
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 
 PATIENCE = 3_000_000
 """Steps of Z3 that the query may take, a second or two; a hard one is left to the product."""

@@ -3,13 +3,13 @@
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
-from checker.results.verdict import Run
-from checker.system.lowered import lowered
-from spec_model.lang.evaluate import step
-from spec_model.lang.system import System
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from checker.encode.simulate import Trail
+    from rovercheck.checker.encode.simulate import Trail
 
 COUNT, TICKS = 10, 300
 """Random runs of a system, and how long they are: longer than most timers."""
@@ -31,9 +31,13 @@ class RandomRuns:
     """Runs of a system whose inputs are drawn at random and held for a while, always the same ones."""
 
     def __init__(self, system: System) -> None:
-        from checker.encode.cone import as_written, cone, straying  # with numpy and Z3, slow to load
-        from checker.encode.symbolic import transition
-        from checker.encode.unrolling import Outside
+        from rovercheck.checker.encode.cone import (  # with numpy and Z3, slow to load
+            as_written,
+            cone,
+            straying,
+        )
+        from rovercheck.checker.encode.symbolic import transition
+        from rovercheck.checker.encode.unrolling import Outside
 
         self._whole = lowered(system)
         stepped, names = transition(self._whole), [v.name for v in self._whole.variables]
@@ -44,7 +48,7 @@ class RandomRuns:
 
     def from_the_start(self) -> tuple[Run, ...]:
         """``COUNT`` runs; none of a system that has none."""
-        from checker.encode.simulate import Simulator
+        from rovercheck.checker.encode.simulate import Simulator
 
         if not self._outside.possible:
             return ()
@@ -56,7 +60,7 @@ class RandomRuns:
 
         Each goes on for ``SOON`` ticks, with inputs that change often.
         """
-        from checker.encode.simulate import Simulator
+        from rovercheck.checker.encode.simulate import Simulator
 
         if not self._outside.possible:
             return

@@ -5,15 +5,15 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from checker.system.lowered import lowered
-from checker.system.slice import sliced
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.chart import Block, Chart, Component, Enabled, parts
-from spec_model.lang.domain import Bool
-from spec_model.lang.edit import in_actions, in_block, in_expressions, in_system, instead
-from spec_model.lang.expr import FALSE, Const, Expr, Var
-from spec_model.lang.place import Place
-from spec_model.lang.system import Assumption, System, TransitionSystem
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, parts
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.edit import in_actions, in_block, in_expressions, in_system, instead
+from rovercheck.spec_model.lang.expr import FALSE, Const, Expr, Var
+from rovercheck.spec_model.lang.place import Place
+from rovercheck.spec_model.lang.system import Assumption, System, TransitionSystem
 
 
 @dataclass(frozen=True)

@@ -15,9 +15,9 @@ from contextlib import suppress
 from importlib import import_module
 from queue import SimpleQueue
 
-from checker.process.faults import described, is_fault, starved
-from checker.process.garbage import collect_seldom
-from checker.process.isolate import DEEP, LENGTH, End, Send, pickled
+from rovercheck.checker.process.faults import described, is_fault, starved
+from rovercheck.checker.process.garbage import collect_seldom
+from rovercheck.checker.process.isolate import DEEP, LENGTH, End, Send, pickled
 
 _PR_SET_PDEATHSIG = 1  # prctl(2)
 

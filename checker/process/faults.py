@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
-from spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.errors import ModelError
 
 MEMORY_IS_OVER = ("out of memory", "allocate memory", "bad_alloc", "start new thread")
 """What libraries say, in errors of many kinds, when they get no more memory."""

@@ -20,7 +20,7 @@ from queue import Empty, SimpleQueue
 from time import monotonic
 from typing import IO, Any
 
-from checker.process.faults import Fault, heard, tell
+from rovercheck.checker.process.faults import Fault, heard, tell
 
 Send = Callable[[object], None]
 DEEP = 100_000
@@ -29,7 +29,7 @@ LENGTH = struct.Struct("<Q")
 """What precedes each order: its length."""
 _WINDOWS_FAULTS = 0xC0000000
 """From here on a status says on Windows what POSIX says by a signal."""
-_MAIN = "from rovercheck import claim; claim(); from checker.process.child import child; child()"
+_MAIN = "from rovercheck.checker.process.child import child; child()"
 
 
 class Stopped(Exception):

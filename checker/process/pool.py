@@ -7,7 +7,7 @@ from queue import Empty, SimpleQueue
 from time import monotonic
 from typing import Any
 
-from checker.process.isolate import Child, End
+from rovercheck.checker.process.isolate import Child, End
 
 
 @dataclass(frozen=True)

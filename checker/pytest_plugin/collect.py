@@ -8,17 +8,16 @@ from typing import Any
 
 import pytest
 
-from checker.commands.shared.failure import told
-from checker.model import Model
-from checker.model.execute import files_of
-from checker.model.load import load
-from checker.model.rover import rover
-from checker.pytest_plugin.deciding import Decider
-from checker.pytest_plugin.item import PropertyItem
-from properties.forms import Property
-from rovercheck import own
+from rovercheck.checker.commands.shared.failure import told
+from rovercheck.checker.model import Model
+from rovercheck.checker.model.execute import files_of
+from rovercheck.checker.model.load import load
+from rovercheck.checker.model.rover import rover
+from rovercheck.checker.pytest_plugin.deciding import Decider
+from rovercheck.checker.pytest_plugin.item import PropertyItem
+from rovercheck.properties.forms import Property
 from rovercheck.pytest_plugin import whole
-from spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.errors import ModelError
 
 ROVER = "rover"
 
@@ -71,11 +70,6 @@ class Models:
     decider: Decider
     _met: dict[Path, ModelSource] = field(default_factory=dict)
 
-    def hold(self, file: Path) -> bool:
-        """Whether the file may belong to a model that is wanted."""
-        named = any(source.path in (file, file.parent) for source in self.configured if source.path)
-        return named or any(map(file.match, self.patterns))
-
     def met(self, file: Path, parent: pytest.Collector) -> pytest.Collector | None:
         """The node of a file that pytest comes across, if it belongs to a model that is wanted."""
         for source in self.configured:
@@ -118,7 +112,6 @@ class ModelNode(pytest.File):
         super().__init__(**rest)
         self.source = source
 
-    @own()
     def collect(self) -> list[pytest.Item]:
         """An item for each property written there."""
         return _items(self, self.source, self.source.by_file.get(self.path, []))
@@ -131,7 +124,6 @@ class RoverNode(pytest.Collector):
         super().__init__(**rest)
         self.source = source
 
-    @own()
     def collect(self) -> list[pytest.Item]:
         """An item for each property."""
         assert isinstance(self.source.read, Model)

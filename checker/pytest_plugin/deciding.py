@@ -6,16 +6,16 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from checker.commands.check.run import Compared, evidence, recorded, results
-from checker.commands.shared.codes import UsageError
-from checker.commands.shared.failure import alarm, told
-from checker.commands.shared.select import pick_engine
-from checker.engines import Limits
-from checker.model.kept_invariants import invariants_of
-from checker.process.faults import Fault, listening
+from rovercheck.checker.commands.check.run import Compared, evidence, recorded, results
+from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.commands.shared.failure import alarm, told
+from rovercheck.checker.commands.shared.select import pick_engine
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.model.kept_invariants import invariants_of
+from rovercheck.checker.process.faults import Fault, listening
 
 if TYPE_CHECKING:
-    from checker.pytest_plugin.item import PropertyItem
+    from rovercheck.checker.pytest_plugin.item import PropertyItem
 
 Key = tuple[int, str]
 """A model, by identity, and a property of it."""

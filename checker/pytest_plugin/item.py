@@ -6,17 +6,16 @@ from typing import Any
 
 import pytest
 
-from checker.commands.check.ci import finding
-from checker.commands.check.run import Compared, evidence, recorded
-from checker.commands.shared.failure import told
-from checker.commands.trace.explain import Explaining
-from checker.model import Model
-from checker.pytest_plugin.deciding import Decider, NoVerdict
-from checker.render.ci import explained
-from checker.results.trace import Trace
-from checker.results.verdict import Violated
-from properties.forms import Property
-from rovercheck import own
+from rovercheck.checker.commands.check.ci import finding
+from rovercheck.checker.commands.check.run import Compared, evidence, recorded
+from rovercheck.checker.commands.shared.failure import told
+from rovercheck.checker.commands.trace.explain import Explaining
+from rovercheck.checker.model import Model
+from rovercheck.checker.pytest_plugin.deciding import Decider, NoVerdict
+from rovercheck.checker.render.ci import explained
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Violated
+from rovercheck.properties.forms import Property
 
 # --- what the report of a property says ----------------------------------------------------------------
 
@@ -76,7 +75,6 @@ class PropertyItem(pytest.Item):
         if prop.costly and not self.config.getoption("rovercheck_full"):
             self.add_marker(pytest.mark.skip(reason="it takes long; --rovercheck-full decides it"))
 
-    @own()
     def runtest(self) -> None:
         """Raises ``Different``, or ``NoVerdict`` if there is no verdict at all."""
         compared = self.decider.compared(self)

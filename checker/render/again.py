@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from checker.render.durations import duration
-from checker.render.story import Quiet, Row, StoryEvent, rows
-from checker.results.trace import Trace, counted_ticks
+from rovercheck.checker.render.durations import duration
+from rovercheck.checker.render.story import Quiet, Row, StoryEvent, rows
+from rovercheck.checker.results.trace import Trace, counted_ticks
 
 TIMES = 2
 """How often rows must be repeated, after the first time, not to be told again."""

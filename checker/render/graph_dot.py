@@ -1,8 +1,8 @@
 """A projected state graph in Graphviz DOT."""
 
-from checker.render.statechart_dot import quoted
-from checker.render.stategraph.words import behind, example, ticks, values
-from checker.results.graph import GraphEdge, GraphNode, StateGraph
+from rovercheck.checker.render.statechart_dot import quoted
+from rovercheck.checker.render.stategraph.words import behind, example, ticks, values
+from rovercheck.checker.results.graph import GraphEdge, GraphNode, StateGraph
 
 NAME = "dot"
 KIND = "graph"

@@ -2,9 +2,9 @@
 
 import networkx as nx
 
-from checker.render.statechart_graphml import graphml
-from checker.render.stategraph.words import ticks
-from checker.results.graph import StateGraph
+from rovercheck.checker.render.statechart_graphml import graphml
+from rovercheck.checker.render.stategraph.words import ticks
+from rovercheck.checker.results.graph import StateGraph
 
 NAME = "graphml"
 KIND = "graph"

@@ -1,8 +1,8 @@
 """A projected state graph as a page: to move about in, to search, and to ask for the way to a node."""
 
-from checker.render.page import page
-from checker.render.stategraph.fragment import part
-from checker.results.graph import MOST_NODES, StateGraph, drawable
+from rovercheck.checker.render.page import page
+from rovercheck.checker.render.stategraph.fragment import part
+from rovercheck.checker.results.graph import MOST_NODES, StateGraph, drawable
 
 NAME = "html"
 KIND = "graph"

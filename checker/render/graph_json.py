@@ -3,7 +3,7 @@
 import json
 from typing import Any
 
-from checker.results.graph import ProjectionKind, StateGraph
+from rovercheck.checker.results.graph import ProjectionKind, StateGraph
 
 NAME = "json"
 KIND = "graph"

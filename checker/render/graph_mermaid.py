@@ -1,8 +1,8 @@
 """A projected state graph as a Mermaid flowchart, which GitHub shows in Markdown."""
 
-from checker.render.statechart_mermaid import escaped
-from checker.render.stategraph.words import behind, example, ticks, values
-from checker.results.graph import MOST_NODES, StateGraph, drawable
+from rovercheck.checker.render.statechart_mermaid import escaped
+from rovercheck.checker.render.stategraph.words import behind, example, ticks, values
+from rovercheck.checker.results.graph import MOST_NODES, StateGraph, drawable
 
 NAME = "mermaid"
 KIND = "graph"

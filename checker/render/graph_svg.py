@@ -1,11 +1,11 @@
 """A projected state graph as an SVG picture, with what it shows in words above it."""
 
-from checker.render.drawing import svg
-from checker.render.drawing.text import LINE, wrap
-from checker.render.stategraph.findings import findings
-from checker.render.stategraph.picture import drawn
-from checker.render.stategraph.words import LEGEND
-from checker.results.graph import MOST_NODES, StateGraph, drawable
+from rovercheck.checker.render.drawing import svg
+from rovercheck.checker.render.drawing.text import LINE, wrap
+from rovercheck.checker.render.stategraph.findings import findings
+from rovercheck.checker.render.stategraph.picture import drawn
+from rovercheck.checker.render.stategraph.words import LEGEND
+from rovercheck.checker.results.graph import MOST_NODES, StateGraph, drawable
 
 NAME = "svg"
 KIND = "graph"

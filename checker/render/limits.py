@@ -4,13 +4,13 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from checker.render.durations import duration
-from checker.results.trace import Trace
-from spec_model.lang.chart import Chart, State
-from spec_model.lang.domain import Num, show
-from spec_model.lang.expr import Apply, Const, Expr, Temporal, Var, When
-from spec_model.lang.operators import Op
-from spec_model.lang.walk import nodes, plain, structure
+from rovercheck.checker.render.durations import duration
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.chart import Chart, State
+from rovercheck.spec_model.lang.domain import Num, show
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Temporal, Var, When
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.walk import nodes, plain, structure
 
 _COUNTER = re.compile(r"(?P<place>.+)\.(?P<word>after|duration|held)(?P<number>\d*)")
 _MIRRORED = {Op.LT: Op.GT, Op.LE: Op.GE, Op.GT: Op.LT, Op.GE: Op.LE}

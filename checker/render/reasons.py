@@ -3,9 +3,9 @@
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
 
-from checker.render.story import start_values, value
-from checker.results.trace import Trace, counted_ticks
-from spec_model.lang.domain import Num
+from rovercheck.checker.render.story import start_values, value
+from rovercheck.checker.results.trace import Trace, counted_ticks
+from rovercheck.spec_model.lang.domain import Num
 
 
 @dataclass(frozen=True)

@@ -5,8 +5,8 @@ from io import BytesIO
 from typing import TYPE_CHECKING
 from warnings import catch_warnings, simplefilter
 
-from checker.render.lanes import Band, ChartLane, Curve, LaneLimit, LaneRows, Lanes, Mark, Tone
-from checker.render.run_style import (
+from rovercheck.checker.render.lanes import Band, ChartLane, Curve, LaneLimit, LaneRows, Lanes, Mark, Tone
+from rovercheck.checker.render.run_style import (
     BOTTOM,
     BRIEF,
     CHART,

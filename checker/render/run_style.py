@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from typing import Any
 
-from checker.render.lanes import Mark, Tone
+from rovercheck.checker.render.lanes import Mark, Tone
 
 WIDTH = 12.8
 """Inches; 1280 points of a screen."""

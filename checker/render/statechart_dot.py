@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from checker.render.drawing.scheme import (
+from rovercheck.checker.render.drawing.scheme import (
     ChartArrow,
     action_lines,
     arrows,
@@ -10,8 +10,8 @@ from checker.render.drawing.scheme import (
     identifiers,
     label_parts,
 )
-from checker.render.drawing.text import wrap
-from spec_model.lang.chart import Chart, Path
+from rovercheck.checker.render.drawing.text import wrap
+from rovercheck.spec_model.lang.chart import Chart, Path
 
 NAME = "dot"
 KIND = "statechart"

@@ -4,8 +4,8 @@ from io import BytesIO
 
 import networkx as nx
 
-from checker.render.drawing.scheme import arrows, execution_order, label
-from spec_model.lang.chart import Chart, Path
+from rovercheck.checker.render.drawing.scheme import arrows, execution_order, label
+from rovercheck.spec_model.lang.chart import Chart, Path
 
 NAME = "graphml"
 KIND = "statechart"

@@ -2,9 +2,9 @@
 
 from markupsafe import Markup
 
-from checker.render import statechart_svg
-from checker.render.page import Part, page
-from spec_model.lang.chart import Chart
+from rovercheck.checker.render import statechart_svg
+from rovercheck.checker.render.page import Part, page
+from rovercheck.spec_model.lang.chart import Chart
 
 NAME = "html"
 KIND = "statechart"

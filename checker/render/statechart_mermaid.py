@@ -7,9 +7,9 @@ is refused rather than drawn wrong.  Names of regions are not shown.
 
 from collections.abc import Iterator
 
-from checker.render.drawing.scheme import ChartArrow, action_lines, arrows, identifiers, label
-from spec_model.lang.chart import Chart, Path
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.render.drawing.scheme import ChartArrow, action_lines, arrows, identifiers, label
+from rovercheck.spec_model.lang.chart import Chart, Path
+from rovercheck.spec_model.lang.errors import ModelError
 
 NAME = "mermaid"
 KIND = "statechart"

@@ -3,14 +3,14 @@
 from collections.abc import Collection, Sequence
 from functools import lru_cache
 
-from checker.render.drawing import svg
-from checker.render.drawing.highlight import Emphasis, emphasis
-from checker.render.drawing.nested import picture
-from checker.render.drawing.picture import Box, PicturePiece, Spot
-from checker.render.drawing.scheme import arrows, explained
-from checker.render.drawing.text import LINE, width, wrap
-from checker.results.trace import Arrow
-from spec_model.lang.chart import Chart
+from rovercheck.checker.render.drawing import svg
+from rovercheck.checker.render.drawing.highlight import Emphasis, emphasis
+from rovercheck.checker.render.drawing.nested import picture
+from rovercheck.checker.render.drawing.picture import Box, PicturePiece, Spot
+from rovercheck.checker.render.drawing.scheme import arrows, explained
+from rovercheck.checker.render.drawing.text import LINE, width, wrap
+from rovercheck.checker.results.trace import Arrow
+from rovercheck.spec_model.lang.chart import Chart
 
 NAME = "svg"
 KIND = "statechart"

@@ -9,13 +9,13 @@ import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from checker.render.durations import duration
-from checker.render.limits import bounds, timer
-from checker.results.trace import Arrow, Tick, Trace, counted_ticks
-from spec_model.lang.domain import Enum, Num
-from spec_model.lang.expr import Expr, Named
-from spec_model.lang.label import text
-from spec_model.lang.walk import variables
+from rovercheck.checker.render.durations import duration
+from rovercheck.checker.render.limits import bounds, timer
+from rovercheck.checker.results.trace import Arrow, Tick, Trace, counted_ticks
+from rovercheck.spec_model.lang.domain import Enum, Num
+from rovercheck.spec_model.lang.expr import Expr, Named
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.lang.walk import variables
 
 RISING = re.compile(r"\.rising\d+$")
 """Names of what remembers what ``rising`` compares."""

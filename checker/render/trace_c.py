@@ -6,9 +6,9 @@ see it (``Trace.concrete``); of a run of several boards, each is compiled by its
 
 from collections.abc import Iterable
 
-from checker.render.trace_pytest import required
-from checker.results.board_steps import BoardRun, SignalKind, StepSignal, Value, held
-from checker.results.trace import Trace
+from rovercheck.checker.render.trace_pytest import required
+from rovercheck.checker.results.board_steps import BoardRun, SignalKind, StepSignal, Value, held
+from rovercheck.checker.results.trace import Trace
 
 NAME = "c"
 KIND = "trace"

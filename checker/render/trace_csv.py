@@ -10,8 +10,8 @@ import csv
 from collections.abc import Mapping, Sequence
 from io import StringIO
 
-from checker.io.files import csv_cell
-from checker.results.trace import Trace
+from rovercheck.checker.io.files import csv_cell
+from rovercheck.checker.results.trace import Trace
 
 NAME = "csv"
 KIND = "trace"

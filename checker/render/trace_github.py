@@ -1,8 +1,8 @@
 """A trace as GitHub workflow commands: an annotation at the property's line, the explained run in the log."""
 
-from checker.render.ci import of_trace
-from checker.render.ci.github import annotation, annotations
-from checker.results.trace import Trace
+from rovercheck.checker.render.ci import of_trace
+from rovercheck.checker.render.ci.github import annotation, annotations
+from rovercheck.checker.results.trace import Trace
 
 NAME = "github"
 KIND = "trace"

@@ -10,8 +10,8 @@ from io import StringIO
 
 from vcd.gtkw import GTKWColor, GTKWFlag, GTKWSave
 
-from checker.render.waves import Sort, Wave, WaveGroup, outcome, waves
-from checker.results.trace import Trace
+from rovercheck.checker.render.waves import Sort, Wave, WaveGroup, outcome, waves
+from rovercheck.checker.results.trace import Trace
 
 NAME = "gtkw"
 KIND = "trace"

@@ -2,10 +2,10 @@
 
 from markupsafe import Markup
 
-from checker.render import player, timeline
-from checker.render.page import Part, page, together
-from checker.render.story import heading
-from checker.results.trace import Trace
+from rovercheck.checker.render import player, timeline
+from rovercheck.checker.render.page import Part, page, together
+from rovercheck.checker.render.story import heading
+from rovercheck.checker.results.trace import Trace
 
 NAME = "html"
 KIND = "trace"

@@ -9,9 +9,9 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from checker.render.trace_json import shows
-from checker.results.trace import Trace
-from spec_model.lang.domain import Bool, Enum, Num, show
+from rovercheck.checker.render.trace_json import shows
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.domain import Bool, Enum, Num, show
 
 NAME = "itf"
 KIND = "trace"

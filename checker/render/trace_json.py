@@ -7,11 +7,11 @@ import json
 from collections.abc import Mapping
 from typing import Any
 
-from checker.render.story import false_parts
-from checker.results.trace import Arrow, Needed, Tick, Trace
-from spec_model.lang.domain import Bool, Enum
-from spec_model.lang.expr import Var
-from spec_model.lang.place import Place
+from rovercheck.checker.render.story import false_parts
+from rovercheck.checker.results.trace import Arrow, Needed, Tick, Trace
+from rovercheck.spec_model.lang.domain import Bool, Enum
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.place import Place
 
 NAME = "json"
 KIND = "trace"

@@ -1,8 +1,8 @@
 """A trace as JUnit XML: one test case, which fails with the explained run; a witness passes."""
 
-from checker.render.ci import of_trace
-from checker.render.ci.junit import junit
-from checker.results.trace import Trace
+from rovercheck.checker.render.ci import of_trace
+from rovercheck.checker.render.ci.junit import junit
+from rovercheck.checker.results.trace import Trace
 
 NAME = "junit"
 KIND = "trace"

@@ -2,9 +2,9 @@
 
 from xml.sax.saxutils import escape
 
-from checker.render.again import Again, folded
-from checker.render.reasons import forced, reasons
-from checker.render.story import (
+from rovercheck.checker.render.again import Again, folded
+from rovercheck.checker.render.reasons import forced, reasons
+from rovercheck.checker.render.story import (
     UNTOLD,
     Quiet,
     Repeats,
@@ -17,7 +17,7 @@ from checker.render.story import (
     start_of,
     start_values,
 )
-from checker.results.trace import Trace
+from rovercheck.checker.results.trace import Trace
 
 NAME = "markdown"
 KIND = "trace"

@@ -2,9 +2,9 @@
 
 from markupsafe import Markup
 
-from checker.render.page import Part, page
-from checker.render.player import part
-from checker.results.trace import Trace
+from rovercheck.checker.render.page import Part, page
+from rovercheck.checker.render.player import part
+from rovercheck.checker.results.trace import Trace
 
 NAME = "play"
 KIND = "trace"

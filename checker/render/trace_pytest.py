@@ -8,10 +8,10 @@ import re
 import textwrap
 from collections.abc import Mapping
 
-from checker.render.waves import outcome
-from checker.results.board_steps import BoardRun, Value, held
-from checker.results.trace import Trace
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.render.waves import outcome
+from rovercheck.checker.results.board_steps import BoardRun, Value, held
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.errors import ModelError
 
 NAME = "pytest"
 KIND = "trace"
@@ -48,8 +48,8 @@ import pytest
 from rovercheck import own
 
 with own():  # whatever else bears the names
-    from checker.adapters import start
-    from spec_model.abstraction import boards
+    from rovercheck.checker.adapters import start
+    from rovercheck.spec_model.abstraction import boards
 
 CLOCK = "now_ms"
 TICK_MS = {tick_ms}

@@ -1,8 +1,8 @@
 """A trace as SARIF 2.1.0: a code flow through the lines of the charts, for code scanning and editors."""
 
-from checker.render.ci import of_trace
-from checker.render.ci.sarif import sarif
-from checker.results.trace import Trace
+from rovercheck.checker.render.ci import of_trace
+from rovercheck.checker.render.ci.sarif import sarif
+from rovercheck.checker.results.trace import Trace
 
 NAME = "sarif"
 KIND = "trace"

@@ -1,7 +1,7 @@
 """A trace as a message sequence: what boards, charts and the environment hand to each other, and when."""
 
-from checker.render.sequence import message_sequence, picture
-from checker.results.trace import Trace
+from rovercheck.checker.render.sequence import message_sequence, picture
+from rovercheck.checker.results.trace import Trace
 
 NAME = "sequence"
 KIND = "trace"

@@ -1,7 +1,7 @@
 """A trace as a picture over time: lanes of values, limits and timers, readable on paper too."""
 
-from checker.render.timeline import picture, timeline
-from checker.results.trace import Trace
+from rovercheck.checker.render.timeline import picture, timeline
+from rovercheck.checker.results.trace import Trace
 
 NAME = "svg"
 KIND = "trace"

@@ -5,11 +5,11 @@ from io import StringIO
 
 from rich.text import Text
 
-from checker.io.console import UnmarkedConsole
-from checker.render.again import folded
-from checker.render.hanging import hanging
-from checker.render.reasons import forced, reasons
-from checker.render.story import (
+from rovercheck.checker.io.console import UnmarkedConsole
+from rovercheck.checker.render.again import folded
+from rovercheck.checker.render.hanging import hanging
+from rovercheck.checker.render.reasons import forced, reasons
+from rovercheck.checker.render.story import (
     UNTOLD,
     Conjunct,
     Repeats,
@@ -22,7 +22,7 @@ from checker.render.story import (
     start_of,
     start_values,
 )
-from checker.results.trace import Arrow, Trace
+from rovercheck.checker.results.trace import Arrow, Trace
 
 NAME = "table"
 KIND = "trace"

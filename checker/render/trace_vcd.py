@@ -12,9 +12,9 @@ from unicodedata import normalize
 
 from vcd import VCDWriter
 
-from checker.render.waves import Sort, Wave, WaveGroup, outcome, waves
-from checker.results.trace import Trace
-from spec_model.lang.domain import Num
+from rovercheck.checker.render.waves import Sort, Wave, WaveGroup, outcome, waves
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.domain import Num
 
 NAME = "vcd"
 KIND = "trace"

@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from enum import StrEnum
 from unicodedata import combining, normalize
 
-from checker.render.story import TIMER
-from checker.results.trace import Trace
-from spec_model.lang.domain import Bool, Enum
+from rovercheck.checker.render.story import TIMER
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.domain import Bool, Enum
 
 
 class WaveGroup(StrEnum):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.expr import Var
 
 
 @dataclass(frozen=True)

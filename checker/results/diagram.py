@@ -6,9 +6,9 @@ Bryant, *Graph-based algorithms for Boolean function manipulation*, IEEE ToC 198
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from spec_model.lang.domain import Bool, Num
-from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var
-from spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.domain import Bool, Num
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var
+from rovercheck.spec_model.lang.operators import Op
 
 NONE, ALL = 0, 1
 """The numbers of the two leaves: no valuation that gets there belongs to the set, or every one does."""

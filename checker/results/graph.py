@@ -12,8 +12,8 @@ from enum import StrEnum
 from functools import cached_property
 from itertools import pairwise
 
-from checker.results.trace import Trace
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.errors import ModelError
 
 Values = tuple[int, ...]
 """Raw values of variables, in a fixed order."""

@@ -5,10 +5,10 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from checker.results.board_steps import BoardRun
-    from spec_model.lang.chart import Chart, Component
-    from spec_model.lang.expr import Expr, Var
-    from spec_model.lang.place import Place
+    from rovercheck.checker.results.board_steps import BoardRun
+    from rovercheck.spec_model.lang.chart import Chart, Component
+    from rovercheck.spec_model.lang.expr import Expr, Var
+    from rovercheck.spec_model.lang.place import Place
 
 
 def counted_ticks(count: int) -> str:

@@ -9,12 +9,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Union
 
-from checker.results.trace import Trace
+from rovercheck.checker.results.trace import Trace
 
 if TYPE_CHECKING:
-    from checker.results.closed import ClosedSet
-    from checker.results.diagram import Diagram
-    from spec_model.lang.expr import Expr
+    from rovercheck.checker.results.closed import ClosedSet
+    from rovercheck.checker.results.diagram import Diagram
+    from rovercheck.spec_model.lang.expr import Expr
 
 
 @dataclass(frozen=True)

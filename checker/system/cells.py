@@ -5,9 +5,9 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.system.intervals import intervals
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
+from rovercheck.checker.system.intervals import intervals
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
 
 Array = NDArray[np.int64]
 Split = tuple[list[tuple[int, int]], tuple[int, ...], tuple[int, ...]]

@@ -6,10 +6,10 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
-from spec_model.lang.domain import Bool, Num, Sort
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import COMPARISONS, Op
-from spec_model.lang.walk import children
+from rovercheck.spec_model.lang.domain import Bool, Num, Sort
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.spec_model.lang.walk import children
 
 Tree = Any
 """What JSON makes of a formula: nested lists of texts, whole numbers and truth values."""
@@ -42,7 +42,9 @@ def written(expr: Expr) -> Tree:
 
 def size(expr: Expr) -> int:
     """Operators, variables and numbers of the formula as it is written: shared parts count each time."""
-    from checker.system.intervals import postorder  # not loaded by those that only pass formulas on
+    from rovercheck.checker.system.intervals import (
+        postorder,  # not loaded by those that only pass formulas on
+    )
 
     sizes: dict[int, int] = {}
     for node in postorder(expr):

@@ -3,12 +3,12 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
-from checker.system.partition import conjuncts, partitions
-from checker.system.slice import names
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Expr
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.system.partition import conjuncts, partitions
+from rovercheck.checker.system.slice import names
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 TRIED = 100_000
 """Combinations of values after which the search for a first tick is given up."""

@@ -7,9 +7,9 @@ paths, so an interval may be wider than what is reachable, never narrower.
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.walk import children
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.walk import children
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,8 +2,8 @@
 
 from functools import lru_cache
 
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System, TransitionSystem
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 _KEPT = 4
 """Systems remembered; the largest of the rover takes a second to lower."""

@@ -9,11 +9,11 @@ from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from spec_model.lang.action import Assign, If
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import Program, TransitionSystem
-from spec_model.lang.walk import plain
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import Program, TransitionSystem
+from rovercheck.spec_model.lang.walk import plain
 
 
 @dataclass(frozen=True)
@@ -158,7 +158,7 @@ def _required(assume: Expr, scope: Mapping[str, Var]) -> dict[str, list[Expr]]:
 
 def _split(var: Var, alone: Sequence[Expr], required: Sequence[Expr]) -> Partition:
     """Cells numbered in the order of their lowest values."""
-    from checker.system.cells import split  # by numpy, which takes a while to load
+    from rovercheck.checker.system.cells import split  # by numpy, which takes a while to load
 
     cells, values, numbers = split(var, alone, required)
     return Partition(var, tuple(Cell(low, size) for low, size in cells), values, numbers)

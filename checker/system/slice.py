@@ -8,14 +8,14 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
 
-from checker.system.partition import conjuncts, partition
-from properties.forms import Property, Recoverable
-from spec_model.lang.action import Assign, If
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import TRUE, Expr, Var, all_of
-from spec_model.lang.system import Program, Statement, TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.checker.system.partition import conjuncts, partition
+from rovercheck.properties.forms import Property, Recoverable
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, all_of
+from rovercheck.spec_model.lang.system import Program, Statement, TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 
 Names = frozenset[str]
 

@@ -2,9 +2,9 @@
 
 from importlib.resources import files
 
-from checker.testgen.keep import read
-from checker.testgen.scripts import Test
-from spec_model.abstraction import boards
+from rovercheck.checker.testgen.keep import read
+from rovercheck.checker.testgen.scripts import Test
+from rovercheck.spec_model.abstraction import boards
 
 __all__ = ["Test", "kept"]
 

@@ -5,11 +5,11 @@ What is found with it counts once the interpreter has run it.
 
 from collections.abc import Callable, Iterator, MutableMapping, Sequence
 
-from checker.encode.python_text import text_of
-from spec_model.lang.action import Assign, If
-from spec_model.lang.expr import Const, Expr
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import plain
+from rovercheck.checker.encode.python_text import text_of
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.expr import Const, Expr
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import plain
 
 Step = Callable[[MutableMapping[str, int]], None]
 """Runs one tick in place: a valuation with the inputs of the tick becomes the valuation after it."""

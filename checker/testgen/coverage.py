@@ -4,14 +4,14 @@ from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, S
 from dataclasses import dataclass, field
 from random import Random
 
-from checker.engines import Limits
-from checker.system.instrument.goals import CoverGoal, GoalKind
-from checker.system.instrument.watch import watched
-from checker.testgen.explore import RandomMachine, explored, first_reached, shortened
-from checker.testgen.keep import KeptTests
-from checker.testgen.replay import first_reached as replayed
-from checker.testgen.scripts import Script, steps
-from checker.testgen.search import (
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind
+from rovercheck.checker.system.instrument.watch import watched
+from rovercheck.checker.testgen.explore import RandomMachine, explored, first_reached, shortened
+from rovercheck.checker.testgen.keep import KeptTests
+from rovercheck.checker.testgen.replay import first_reached as replayed
+from rovercheck.checker.testgen.scripts import Script, steps
+from rovercheck.checker.testgen.search import (
     Answer,
     CoverFound,
     OpenGoal,
@@ -20,9 +20,9 @@ from checker.testgen.search import (
     refuted,
     searched,
 )
-from checker.verify.runs.replay import ReplayError
-from spec_model.abstraction import Board
-from spec_model.lang.system import System
+from rovercheck.checker.verify.runs.replay import ReplayError
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.system import System
 
 NOT_TRIED = "not searched: the time was over"
 SHORTENING = 3000

@@ -5,17 +5,17 @@ from copy import deepcopy
 from dataclasses import dataclass
 from random import Random
 
-from checker.system.instrument.goals import Watched
-from checker.testgen.compiled import Step, compiled
-from checker.testgen.scripts import CLOCK, Moment, Script
-from spec_model.abstraction import Board, BoardSignal, Value
-from spec_model.abstraction.board import BoardReader, units
-from spec_model.lang.chart import Chart
-from spec_model.lang.domain import Num
-from spec_model.lang.expr import Temporal
-from spec_model.lang.lower import lower
-from spec_model.lang.system import TICK_MS
-from spec_model.lang.walk import nodes
+from rovercheck.checker.system.instrument.goals import Watched
+from rovercheck.checker.testgen.compiled import Step, compiled
+from rovercheck.checker.testgen.scripts import CLOCK, Moment, Script
+from rovercheck.spec_model.abstraction import Board, BoardSignal, Value
+from rovercheck.spec_model.abstraction.board import BoardReader, units
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.expr import Temporal
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import TICK_MS
+from rovercheck.spec_model.lang.walk import nodes
 
 # --- random inputs as a rover meets them ---------------------------------------------------------------
 

@@ -3,12 +3,12 @@
 from collections.abc import Iterator
 from hashlib import sha256
 
-from checker.encode.python_text import text_of
-from checker.testgen.compiled import source
-from spec_model.abstraction import Board
-from spec_model.lang.expr import Var
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System
+from rovercheck.checker.encode.python_text import text_of
+from rovercheck.checker.testgen.compiled import source
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System
 
 
 def fingerprint(board: Board, model: System) -> str:

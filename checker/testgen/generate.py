@@ -3,14 +3,14 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from checker.system.instrument.goals import CoverGoal, GoalKind
-from checker.system.instrument.watch import watched
-from checker.testgen.formats import FORMATS, ExpectedTest
-from checker.testgen.formats.expected import expected
-from checker.testgen.keep import KeptTests
-from spec_model.abstraction import Board, boards
-from spec_model.lang.chart import parts
-from spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind
+from rovercheck.checker.system.instrument.watch import watched
+from rovercheck.checker.testgen.formats import FORMATS, ExpectedTest
+from rovercheck.checker.testgen.formats.expected import expected
+from rovercheck.checker.testgen.keep import KeptTests
+from rovercheck.spec_model.abstraction import Board, boards
+from rovercheck.spec_model.lang.chart import parts
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 
 
 @dataclass(frozen=True)

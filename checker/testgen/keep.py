@@ -4,9 +4,9 @@ import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from checker.testgen.scripts import Script, Test, blocks, steps, unfolded
-from spec_model.abstraction import Board
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.testgen.scripts import Script, Test, blocks, steps, unfolded
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.errors import ModelError
 
 FORMAT = 1
 

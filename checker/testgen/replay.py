@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.system.instrument.goals import Watched
-from spec_model.abstraction import Board, Value
-from spec_model.lang.interpret import Interpreter
+from rovercheck.checker.system.instrument.goals import Watched
+from rovercheck.spec_model.abstraction import Board, Value
+from rovercheck.spec_model.lang.interpret import Interpreter
 
 
 @dataclass(frozen=True)

@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from spec_model.abstraction import Board, Value
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import TICK_MS
+from rovercheck.spec_model.abstraction import Board, Value
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import TICK_MS
 
 Moment = Mapping[str, Value]
 """The inputs of one step without the clock; of a stamp, whether its datum is new in this step."""

@@ -5,19 +5,19 @@ from contextlib import closing
 from dataclasses import dataclass
 from itertools import groupby
 
-from checker.engines import AUTO, Limits
-from checker.results.trace import Trace
-from checker.results.verdict import Proved, Unknown, Verdict, Violated
-from checker.system.instrument.goals import CoverGoal, GoalKind, Watched
-from checker.system.instrument.watch import watched
-from checker.testgen.scripts import Script, script
-from checker.verify.searches import Over, SearchDoing, Warned, searches
-from checker.verify.tasks import Task
-from properties.forms import Property, reachable
-from spec_model.abstraction import Board
-from spec_model.lang.chart import parts
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import System, in_order
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Proved, Unknown, Verdict, Violated
+from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind, Watched
+from rovercheck.checker.system.instrument.watch import watched
+from rovercheck.checker.testgen.scripts import Script, script
+from rovercheck.checker.verify.searches import Over, SearchDoing, Warned, searches
+from rovercheck.checker.verify.tasks import Task
+from rovercheck.properties.forms import Property, reachable
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.chart import parts
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System, in_order
 
 TOGETHER = 16
 """Goals in one search."""

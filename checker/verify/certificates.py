@@ -4,17 +4,17 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from checker.certify.certificate import Certificate
-from checker.certify.check import CheckEffort, check
-from checker.certify.file import CertificateOrigin, write
-from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
-from checker.certify.reader import CertificateReader
-from checker.certify.record import rests_on_answers
-from checker.engines import Limits, Progress, Stage
-from checker.results.verdict import Exhausted, Unknown, Verdict
-from checker.verify.decide import Task, decide
-from checker.verify.result import Result
-from spec_model.lang.system import System, TransitionSystem
+from rovercheck.checker.certify.certificate import Certificate
+from rovercheck.checker.certify.check import CheckEffort, check
+from rovercheck.checker.certify.file import CertificateOrigin, write
+from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
+from rovercheck.checker.certify.reader import CertificateReader
+from rovercheck.checker.certify.record import rests_on_answers
+from rovercheck.checker.engines import Limits, Progress, Stage
+from rovercheck.checker.results.verdict import Exhausted, Unknown, Verdict
+from rovercheck.checker.verify.decide import Task, decide
+from rovercheck.checker.verify.result import Result
+from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 
 @dataclass(frozen=True)

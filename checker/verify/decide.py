@@ -4,24 +4,31 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from time import monotonic
 
-from checker.engines import ALL, AUTO, Engine, Limits, Progress, Stage, Timers
-from checker.process.faults import Failed, attempted
-from checker.results.verdict import Open, Reached, Unknown, Unreachable
-from checker.system.formula_json import Tree, readable
-from checker.system.initial import check_starts
-from checker.system.lowered import lowered
-from checker.verify.liveness.verdicts import unbounded
-from checker.verify.portfolio import Callbacks, Disagreement, Hint, PortfolioQuestion, answers, as_found
-from checker.verify.portfolio.shape import shape
-from checker.verify.result import Answers, Result, check_domains, result
-from checker.verify.runs.replay import ReplayError
-from checker.verify.runs.reproduce import moved, not_reproducible, reproduced
-from checker.verify.tasks import Task, tasks
-from properties.forms import Property, Unbounded
-from properties.reduce import reduce
-from spec_model.lang.expiry import free_timers
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.system import System, TransitionSystem
+from rovercheck.checker.engines import ALL, AUTO, Engine, Limits, Progress, Stage, Timers
+from rovercheck.checker.process.faults import Failed, attempted
+from rovercheck.checker.results.verdict import Open, Reached, Unknown, Unreachable
+from rovercheck.checker.system.formula_json import Tree, readable
+from rovercheck.checker.system.initial import check_starts
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.liveness.verdicts import unbounded
+from rovercheck.checker.verify.portfolio import (
+    Callbacks,
+    Disagreement,
+    Hint,
+    PortfolioQuestion,
+    answers,
+    as_found,
+)
+from rovercheck.checker.verify.portfolio.shape import shape
+from rovercheck.checker.verify.result import Answers, Result, check_domains, result
+from rovercheck.checker.verify.runs.replay import ReplayError
+from rovercheck.checker.verify.runs.reproduce import moved, not_reproducible, reproduced
+from rovercheck.checker.verify.tasks import Task, tasks
+from rovercheck.properties.forms import Property, Unbounded
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.expiry import free_timers
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 # --- properties decided on the system whose timers run out at will, as far as that goes (docs/timers.md)
 

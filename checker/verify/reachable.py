@@ -8,13 +8,13 @@ code).  An input is chosen at the moment the step reads it, one value per cell (
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import product
 
-from checker.engines import Progress
-from checker.results.graph import Values
-from checker.system.partition import partitions
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import evaluate, run
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.engines import Progress
+from rovercheck.checker.results.graph import Values
+from rovercheck.checker.system.partition import partitions
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import evaluate, run
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 Step = tuple[Values, Mapping[str, int]]
 """The valuation after a tick, and the inputs it looked at in the order in which it did, raw."""

@@ -4,14 +4,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from checker.certify.outcome import Outcome
-from checker.results.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Verdict, Violated
-from checker.verify.portfolio.question import Found, Hint
-from checker.verify.runs.domains import leaves, stray
-from properties.forms import Property
-from properties.reduce import Goal
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.certify.outcome import Outcome
+from rovercheck.checker.results.verdict import (
+    Answer,
+    Open,
+    Proved,
+    Reached,
+    Unknown,
+    Unreachable,
+    Verdict,
+    Violated,
+)
+from rovercheck.checker.verify.portfolio.question import Found, Hint
+from rovercheck.checker.verify.runs.domains import leaves, stray
+from rovercheck.properties.forms import Property
+from rovercheck.properties.reduce import Goal
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 Answers = Found
 """An answer for each goal and the name of the engine that gave it."""
@@ -51,8 +60,8 @@ def result(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Res
 def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Verdict:
     match answer:
         case Reached(run, shortest):
-            from checker.verify.runs.calm import calmed
-            from checker.verify.runs.replay import replay
+            from rovercheck.checker.verify.runs.calm import calmed
+            from rovercheck.checker.verify.runs.replay import replay
 
             trace = replace(replay(system, goal, calmed(system, goal.var, run)), shortest=shortest)
             return Proved(trace, by) if goal.reach else Violated(trace, by)

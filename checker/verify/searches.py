@@ -7,27 +7,27 @@ from dataclasses import dataclass, replace
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from checker.cache.places import VARIABLE, chosen
-from checker.cache.telling import CacheRefused, Taken, listening
-from checker.certify.outcome import Outcome, Undecided
-from checker.engines import Engine, Limits, Stage
-from checker.process.faults import Fault, described, is_fault, tell
-from checker.process.faults import listening as attending
-from checker.process.isolate import Send
-from checker.process.pool import Granted, Order, Pool, PoolEvent
-from checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
-from checker.system.formula_json import Tree
-from checker.system.lowered import lowered
-from checker.verify.result import Result
-from checker.verify.tasks import Task
-from properties.forms import Property
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import System
+from rovercheck.checker.cache.places import VARIABLE, chosen
+from rovercheck.checker.cache.telling import CacheRefused, Taken, listening
+from rovercheck.checker.certify.outcome import Outcome, Undecided
+from rovercheck.checker.engines import Engine, Limits, Stage
+from rovercheck.checker.process.faults import Fault, described, is_fault, tell
+from rovercheck.checker.process.faults import listening as attending
+from rovercheck.checker.process.isolate import Send
+from rovercheck.checker.process.pool import Granted, Order, Pool, PoolEvent
+from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
+from rovercheck.checker.system.formula_json import Tree
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.tasks import Task
+from rovercheck.properties.forms import Property
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from checker.certify.certificate import Certificate
-    from checker.verify.certificates import Certifying
-    from checker.verify.portfolio.question import Found, PortfolioQuestion
+    from rovercheck.checker.certify.certificate import Certificate
+    from rovercheck.checker.verify.certificates import Certifying
+    from rovercheck.checker.verify.portfolio.question import Found, PortfolioQuestion
 
 SLACK = 2 << 30
 """Bytes of address space that a child needs besides what an engine may store: code, libraries, formulas."""
@@ -241,7 +241,7 @@ class _Returns:
 
     @staticmethod
     def _certified(verdict: Verdict) -> bool:
-        from checker.certify.record import rests_on_answers
+        from rovercheck.checker.certify.record import rests_on_answers
 
         return rests_on_answers(verdict)
 
@@ -308,9 +308,9 @@ class _Deciding:
         recorded: tuple[Tree, ...] | None = None,
         anew: bool = False,
     ) -> None:
-        from checker.certify.file import Unwritable
-        from checker.verify.portfolio import Disagreement
-        from checker.verify.runs.replay import ReplayError
+        from rovercheck.checker.certify.file import Unwritable
+        from rovercheck.checker.verify.portfolio import Disagreement
+        from rovercheck.checker.verify.runs.replay import ReplayError
 
         try:
             with listening(send, anew=anew), attending(send):
@@ -325,10 +325,10 @@ class _Deciding:
             raise
 
     def _search(self, send: Send, task: Task) -> None:
-        from checker.certify.record import Recorder
-        from checker.verify.decide import decide
-        from checker.verify.portfolio import Callbacks
-        from checker.verify.portfolio.question import stays
+        from rovercheck.checker.certify.record import Recorder
+        from rovercheck.checker.verify.decide import decide
+        from rovercheck.checker.verify.portfolio import Callbacks
+        from rovercheck.checker.verify.portfolio.question import stays
 
         recorder, results, deadline = Recorder(), list[Result](), self._limits.deadline()
         send(Granted(self._limits.seconds, firm=True))
@@ -388,7 +388,7 @@ class _Calm:
 def _light(verdict: Verdict) -> Verdict:
     """The verdict without the valuations that an exhausted search kept."""
     if isinstance(verdict, Proved | Violated) and isinstance(verdict.because, Exhausted | Inductive):
-        from checker.verify.portfolio.question import light_evidence
+        from rovercheck.checker.verify.portfolio.question import light_evidence
 
         return replace(verdict, because=light_evidence(verdict.because))
     return verdict

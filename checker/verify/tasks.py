@@ -4,12 +4,12 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.system.formula_json import Tree
-from checker.verify.portfolio.shape import driven
-from properties.forms import Property, Unbounded
-from properties.reduce import Question, reduce, without_step
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.system import System
+from rovercheck.checker.system.formula_json import Tree
+from rovercheck.checker.verify.portfolio.shape import driven
+from rovercheck.properties.forms import Property, Unbounded
+from rovercheck.properties.reduce import Question, reduce, without_step
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.system import System
 
 FEW = 64
 """Monitors with at most this many combinations of values share a search: compiling costs more."""

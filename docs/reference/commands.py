@@ -2,7 +2,7 @@
 
 import click
 
-from checker.cli import app
+from rovercheck.checker.cli import app
 
 HEAD = """# Command line
 

@@ -4,16 +4,16 @@ import inspect
 from typing import Any
 
 from docs.reference.language import TABLE, fenced, signature
-from properties import forms
-from properties.english import sentence
-from properties.forms import Property
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import flag, implies, var
-from spec_model.lang.time import ms, sec
+from rovercheck.properties import forms
+from rovercheck.properties.english import sentence
+from rovercheck.properties.forms import Property
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import flag, implies, var
+from rovercheck.spec_model.lang.time import ms, sec
 
 HEAD = """# Forms of properties
 
-From `properties.forms`. A property has an id, the sentence that people mean, a form, the requirements that
+From `rovercheck`. A property has an id, the sentence that people mean, a form, the requirements that
 it covers, and the system it is about. A formula is read at the end of a tick, with the inputs of the tick.
 Below each form is an example, and the sentence that `rovercheck list properties --english` makes from it for
 a system with steps of 20 ms.

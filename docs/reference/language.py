@@ -1,4 +1,4 @@
-"""The chart language, from the docstrings of ``spec_model.lang`` and an example of each word."""
+"""The chart language, from the docstrings of ``spec_model/lang`` and an example of each word."""
 
 import ast
 import importlib
@@ -11,8 +11,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-from spec_model.lang.expr import Const, Expr, Var
-from spec_model.lang.label import text
+from rovercheck.spec_model.lang.expr import Const, Expr, Var
+from rovercheck.spec_model.lang.label import text
 
 TABLE: dict[str, Any] = tomllib.loads(Path(__file__).with_name("examples.toml").read_text(encoding="utf-8"))
 MODULES = ("domain", "expr", "words", "time", "action", "chart", "system", "edit")
@@ -49,7 +49,7 @@ branching = Chart(
 
 def module(name: str) -> ModuleType:
     """A module of the language."""
-    return importlib.import_module(f"spec_model.lang.{name}")
+    return importlib.import_module(f"rovercheck.spec_model.lang.{name}")
 
 
 def words() -> dict[str, Any]:
@@ -70,7 +70,8 @@ def page() -> str:
 
 def _section(section: dict[str, Any], scope: dict[str, Any]) -> Iterator[str]:
     yield f"\n## {section['title']}\n"
-    yield f"From `spec_model.lang.{section['module']}`. {section['about']}\n"
+    home = "rovercheck" if section["module"] != "edit" else "rovercheck.spec_model.lang.edit"
+    yield f"From `{home}`. {section['about']}\n"
     for name, entry in section["words"].items():
         word = getattr(module(section["module"]), name)
         yield f"### {name}\n"

@@ -3,9 +3,9 @@
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
-from checker.model.load import load
-from checker.render import statechart_svg
 from docs.reference.listings import applied, listings
+from rovercheck.checker.model.load import load
+from rovercheck.checker.render import statechart_svg
 
 TUTORIAL = Path(__file__).parents[1] / "tutorial.md"
 ICON = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 24 24">

@@ -4,13 +4,13 @@ Each age may stop growing at the first one above the limit of its source [seed T
 older ones.
 """
 
-from properties.document.sources import BLE, IMU, RX, SUP
-from properties.forms import Property, always
-from properties.past import STEPPED
-from spec_model.lang.expr import Expr, Var, const, ite
-from spec_model.lang.words import previous
-from spec_model.readings import choose
-from spec_model.signals.board1 import (
+from rovercheck.properties.document.sources import BLE, IMU, RX, SUP
+from rovercheck.properties.forms import Property, always
+from rovercheck.properties.past import STEPPED
+from rovercheck.spec_model.lang.expr import Expr, Var, const, ite
+from rovercheck.spec_model.lang.words import previous
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board1 import (
     batt_age,
     batt_update,
     heartbeat_age,
@@ -20,7 +20,7 @@ from spec_model.signals.board1 import (
     temp_age,
     temp_update,
 )
-from spec_model.signals.board2_supervisor import sonar_age, sonar_update
+from rovercheck.spec_model.signals.board2_supervisor import sonar_age, sonar_update
 
 STEP = 20
 

@@ -5,15 +5,15 @@ btn1, btn1, btn2, btn2 with the stick at rest, at most 1 s from press to press [
 
 from collections.abc import Iterator
 
-from properties.forms import Property, always, precedes
-from spec_model.board1.backward import toggle
-from spec_model.board2.backward import toggle_2
-from spec_model.lang.chart import Chart
-from spec_model.lang.expr import Var, all_of, any_of, implies
-from spec_model.lang.time import ticks
-from spec_model.lang.words import held, previous, rising
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_motion as b2
+from rovercheck.properties.forms import Property, always, precedes
+from rovercheck.spec_model.board1.backward import toggle
+from rovercheck.spec_model.board2.backward import toggle_2
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.expr import Var, all_of, any_of, implies
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import held, previous, rising
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_motion as b2
 
 START = "Combo_starting_point"
 

@@ -1,14 +1,14 @@
 """What must be true of the battery status of Board 1 [seed Table 2]."""
 
-from properties.document.battery import absent, critical_range, fresh, stale_below_15
-from properties.forms import always, holds_after, reachable, until
-from properties.past import STEPPED
-from spec_model.board1.battery import monitor_battery
-from spec_model.lang.expr import implies, ite
-from spec_model.lang.time import sec
-from spec_model.lang.words import held, previous
-from spec_model.signals.board1 import batt_status, batt_update
-from spec_model.signals.board1 import battery_pct as b
+from rovercheck.properties.document.battery import absent, critical_range, fresh, stale_below_15
+from rovercheck.properties.forms import always, holds_after, reachable, until
+from rovercheck.properties.past import STEPPED
+from rovercheck.spec_model.board1.battery import monitor_battery
+from rovercheck.spec_model.lang.expr import implies, ite
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import held, previous
+from rovercheck.spec_model.signals.board1 import batt_status, batt_update
+from rovercheck.spec_model.signals.board1 import battery_pct as b
 
 ON = "battery"
 OK = batt_status == "BATT_HEALTH_OK"

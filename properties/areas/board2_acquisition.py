@@ -1,8 +1,8 @@
 """What must be true of the sonar and joystick tasks of Board 2, and of stale sonar data [seed §1.3]."""
 
-from properties.document.distances import NO_ECHO
-from properties.forms import always, enters_only_if, reachable, responds
-from spec_model.board2.acquisition import (
+from rovercheck.properties.document.distances import NO_ECHO
+from rovercheck.properties.forms import always, enters_only_if, reachable, responds
+from rovercheck.spec_model.board2.acquisition import (
     axis_x,
     axis_y,
     both_edges,
@@ -24,14 +24,14 @@ from spec_model.board2.acquisition import (
     sonar_task,
     width,
 )
-from spec_model.board2.acquisition import (
+from rovercheck.spec_model.board2.acquisition import (
     ticks as ble_now,
 )
-from spec_model.lang.expr import Expr, all_of, any_of, const, implies, ite
-from spec_model.lang.time import ms
-from spec_model.lang.words import held, previous
-from spec_model.signals.board2 import command, d1
-from spec_model.signals.board2_supervisor import critical_mask, degraded_mask, sonar_age
+from rovercheck.spec_model.lang.expr import Expr, all_of, any_of, const, implies, ite
+from rovercheck.spec_model.lang.time import ms
+from rovercheck.spec_model.lang.words import held, previous
+from rovercheck.spec_model.signals.board2 import command, d1
+from rovercheck.spec_model.signals.board2_supervisor import critical_mask, degraded_mask, sonar_age
 
 JOYSTICK, SONAR, SILENT = "acquisition_joystick", "acquisition_sonar", "sonar_silence"
 

@@ -1,11 +1,15 @@
 """What must be true of the wheel speeds that Board 2 commands [seed §3.1] (E25)."""
 
-from properties.forms import always, holds_after, reachable
-from spec_model.lang.expr import all_of, implies
-from spec_model.lang.time import ticks
-from spec_model.lang.words import absolute, named, once, previous
-from spec_model.signals.board2_motion import actuate_emergency_stop, omega_ref_actuation, v_ref_actuation
-from spec_model.signals.board2_supervisor import (
+from rovercheck.properties.forms import always, holds_after, reachable
+from rovercheck.spec_model.lang.expr import all_of, implies
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import absolute, named, once, previous
+from rovercheck.spec_model.signals.board2_motion import (
+    actuate_emergency_stop,
+    omega_ref_actuation,
+    v_ref_actuation,
+)
+from rovercheck.spec_model.signals.board2_supervisor import (
     autorized_to_send_command,
     driver_initialised,
     left_rpm,

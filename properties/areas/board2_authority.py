@@ -1,9 +1,9 @@
 """What must be true of the authorisation of Board 2 and of the state it then works in (E22) [seed §3.1]."""
 
-from properties.document.causes import emergency, q
-from properties.document.distances import within
-from properties.document.sources import RX, SUP, silent
-from properties.forms import (
+from rovercheck.properties.document.causes import emergency, q
+from rovercheck.properties.document.distances import within
+from rovercheck.properties.document.sources import RX, SUP, silent
+from rovercheck.properties.forms import (
     always,
     enters_only_if,
     holds_after,
@@ -11,13 +11,13 @@ from properties.forms import (
     leaves_only_if,
     reachable,
 )
-from properties.past import STEPPED
-from spec_model.board2.failure_check import check_board1
-from spec_model.board2.safety import safety_state_2
-from spec_model.lang.expr import implies
-from spec_model.lang.time import tick, ticks
-from spec_model.lang.words import held, named, previous
-from spec_model.signals.board2_supervisor import (
+from rovercheck.properties.past import STEPPED
+from rovercheck.spec_model.board2.failure_check import check_board1
+from rovercheck.spec_model.board2.safety import safety_state_2
+from rovercheck.spec_model.lang.expr import implies
+from rovercheck.spec_model.lang.time import tick, ticks
+from rovercheck.spec_model.lang.words import held, named, previous
+from rovercheck.spec_model.signals.board2_supervisor import (
     autorized_to_send_command,
     cmd,
     rover_safety_state,

@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from properties.forms import always, reachable, until
-from spec_model.board2.coherence import (
+from rovercheck.properties.forms import always, reachable, until
+from rovercheck.spec_model.board2.coherence import (
     differs,
     long_ends,
     long_result,
@@ -11,9 +11,9 @@ from spec_model.board2.coherence import (
     short_ends,
     short_result,
 )
-from spec_model.lang.expr import Expr, const, implies, ite
-from spec_model.lang.words import bit, previous
-from spec_model.signals.board2_supervisor import is_motion_consistent
+from rovercheck.spec_model.lang.expr import Expr, const, implies, ite
+from rovercheck.spec_model.lang.words import bit, previous
+from rovercheck.spec_model.signals.board2_supervisor import is_motion_consistent
 
 LONG, SHORT = "coherence_long", "coherence_short"
 BLOCKED, SPINNING = "coherence_blocked", "coherence_spinning"

@@ -1,10 +1,10 @@
 """What must be true of the fault masks of Board 2 and of the classes of faults [seed §2.2, §3.1] (E24)."""
 
-from properties.document.masks import BOARD_2
-from properties.forms import always, reachable
-from spec_model.lang.expr import all_of, any_of
-from spec_model.lang.words import bit
-from spec_model.signals.board2_supervisor import (
+from rovercheck.properties.document.masks import BOARD_2
+from rovercheck.properties.forms import always, reachable
+from rovercheck.spec_model.lang.expr import all_of, any_of
+from rovercheck.spec_model.lang.words import bit
+from rovercheck.spec_model.signals.board2_supervisor import (
     b1_emergency,
     b1_requests_switch,
     b2_emergency,

@@ -8,14 +8,14 @@ Its status is decided where of the gaps only a row of long or of short ones is k
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from properties.document.sources import BLE, IMU, RX, SUP, Source, silent
-from properties.forms import Property, always, costly
-from properties.past import STEPPED
-from spec_model.lang.domain import Bool, Domain, boolean, integer
-from spec_model.lang.expr import FALSE, Expr, Var, all_of, const, implies, ite, var
-from spec_model.lang.time import ticks
-from spec_model.lang.words import held, maximum, minimum, once, previous
-from spec_model.readings import choose
+from rovercheck.properties.document.sources import BLE, IMU, RX, SUP, Source, silent
+from rovercheck.properties.forms import Property, always, costly
+from rovercheck.properties.past import STEPPED
+from rovercheck.spec_model.lang.domain import Bool, Domain, boolean, integer
+from rovercheck.spec_model.lang.expr import FALSE, Expr, Var, all_of, const, implies, ite, var
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import held, maximum, minimum, once, previous
+from rovercheck.spec_model.readings import choose
 
 STEP, GAPS = 20, 10
 """Milliseconds of a step, and the gaps of which the mean is asked."""

@@ -5,8 +5,8 @@
 
 from collections.abc import Sequence
 
-from properties.document.sources import BLE, IMU, RX, SUP, Source, silent
-from properties.forms import (
+from rovercheck.properties.document.sources import BLE, IMU, RX, SUP, Source, silent
+from rovercheck.properties.forms import (
     Property,
     always,
     holds_after,
@@ -16,16 +16,16 @@ from properties.forms import (
     reachable,
     until,
 )
-from spec_model.board2.monitor_systems import (
+from rovercheck.spec_model.board2.monitor_systems import (
     twin_esp_status,
     twin_imu_status,
     twin_rx_status,
     twin_sup_status,
 )
-from spec_model.board2.monitors import monitor_sources
-from spec_model.lang.expr import Expr, Var, all_of, any_of, implies
-from spec_model.lang.time import ticks
-from spec_model.lang.words import held, previous
+from rovercheck.spec_model.board2.monitors import monitor_sources
+from rovercheck.spec_model.lang.expr import Expr, Var, all_of, any_of, implies
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import held, previous
 
 TICK = 20
 

@@ -1,14 +1,22 @@
 """What must be true of the references with which Board 2 moves the rover [seed §3.1, §3.4.2, Fig 20]."""
 
-from properties.document.causes import emergency
-from properties.document.distances import within
-from properties.forms import Property, always, enters_only_if, holds_after, leaves_only_if, never, reachable
-from spec_model.board2.backward import toggle_2
-from spec_model.board2.motion import motion_supervision_2
-from spec_model.lang.expr import TRUE, Expr, all_of, any_of, implies
-from spec_model.lang.time import Span, tick, ticks
-from spec_model.lang.words import absolute, held, named, previous, rising
-from spec_model.signals.board2_motion import (
+from rovercheck.properties.document.causes import emergency
+from rovercheck.properties.document.distances import within
+from rovercheck.properties.forms import (
+    Property,
+    always,
+    enters_only_if,
+    holds_after,
+    leaves_only_if,
+    never,
+    reachable,
+)
+from rovercheck.spec_model.board2.backward import toggle_2
+from rovercheck.spec_model.board2.motion import motion_supervision_2
+from rovercheck.spec_model.lang.expr import TRUE, Expr, all_of, any_of, implies
+from rovercheck.spec_model.lang.time import Span, tick, ticks
+from rovercheck.spec_model.lang.words import absolute, held, named, previous, rising
+from rovercheck.spec_model.signals.board2_motion import (
     actuate_emergency_stop,
     angle_err,
     ay_norm,
@@ -24,7 +32,7 @@ from spec_model.signals.board2_motion import (
     v_user,
     wheels_below_2_5,
 )
-from spec_model.signals.board2_supervisor import (
+from rovercheck.spec_model.signals.board2_supervisor import (
     autorized_to_send_command,
     cmd,
     rover_safety_state,

@@ -1,12 +1,12 @@
 """When Board 2 begins a stop and when it counts it as done, and its safety state and limits (E22, E25)."""
 
-from properties.areas.board2_motion import at_rest, braking, drives, rotating
-from properties.document.causes import emergency
-from properties.forms import always, enters_only_if, holds_after, never, reachable
-from spec_model.lang.expr import all_of, implies
-from spec_model.lang.time import ticks
-from spec_model.lang.words import absolute, held, once, previous
-from spec_model.signals.board2_motion import (
+from rovercheck.properties.areas.board2_motion import at_rest, braking, drives, rotating
+from rovercheck.properties.document.causes import emergency
+from rovercheck.properties.forms import always, enters_only_if, holds_after, never, reachable
+from rovercheck.spec_model.lang.expr import all_of, implies
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import absolute, held, once, previous
+from rovercheck.spec_model.signals.board2_motion import (
     actuate_emergency_stop,
     angle_err,
     ay_norm,
@@ -14,7 +14,12 @@ from spec_model.signals.board2_motion import (
     is_rotating180,
     wheels_below_2_5,
 )
-from spec_model.signals.board2_supervisor import cmd, rover_safety_state, rx_status, wheel_speed_rpm
+from rovercheck.spec_model.signals.board2_supervisor import (
+    cmd,
+    rover_safety_state,
+    rx_status,
+    wheel_speed_rpm,
+)
 
 ON = "references_2"
 critical = rover_safety_state == "SAFETY_CRITICAL"

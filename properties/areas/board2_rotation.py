@@ -1,11 +1,11 @@
 """What must be true of running, rotation and stop of Board 2, state by state [seed §3.4.2, Fig 20]."""
 
-from properties.areas.board2_motion import EXECUTED, at_rest, braking, drives, normal, rotating
-from properties.forms import Property, always, enters_only_if, leaves_only_if, never
-from spec_model.lang.expr import all_of, implies, ite
-from spec_model.lang.time import ticks
-from spec_model.lang.words import absolute, held, once, previous
-from spec_model.signals.board2_motion import (
+from rovercheck.properties.areas.board2_motion import EXECUTED, at_rest, braking, drives, normal, rotating
+from rovercheck.properties.forms import Property, always, enters_only_if, leaves_only_if, never
+from rovercheck.spec_model.lang.expr import all_of, implies, ite
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import absolute, held, once, previous
+from rovercheck.spec_model.signals.board2_motion import (
     actuate_emergency_stop,
     angle_err,
     ay_norm,
@@ -18,7 +18,7 @@ from spec_model.signals.board2_motion import (
     v_ref_actuation,
     wheels_below_2_5,
 )
-from spec_model.signals.board2_supervisor import rover_safety_state, rx_status
+from rovercheck.spec_model.signals.board2_supervisor import rover_safety_state, rx_status
 
 ON = "references_2"
 critical = rover_safety_state == "SAFETY_CRITICAL"

@@ -8,9 +8,9 @@ only takes them down, and begins both windows.
 
 from fractions import Fraction
 
-from properties.document.sources import IMU, SUP
-from properties.forms import Property, always, holds_after
-from spec_model.board2.coherence import (
+from rovercheck.properties.document.sources import IMU, SUP
+from rovercheck.properties.forms import Property, always, holds_after
+from rovercheck.spec_model.board2.coherence import (
     SUM,
     differs,
     hit,
@@ -25,10 +25,10 @@ from spec_model.board2.coherence import (
     short_ends,
     wheel_gap,
 )
-from spec_model.lang.expr import Expr, Var, all_of, const, implies, ite
-from spec_model.lang.time import ticks
-from spec_model.lang.words import absolute, bit, held, maximum, minimum, once, previous
-from spec_model.signals.board2_supervisor import gz_dps, is_motion_consistent, wheel_speed_rpm
+from rovercheck.spec_model.lang.expr import Expr, Var, all_of, const, implies, ite
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import absolute, bit, held, maximum, minimum, once, previous
+from rovercheck.spec_model.signals.board2_supervisor import gz_dps, is_motion_consistent, wheel_speed_rpm
 
 EXACT, LONG, SHORT = "coherence", "coherence_long", "coherence_short"
 ANY, COMPARED = "coherence_any_sums", "coherence_comparison"

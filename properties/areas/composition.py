@@ -1,16 +1,25 @@
 """What must be true of both boards together, step by step: relay, authorisation, stops across the link."""
 
-from properties.document.distances import within
-from properties.forms import always, costly, holds_after, leaves_only_if, never, responds, settles, until
-from spec_model.board1.motion import motion_supervision
-from spec_model.composition.motors import board1_powered, connected, followed, motors_zero, runs_1
-from spec_model.lang.expr import any_of, implies
-from spec_model.lang.time import ms, tick, ticks
-from spec_model.lang.words import absolute, held, named, once, previous
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2 as obstacles
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
+from rovercheck.properties.document.distances import within
+from rovercheck.properties.forms import (
+    always,
+    costly,
+    holds_after,
+    leaves_only_if,
+    never,
+    responds,
+    settles,
+    until,
+)
+from rovercheck.spec_model.board1.motion import motion_supervision
+from rovercheck.spec_model.composition.motors import board1_powered, connected, followed, motors_zero, runs_1
+from rovercheck.spec_model.lang.expr import any_of, implies
+from rovercheck.spec_model.lang.time import ms, tick, ticks
+from rovercheck.spec_model.lang.words import absolute, held, named, once, previous
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2 as obstacles
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
 
 drive1 = named("Board 1 actuates", ~b1.give_b2_actuation)
 drive2 = named("Board 2 is authorised", b2.autorized_to_send_command)

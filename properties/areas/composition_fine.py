@@ -1,8 +1,8 @@
 """Latencies through both boards in milliseconds, for arbitrary phases [system: chains of hops]."""
 
-from properties.document.distances import within
-from properties.forms import always, holds_after, responds, until
-from spec_model.composition.fine_systems import (
+from rovercheck.properties.document.distances import within
+from rovercheck.properties.forms import always, holds_after, responds, until
+from rovercheck.spec_model.composition.fine_systems import (
     actuates,
     asks_switch,
     critical_sent,
@@ -15,12 +15,19 @@ from spec_model.composition.fine_systems import (
     sup2_executes,
     v_positive,
 )
-from spec_model.lang.expr import implies
-from spec_model.lang.time import ms, tick
-from spec_model.lang.words import named, previous
-from spec_model.signals.board1 import cmd, give_b2_actuation, is_rotating180, rx_status, v_ref, y_norm
-from spec_model.signals.board2 import command
-from spec_model.signals.board2_supervisor import autorized_to_send_command, sends_speeds
+from rovercheck.spec_model.lang.expr import implies
+from rovercheck.spec_model.lang.time import ms, tick
+from rovercheck.spec_model.lang.words import named, previous
+from rovercheck.spec_model.signals.board1 import (
+    cmd,
+    give_b2_actuation,
+    is_rotating180,
+    rx_status,
+    v_ref,
+    y_norm,
+)
+from rovercheck.spec_model.signals.board2 import command
+from rovercheck.spec_model.signals.board2_supervisor import autorized_to_send_command, sends_speeds
 
 driven_forward = named(
     "Board 1 actuates, the user drives forward, no rotation",

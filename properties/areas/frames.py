@@ -7,16 +7,16 @@ never; one that is seen in its first step is not seen again.
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 
-from properties.forms import Property, always, reachable
-from properties.past import ago
-from spec_model.composition.motors import board1_powered, runs_1, runs_2
-from spec_model.composition.systems import arrives12, arrives21, lost12, lost21
-from spec_model.lang.expr import TRUE, Expr, Var, all_of, implies, ite
-from spec_model.lang.words import minimum, once, previous
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2 as obstacles
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
+from rovercheck.properties.forms import Property, always, reachable
+from rovercheck.properties.past import ago
+from rovercheck.spec_model.composition.motors import board1_powered, runs_1, runs_2
+from rovercheck.spec_model.composition.systems import arrives12, arrives21, lost12, lost21
+from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, all_of, implies, ite
+from rovercheck.spec_model.lang.words import minimum, once, previous
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2 as obstacles
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
 
 ON = "links"
 MANY = 8

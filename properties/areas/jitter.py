@@ -6,14 +6,14 @@ document is missed by that, what is true is stated beside it.
 
 from collections.abc import Iterable
 
-from properties.areas import battery, temperature
-from properties.areas.board2_motion import braking as braking_2
-from properties.areas.motion import braking as braking_1
-from properties.document import battery as flat
-from properties.document import temperature as hot_or_cold
-from properties.document.causes import q
-from properties.document.sources import BLE, IMU, RX, SUP, Source
-from properties.forms import (
+from rovercheck.properties.areas import battery, temperature
+from rovercheck.properties.areas.board2_motion import braking as braking_2
+from rovercheck.properties.areas.motion import braking as braking_1
+from rovercheck.properties.document import battery as flat
+from rovercheck.properties.document import temperature as hot_or_cold
+from rovercheck.properties.document.causes import q
+from rovercheck.properties.document.sources import BLE, IMU, RX, SUP, Source
+from rovercheck.properties.forms import (
     Property,
     always,
     enters_only_if,
@@ -23,17 +23,17 @@ from properties.forms import (
     never,
     reachable,
 )
-from properties.past import STEPPED
-from spec_model.board2.jitter_systems import b1_sup_age_ms
-from spec_model.board2.obstacles import drawn_n
-from spec_model.environment_jitter import in_a_row, rx_lag, step_ms
-from spec_model.lang.expr import Expr, all_of, const, implies, ite
-from spec_model.lang.time import Span, ms, sec
-from spec_model.lang.words import held, minimum, named, once, previous
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board1_fine import heartbeat_age_ms, rx_age_ms
-from spec_model.signals.board2 import B2Decision, obj1Detected, obj2Detected
+from rovercheck.properties.past import STEPPED
+from rovercheck.spec_model.board2.jitter_systems import b1_sup_age_ms
+from rovercheck.spec_model.board2.obstacles import drawn_n
+from rovercheck.spec_model.environment_jitter import in_a_row, rx_lag, step_ms
+from rovercheck.spec_model.lang.expr import Expr, all_of, const, implies, ite
+from rovercheck.spec_model.lang.time import Span, ms, sec
+from rovercheck.spec_model.lang.words import held, minimum, named, once, previous
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.board1_fine import heartbeat_age_ms, rx_age_ms
+from rovercheck.spec_model.signals.board2 import B2Decision, obj1Detected, obj2Detected
 
 DOCUMENT = (SUP, BLE, IMU, RX)
 SAID = ("the supervisor of Board 1", "the joystick link", "the IMU", "the reception from Board 1")

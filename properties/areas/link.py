@@ -1,10 +1,10 @@
 """What must be true of the link: which frames are accepted, and what the alive counter tells."""
 
-from properties.forms import always, reachable
-from properties.past import ago
-from spec_model.composition import counters, receiver
-from spec_model.lang.expr import implies, ite
-from spec_model.lang.words import modulo, previous
+from rovercheck.properties.forms import always, reachable
+from rovercheck.properties.past import ago
+from rovercheck.spec_model.composition import counters, receiver
+from rovercheck.spec_model.lang.expr import implies, ite
+from rovercheck.spec_model.lang.words import modulo, previous
 
 FRAME, MODULUS = 6, 16
 """Bytes of a frame and range of the alive counter, both as small as the model of the link has them."""

@@ -5,14 +5,14 @@ Bits 2 and 7 of the masks follow the two statuses by PB1-10.
 
 from collections.abc import Iterator
 
-from properties.forms import Property, always, holds_after, reachable
-from properties.past import ago, at_least
-from spec_model.board1.heartbeat import monitor_heartbeat
-from spec_model.board1.reception import monitor_reception
-from spec_model.lang.expr import Expr, all_of, const, implies, ite
-from spec_model.lang.time import ms, ticks
-from spec_model.lang.words import previous
-from spec_model.signals.board1 import (
+from rovercheck.properties.forms import Property, always, holds_after, reachable
+from rovercheck.properties.past import ago, at_least
+from rovercheck.spec_model.board1.heartbeat import monitor_heartbeat
+from rovercheck.spec_model.board1.reception import monitor_reception
+from rovercheck.spec_model.lang.expr import Expr, all_of, const, implies, ite
+from rovercheck.spec_model.lang.time import ms, ticks
+from rovercheck.spec_model.lang.words import previous
+from rovercheck.spec_model.signals.board1 import (
     b2_sup_status,
     heartbeat_age,
     heartbeat_slow,

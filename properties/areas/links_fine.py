@@ -3,12 +3,12 @@
 The properties of ``links``, said again where an age and an interval are exact to the ms.
 """
 
-from properties.forms import always, holds_after, reachable
-from spec_model.board1.fine_systems import heartbeat, reception
-from spec_model.lang.expr import Expr, Var, all_of, const, implies
-from spec_model.lang.time import ms, ticks
-from spec_model.lang.words import previous
-from spec_model.signals.board1 import (
+from rovercheck.properties.forms import always, holds_after, reachable
+from rovercheck.spec_model.board1.fine_systems import heartbeat, reception
+from rovercheck.spec_model.lang.expr import Expr, Var, all_of, const, implies
+from rovercheck.spec_model.lang.time import ms, ticks
+from rovercheck.spec_model.lang.words import previous
+from rovercheck.spec_model.signals.board1 import (
     b2_sup_status,
     heartbeat_slow,
     heartbeat_update,
@@ -16,7 +16,7 @@ from spec_model.signals.board1 import (
     rx_status,
     rx_update,
 )
-from spec_model.signals.board1_fine import heartbeat_age_ms, heartbeat_lag, rx_age_ms, rx_lag
+from rovercheck.spec_model.signals.board1_fine import heartbeat_age_ms, heartbeat_lag, rx_age_ms, rx_lag
 
 STEP = const(20, "ms")
 

@@ -1,12 +1,12 @@
 """What happens sooner or later, without a bound: a deviation ends, the stop is released, waiting returns."""
 
-from properties.areas.motion import calm, resumed
-from properties.forms import leads_to, recoverable, settles
-from spec_model.board2.obstacles import drawn_n as chart
-from spec_model.lang.expr import all_of
-from spec_model.lang.time import ticks
-from spec_model.signals.board1 import is_rotating180
-from spec_model.signals.board2 import B2Decision, d1, d2, d3, prevDEG_B1
+from rovercheck.properties.areas.motion import calm, resumed
+from rovercheck.properties.forms import leads_to, recoverable, settles
+from rovercheck.spec_model.board2.obstacles import drawn_n as chart
+from rovercheck.spec_model.lang.expr import all_of
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.signals.board1 import is_rotating180
+from rovercheck.spec_model.signals.board2 import B2Decision, d1, d2, d3, prevDEG_B1
 
 # --- the stop of Board 1 is released [seed §2.3]; steps are those in which Board 1 actuates ----------
 

@@ -1,12 +1,12 @@
 """What must be true of the manoeuvres of Board 1, state by state [seed §2.7, Fig 20]."""
 
-from properties.areas.references import drives, running
-from properties.forms import Property, always
-from spec_model.board1.motion import motion_supervision
-from spec_model.lang.expr import Expr, all_of, any_of, implies
-from spec_model.lang.words import maximum, minimum, once, previous
-from spec_model.readings import choose
-from spec_model.signals.board1 import (
+from rovercheck.properties.areas.references import drives, running
+from rovercheck.properties.forms import Property, always
+from rovercheck.spec_model.board1.motion import motion_supervision
+from rovercheck.spec_model.lang.expr import Expr, all_of, any_of, implies
+from rovercheck.spec_model.lang.words import maximum, minimum, once, previous
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board1 import (
     actuate_emergency_stop,
     backward_enabled,
     cmd,

@@ -1,10 +1,16 @@
 """What must be true of the fault masks of Board 1 [seed §2.3, §2.6, Tables 1 and 3]."""
 
-from properties.document.masks import BOARD_1, WHEELS
-from properties.forms import always, reachable
-from spec_model.lang.expr import all_of
-from spec_model.lang.words import bit
-from spec_model.signals.board1 import b1_critical, b1_degraded, critical_mask, degraded_mask, wheel_status
+from rovercheck.properties.document.masks import BOARD_1, WHEELS
+from rovercheck.properties.forms import always, reachable
+from rovercheck.spec_model.lang.expr import all_of
+from rovercheck.spec_model.lang.words import bit
+from rovercheck.spec_model.signals.board1 import (
+    b1_critical,
+    b1_degraded,
+    critical_mask,
+    degraded_mask,
+    wheel_status,
+)
 
 ON = "masks"
 

@@ -1,8 +1,8 @@
 """What must be true of the stop, the 180° rotation and backward mode of Board 1 [seed §2.2, §2.3, Fig 19]."""
 
-from properties.areas.references import drives, running
-from properties.document.causes import critical
-from properties.forms import (
+from rovercheck.properties.areas.references import drives, running
+from rovercheck.properties.document.causes import critical
+from rovercheck.properties.forms import (
     Property,
     always,
     enters_only_if,
@@ -11,12 +11,12 @@ from properties.forms import (
     never,
     reachable,
 )
-from spec_model.board1.backward import toggle
-from spec_model.board1.motion import motion_supervision
-from spec_model.lang.expr import TRUE, Expr, all_of, implies
-from spec_model.lang.time import ticks
-from spec_model.lang.words import absolute, held, named, once, previous, rising
-from spec_model.signals.board1 import (
+from rovercheck.spec_model.board1.backward import toggle
+from rovercheck.spec_model.board1.motion import motion_supervision
+from rovercheck.spec_model.lang.expr import TRUE, Expr, all_of, implies
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import absolute, held, named, once, previous, rising
+from rovercheck.spec_model.signals.board1 import (
     actuate_emergency_stop,
     angle_err,
     backward_enabled,

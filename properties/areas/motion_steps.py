@@ -5,16 +5,16 @@ The stop is tested before the user's command of the step is read, the arrows of 
 
 from fractions import Fraction
 
-from properties.areas.manoeuvres import ACTIONS, DEGRADED, OK, during
-from properties.areas.motion import at_rest, braking, normal, rotating, stopped
-from properties.areas.references import drives, running
-from properties.forms import Property, always, enters_only_if, holds_after, reachable
-from spec_model.board1.motion import motion_supervision
-from spec_model.lang.expr import Expr, all_of, const, implies
-from spec_model.lang.time import ticks
-from spec_model.lang.words import absolute, held, maximum, minimum, once, previous
-from spec_model.readings import choose
-from spec_model.signals.board1 import (
+from rovercheck.properties.areas.manoeuvres import ACTIONS, DEGRADED, OK, during
+from rovercheck.properties.areas.motion import at_rest, braking, normal, rotating, stopped
+from rovercheck.properties.areas.references import drives, running
+from rovercheck.properties.forms import Property, always, enters_only_if, holds_after, reachable
+from rovercheck.spec_model.board1.motion import motion_supervision
+from rovercheck.spec_model.lang.expr import Expr, all_of, const, implies
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import absolute, held, maximum, minimum, once, previous
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board1 import (
     angle_err,
     backward_enabled,
     cmd,

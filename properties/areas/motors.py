@@ -1,7 +1,7 @@
 """What must be true of the motor driver behind the relay: when the motors move, and when they stop."""
 
-from properties.forms import always, holds_after
-from spec_model.composition.motors import (
+from rovercheck.properties.forms import always, holds_after
+from rovercheck.spec_model.composition.motors import (
     board1_powered,
     connected,
     followed,
@@ -13,11 +13,11 @@ from spec_model.composition.motors import (
     stop_1,
     stop_2,
 )
-from spec_model.lang.expr import any_of, implies
-from spec_model.lang.time import ticks
-from spec_model.lang.words import held, named, once, previous
-from spec_model.signals.board1 import actuate_emergency_stop, give_b2_actuation, omega_ref, v_ref
-from spec_model.signals.board2_supervisor import left_rpm, right_rpm, sends_speeds, stop_pin
+from rovercheck.spec_model.lang.expr import any_of, implies
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import held, named, once, previous
+from rovercheck.spec_model.signals.board1 import actuate_emergency_stop, give_b2_actuation, omega_ref, v_ref
+from rovercheck.spec_model.signals.board2_supervisor import left_rpm, right_rpm, sends_speeds, stop_pin
 
 ON = "motors"
 zero_1 = (v_ref == 0) & (omega_ref == 0)

@@ -4,15 +4,15 @@ The systems named ``..._free``, ``..._straight`` and so on have every run of the
 more, so that what is proved on them holds for the chart; ``obstacles_n`` is the chart as drawn.
 """
 
-from properties.document.distances import within
-from properties.forms import always, enters_only_if, holds_after, leaves_only_if, never, responds
-from spec_model.board2.obstacles import drawn_n as chart
-from spec_model.board2.systems import targetAngle, yaw
-from spec_model.environment2 import echo
-from spec_model.lang.expr import all_of, any_of, implies
-from spec_model.lang.time import sec, tick, ticks
-from spec_model.lang.words import held, named, previous, wrap
-from spec_model.signals.board2 import (
+from rovercheck.properties.document.distances import within
+from rovercheck.properties.forms import always, enters_only_if, holds_after, leaves_only_if, never, responds
+from rovercheck.spec_model.board2.obstacles import drawn_n as chart
+from rovercheck.spec_model.board2.systems import targetAngle, yaw
+from rovercheck.spec_model.environment2 import echo
+from rovercheck.spec_model.lang.expr import all_of, any_of, implies
+from rovercheck.spec_model.lang.time import sec, tick, ticks
+from rovercheck.spec_model.lang.words import held, named, previous, wrap
+from rovercheck.spec_model.signals.board2 import (
     DEG_B1,
     B2Dec,
     B2Decision,

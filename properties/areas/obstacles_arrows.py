@@ -3,11 +3,11 @@
 An arrow is known by what it alone does: the states before and after it, or the flag that it sets.
 """
 
-from properties.forms import Property, reachable
-from spec_model.board2.obstacles import drawn_n as chart
-from spec_model.lang.expr import Expr, all_of
-from spec_model.lang.words import previous, rising
-from spec_model.signals.board2 import (
+from rovercheck.properties.forms import Property, reachable
+from rovercheck.spec_model.board2.obstacles import drawn_n as chart
+from rovercheck.spec_model.lang.expr import Expr, all_of
+from rovercheck.spec_model.lang.words import previous, rising
+from rovercheck.spec_model.signals.board2 import (
     obj1Detected,
     obj2Detected,
     obj3Detected,

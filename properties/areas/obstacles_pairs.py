@@ -5,13 +5,13 @@ A pair is named by its sonars, first seen first: pair 12 sees an obstacle move f
 
 from dataclasses import dataclass
 
-from properties.document.distances import in_range, within
-from properties.forms import Property, always, enters_only_if, until
-from spec_model.board2.obstacles import drawn_n as chart
-from spec_model.lang.expr import Expr, Var, all_of, any_of, implies
-from spec_model.lang.time import ticks
-from spec_model.lang.words import held, named, previous
-from spec_model.signals.board2 import (
+from rovercheck.properties.document.distances import in_range, within
+from rovercheck.properties.forms import Property, always, enters_only_if, until
+from rovercheck.spec_model.board2.obstacles import drawn_n as chart
+from rovercheck.spec_model.lang.expr import Expr, Var, all_of, any_of, implies
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import held, named, previous
+from rovercheck.spec_model.signals.board2 import (
     B2Decision,
     d1,
     d2,

@@ -1,10 +1,10 @@
 """Every state of the obstacle charts can be reached, and every window of 3 s can end either way."""
 
-from properties.forms import Property, reachable
-from spec_model.board2.obstacles import drawn_n as chart
-from spec_model.board2.obstacles_degraded import drawn_d as degraded
-from spec_model.lang.words import previous
-from spec_model.signals.board2 import obj2Detected
+from rovercheck.properties.forms import Property, reachable
+from rovercheck.spec_model.board2.obstacles import drawn_n as chart
+from rovercheck.spec_model.board2.obstacles_degraded import drawn_d as degraded
+from rovercheck.spec_model.lang.words import previous
+from rovercheck.spec_model.signals.board2 import obj2Detected
 
 
 def reached(id: str, state: str, *covers: str) -> Property:

@@ -4,7 +4,7 @@ From the readings of the three sonars follow the flags, from these the windows o
 windows the decision [seed §3.4.1, Figs 25-27].
 """
 
-from properties.areas.obstacles_pairs import (
+from rovercheck.properties.areas.obstacles_pairs import (
     DETECTED,
     PAIR_12,
     PAIR_21,
@@ -15,14 +15,14 @@ from properties.areas.obstacles_pairs import (
     Pair,
     lost,
 )
-from properties.document.distances import in_range, within
-from properties.forms import Property, always, leaves_only_if, never, precedes
-from spec_model.board2.heading import turned_45
-from spec_model.board2.obstacles import drawn_n as chart
-from spec_model.lang.expr import Expr, all_of, implies, ite
-from spec_model.lang.time import ticks
-from spec_model.lang.words import held, previous
-from spec_model.signals.board2 import B2Decision, prevDEG_B1, stop
+from rovercheck.properties.document.distances import in_range, within
+from rovercheck.properties.forms import Property, always, leaves_only_if, never, precedes
+from rovercheck.spec_model.board2.heading import turned_45
+from rovercheck.spec_model.board2.obstacles import drawn_n as chart
+from rovercheck.spec_model.lang.expr import Expr, all_of, implies, ite
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import held, previous
+from rovercheck.spec_model.signals.board2 import B2Decision, prevDEG_B1, stop
 
 ON = "obstacles_n"
 near = within(70)

@@ -1,12 +1,12 @@
 """What must be true of the references and the emergency stop of Board 1 [seed §2.2, §2.3, §2.7, Fig 20]."""
 
-from properties.document.causes import critical, degraded
-from properties.forms import always, holds_after, reachable, until
-from spec_model.board1.motion import motion_supervision
-from spec_model.lang.expr import Expr, all_of, any_of, implies
-from spec_model.lang.time import tick, ticks
-from spec_model.lang.words import absolute, named, once, previous
-from spec_model.signals.board1 import (
+from rovercheck.properties.document.causes import critical, degraded
+from rovercheck.properties.forms import always, holds_after, reachable, until
+from rovercheck.spec_model.board1.motion import motion_supervision
+from rovercheck.spec_model.lang.expr import Expr, all_of, any_of, implies
+from rovercheck.spec_model.lang.time import tick, ticks
+from rovercheck.spec_model.lang.words import absolute, named, once, previous
+from rovercheck.spec_model.signals.board1 import (
     OMEGA_GO_LEFT,
     OMEGA_GO_RIGHT,
     OMEGA_MAX,

@@ -1,11 +1,24 @@
 """What must be true of the relay decision of Board 1: who has the actuation [seed §2.5, Fig 16]."""
 
-from properties.forms import always, enters_only_if, holds_after, holds_for, leaves_only_if, reachable
-from spec_model.board1.relay import relay
-from spec_model.lang.expr import implies
-from spec_model.lang.time import ticks
-from spec_model.lang.words import held, named, once, previous
-from spec_model.signals.board1 import b2_sup_status, give_b2_actuation, heartbeat_age, rx_age, rx_status
+from rovercheck.properties.forms import (
+    always,
+    enters_only_if,
+    holds_after,
+    holds_for,
+    leaves_only_if,
+    reachable,
+)
+from rovercheck.spec_model.board1.relay import relay
+from rovercheck.spec_model.lang.expr import implies
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import held, named, once, previous
+from rovercheck.spec_model.signals.board1 import (
+    b2_sup_status,
+    give_b2_actuation,
+    heartbeat_age,
+    rx_age,
+    rx_status,
+)
 
 ON = "relay"
 critical = named("a link is critical", (rx_status == "RX_CRITICAL") | (b2_sup_status == "SUP_CRITICAL"))

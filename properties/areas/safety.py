@@ -1,13 +1,13 @@
 """What must be true of the safety state of the rover [seed §2.7, Fig 21]."""
 
-from properties.document.causes import critical, degraded
-from properties.forms import always, holds_after, reachable, responds
-from spec_model.board1.safety import safety_state
-from spec_model.lang.expr import all_of, implies
-from spec_model.lang.time import tick, ticks
-from spec_model.lang.words import bit, named, once
-from spec_model.readings import choose
-from spec_model.signals.board1 import (
+from rovercheck.properties.document.causes import critical, degraded
+from rovercheck.properties.forms import always, holds_after, reachable, responds
+from rovercheck.spec_model.board1.safety import safety_state
+from rovercheck.spec_model.lang.expr import all_of, implies
+from rovercheck.spec_model.lang.time import tick, ticks
+from rovercheck.spec_model.lang.words import bit, named, once
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board1 import (
     b2_critical,
     b2_degraded,
     crit_mask_b2,

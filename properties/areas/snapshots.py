@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from properties.document.sources import BLE, IMU, RX
-from properties.forms import Property, always
-from properties.past import STEPPED
-from spec_model.composition.motors import started
-from spec_model.lang.domain import Bool
-from spec_model.lang.expr import Expr, Var, all_of, implies, ite
-from spec_model.lang.words import once, previous
-from spec_model.signals.board1 import (
+from rovercheck.properties.document.sources import BLE, IMU, RX
+from rovercheck.properties.forms import Property, always
+from rovercheck.properties.past import STEPPED
+from rovercheck.spec_model.composition.motors import started
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.expr import Expr, Var, all_of, implies, ite
+from rovercheck.spec_model.lang.words import once, previous
+from rovercheck.spec_model.signals.board1 import (
     batt_reading,
     batt_update,
     battery_pct,
@@ -26,11 +26,11 @@ from spec_model.signals.board1 import (
     x_norm,
     y_norm,
 )
-from spec_model.signals.board1 import btn1 as b1_btn1
-from spec_model.signals.board1 import btn2 as b1_btn2
-from spec_model.signals.board2 import SONARS
-from spec_model.signals.board2_motion import ay_norm, btn1, btn2, bx_norm, yaw
-from spec_model.signals.board2_supervisor import (
+from rovercheck.spec_model.signals.board1 import btn1 as b1_btn1
+from rovercheck.spec_model.signals.board1 import btn2 as b1_btn2
+from rovercheck.spec_model.signals.board2 import SONARS
+from rovercheck.spec_model.signals.board2_motion import ay_norm, btn1, btn2, bx_norm, yaw
+from rovercheck.spec_model.signals.board2_supervisor import (
     crit_mask_b1,
     degr_mask_b1,
     gz_dps,

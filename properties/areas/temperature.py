@@ -1,6 +1,6 @@
 """What must be true of the temperature status of Board 1 [seed Table 2]."""
 
-from properties.document.temperature import (
+from rovercheck.properties.document.temperature import (
     absent,
     critical_range,
     degraded_range,
@@ -8,13 +8,13 @@ from properties.document.temperature import (
     ok_range,
     stale_above_65,
 )
-from properties.forms import always, holds_after, reachable, until
-from properties.past import STEPPED
-from spec_model.board1.temperature import monitor_temperature
-from spec_model.lang.expr import implies
-from spec_model.lang.time import sec
-from spec_model.lang.words import held
-from spec_model.signals.board1 import temp_status, temp_update
+from rovercheck.properties.forms import always, holds_after, reachable, until
+from rovercheck.properties.past import STEPPED
+from rovercheck.spec_model.board1.temperature import monitor_temperature
+from rovercheck.spec_model.lang.expr import implies
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import held
+from rovercheck.spec_model.signals.board1 import temp_status, temp_update
 
 ON = "temperature"
 OK = temp_status == "TEMP_HEALTH_OK"

@@ -2,12 +2,12 @@
 
 from collections.abc import Callable, Iterator
 
-from properties.document.masks import WHEELS
-from properties.forms import Property, always, reachable
-from properties.past import STEPPED
-from spec_model.board1.wheels import monitor_wheel_FL, monitor_wheel_FR
-from spec_model.lang.expr import Expr, implies, ite
-from spec_model.signals.board1 import has_no_feedback, is_motion_consistent, wheel_status
+from rovercheck.properties.document.masks import WHEELS
+from rovercheck.properties.forms import Property, always, reachable
+from rovercheck.properties.past import STEPPED
+from rovercheck.spec_model.board1.wheels import monitor_wheel_FL, monitor_wheel_FR
+from rovercheck.spec_model.lang.expr import Expr, implies, ite
+from rovercheck.spec_model.signals.board1 import has_no_feedback, is_motion_consistent, wheel_status
 
 consistent = is_motion_consistent
 

@@ -2,12 +2,12 @@
 
 from fractions import Fraction
 
-from spec_model.lang.expr import const
-from spec_model.lang.words import named
-from spec_model.readings import choose
-from spec_model.signals.board1 import batt_age
-from spec_model.signals.board1 import battery_pct as b
-from spec_model.signals.board1 import temperature_degC as T
+from rovercheck.spec_model.lang.expr import const
+from rovercheck.spec_model.lang.words import named
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board1 import batt_age
+from rovercheck.spec_model.signals.board1 import battery_pct as b
+from rovercheck.spec_model.signals.board1 import temperature_degC as T
 
 fresh = batt_age < 500
 absent = batt_age >= 500

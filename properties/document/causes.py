@@ -1,10 +1,10 @@
 """Why the rover slows down, stops or changes hands: causes of the safety state, of a switch, of a return."""
 
-from spec_model.lang.expr import FALSE, any_of
-from spec_model.lang.words import named
-from spec_model.readings import choose
-from spec_model.signals.board1 import b1_critical, b1_degraded, b2_critical, b2_degraded
-from spec_model.signals.board2_supervisor import (
+from rovercheck.spec_model.lang.expr import FALSE, any_of
+from rovercheck.spec_model.lang.words import named
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board1 import b1_critical, b1_degraded, b2_critical, b2_degraded
+from rovercheck.spec_model.signals.board2_supervisor import (
     b1_emergency,
     b1_requests_switch,
     b1_sup_status,

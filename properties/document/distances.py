@@ -1,9 +1,9 @@
 """What the sonars measure: an obstacle near enough to stop for, a moving one in range [seed §3.4]."""
 
-from spec_model.lang.expr import TRUE, Expr, Var, any_of
-from spec_model.lang.words import named
-from spec_model.readings import choose
-from spec_model.signals.board2 import d1, d2, d3
+from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, any_of
+from rovercheck.spec_model.lang.words import named
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board2 import d1, d2, d3
 
 NO_ECHO = 301
 """cm that stand for a sonar without an echo [design] (E13)."""

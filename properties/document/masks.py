@@ -1,8 +1,8 @@
 """The fault masks of both boards, bit 0 first: whose bit it is, and at which levels it is set."""
 
-from spec_model.lang.expr import Var
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_supervisor as b2
 
 WHEELS = ("FL", "FR", "RL", "RR")
 """In the order of bits 3 to 6 [seed Table 1]."""

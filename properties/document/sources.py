@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.words import named
-from spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.words import named
+from rovercheck.spec_model.signals import board2_supervisor as b2
 
 
 @dataclass(frozen=True)

@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from fractions import Fraction
 
-from spec_model.lang.expr import Expr, const, ite
-from spec_model.lang.words import named
-from spec_model.readings import choose
-from spec_model.signals.board1 import temp_age
-from spec_model.signals.board1 import temperature_degC as T
+from rovercheck.spec_model.lang.expr import Expr, const, ite
+from rovercheck.spec_model.lang.words import named
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board1 import temp_age
+from rovercheck.spec_model.signals.board1 import temperature_degC as T
 
 fresh = temp_age < 500
 absent = temp_age >= 500

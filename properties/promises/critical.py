@@ -2,17 +2,17 @@
 
 from collections.abc import Sequence
 
-from properties.document import battery, temperature
-from properties.document.sources import BLE, IMU, silent_ms
-from properties.forms import Property, costly, holds_after
-from properties.promises import shown, steered
-from properties.promises.driving import drives_1, drives_2, zero_1, zero_2
-from properties.promises.promise import Chain, Promise
-from spec_model.lang.expr import Expr, any_of
-from spec_model.lang.time import Span, sec, tick, ticks
-from spec_model.lang.words import bit, held
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_supervisor as b2
+from rovercheck.properties.document import battery, temperature
+from rovercheck.properties.document.sources import BLE, IMU, silent_ms
+from rovercheck.properties.forms import Property, costly, holds_after
+from rovercheck.properties.promises import shown, steered
+from rovercheck.properties.promises.driving import drives_1, drives_2, zero_1, zero_2
+from rovercheck.properties.promises.promise import Chain, Promise
+from rovercheck.spec_model.lang.expr import Expr, any_of
+from rovercheck.spec_model.lang.time import Span, sec, tick, ticks
+from rovercheck.spec_model.lang.words import bit, held
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_supervisor as b2
 
 BEYOND_THE_LINK = (0, 1, 3, 4, 5, 6)
 """Bits of Board 1's critical mask that a loss of the link does not set [seed Table 1]."""

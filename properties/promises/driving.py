@@ -1,10 +1,10 @@
 """Who drives, and how fast: the words in which promises speak of what the boards command."""
 
-from spec_model.lang.words import absolute, named
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board1_fine import rx_age_ms
+from rovercheck.spec_model.lang.words import absolute, named
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.board1_fine import rx_age_ms
 
 drives_1 = named("Board 1 actuates", ~b1.give_b2_actuation)
 drives_2 = named("Board 2 drives", b2.autorized_to_send_command)

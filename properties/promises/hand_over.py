@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 
-from properties.forms import Property, always, costly, holds_after
-from properties.promises.driving import unheard
-from spec_model.composition.motors import connected, followed, runs_1
-from spec_model.composition.weather import OTHER, SPELLS, for_a_step
-from spec_model.lang.expr import Expr, implies
-from spec_model.lang.time import Span, ms, ticks
+from rovercheck.properties.forms import Property, always, costly, holds_after
+from rovercheck.properties.promises.driving import unheard
+from rovercheck.spec_model.composition.motors import connected, followed, runs_1
+from rovercheck.spec_model.composition.weather import OTHER, SPELLS, for_a_step
+from rovercheck.spec_model.lang.expr import Expr, implies
+from rovercheck.spec_model.lang.time import Span, ms, ticks
 
 SWITCHED = costly(always(
     "P-RELAY-SWITCHED",

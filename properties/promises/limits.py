@@ -1,16 +1,16 @@
 """Limits: what the references may be at most, whatever is commanded, and what an emergency stop means."""
 
-from properties.document import temperature
-from properties.forms import always, costly, holds_after
-from properties.promises import steered
-from properties.promises.driving import drives_1, half_1, half_2, zero_1, zero_2
-from properties.promises.promise import Promise
-from spec_model.lang.expr import any_of, implies
-from spec_model.lang.time import ticks
-from spec_model.lang.words import absolute, named
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
+from rovercheck.properties.document import temperature
+from rovercheck.properties.forms import always, costly, holds_after
+from rovercheck.properties.promises import steered
+from rovercheck.properties.promises.driving import drives_1, half_1, half_2, zero_1, zero_2
+from rovercheck.properties.promises.promise import Promise
+from rovercheck.spec_model.lang.expr import any_of, implies
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import absolute, named
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
 
 degraded = named(
     "a degraded cause",

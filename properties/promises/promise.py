@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from properties.forms import Property
-from spec_model.lang.expr import TRUE, Expr
+from rovercheck.properties.forms import Property
+from rovercheck.spec_model.lang.expr import TRUE, Expr
 
 ORDER = ("STOP", "CRITICAL", "RELAY", "LIMITS", "LOSS", "RESUME", "SHOWN")
 """The ids of the promises as the page shows them: the user's own three first."""

@@ -1,14 +1,14 @@
 """The relay and the authorisation: from the age of frames and heartbeats to who may move the rover."""
 
-from properties.forms import always, costly, enters_only_if, holds_after, leaves_only_if
-from properties.promises import hand_over, shown, steered
-from properties.promises.driving import unheard
-from properties.promises.promise import Chain, Promise
-from spec_model.lang.expr import implies
-from spec_model.lang.time import ticks
-from spec_model.lang.words import bit, held, named
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_supervisor as b2
+from rovercheck.properties.forms import always, costly, enters_only_if, holds_after, leaves_only_if
+from rovercheck.properties.promises import hand_over, shown, steered
+from rovercheck.properties.promises.driving import unheard
+from rovercheck.properties.promises.promise import Chain, Promise
+from rovercheck.spec_model.lang.expr import implies
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import bit, held, named
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_supervisor as b2
 
 asked = named("Board 1 asks to switch", bit(b2.crit_mask_b1, 2) | bit(b2.crit_mask_b1, 7))
 """Its reception or its view of Board 2's supervisor is critical [seed Table 1]."""

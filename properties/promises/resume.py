@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 
-from properties.forms import Property, holds_after
-from properties.promises.promise import Promise
-from spec_model.composition.motors import connected, motors_zero
-from spec_model.composition.weather import SPELLS
-from spec_model.lang.time import Span, ms
-from spec_model.lang.words import named
-from spec_model.signals.board1 import v_ref
+from rovercheck.properties.forms import Property, holds_after
+from rovercheck.properties.promises.promise import Promise
+from rovercheck.spec_model.composition.motors import connected, motors_zero
+from rovercheck.spec_model.composition.weather import SPELLS
+from rovercheck.spec_model.lang.time import Span, ms
+from rovercheck.spec_model.lang.words import named
+from rovercheck.spec_model.signals.board1 import v_ref
 
 full_speed = named("Board 1 drives at full speed", (connected == "Board1") & ~motors_zero & (v_ref == 1))
 

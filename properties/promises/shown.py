@@ -1,15 +1,15 @@
 """What each board shows the other: from the measured datum to the bit of the mask that is sent."""
 
-from properties.document import battery, temperature
-from properties.document.sources import BLE, IMU, RX, SUP, Source, silent_ms
-from properties.forms import Property, always, costly, holds_after
-from properties.promises.promise import Promise
-from spec_model.lang.expr import Expr, all_of, implies
-from spec_model.lang.time import sec, ticks
-from spec_model.lang.words import bit, held, previous
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board1_fine import rx_age_ms
+from rovercheck.properties.document import battery, temperature
+from rovercheck.properties.document.sources import BLE, IMU, RX, SUP, Source, silent_ms
+from rovercheck.properties.forms import Property, always, costly, holds_after
+from rovercheck.properties.promises.promise import Promise
+from rovercheck.spec_model.lang.expr import Expr, all_of, implies
+from rovercheck.spec_model.lang.time import sec, ticks
+from rovercheck.spec_model.lang.words import bit, held, previous
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.board1_fine import rx_age_ms
 
 
 def _critical(index: int) -> Expr:

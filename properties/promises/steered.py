@@ -2,16 +2,16 @@
 
 from dataclasses import replace
 
-from properties.document.distances import within
-from properties.forms import Property, costly, holds_after
-from properties.promises import weather
-from properties.promises.weather import at_rest, slow
-from spec_model.composition.weather import SPELLS
-from spec_model.lang.time import ms
-from spec_model.lang.words import named
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
+from rovercheck.properties.document.distances import within
+from rovercheck.properties.forms import Property, costly, holds_after
+from rovercheck.properties.promises import weather
+from rovercheck.properties.promises.weather import at_rest, slow
+from rovercheck.spec_model.composition.weather import SPELLS
+from rovercheck.spec_model.lang.time import ms
+from rovercheck.spec_model.lang.words import named
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
 
 
 def _steered(held: Property) -> Property:

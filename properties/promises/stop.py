@@ -1,17 +1,17 @@
 """Obstacle => stop: from the sonars to the command for Board 1, and to the references of who drives."""
 
-from properties.areas.composition_fine import driven_forward
-from properties.document.distances import within
-from properties.forms import costly, holds_after
-from properties.promises import steered, weather
-from properties.promises.driving import drives_1, drives_2, zero_1
-from properties.promises.promise import Chain, Promise
-from spec_model.lang.expr import Expr
-from spec_model.lang.time import tick, ticks
-from spec_model.lang.words import named
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2 as sonar
-from spec_model.signals import board2_supervisor as b2
+from rovercheck.properties.areas.composition_fine import driven_forward
+from rovercheck.properties.document.distances import within
+from rovercheck.properties.forms import costly, holds_after
+from rovercheck.properties.promises import steered, weather
+from rovercheck.properties.promises.driving import drives_1, drives_2, zero_1
+from rovercheck.properties.promises.promise import Chain, Promise
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.time import tick, ticks
+from rovercheck.spec_model.lang.words import named
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2 as sonar
+from rovercheck.spec_model.signals import board2_supervisor as b2
 
 COMMANDED = sonar.command == "CMD_ESTOP"
 OF_BOARD_2 = named("a fault in a mask of Board 2", (b2.critical_mask != 0) | (b2.degraded_mask != 0))

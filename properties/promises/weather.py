@@ -3,15 +3,15 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from properties.forms import HoldsAfter, Property, costly, holds_after, reachable
-from properties.promises.driving import half_1
-from properties.promises.promise import Promise
-from spec_model.composition.motors import connected, motors_zero
-from spec_model.composition.weather import SPELLS, for_a_step, other
-from spec_model.lang.expr import Expr
-from spec_model.lang.time import Span, ms, sec
-from spec_model.lang.words import named
-from spec_model.signals.board1 import v_ref
+from rovercheck.properties.forms import HoldsAfter, Property, costly, holds_after, reachable
+from rovercheck.properties.promises.driving import half_1
+from rovercheck.properties.promises.promise import Promise
+from rovercheck.spec_model.composition.motors import connected, motors_zero
+from rovercheck.spec_model.composition.weather import SPELLS, for_a_step, other
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.time import Span, ms, sec
+from rovercheck.spec_model.lang.words import named
+from rovercheck.spec_model.signals.board1 import v_ref
 
 at_rest = named("the motors stand", motors_zero)
 slow = named(

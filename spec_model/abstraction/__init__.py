@@ -1,6 +1,6 @@
 """Concrete measurements (floats, millisecond stamps) as inputs of the charts, and back."""
 
-from spec_model.abstraction.board import Board, BoardReader, BoardSignal, Output, Value, Values
-from spec_model.abstraction.boards import boards
+from rovercheck.spec_model.abstraction.board import Board, BoardReader, BoardSignal, Output, Value, Values
+from rovercheck.spec_model.abstraction.boards import boards
 
 __all__ = ["Board", "BoardReader", "BoardSignal", "Output", "Value", "Values", "boards"]

@@ -10,11 +10,11 @@ from fractions import Fraction
 from math import isfinite
 from typing import Protocol, cast
 
-from spec_model.lang.domain import Bool, Domain, Enum, Num, exact
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import FALSE, Expr, Var
-from spec_model.lang.system import System
+from rovercheck.spec_model.lang.domain import Bool, Domain, Enum, Num, exact
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import FALSE, Expr, Var
+from rovercheck.spec_model.lang.system import System
 
 Value = bool | int | float
 """A concrete value: a boolean, a whole number (also the number of an enumeration's member) or a float."""

@@ -2,16 +2,16 @@
 
 from collections.abc import Mapping
 
-from spec_model.abstraction.board import Board, BoardSignal, Value, Values, computed, units
-from spec_model.abstraction.signals import discrete, measured, outputs, stamp
-from spec_model.abstraction.stamps import MeanOfTen, Stamp, age
-from spec_model.board1 import SUPERVISOR
-from spec_model.environment import check_stop
-from spec_model.environment_jitter import step_ms
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TICK_MS, in_order
-from spec_model.signals import board1 as b1
-from spec_model.signals import board1_fine as fine
+from rovercheck.spec_model.abstraction.board import Board, BoardSignal, Value, Values, computed, units
+from rovercheck.spec_model.abstraction.signals import discrete, measured, outputs, stamp
+from rovercheck.spec_model.abstraction.stamps import MeanOfTen, Stamp, age
+from rovercheck.spec_model.board1 import SUPERVISOR
+from rovercheck.spec_model.environment import check_stop
+from rovercheck.spec_model.environment_jitter import step_ms
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TICK_MS, in_order
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board1_fine as fine
 
 AGES: dict[str, Var] = {
     "last_valid_b2_ms": b1.heartbeat_age,

@@ -2,19 +2,19 @@
 
 from collections.abc import Mapping
 
-from spec_model.abstraction.board import Board, BoardSignal, Value, Values, computed, units
-from spec_model.abstraction.gaps import advance, record_of_gaps
-from spec_model.abstraction.signals import discrete, measured, outputs, stamp
-from spec_model.abstraction.stamps import Stamp, Updates, age, since
-from spec_model.board2 import ACTUATION, supervisor
-from spec_model.board2.heading import measured as heading
-from spec_model.environment_jitter import step_ms
-from spec_model.lang.expr import Var, var
-from spec_model.lang.system import TICK_MS, in_order
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board2 import DEG_B1, SONARS, B2Dec, command
-from spec_model.signals.rotation import TARGET
+from rovercheck.spec_model.abstraction.board import Board, BoardSignal, Value, Values, computed, units
+from rovercheck.spec_model.abstraction.gaps import advance, record_of_gaps
+from rovercheck.spec_model.abstraction.signals import discrete, measured, outputs, stamp
+from rovercheck.spec_model.abstraction.stamps import Stamp, Updates, age, since
+from rovercheck.spec_model.board2 import ACTUATION, supervisor
+from rovercheck.spec_model.board2.heading import measured as heading
+from rovercheck.spec_model.environment_jitter import step_ms
+from rovercheck.spec_model.lang.expr import Var, var
+from rovercheck.spec_model.lang.system import TICK_MS, in_order
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.board2 import DEG_B1, SONARS, B2Dec, command
+from rovercheck.spec_model.signals.rotation import TARGET
 
 SOURCES = {
     "last_valid_b1_ms": b2.SUP,

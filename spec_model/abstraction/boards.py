@@ -5,11 +5,11 @@ from dataclasses import replace
 from functools import cache
 from types import MappingProxyType
 
-from spec_model.abstraction.board import Board
-from spec_model.abstraction.board1 import BOARD1
-from spec_model.abstraction.board2 import BOARD2
-from spec_model.lang.errors import ModelError
-from spec_model.readings import fixed
+from rovercheck.spec_model.abstraction.board import Board
+from rovercheck.spec_model.abstraction.board1 import BOARD1
+from rovercheck.spec_model.abstraction.board2 import BOARD2
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.readings import fixed
 
 BOARDS = (BOARD1, BOARD2)
 RECORDED = ("S34", "S35", "S36", "S37", "S40", "S66")

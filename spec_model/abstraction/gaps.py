@@ -3,13 +3,13 @@
 What ``spec_model.board2.slow2`` counts in ticks is here the difference of two stamps (E26).
 """
 
-from spec_model.board2.slow2 import GAPS, Slow2, enough
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import Expr, Var, const, flag, var
-from spec_model.lang.words import minimum
-from spec_model.signals.board2_supervisor import COUNT, SourceSignals
+from rovercheck.spec_model.board2.slow2 import GAPS, Slow2, enough
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import Expr, Var, const, flag, var
+from rovercheck.spec_model.lang.words import minimum
+from rovercheck.spec_model.signals.board2_supervisor import COUNT, SourceSignals
 
 MILLISECONDS = integer(0, 1 << 40, "ms")
 

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable
 
-from spec_model.abstraction.board import BoardSignal, Output, units
-from spec_model.lang.domain import Num, fixed
-from spec_model.lang.expr import FALSE, Expr, Var
+from rovercheck.spec_model.abstraction.board import BoardSignal, Output, units
+from rovercheck.spec_model.lang.domain import Num, fixed
+from rovercheck.spec_model.lang.expr import FALSE, Expr, Var
 
 MILLISECONDS = fixed(0, (1 << 32) - 1, 1, "ms")
 

@@ -3,8 +3,8 @@
 from collections import deque
 from fractions import Fraction
 
-from spec_model.abstraction.board import Raw, whole
-from spec_model.lang.system import TICK_MS
+from rovercheck.spec_model.abstraction.board import Raw, whole
+from rovercheck.spec_model.lang.system import TICK_MS
 
 CLOCK = 1 << 32
 """The clock of a board starts again at 0 after 49.7 days."""

@@ -6,23 +6,23 @@ limits and references.  A block sees in the same step what the blocks before it 
 
 from collections.abc import Sequence
 
-from spec_model.board1.backward import toggle
-from spec_model.board1.battery import monitor_battery
-from spec_model.board1.classify import process_b2_masks
-from spec_model.board1.heartbeat import monitor_heartbeat
-from spec_model.board1.limits import update_safety_limits
-from spec_model.board1.masks import fault_masks, own_causes
-from spec_model.board1.motion import motion_supervision
-from spec_model.board1.reception import monitor_reception
-from spec_model.board1.relay import relay
-from spec_model.board1.safety import safety_state
-from spec_model.board1.temperature import monitor_temperature
-from spec_model.board1.temperature_ranges import count_range_steps
-from spec_model.board1.wheels import monitor_wheels
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block, Chart, Component, Enabled
-from spec_model.readings import under
-from spec_model.signals.board1 import give_b2_actuation, omega_ref, v_ref
+from rovercheck.spec_model.board1.backward import toggle
+from rovercheck.spec_model.board1.battery import monitor_battery
+from rovercheck.spec_model.board1.classify import process_b2_masks
+from rovercheck.spec_model.board1.heartbeat import monitor_heartbeat
+from rovercheck.spec_model.board1.limits import update_safety_limits
+from rovercheck.spec_model.board1.masks import fault_masks, own_causes
+from rovercheck.spec_model.board1.motion import motion_supervision
+from rovercheck.spec_model.board1.reception import monitor_reception
+from rovercheck.spec_model.board1.relay import relay
+from rovercheck.spec_model.board1.safety import safety_state
+from rovercheck.spec_model.board1.temperature import monitor_temperature
+from rovercheck.spec_model.board1.temperature_ranges import count_range_steps
+from rovercheck.spec_model.board1.wheels import monitor_wheels
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
+from rovercheck.spec_model.readings import under
+from rovercheck.spec_model.signals.board1 import give_b2_actuation, omega_ref, v_ref
 
 LINKS = (*monitor_wheels, monitor_heartbeat, monitor_reception)
 """The monitors that read how old the last frame is; those of the wheels with S31=IGNORE."""

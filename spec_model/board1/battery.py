@@ -6,13 +6,13 @@ percentage (S15, S25).  Between 23 % and 25 % no row is true and the state is ke
 
 from fractions import Fraction
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import Expr, const
-from spec_model.lang.time import sec, ticks
-from spec_model.lang.words import held, named
-from spec_model.readings import choose, under
-from spec_model.signals.board1 import (
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.expr import Expr, const
+from rovercheck.spec_model.lang.time import sec, ticks
+from rovercheck.spec_model.lang.words import held, named
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board1 import (
     batt_age,
     batt_status,
     battery_pct,

@@ -4,11 +4,11 @@ Some critical bits of Board 2 only slow the rover down (S55).  The bits (S54): 0
 2 reception from Board 1, 3 supervisor of Board 1.  Under SAME-AS-B1 they are those of Table 1.
 """
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.words import bit, named
-from spec_model.readings import choose
-from spec_model.signals.board1 import b2_critical, b2_degraded, crit_mask_b2, degr_mask_b2
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.words import bit, named
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board1 import b2_critical, b2_degraded, crit_mask_b2, degr_mask_b2
 
 # Of the bits of Table 1 the link (2) slows down and the others stop; bits 4 to 7 are beyond the 4 modelled.
 stopping = choose(

@@ -2,16 +2,16 @@
 
 from dataclasses import replace
 
-from spec_model import environment_fine as env
-from spec_model.board1 import SUPERVISOR, supervisor
-from spec_model.board1.heartbeat import heartbeat_monitor
-from spec_model.board1.reception import reception_monitor
-from spec_model.board1.systems import FEW_VALUES, HEADINGS, board1
-from spec_model.board1.wheels import monitor_of_wheel
-from spec_model.environment import reception_clock
-from spec_model.lang.system import System, in_order
-from spec_model.signals import board1 as b1
-from spec_model.signals import board1_fine as fine
+from rovercheck.spec_model import environment_fine as env
+from rovercheck.spec_model.board1 import SUPERVISOR, supervisor
+from rovercheck.spec_model.board1.heartbeat import heartbeat_monitor
+from rovercheck.spec_model.board1.reception import reception_monitor
+from rovercheck.spec_model.board1.systems import FEW_VALUES, HEADINGS, board1
+from rovercheck.spec_model.board1.wheels import monitor_of_wheel
+from rovercheck.spec_model.environment import reception_clock
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board1_fine as fine
 
 STAMPS = (
     "Time stamps are exact to the ms. Several updates between two steps are one update with the latest "

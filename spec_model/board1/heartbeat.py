@@ -3,13 +3,13 @@
 The heartbeat travels in the frames, so a dead link also stops it; each row is read by itself (S41).
 """
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import Var
-from spec_model.lang.time import sec
-from spec_model.lang.words import duration, named
-from spec_model.readings import choose, under
-from spec_model.signals.board1 import b2_sup_status, heartbeat_age, heartbeat_slow, rx_age
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import duration, named
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board1 import b2_sup_status, heartbeat_age, heartbeat_slow, rx_age
 
 
 def heartbeat_monitor(age: Var, frame_age: Var) -> Chart:

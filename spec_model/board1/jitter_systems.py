@@ -1,18 +1,18 @@
 """Board 1 where its steps last 19 to 21 ms: links, relay, what is held for seconds, the stop."""
 
-from spec_model import environment_jitter as env
-from spec_model.board1.battery import monitor_battery
-from spec_model.board1.fine_systems import ALIKE_INTERVALS
-from spec_model.board1.heartbeat import heartbeat_monitor
-from spec_model.board1.reception import reception_monitor
-from spec_model.board1.relay import relay
-from spec_model.board1.systems import FEW_VALUES, FREE_STATUSES, references_executed
-from spec_model.board1.temperature import monitor_temperature
-from spec_model.environment import battery_readings, check_stop, temperature_readings
-from spec_model.lang.expr import all_of, implies
-from spec_model.lang.system import System, in_order
-from spec_model.signals import board1 as b1
-from spec_model.signals import board1_fine as fine
+from rovercheck.spec_model import environment_jitter as env
+from rovercheck.spec_model.board1.battery import monitor_battery
+from rovercheck.spec_model.board1.fine_systems import ALIKE_INTERVALS
+from rovercheck.spec_model.board1.heartbeat import heartbeat_monitor
+from rovercheck.spec_model.board1.reception import reception_monitor
+from rovercheck.spec_model.board1.relay import relay
+from rovercheck.spec_model.board1.systems import FEW_VALUES, FREE_STATUSES, references_executed
+from rovercheck.spec_model.board1.temperature import monitor_temperature
+from rovercheck.spec_model.environment import battery_readings, check_stop, temperature_readings
+from rovercheck.spec_model.lang.expr import all_of, implies
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board1_fine as fine
 
 reception = reception_monitor(fine.rx_age_ms)
 heartbeat = heartbeat_monitor(fine.heartbeat_age_ms, fine.rx_age_ms)

@@ -6,9 +6,9 @@ the chart in every step, which gives the same references: nothing reads a limit 
 
 from fractions import Fraction
 
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.chart import Block
-from spec_model.signals.board1 import (
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.signals.board1 import (
     OMEGA_GO_LEFT,
     OMEGA_GO_RIGHT,
     OMEGA_MAX,

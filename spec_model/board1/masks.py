@@ -4,11 +4,11 @@ Table 3 prints the names of the temperature levels on almost every row; each row
 its own component (S51).  A component has one level, so no bit is in both masks (S52).
 """
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.expr import Expr, Var, all_of, any_of, const, ite
-from spec_model.readings import choose, under
-from spec_model.signals.board1 import (
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.expr import Expr, Var, all_of, any_of, const, ite
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board1 import (
     b1_critical,
     b1_degraded,
     b2_sup_status,

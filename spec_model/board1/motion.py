@@ -7,7 +7,7 @@ It is the second region of the reference chart, executed after the toggle of bac
 
 from fractions import Fraction
 
-from spec_model.board1.motion_readings import (
+from rovercheck.spec_model.board1.motion_readings import (
     follow_user,
     limited,
     manoeuvre,
@@ -15,13 +15,13 @@ from spec_model.board1.motion_readings import (
     must_rotate,
     must_stop,
 )
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import const
-from spec_model.lang.time import sec
-from spec_model.lang.words import absolute, duration, maximum, minimum, named
-from spec_model.manoeuvres.rotation import Rotation, free, measured, toward_target, turned_around
-from spec_model.signals.board1 import (
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.expr import const
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import absolute, duration, maximum, minimum, named
+from rovercheck.spec_model.manoeuvres.rotation import Rotation, free, measured, toward_target, turned_around
+from rovercheck.spec_model.signals.board1 import (
     OMEGA_GO_LEFT,
     OMEGA_GO_RIGHT,
     OMEGA_MAX,

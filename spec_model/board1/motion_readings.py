@@ -2,11 +2,11 @@
 
 from collections.abc import Sequence
 
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.expr import Expr, Operand, flag, var
-from spec_model.lang.words import maximum, minimum
-from spec_model.readings import choose
-from spec_model.signals.board1 import (
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.expr import Expr, Operand, flag, var
+from rovercheck.spec_model.lang.words import maximum, minimum
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board1 import (
     OMEGA_REFERENCE,
     V_REFERENCE,
     backward_enabled,

@@ -1,12 +1,12 @@
 """Reception monitor of Board 1: do valid frames of Board 2 arrive, and often enough [seed §2.4, Table 2]."""
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import Var
-from spec_model.lang.time import sec
-from spec_model.lang.words import duration, named
-from spec_model.readings import choose, under
-from spec_model.signals.board1 import rx_age, rx_slow, rx_status
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import duration, named
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board1 import rx_age, rx_slow, rx_status
 
 
 def reception_monitor(age: Var) -> Chart:

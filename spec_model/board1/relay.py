@@ -5,12 +5,12 @@ supervisor count (S43, S50), only their critical level (S44), and Board 1 takes 
 more than 3 s without it (S45, S46).
 """
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.time import sec
-from spec_model.lang.words import duration
-from spec_model.readings import choose
-from spec_model.signals.board1 import b2_sup_status, critical_mask, give_b2_actuation, rx_status
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import duration
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board1 import b2_sup_status, critical_mask, give_b2_actuation, rx_status
 
 rx_critical = rx_status == "RX_CRITICAL"
 sup_critical = b2_sup_status == "SUP_CRITICAL"

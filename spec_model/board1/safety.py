@@ -5,10 +5,16 @@ degraded" before "critical", so a critical cause that replaces a degraded one is
 Rover_Safe_State first.
 """
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.readings import choose, under
-from spec_model.signals.board1 import b1_critical, b1_degraded, b2_critical, b2_degraded, rover_safety_state
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board1 import (
+    b1_critical,
+    b1_degraded,
+    b2_critical,
+    b2_degraded,
+    rover_safety_state,
+)
 
 critical = b1_critical | b2_critical
 degraded = b1_degraded | b2_degraded

@@ -4,25 +4,25 @@ A chart alone with free inputs has every run it has inside the board, and perhap
 of it holds in the board too, and a counterexample counts when the board has one as well.
 """
 
-from spec_model import environment as env
-from spec_model.board1 import SUPERVISOR, computed, no_references, references, safety_computed
-from spec_model.board1.backward import toggle
-from spec_model.board1.battery import monitor_battery
-from spec_model.board1.classify import process_b2_masks
-from spec_model.board1.heartbeat import monitor_heartbeat
-from spec_model.board1.limits import update_safety_limits
-from spec_model.board1.masks import fault_masks, own_causes
-from spec_model.board1.motion import motion_with_free_error
-from spec_model.board1.reception import monitor_reception
-from spec_model.board1.relay import relay
-from spec_model.board1.safety import safety_state
-from spec_model.board1.temperature import monitor_temperature
-from spec_model.board1.temperature_ranges import count_range_steps
-from spec_model.board1.wheels import monitor_wheels
-from spec_model.lang.chart import Enabled
-from spec_model.lang.system import Note, System, in_order
-from spec_model.records import arrival_window, slow_record
-from spec_model.signals import board1 as b1
+from rovercheck.spec_model import environment as env
+from rovercheck.spec_model.board1 import SUPERVISOR, computed, no_references, references, safety_computed
+from rovercheck.spec_model.board1.backward import toggle
+from rovercheck.spec_model.board1.battery import monitor_battery
+from rovercheck.spec_model.board1.classify import process_b2_masks
+from rovercheck.spec_model.board1.heartbeat import monitor_heartbeat
+from rovercheck.spec_model.board1.limits import update_safety_limits
+from rovercheck.spec_model.board1.masks import fault_masks, own_causes
+from rovercheck.spec_model.board1.motion import motion_with_free_error
+from rovercheck.spec_model.board1.reception import monitor_reception
+from rovercheck.spec_model.board1.relay import relay
+from rovercheck.spec_model.board1.safety import safety_state
+from rovercheck.spec_model.board1.temperature import monitor_temperature
+from rovercheck.spec_model.board1.temperature_ranges import count_range_steps
+from rovercheck.spec_model.board1.wheels import monitor_wheels
+from rovercheck.spec_model.lang.chart import Enabled
+from rovercheck.spec_model.lang.system import Note, System, in_order
+from rovercheck.spec_model.records import arrival_window, slow_record
+from rovercheck.spec_model.signals import board1 as b1
 
 GRID = Note(
     "Time stamps lie on the 20 ms grid, the first step at 20 ms: an update carries the time of the step "

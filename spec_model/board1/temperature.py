@@ -4,7 +4,7 @@ The ranges read the last valid temperature, also when it is old (S11, S12); abse
 only through the assumed rise (S13).  The words of the rows under other readings: `temperature_ranges`.
 """
 
-from spec_model.board1.temperature_ranges import (
+from rovercheck.spec_model.board1.temperature_ranges import (
     T_cold,
     T_hot,
     absent,
@@ -13,13 +13,13 @@ from spec_model.board1.temperature_ranges import (
     critical_range,
     for_4_s,
 )
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import Expr
-from spec_model.lang.time import sec
-from spec_model.lang.words import held, named
-from spec_model.readings import choose, under
-from spec_model.signals.board1 import temp_age, temp_status
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import held, named
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board1 import temp_age, temp_status
 
 __all__ = ["critical_range", "degraded_range", "monitor_temperature", "ok_range", "stale_above_65"]
 

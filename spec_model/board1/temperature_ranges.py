@@ -5,14 +5,14 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import Number, integer
-from spec_model.lang.expr import Expr, Var, const, ite, var
-from spec_model.lang.time import sec, ticks
-from spec_model.lang.words import held, minimum, named
-from spec_model.readings import choose, under
-from spec_model.signals.board1 import temp_age, temperature_degC
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import Number, integer
+from rovercheck.spec_model.lang.expr import Expr, Var, const, ite, var
+from rovercheck.spec_model.lang.time import sec, ticks
+from rovercheck.spec_model.lang.words import held, minimum, named
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board1 import temp_age, temperature_degC
 
 T = temperature_degC
 absent = temp_age >= 500

@@ -3,11 +3,17 @@
 `isMotionConsistent` is the value last received from Board 2, also on a dead link (S31).
 """
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import Var
-from spec_model.readings import choose, under
-from spec_model.signals.board1 import WHEELS, has_no_feedback, is_motion_consistent, rx_age, wheel_status
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board1 import (
+    WHEELS,
+    has_no_feedback,
+    is_motion_consistent,
+    rx_age,
+    wheel_status,
+)
 
 
 def monitor_of_wheel(wheel: str, age: Var = rx_age) -> Chart:

@@ -7,23 +7,23 @@ step what the blocks before it produced, and the decision the authorisation of t
 
 from collections.abc import Sequence
 
-from spec_model.board2.actuation import actuation
-from spec_model.board2.backward import toggle_2
-from spec_model.board2.classify import process_masks
-from spec_model.board2.coherence import COHERENCE
-from spec_model.board2.failure_check import check_board1
-from spec_model.board2.heading import FREE, Heading
-from spec_model.board2.masks import fault_masks_2
-from spec_model.board2.monitors import monitors
-from spec_model.board2.motion import check_stop_2, motion_supervision_2
-from spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
-from spec_model.board2.obstacles import obstacles_n
-from spec_model.board2.obstacles_degraded import obstacles_degraded
-from spec_model.board2.safety import safety_state_2
-from spec_model.board2.selection import selection
-from spec_model.board2.slow2 import Record, exact
-from spec_model.lang.chart import Component, Enabled
-from spec_model.signals.board2_supervisor import (
+from rovercheck.spec_model.board2.actuation import actuation
+from rovercheck.spec_model.board2.backward import toggle_2
+from rovercheck.spec_model.board2.classify import process_masks
+from rovercheck.spec_model.board2.coherence import COHERENCE
+from rovercheck.spec_model.board2.failure_check import check_board1
+from rovercheck.spec_model.board2.heading import FREE, Heading
+from rovercheck.spec_model.board2.masks import fault_masks_2
+from rovercheck.spec_model.board2.monitors import monitors
+from rovercheck.spec_model.board2.motion import check_stop_2, motion_supervision_2
+from rovercheck.spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
+from rovercheck.spec_model.board2.obstacles import obstacles_n
+from rovercheck.spec_model.board2.obstacles_degraded import obstacles_degraded
+from rovercheck.spec_model.board2.safety import safety_state_2
+from rovercheck.spec_model.board2.selection import selection
+from rovercheck.spec_model.board2.slow2 import Record, exact
+from rovercheck.spec_model.lang.chart import Component, Enabled
+from rovercheck.spec_model.signals.board2_supervisor import (
     SOURCES,
     SourceSignals,
     autorized_to_send_command,

@@ -8,14 +8,14 @@ every 320 ms, which no comparison of a time stamp with the present can notice.
 
 from fractions import Fraction
 
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.chart import Block, Chart, State, to
-from spec_model.lang.domain import boolean, chosen, fixed, integer
-from spec_model.lang.expr import FALSE, TRUE, Expr, Var, all_of, any_of, const, flag, ite, var
-from spec_model.lang.time import ms
-from spec_model.lang.words import absolute, after, maximum, minimum, modulo, named, quotient
-from spec_model.readings import choose, under
-from spec_model.signals.board2 import sonar_fault
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.chart import Block, Chart, State, to
+from rovercheck.spec_model.lang.domain import boolean, chosen, fixed, integer
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var, all_of, any_of, const, flag, ite, var
+from rovercheck.spec_model.lang.time import ms
+from rovercheck.spec_model.lang.words import absolute, after, maximum, minimum, modulo, named, quotient
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board2 import sonar_fault
 
 # --- sonar ---------------------------------------------------------------------------------------
 

@@ -4,12 +4,16 @@ Executed in authorised steps.  The first one after power-up only initialises the
 authorisation starts the ramp from 0 again.
 """
 
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.expr import TRUE, Expr, Var, const
-from spec_model.lang.words import maximum, minimum
-from spec_model.signals.board2_motion import actuate_emergency_stop, omega_ref_actuation, v_ref_actuation
-from spec_model.signals.board2_supervisor import (
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, const
+from rovercheck.spec_model.lang.words import maximum, minimum
+from rovercheck.spec_model.signals.board2_motion import (
+    actuate_emergency_stop,
+    omega_ref_actuation,
+    v_ref_actuation,
+)
+from rovercheck.spec_model.signals.board2_supervisor import (
     autorized_to_send_command,
     driver_initialised,
     left_rpm,

@@ -3,11 +3,11 @@
 Bits of Board 1 (Table 1): 2 is its reception from Board 2, 7 its view of the Board 2 supervisor.
 """
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.expr import any_of
-from spec_model.lang.words import bit
-from spec_model.signals.board2_supervisor import (
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.expr import any_of
+from rovercheck.spec_model.lang.words import bit
+from rovercheck.spec_model.signals.board2_supervisor import (
     b1_emergency,
     b1_requests_switch,
     b2_emergency,

@@ -12,12 +12,18 @@ with every wheel beyond 320 rpm, four times what Board 2 commands; one that a si
 
 from fractions import Fraction
 
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import Domain, fixed, integer
-from spec_model.lang.expr import Const, Expr, Var, const, flag, ite, var
-from spec_model.lang.words import absolute, bit, maximum, minimum, modulo
-from spec_model.signals.board2_supervisor import IMU, SUP, gz_dps, is_motion_consistent, wheel_speed_rpm
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import Domain, fixed, integer
+from rovercheck.spec_model.lang.expr import Const, Expr, Var, const, flag, ite, var
+from rovercheck.spec_model.lang.words import absolute, bit, maximum, minimum, modulo
+from rovercheck.spec_model.signals.board2_supervisor import (
+    IMU,
+    SUP,
+    gz_dps,
+    is_motion_consistent,
+    wheel_speed_rpm,
+)
 
 SHORT, LONG = 5, 150
 """Length of the windows in ticks of 20 ms: 100 ms and 3 s."""

@@ -5,13 +5,13 @@ sentences (S43 to S45).  Under B1-ONLY only Board 1 authorises, by its request; 
 decision needs no relay (``composition.motors``).
 """
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.expr import FALSE, any_of
-from spec_model.lang.time import sec
-from spec_model.lang.words import duration, named
-from spec_model.readings import choose
-from spec_model.signals.board2_supervisor import (
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.expr import FALSE, any_of
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import duration, named
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board2_supervisor import (
     autorized_to_send_command,
     b1_requests_switch,
     b1_sup_status,

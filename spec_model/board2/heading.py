@@ -15,13 +15,13 @@ Multiplying the timers of the chart by a grid of headings would gain nothing but
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.domain import Num, chosen, fixed
-from spec_model.lang.expr import TRUE, Expr, Var, flag, ite, var
-from spec_model.lang.time import tick
-from spec_model.lang.words import absolute, after, maximum, minimum, named, wrap
-from spec_model.readings import choose, under
-from spec_model.signals.board2 import B2Decision, number
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.domain import Num, chosen, fixed
+from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, flag, ite, var
+from rovercheck.spec_model.lang.time import tick
+from rovercheck.spec_model.lang.words import absolute, after, maximum, minimum, named, wrap
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board2 import B2Decision, number
 
 turned_45 = flag("turned_45", "the rover has turned 45 degrees toward the sonar that detected first")
 

@@ -2,26 +2,26 @@
 
 from dataclasses import replace
 
-from spec_model import environment_board2 as board2_env
-from spec_model import environment_jitter as env
-from spec_model.board2.classify import process_masks
-from spec_model.board2.failure_check import check_board1
-from spec_model.board2.monitor_systems import FORGOTTEN
-from spec_model.board2.monitors import monitors
-from spec_model.board2.motion import check_stop_2, motion_2_with_free_error
-from spec_model.board2.motion_systems import COMES_BEFORE, FREE_BACKWARD
-from spec_model.board2.obstacles import obstacles_n
-from spec_model.board2.slow2 import Record, exact_ms, forgotten
-from spec_model.board2.systems import AS_DRAWN, FREE_HEADING, TURNS
-from spec_model.environment_fine import clock
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block, Component, Enabled
-from spec_model.lang.expiry import free_timers
-from spec_model.lang.expr import Expr, all_of, flag, implies
-from spec_model.lang.system import System, in_order
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board2 import d1, d2, d3, prevDEG_B1
-from spec_model.signals.board2_motion import ay_norm, bx_norm
+from rovercheck.spec_model import environment_board2 as board2_env
+from rovercheck.spec_model import environment_jitter as env
+from rovercheck.spec_model.board2.classify import process_masks
+from rovercheck.spec_model.board2.failure_check import check_board1
+from rovercheck.spec_model.board2.monitor_systems import FORGOTTEN
+from rovercheck.spec_model.board2.monitors import monitors
+from rovercheck.spec_model.board2.motion import check_stop_2, motion_2_with_free_error
+from rovercheck.spec_model.board2.motion_systems import COMES_BEFORE, FREE_BACKWARD
+from rovercheck.spec_model.board2.obstacles import obstacles_n
+from rovercheck.spec_model.board2.slow2 import Record, exact_ms, forgotten
+from rovercheck.spec_model.board2.systems import AS_DRAWN, FREE_HEADING, TURNS
+from rovercheck.spec_model.environment_fine import clock
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block, Component, Enabled
+from rovercheck.spec_model.lang.expiry import free_timers
+from rovercheck.spec_model.lang.expr import Expr, all_of, flag, implies
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.board2 import d1, d2, d3, prevDEG_B1
+from rovercheck.spec_model.signals.board2_motion import ay_norm, bx_norm
 
 # --- the monitors ---------------------------------------------------------------------------------------
 

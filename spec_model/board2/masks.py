@@ -7,11 +7,11 @@ is beyond the four modelled.  Under REMOTE bit 3 also reflects the faults that B
 
 from collections.abc import Sequence
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.expr import FALSE, Expr, Var, const, ite
-from spec_model.readings import choose, under
-from spec_model.signals.board2_supervisor import (
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.expr import FALSE, Expr, Var, const, ite
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board2_supervisor import (
     b1_sup_status,
     crit_mask_b1,
     critical_mask,

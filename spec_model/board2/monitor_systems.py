@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
-from spec_model import environment_board2 as env
-from spec_model.board2.monitors import RECORDS, monitor_sources, monitors
-from spec_model.board2.slow2 import Record, exact, forgotten, mean_slow, runs
-from spec_model.environment import clock
-from spec_model.lang.chart import Component
-from spec_model.lang.expr import Var, all_of
-from spec_model.lang.system import Note, System, in_order
-from spec_model.signals.board2_supervisor import SOURCES, SourceSignals
+from rovercheck.spec_model import environment_board2 as env
+from rovercheck.spec_model.board2.monitors import RECORDS, monitor_sources, monitors
+from rovercheck.spec_model.board2.slow2 import Record, exact, forgotten, mean_slow, runs
+from rovercheck.spec_model.environment import clock
+from rovercheck.spec_model.lang.chart import Component
+from rovercheck.spec_model.lang.expr import Var, all_of
+from rovercheck.spec_model.lang.system import Note, System, in_order
+from rovercheck.spec_model.signals.board2_supervisor import SOURCES, SourceSignals
 
 GRID = Note(
     "Time stamps lie on the 20 ms grid: an update carries the time of the step that sees it. "

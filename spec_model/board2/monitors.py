@@ -6,14 +6,14 @@ often enough for a while (E29), and its critical state does not look at the age.
 
 from collections.abc import Sequence
 
-from spec_model.board2.slow2 import Record, Slow2, exact
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block, Chart, State, to
-from spec_model.lang.expr import Expr
-from spec_model.lang.time import Span, sec
-from spec_model.lang.words import duration, named
-from spec_model.readings import choose
-from spec_model.signals.board2_supervisor import SOURCES, SUP, SourceSignals
+from rovercheck.spec_model.board2.slow2 import Record, Slow2, exact
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block, Chart, State, to
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.time import Span, sec
+from rovercheck.spec_model.lang.words import duration, named
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board2_supervisor import SOURCES, SUP, SourceSignals
 
 
 def silent(source: SourceSignals) -> Expr:

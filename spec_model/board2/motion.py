@@ -5,14 +5,14 @@ and avoiding, and it does not wait for wheel speeds that no longer arrive: with 
 an emergency stop counts as done after 2 s.
 """
 
-from spec_model.board2.backward import toggle_2
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block, Chart, Component, Junction, State, to
-from spec_model.lang.expr import all_of, const, ite
-from spec_model.lang.time import sec
-from spec_model.lang.words import absolute, after, duration, named
-from spec_model.manoeuvres.rotation import Rotation, free, measured, toward_target, turned_around
-from spec_model.signals.board2_motion import (
+from rovercheck.spec_model.board2.backward import toggle_2
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Junction, State, to
+from rovercheck.spec_model.lang.expr import all_of, const, ite
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import absolute, after, duration, named
+from rovercheck.spec_model.manoeuvres.rotation import Rotation, free, measured, toward_target, turned_around
+from rovercheck.spec_model.signals.board2_motion import (
     actuate_emergency_stop,
     angle_err,
     ay_norm,
@@ -33,7 +33,12 @@ from spec_model.signals.board2_motion import (
     wheels_below_2_5,
     yaw,
 )
-from spec_model.signals.board2_supervisor import cmd, rover_safety_state, rx_status, wheel_speed_rpm
+from rovercheck.spec_model.signals.board2_supervisor import (
+    cmd,
+    rover_safety_state,
+    rx_status,
+    wheel_speed_rpm,
+)
 
 v_ref, omega_ref = v_ref_actuation, omega_ref_actuation
 

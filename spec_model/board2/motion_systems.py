@@ -1,13 +1,13 @@
 """The systems in which the reference charts of Board 2 are checked, alone and behind what they follow."""
 
-from spec_model.board2 import DRIVING
-from spec_model.board2.backward import toggle_2
-from spec_model.board2.motion import check_stop_2, motion_2_with_free_error
-from spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
-from spec_model.board2.safety import safety_state_2
-from spec_model.lang.chart import Enabled
-from spec_model.lang.system import System, in_order
-from spec_model.signals.board2_supervisor import autorized_to_send_command
+from rovercheck.spec_model.board2 import DRIVING
+from rovercheck.spec_model.board2.backward import toggle_2
+from rovercheck.spec_model.board2.motion import check_stop_2, motion_2_with_free_error
+from rovercheck.spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
+from rovercheck.spec_model.board2.safety import safety_state_2
+from rovercheck.spec_model.lang.chart import Enabled
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.signals.board2_supervisor import autorized_to_send_command
 
 FREE_BACKWARD = "Backward mode is free in every step, which allows every run of its toggle and more."
 FREE_ERROR = (

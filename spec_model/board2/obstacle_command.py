@@ -4,13 +4,13 @@ The second instance of the degraded obstacle chart, frozen while Board 2 is not 
 first authorised step after power-up it lets the rover move whatever the distances (G2).
 """
 
-from spec_model.board2.obstacles_degraded import obstacles_degraded
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.expr import ite, member
-from spec_model.signals.board2 import number
-from spec_model.signals.board2_supervisor import B2DecDriving, cmd
-from spec_model.signals.common import COMMAND
+from rovercheck.spec_model.board2.obstacles_degraded import obstacles_degraded
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.expr import ite, member
+from rovercheck.spec_model.signals.board2 import number
+from rovercheck.spec_model.signals.board2_supervisor import B2DecDriving, cmd
+from rovercheck.spec_model.signals.common import COMMAND
 
 obstacles_driving = obstacles_degraded("ObstaclesDriving", B2DecDriving)
 

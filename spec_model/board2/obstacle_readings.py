@@ -6,14 +6,14 @@ document gives a choice no words, the choice here is a modelling choice, and its
 
 from collections.abc import Sequence
 
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.chart import Transition, to
-from spec_model.lang.domain import chosen
-from spec_model.lang.expr import TRUE, Expr, Var, all_of, any_of, flag, var
-from spec_model.lang.time import tick
-from spec_model.lang.words import after
-from spec_model.readings import choose, under
-from spec_model.signals.board2 import (
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.chart import Transition, to
+from rovercheck.spec_model.lang.domain import chosen
+from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, all_of, any_of, flag, var
+from rovercheck.spec_model.lang.time import tick
+from rovercheck.spec_model.lang.words import after
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board2 import (
     B2Decision,
     d1,
     d2,
@@ -25,7 +25,7 @@ from spec_model.signals.board2 import (
     touching,
     up_to_300,
 )
-from spec_model.signals.board2_motion import ay_norm, bx_norm, wheels_below_2_5
+from rovercheck.spec_model.signals.board2_motion import ay_norm, bx_norm, wheels_below_2_5
 
 # --- the stop, and what it suspends (E02, E10, E18, E27) -------------------------------------------
 

@@ -7,8 +7,8 @@ figures is in ``obstacle_readings``.
 
 from collections.abc import Sequence
 
-from spec_model.board2.heading import FREE, Heading
-from spec_model.board2.obstacle_readings import (
+from rovercheck.spec_model.board2.heading import FREE, Heading
+from rovercheck.spec_model.board2.obstacle_readings import (
     another_signal,
     confirms,
     drop_side,
@@ -31,13 +31,13 @@ from spec_model.board2.obstacle_readings import (
     served,
     stop_for_two_is_over,
 )
-from spec_model.lang.action import Action, assign, send
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import FALSE, TRUE, Var, any_of
-from spec_model.lang.time import sec
-from spec_model.lang.words import after, named
-from spec_model.readings import choose, under
-from spec_model.signals.board2 import (
+from rovercheck.spec_model.lang.action import Action, assign, send
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Var, any_of
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import after, named
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board2 import (
     SONARS,
     B2Decision,
     in_range,

@@ -1,10 +1,10 @@
 """Obstacle chart of Board 2, degraded state: stop for any obstacle within 3 m [seed §3.4.2, Fig 28]."""
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.expr import Var, any_of
-from spec_model.lang.words import named
-from spec_model.signals.board2 import B2DecDegraded, d1, d2, d3, number
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.expr import Var, any_of
+from rovercheck.spec_model.lang.words import named
+from rovercheck.spec_model.signals.board2 import B2DecDegraded, d1, d2, d3, number
 
 # Drawn as check_emergency_stop(sonars), as in the other chart, but with the limit of the text: 300 cm.
 check300 = named("check_emergency_stop(sonars)", any_of(d1 <= 300, d2 <= 300, d3 <= 300))

@@ -3,10 +3,10 @@
 In the first authorised step after power-up the chart enters Rover_Degraded_State whatever the masks (G2).
 """
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.words import named
-from spec_model.signals.board2_supervisor import b1_emergency, b2_emergency, rover_safety_state
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.words import named
+from rovercheck.spec_model.signals.board2_supervisor import b1_emergency, b2_emergency, rover_safety_state
 
 emergency = named("emergency", b1_emergency | b2_emergency)
 

@@ -1,11 +1,11 @@
 """Which obstacle chart decides, and the decision as a command for Board 1 [seed Figs 12, 24, 28]."""
 
-from spec_model.board2.obstacle_readings import moved_left
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block, Chart, Component, Enabled
-from spec_model.lang.expr import TRUE, Expr, any_of, ite, member
-from spec_model.readings import choose, under
-from spec_model.signals.board2 import (
+from rovercheck.spec_model.board2.obstacle_readings import moved_left
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
+from rovercheck.spec_model.lang.expr import TRUE, Expr, any_of, ite, member
+from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.signals.board2 import (
     DEG_B1,
     MEANING,
     B2Dec,
@@ -15,8 +15,8 @@ from spec_model.signals.board2 import (
     prevDEG_B1,
     x_sent,
 )
-from spec_model.signals.board2_motion import bx_norm
-from spec_model.signals.common import COMMAND
+from rovercheck.spec_model.signals.board2_motion import bx_norm
+from rovercheck.spec_model.signals.common import COMMAND
 
 
 def selection(

@@ -12,15 +12,15 @@ Gaps are counted in ticks of 20 ms, up to a number that stands for all longer on
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Const, Expr, Var, const, flag, ite, var
-from spec_model.lang.system import TICK_MS
-from spec_model.lang.words import maximum, minimum
-from spec_model.readings import choose
-from spec_model.signals.board2_supervisor import COUNT, SourceSignals
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Const, Expr, Var, const, flag, ite, var
+from rovercheck.spec_model.lang.system import TICK_MS
+from rovercheck.spec_model.lang.words import maximum, minimum
+from rovercheck.spec_model.readings import choose
+from rovercheck.spec_model.signals.board2_supervisor import COUNT, SourceSignals
 
 GAPS = 10
 """The mean is over the latest ten gaps."""

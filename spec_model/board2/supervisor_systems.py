@@ -6,32 +6,32 @@ The obstacle charts and the motion charts have systems of their own.
 from collections.abc import Sequence
 from dataclasses import replace
 
-from spec_model import environment_board2 as env
-from spec_model.board2 import ACTUATION, acquisition, coherence, supervisor
-from spec_model.board2.classify import process_masks
-from spec_model.board2.failure_check import check_board1
-from spec_model.board2.heading import measured
-from spec_model.board2.masks import fault_masks_2
-from spec_model.board2.monitor_systems import FORGOTTEN, GRID, WITH_FRAMES, watching
-from spec_model.board2.monitors import RECORDS, monitor_sources
-from spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
-from spec_model.board2.obstacles import obstacles_n
-from spec_model.board2.obstacles_degraded import obstacles_degraded
-from spec_model.board2.safety import safety_state_2
-from spec_model.board2.selection import selection
-from spec_model.board2.slow2 import exact, forgotten, gaps_of
-from spec_model.environment2 import scanned
-from spec_model.environment_fine import CONSTANT_PHASE
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block, Component, Enabled
-from spec_model.lang.expiry import free_timers
-from spec_model.lang.expr import Expr, all_of, any_of, implies, var
-from spec_model.lang.system import System, in_order
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board2 import SONARS
-from spec_model.signals.board2_supervisor import SourceSignals
-from spec_model.signals.rotation import TARGET
+from rovercheck.spec_model import environment_board2 as env
+from rovercheck.spec_model.board2 import ACTUATION, acquisition, coherence, supervisor
+from rovercheck.spec_model.board2.classify import process_masks
+from rovercheck.spec_model.board2.failure_check import check_board1
+from rovercheck.spec_model.board2.heading import measured
+from rovercheck.spec_model.board2.masks import fault_masks_2
+from rovercheck.spec_model.board2.monitor_systems import FORGOTTEN, GRID, WITH_FRAMES, watching
+from rovercheck.spec_model.board2.monitors import RECORDS, monitor_sources
+from rovercheck.spec_model.board2.obstacle_command import obstacle_command, obstacles_driving
+from rovercheck.spec_model.board2.obstacles import obstacles_n
+from rovercheck.spec_model.board2.obstacles_degraded import obstacles_degraded
+from rovercheck.spec_model.board2.safety import safety_state_2
+from rovercheck.spec_model.board2.selection import selection
+from rovercheck.spec_model.board2.slow2 import exact, forgotten, gaps_of
+from rovercheck.spec_model.environment2 import scanned
+from rovercheck.spec_model.environment_fine import CONSTANT_PHASE
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block, Component, Enabled
+from rovercheck.spec_model.lang.expiry import free_timers
+from rovercheck.spec_model.lang.expr import Expr, all_of, any_of, implies, var
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.board2 import SONARS
+from rovercheck.spec_model.signals.board2_supervisor import SourceSignals
+from rovercheck.spec_model.signals.rotation import TARGET
 
 FREE_STATUSES = (
     "What other blocks compute is free in every step, which allows every run of the board and more: what "

@@ -1,15 +1,15 @@
 """The systems in which the obstacle charts of Board 2 are checked, from one chart alone to both selected."""
 
-from spec_model.board2.heading import headings, measured
-from spec_model.board2.obstacles import WINDOWS, obstacles_n
-from spec_model.board2.obstacles_degraded import obstacles_degraded
-from spec_model.board2.selection import selection
-from spec_model.environment2 import scan_phase, sonar_scan, turns_as_told
-from spec_model.lang.chart import Chart, Component
-from spec_model.lang.expiry import free_timers
-from spec_model.lang.expr import Expr, flag
-from spec_model.lang.system import System, in_order
-from spec_model.signals.board2 import d1, d2, d3
+from rovercheck.spec_model.board2.heading import headings, measured
+from rovercheck.spec_model.board2.obstacles import WINDOWS, obstacles_n
+from rovercheck.spec_model.board2.obstacles_degraded import obstacles_degraded
+from rovercheck.spec_model.board2.selection import selection
+from rovercheck.spec_model.environment2 import scan_phase, sonar_scan, turns_as_told
+from rovercheck.spec_model.lang.chart import Chart, Component
+from rovercheck.spec_model.lang.expiry import free_timers
+from rovercheck.spec_model.lang.expr import Expr, flag
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.signals.board2 import d1, d2, d3
 
 deg_mask_b1 = flag("deg_mask_b1", "the degraded mask last received from Board 1 is not zero")
 crit_mask_b1 = flag("crit_mask_b1", "the critical mask last received from Board 1 is not zero")

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.expr import TRUE, Apply, Expr, Var, flag
-from spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.expr import TRUE, Apply, Expr, Var, flag
+from rovercheck.spec_model.lang.operators import Op
 
 
 @dataclass(frozen=True, eq=False)

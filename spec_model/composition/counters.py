@@ -5,13 +5,13 @@ The composition does not carry the counter; here it is carried, modulo 16, so th
 that the counter never moves by 16 between two accepted frames.
 """
 
-from spec_model.composition.link import MANY, link
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import flag, var
-from spec_model.lang.system import System, in_order
-from spec_model.lang.words import modulo
+from rovercheck.spec_model.composition.link import MANY, link
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.words import modulo
 
 MODULUS = 16
 

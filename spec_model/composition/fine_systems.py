@@ -9,21 +9,29 @@ that may do anything that the properties named in its text, proved of the board,
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from spec_model.board1.relay import relay
-from spec_model.board2.actuation import actuation
-from spec_model.board2.failure_check import check_board1
-from spec_model.composition.contracts import Contract
-from spec_model.composition.tasks import MILLISECOND, RoverTask, clock, control_task, line, phases, task
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block, Component, Enabled
-from spec_model.lang.domain import fixed
-from spec_model.lang.expiry import free_timers
-from spec_model.lang.expr import TRUE, Expr, Var, const, flag, implies, ite, member, var
-from spec_model.lang.system import TICK_MS, System, in_order
-from spec_model.lang.words import minimum
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.common import RX_STATUS, SUP_STATUS
+from rovercheck.spec_model.board1.relay import relay
+from rovercheck.spec_model.board2.actuation import actuation
+from rovercheck.spec_model.board2.failure_check import check_board1
+from rovercheck.spec_model.composition.contracts import Contract
+from rovercheck.spec_model.composition.tasks import (
+    MILLISECOND,
+    RoverTask,
+    clock,
+    control_task,
+    line,
+    phases,
+    task,
+)
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block, Component, Enabled
+from rovercheck.spec_model.lang.domain import fixed
+from rovercheck.spec_model.lang.expiry import free_timers
+from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, const, flag, implies, ite, member, var
+from rovercheck.spec_model.lang.system import TICK_MS, System, in_order
+from rovercheck.spec_model.lang.words import minimum
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.common import RX_STATUS, SUP_STATUS
 
 PHASES = "Every task executes in its period of 20 ms (control: 10 ms) at a constant phase nobody knows."
 FREE = (

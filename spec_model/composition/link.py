@@ -14,11 +14,11 @@ building of the two frames; three flags remember that (S40).
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import enumeration, integer
-from spec_model.lang.expr import TRUE, Expr, Var, all_of, flag, implies, var
-from spec_model.lang.words import minimum, named
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import enumeration, integer
+from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, all_of, flag, implies, var
+from rovercheck.spec_model.lang.words import minimum, named
 
 ARRIVAL = enumeration("Arrival", ["nothing", "newest", "older"])
 """The newest frame was sent in the step before, the older one in the step before that."""

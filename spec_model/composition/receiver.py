@@ -6,11 +6,11 @@ payload, two of checksum.  The checksum is taken to be good exactly when the byt
 frame as it was sent; that CRC-16 misses some rare errors is left out.
 """
 
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import enumeration, integer
-from spec_model.lang.expr import all_of, flag, implies, ite, member, var
-from spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import enumeration, integer
+from rovercheck.spec_model.lang.expr import all_of, flag, implies, ite, member, var
+from rovercheck.spec_model.lang.system import System, in_order
 
 LENGTH = 6
 BYTE = enumeration("Byte", ["OTHER", "SYNC1", "SYNC2"])

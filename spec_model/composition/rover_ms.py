@@ -8,23 +8,23 @@ that it rests on (``localisation``), and holds in every weather.
 from collections.abc import Collection
 from dataclasses import dataclass, replace
 
-from spec_model import environment as env1
-from spec_model import environment_board2 as env2
-from spec_model import environment_fine as fine
-from spec_model.board1 import LINKS
-from spec_model.board1 import supervisor as supervisor_1
-from spec_model.board1.fine_systems import LINKS_MS
-from spec_model.board2 import supervisor as supervisor_2
-from spec_model.board2.heading import measured
-from spec_model.board2.supervisor_systems import targetAngle
-from spec_model.composition.systems import ENVIRONMENT, SYNCHRONOUS, in_turn
-from spec_model.lang.chart import Block, Component
-from spec_model.lang.expr import Var
-from spec_model.lang.system import System, in_order
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.common import PHASE_CLASS
+from rovercheck.spec_model import environment as env1
+from rovercheck.spec_model import environment_board2 as env2
+from rovercheck.spec_model import environment_fine as fine
+from rovercheck.spec_model.board1 import LINKS
+from rovercheck.spec_model.board1 import supervisor as supervisor_1
+from rovercheck.spec_model.board1.fine_systems import LINKS_MS
+from rovercheck.spec_model.board2 import supervisor as supervisor_2
+from rovercheck.spec_model.board2.heading import measured
+from rovercheck.spec_model.board2.supervisor_systems import targetAngle
+from rovercheck.spec_model.composition.systems import ENVIRONMENT, SYNCHRONOUS, in_turn
+from rovercheck.spec_model.lang.chart import Block, Component
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.common import PHASE_CLASS
 
 RX_1 = "reception of Board 1"
 """The monitor of Board 1 whose data may be stamped between two steps, beside those of Board 2."""

@@ -3,16 +3,16 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from spec_model import environment as env1
-from spec_model import environment_board2 as env2
-from spec_model.board1 import SUPERVISOR as SUPERVISOR_1
-from spec_model.board1 import references
-from spec_model.board1.motion import motion_with_free_error
-from spec_model.board2 import ACTUATION, supervisor
-from spec_model.board2.heading import measured
-from spec_model.board2.supervisor_systems import targetAngle
-from spec_model.composition.link import all_frames_arrive, link
-from spec_model.composition.motors import (
+from rovercheck.spec_model import environment as env1
+from rovercheck.spec_model import environment_board2 as env2
+from rovercheck.spec_model.board1 import SUPERVISOR as SUPERVISOR_1
+from rovercheck.spec_model.board1 import references
+from rovercheck.spec_model.board1.motion import motion_with_free_error
+from rovercheck.spec_model.board2 import ACTUATION, supervisor
+from rovercheck.spec_model.board2.heading import measured
+from rovercheck.spec_model.board2.supervisor_systems import targetAngle
+from rovercheck.spec_model.composition.link import all_frames_arrive, link
+from rovercheck.spec_model.composition.motors import (
     board1_powered,
     faults,
     power_lost,
@@ -23,16 +23,16 @@ from spec_model.composition.motors import (
     stop_1,
     stop_2,
 )
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block, Component, Enabled
-from spec_model.lang.expr import Var, all_of, any_of, implies, ite
-from spec_model.lang.system import Assumption, Note, System, in_order
-from spec_model.readings import under
-from spec_model.records import arrival_window
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2 as obstacles
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block, Component, Enabled
+from rovercheck.spec_model.lang.expr import Var, all_of, any_of, implies, ite
+from rovercheck.spec_model.lang.system import Assumption, Note, System, in_order
+from rovercheck.spec_model.readings import under
+from rovercheck.spec_model.records import arrival_window
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2 as obstacles
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
 
 SYNCHRONOUS = Note(
     "Both supervisors execute once per tick of 20 ms; what one writes is seen by the other one or two ticks "

@@ -9,11 +9,11 @@ transmit.  A frame is on the line for 0.9 ms, which is one tick.
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import Expr, Var, flag, var
-from spec_model.lang.words import modulo, named
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import Expr, Var, flag, var
+from rovercheck.spec_model.lang.words import modulo, named
 
 PERIOD = 20
 """Milliseconds between two executions of a supervisor or of a transmit task [seed §1.2]."""

@@ -9,13 +9,13 @@ a link, and the data of a sensor, come at a phase to the steps that nobody knows
 
 from collections.abc import Mapping, Sequence
 
-from spec_model import environment_board2 as env2
-from spec_model import environment_fine as fine
-from spec_model.board2.coherence import COHERENCE
-from spec_model.composition.link import all_frames_arrive
-from spec_model.composition.rover_ms import Stamped
-from spec_model.composition.systems import SYNCHRONOUS, link12, link21
-from spec_model.composition.world import (
+from rovercheck.spec_model import environment_board2 as env2
+from rovercheck.spec_model import environment_fine as fine
+from rovercheck.spec_model.board2.coherence import COHERENCE
+from rovercheck.spec_model.composition.link import all_frames_arrive
+from rovercheck.spec_model.composition.rover_ms import Stamped
+from rovercheck.spec_model.composition.systems import SYNCHRONOUS, link12, link21
+from rovercheck.spec_model.composition.world import (
     BY_NAME,
     FAULTS,
     There,
@@ -29,14 +29,14 @@ from spec_model.composition.world import (
     which,
     world,
 )
-from spec_model.lang.action import Action, assign
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import enumeration
-from spec_model.lang.expr import FALSE, TRUE, Expr, Var, all_of, any_of, flag, ite, member, var
-from spec_model.lang.system import System, in_order
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board2 import SONARS
+from rovercheck.spec_model.lang.action import Action, assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import enumeration
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var, all_of, any_of, flag, ite, member, var
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.board2 import SONARS
 
 SPELL = enumeration("Spell", ["ahead", "present", "over"])
 """Of a fault: it has not begun, it is there, it has ended."""

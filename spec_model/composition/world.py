@@ -7,18 +7,18 @@ name works, is as usual, and changes with nothing.
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 
-from spec_model import environment_board2 as env2
-from spec_model.composition.link import ARRIVAL
-from spec_model.composition.motors import connected, motors_zero, power_lost, stop_1, stop_2
-from spec_model.composition.rover_ms import RX_1
-from spec_model.composition.systems import link12, link21
-from spec_model.lang.action import Action, Assign, assign
-from spec_model.lang.domain import enumeration
-from spec_model.lang.expr import Const, Expr, Var, flag, ite, member, var
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board2 import SONARS
+from rovercheck.spec_model import environment_board2 as env2
+from rovercheck.spec_model.composition.link import ARRIVAL
+from rovercheck.spec_model.composition.motors import connected, motors_zero, power_lost, stop_1, stop_2
+from rovercheck.spec_model.composition.rover_ms import RX_1
+from rovercheck.spec_model.composition.systems import link12, link21
+from rovercheck.spec_model.lang.action import Action, Assign, assign
+from rovercheck.spec_model.lang.domain import enumeration
+from rovercheck.spec_model.lang.expr import Const, Expr, Var, flag, ite, member, var
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.board2 import SONARS
 
 
 @dataclass(frozen=True)

@@ -4,11 +4,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Union
 
-from spec_model.lang.domain import Bool, Num, show
-from spec_model.lang.errors import ModelError, brief, several, with_article
-from spec_model.lang.expr import Const, Expr, Operand, Var, is_multiple, lift, rescale
-from spec_model.lang.label import text
-from spec_model.lang.walk import variables
+from rovercheck.spec_model.lang.domain import Bool, Num, show
+from rovercheck.spec_model.lang.errors import ModelError, brief, several, with_article
+from rovercheck.spec_model.lang.expr import Const, Expr, Operand, Var, is_multiple, lift, rescale
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.lang.walk import variables
 
 
 @dataclass(frozen=True)

@@ -10,12 +10,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
-from spec_model.lang.action import Action, expressions, reads, writes
-from spec_model.lang.domain import Domain, Enum, enumeration
-from spec_model.lang.errors import ModelError, brief, did_you_mean, several
-from spec_model.lang.expr import Const, Expr, Var, any_of
-from spec_model.lang.place import Place, here
-from spec_model.lang.walk import variables
+from rovercheck.spec_model.lang.action import Action, expressions, reads, writes
+from rovercheck.spec_model.lang.domain import Domain, Enum, enumeration
+from rovercheck.spec_model.lang.errors import ModelError, brief, did_you_mean, several
+from rovercheck.spec_model.lang.expr import Const, Expr, Var, any_of
+from rovercheck.spec_model.lang.place import Place, here
+from rovercheck.spec_model.lang.walk import variables
 
 Path = tuple[str, ...]
 """Names from the chart's outermost level down to a state; the chart itself is the empty path."""

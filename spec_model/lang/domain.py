@@ -12,7 +12,7 @@ from math import gcd, lcm
 from operator import index
 from typing import Any, SupportsIndex
 
-from spec_model.lang.errors import ModelError, brief, did_you_mean, several
+from rovercheck.spec_model.lang.errors import ModelError, brief, did_you_mean, several
 
 Number = int | float | Fraction | str
 

@@ -3,14 +3,23 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, Path, State, Transition
-from spec_model.lang.domain import Num, Number, exact
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
-from spec_model.lang.operators import Op
-from spec_model.lang.system import System
-from spec_model.lang.time import Span
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.chart import (
+    Block,
+    Chart,
+    Component,
+    Enabled,
+    Junction,
+    Path,
+    State,
+    Transition,
+)
+from rovercheck.spec_model.lang.domain import Num, Number, exact
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.time import Span
 
 __all__ = [
     "also", "arrow", "arrows", "begin", "constant", "drop", "edit_at", "edit_junction", "edit_state", "entry",

@@ -2,11 +2,11 @@
 
 from collections.abc import Callable, Mapping, MutableMapping, Sequence
 
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 
 def evaluate(expr: Expr, at: Mapping[str, int]) -> int:

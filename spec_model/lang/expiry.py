@@ -14,14 +14,14 @@ run of the free one; ``tests/lang/test_expiry.py`` does that on random charts.
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.chart import Chart, Component, Enabled, Junction, Path, State, Transition
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.expr import Apply, Expr, Named, Temporal, Var, When, any_of, flag
-from spec_model.lang.system import System
-from spec_model.lang.time import tick
-from spec_model.lang.walk import nodes, structure
-from spec_model.lang.words import named
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.chart import Chart, Component, Enabled, Junction, Path, State, Transition
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.expr import Apply, Expr, Named, Temporal, Var, When, any_of, flag
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.time import tick
+from rovercheck.spec_model.lang.walk import nodes, structure
+from rovercheck.spec_model.lang.words import named
 
 Counter = tuple[Path, When, tuple[object, ...]]
 """What counts: the state whose arrows ask (none for ``held``), the word, its condition."""

@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import reduce
 from typing import SupportsIndex, Union
 
-from spec_model.lang.domain import (
+from rovercheck.spec_model.lang.domain import (
     Bool,
     Domain,
     Enum,
@@ -26,9 +26,9 @@ from spec_model.lang.domain import (
     exact,
     own,
 )
-from spec_model.lang.errors import BINDS, BINDS_BEFORE, ModelError, apart, brief, with_article
-from spec_model.lang.operators import Op, infix
-from spec_model.lang.time import Span
+from rovercheck.spec_model.lang.errors import BINDS, BINDS_BEFORE, ModelError, apart, brief, with_article
+from rovercheck.spec_model.lang.operators import Op, infix
+from rovercheck.spec_model.lang.time import Span
 
 Operand = Union["Expr", Number, bool, SupportsIndex]
 
@@ -120,7 +120,7 @@ class Expr:
         )
 
     def __str__(self) -> str:
-        from spec_model.lang.label import text  # the printer reads expressions
+        from rovercheck.spec_model.lang.label import text  # the printer reads expressions
 
         return text(self)
 

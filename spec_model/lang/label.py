@@ -2,9 +2,9 @@
 
 import re
 
-from spec_model.lang.domain import Bool, Enum, Num, show
-from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
-from spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.domain import Bool, Enum, Num, show
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
+from rovercheck.spec_model.lang.operators import Op
 
 _INFIX = {
     Op.OR: (1, " || "), Op.AND: (2, " && "),

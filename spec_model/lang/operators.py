@@ -39,6 +39,6 @@ COMPARISONS = frozenset({Op.EQ, Op.NE, Op.LT, Op.LE, Op.GT, Op.GE})
 
 def infix(left: object, sign: str, right: object) -> str:
     """What was written with an operator, with the parentheses that it needs."""
-    from spec_model.lang.label import beside  # the printer reads expressions
+    from rovercheck.spec_model.lang.label import beside  # the printer reads expressions
 
     return f"{beside(left, sign)} {sign} {beside(right, sign, right=True)}"

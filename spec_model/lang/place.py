@@ -4,7 +4,8 @@ import sys
 from dataclasses import dataclass
 from pathlib import Path
 
-_ROOT = Path(__file__).resolve().parents[2]
+_ROOT = Path(__file__).parents[2]
+"""The package, whose folders are those of this project."""
 _WORDS = f"{__package__}."
 """Modules of the language: what they build is written elsewhere."""
 

@@ -9,14 +9,35 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields, is_dataclass, replace
 from typing import Any, TypeVar
 
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, Path, State, Transition
-from spec_model.lang.domain import Bool
-from spec_model.lang.evaluate import operate
-from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Named, Temporal, Var, When, all_of, any_of
-from spec_model.lang.operators import Op
-from spec_model.lang.system import System
-from spec_model.lang.walk import variables
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.chart import (
+    Block,
+    Chart,
+    Component,
+    Enabled,
+    Junction,
+    Path,
+    State,
+    Transition,
+)
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.evaluate import operate
+from rovercheck.spec_model.lang.expr import (
+    FALSE,
+    TRUE,
+    Apply,
+    Const,
+    Expr,
+    Named,
+    Temporal,
+    Var,
+    When,
+    all_of,
+    any_of,
+)
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.walk import variables
 
 T = TypeVar("T")
 

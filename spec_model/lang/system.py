@@ -10,12 +10,12 @@ from collections import Counter
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from spec_model.lang.action import Assign, If
-from spec_model.lang.chart import Block, Chart, Component, Enabled, parts
-from spec_model.lang.errors import ModelError, several
-from spec_model.lang.expr import TRUE, Expr, Var, all_of
-from spec_model.lang.place import Place, here
-from spec_model.lang.walk import variables
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, parts
+from rovercheck.spec_model.lang.errors import ModelError, several
+from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, all_of
+from rovercheck.spec_model.lang.place import Place, here
+from rovercheck.spec_model.lang.walk import variables
 
 Valuation = Mapping[str, int]
 """A raw value for every variable, by name."""

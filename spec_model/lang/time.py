@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from fractions import Fraction
 
-from spec_model.lang.domain import MOST, Number, exact, show
-from spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.domain import MOST, Number, exact, show
+from rovercheck.spec_model.lang.errors import ModelError
 
 
 @dataclass(frozen=True)

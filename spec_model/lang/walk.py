@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var
 
 
 def children(expr: Expr) -> tuple[Expr, ...]:

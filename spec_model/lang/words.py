@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from spec_model.lang.domain import Bool, Num, Number, exact
-from spec_model.lang.errors import ModelError, with_article
-from spec_model.lang.expr import (
+from rovercheck.spec_model.lang.domain import Bool, Num, Number, exact
+from rovercheck.spec_model.lang.errors import ModelError, with_article
+from rovercheck.spec_model.lang.expr import (
     Apply,
     Const,
     Expr,
@@ -21,8 +21,8 @@ from spec_model.lang.expr import (
     lift,
     linear,
 )
-from spec_model.lang.operators import Op
-from spec_model.lang.time import Span
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.time import Span
 
 
 def minimum(left: Operand, right: Operand) -> Expr:

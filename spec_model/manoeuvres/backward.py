@@ -3,11 +3,11 @@
 The combination is btn1, btn1, btn2, btn2 with the stick at rest, at most 1 s from press to press (S59).
 """
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.expr import Var
-from spec_model.lang.time import sec
-from spec_model.lang.words import after, rising
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import after, rising
 
 
 def backward_mode_toggle(

@@ -14,9 +14,9 @@ free input, the error itself, without losing or adding a run:
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from spec_model.lang.action import Action, assign, when
-from spec_model.lang.expr import FALSE, Expr, Var, const, ite
-from spec_model.lang.words import absolute, named, wrap
+from rovercheck.spec_model.lang.action import Action, assign, when
+from rovercheck.spec_model.lang.expr import FALSE, Expr, Var, const, ite
+from rovercheck.spec_model.lang.words import absolute, named, wrap
 
 NEAR = 7.5
 """Degrees from the target at which the rotation is over; strict."""

@@ -13,10 +13,10 @@ from dataclasses import dataclass, field
 from functools import cache, reduce
 from typing import TypeVar
 
-from spec_model.lang.chart import Block, Chart, parts
-from spec_model.lang.edit import in_system
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import System
+from rovercheck.spec_model.lang.chart import Block, Chart, parts
+from rovercheck.spec_model.lang.edit import in_system
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System
 
 ALL = "all"
 """The name of all repairs that edit charts, together."""

@@ -1,6 +1,6 @@
 """Battery: readings that are absent for 0.5 s slow the rover, until their estimate stops it."""
 
-from spec_model.repairs import Repair, battery_absent_degrades, safety_critical_first
+from rovercheck.spec_model.repairs import Repair, battery_absent_degrades, safety_critical_first
 
 absent_slows = Repair(
     name="battery-absent-slows",

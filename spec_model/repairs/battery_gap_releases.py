@@ -1,8 +1,8 @@
 """Battery: a critical battery that is measured between 23 % and 25 % becomes degraded."""
 
-from spec_model.lang.chart import to
-from spec_model.lang.edit import also
-from spec_model.repairs import Repair
+from rovercheck.spec_model.lang.chart import to
+from rovercheck.spec_model.lang.edit import also
+from rovercheck.spec_model.repairs import Repair
 
 gap_releases = Repair(
     name="battery-gap-releases",

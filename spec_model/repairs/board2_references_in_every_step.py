@@ -2,14 +2,14 @@
 
 from dataclasses import replace
 
-from spec_model.board2.motion import OMEGA_MAX, omega_ref, v_ref
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State
-from spec_model.lang.edit import edit_state
-from spec_model.manoeuvres.rotation import toward_target
-from spec_model.repairs import Repair
-from spec_model.repairs.references_in_every_step import write_on_entry
-from spec_model.signals.board2_motion import angle_err
+from rovercheck.spec_model.board2.motion import OMEGA_MAX, omega_ref, v_ref
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State
+from rovercheck.spec_model.lang.edit import edit_state
+from rovercheck.spec_model.manoeuvres.rotation import toward_target
+from rovercheck.spec_model.repairs import Repair
+from rovercheck.spec_model.repairs.references_in_every_step import write_on_entry
+from rovercheck.spec_model.signals.board2_motion import angle_err
 
 
 def turn_to_the_end(state: State) -> State:

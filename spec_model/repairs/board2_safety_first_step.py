@@ -1,9 +1,9 @@
 """Safety state of Board 2: the first execution looks at the masks too."""
 
-from spec_model.board2.safety import emergency
-from spec_model.lang.chart import Chart, Junction, to
-from spec_model.lang.edit import begin
-from spec_model.repairs import Repair
+from rovercheck.spec_model.board2.safety import emergency
+from rovercheck.spec_model.lang.chart import Chart, Junction, to
+from rovercheck.spec_model.lang.edit import begin
+from rovercheck.spec_model.repairs import Repair
 
 
 def look_first(chart: Chart) -> Chart:

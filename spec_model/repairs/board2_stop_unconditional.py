@@ -1,9 +1,9 @@
 """Board 2 drives: an obstacle within 3 m stops the rover in the same step, whatever it does."""
 
-from spec_model.repairs import Repair
-from spec_model.repairs.degraded_first_step import look_first
-from spec_model.repairs.stop_unconditional import stop_while_commanded
-from spec_model.signals.board2_supervisor import cmd, rover_safety_state
+from rovercheck.spec_model.repairs import Repair
+from rovercheck.spec_model.repairs.degraded_first_step import look_first
+from rovercheck.spec_model.repairs.stop_unconditional import stop_while_commanded
+from rovercheck.spec_model.signals.board2_supervisor import cmd, rover_safety_state
 
 board2_unconditional = Repair(
     name="board2-stop-unconditional",

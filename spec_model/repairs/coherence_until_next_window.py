@@ -1,10 +1,10 @@
 """Coherence: what a long window says of the motion holds until the next one ends."""
 
-from spec_model.board2.coherence import differs, long_ends, long_result
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.expr import ite
-from spec_model.repairs import Repair
+from rovercheck.spec_model.board2.coherence import differs, long_ends, long_result
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.expr import ite
+from rovercheck.spec_model.repairs import Repair
 
 
 def kept(block: Block) -> Block:

@@ -1,6 +1,6 @@
 """Obstacles: a fault of Board 2 selects the degraded chart too, as one of Board 1 does."""
 
-from spec_model.repairs import Repair
+from rovercheck.spec_model.repairs import Repair
 
 by_either = Repair(
     name="degraded-by-either",

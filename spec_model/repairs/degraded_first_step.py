@@ -1,9 +1,9 @@
 """Obstacles, degraded: the first execution of the chart looks at the distances too."""
 
-from spec_model.board2.obstacles_degraded import check300
-from spec_model.lang.chart import Chart, Junction, to
-from spec_model.lang.edit import begin
-from spec_model.repairs import Repair
+from rovercheck.spec_model.board2.obstacles_degraded import check300
+from rovercheck.spec_model.lang.chart import Chart, Junction, to
+from rovercheck.spec_model.lang.edit import begin
+from rovercheck.spec_model.repairs import Repair
 
 
 def look_first(chart: Chart) -> Chart:

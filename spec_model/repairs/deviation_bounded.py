@@ -1,6 +1,6 @@
 """Obstacles: a deviation of a rover that does not turn ends after 10 s."""
 
-from spec_model.repairs import Repair
+from rovercheck.spec_model.repairs import Repair
 
 bounded = Repair(
     name="deviation-bounded",

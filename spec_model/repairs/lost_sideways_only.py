@@ -3,12 +3,12 @@
 from dataclasses import replace
 from functools import partial
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.edit import also, edit_state
-from spec_model.lang.expr import Var, all_of, flag
-from spec_model.repairs import Repair
-from spec_model.signals.board2 import SONARS, isClose, objDetected
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.edit import also, edit_state
+from rovercheck.spec_model.lang.expr import Var, all_of, flag
+from rovercheck.spec_model.repairs import Repair
+from rovercheck.spec_model.signals.board2 import SONARS, isClose, objDetected
 
 PAIRS = {"12": 1, "21": 2, "23": 2, "32": 3}
 """The first sonar of each window."""

@@ -3,12 +3,12 @@
 from collections.abc import Callable, Sequence
 from functools import partial
 
-from spec_model.board2.monitor_systems import twin
-from spec_model.lang.chart import Chart
-from spec_model.lang.edit import guard, swap
-from spec_model.lang.expr import all_of
-from spec_model.repairs import Repair
-from spec_model.signals.board2_supervisor import SOURCES, SourceSignals
+from rovercheck.spec_model.board2.monitor_systems import twin
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.edit import guard, swap
+from rovercheck.spec_model.lang.expr import all_of
+from rovercheck.spec_model.repairs import Repair
+from rovercheck.spec_model.signals.board2_supervisor import SOURCES, SourceSignals
 
 
 def looking_at_the_age(sources: Sequence[SourceSignals]) -> Callable[[Chart], Chart]:

@@ -1,9 +1,9 @@
 """Obstacles: the stop follows the distances of the step itself, not only those of the step before."""
 
-from spec_model.board2.obstacles import check_emergency_stop
-from spec_model.lang.chart import Chart
-from spec_model.lang.edit import guard
-from spec_model.repairs import Repair
+from rovercheck.spec_model.board2.obstacles import check_emergency_stop
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.edit import guard
+from rovercheck.spec_model.repairs import Repair
 
 
 def look_before_testing(chart: Chart) -> Chart:

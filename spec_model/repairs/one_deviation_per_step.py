@@ -2,12 +2,12 @@
 
 from dataclasses import replace
 
-from spec_model.lang.chart import Chart, Transition
-from spec_model.lang.edit import arrows
-from spec_model.lang.expr import all_of
-from spec_model.lang.time import tick
-from spec_model.lang.words import after
-from spec_model.repairs import Repair
+from rovercheck.spec_model.lang.chart import Chart, Transition
+from rovercheck.spec_model.lang.edit import arrows
+from rovercheck.spec_model.lang.expr import all_of
+from rovercheck.spec_model.lang.time import tick
+from rovercheck.spec_model.lang.words import after
+from rovercheck.spec_model.repairs import Repair
 
 
 def from_the_next_step_on(chart: Chart) -> Chart:

@@ -2,15 +2,15 @@
 
 from dataclasses import replace
 
-from spec_model.board1.motion import slowing_down
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Chart, State
-from spec_model.lang.edit import edit_state
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.words import absolute
-from spec_model.manoeuvres.rotation import toward_target
-from spec_model.repairs import Repair
-from spec_model.signals.board1 import OMEGA_MAX, angle_err, backward_enabled, omega_ref, v_ref
+from rovercheck.spec_model.board1.motion import slowing_down
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Chart, State
+from rovercheck.spec_model.lang.edit import edit_state
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.words import absolute
+from rovercheck.spec_model.manoeuvres.rotation import toward_target
+from rovercheck.spec_model.repairs import Repair
+from rovercheck.spec_model.signals.board1 import OMEGA_MAX, angle_err, backward_enabled, omega_ref, v_ref
 
 MANOEUVRES = ("Schivata_a_sinistra", "Schivata_a_destra", "Evita_sinistra", "Evita_destra")
 

@@ -1,6 +1,6 @@
 """Relay: Board 1 takes the motors back at once, as the text of §2.5 says, not after the 3 s of Fig 16."""
 
-from spec_model.repairs import Repair
+from rovercheck.spec_model.repairs import Repair
 
 _BOARD2_TOO = "Board 2 follows the reading (E21) and gives the motors back without delay too."
 _EXCLUDES = "It states the delay of Fig 16, which PB1-15 and the text of §2.5 exclude."

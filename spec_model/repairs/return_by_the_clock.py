@@ -2,11 +2,11 @@
 
 from dataclasses import replace
 
-from spec_model.lang.chart import Chart
-from spec_model.lang.edit import everywhere, in_expressions
-from spec_model.lang.expr import Expr, Temporal, When
-from spec_model.lang.time import ms
-from spec_model.repairs import Repair
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.edit import everywhere, in_expressions
+from rovercheck.spec_model.lang.expr import Expr, Temporal, When
+from rovercheck.spec_model.lang.time import ms
+from rovercheck.spec_model.repairs import Repair
 
 LENGTH = 3020 * ms
 """More than 3 s, and as long as 151 steps of 20 ms."""

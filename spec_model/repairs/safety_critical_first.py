@@ -1,9 +1,9 @@
 """Safety state: a critical cause is tested before the absence of a degraded one, in the first step too."""
 
-from spec_model.board1.safety import critical, degraded
-from spec_model.lang.chart import Chart, Junction, to
-from spec_model.lang.edit import begin, swap
-from spec_model.repairs import Repair
+from rovercheck.spec_model.board1.safety import critical, degraded
+from rovercheck.spec_model.lang.chart import Chart, Junction, to
+from rovercheck.spec_model.lang.edit import begin, swap
+from rovercheck.spec_model.repairs import Repair
 
 
 def critical_cause_first(chart: Chart) -> Chart:

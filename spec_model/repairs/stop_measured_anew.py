@@ -2,12 +2,12 @@
 
 from collections.abc import Callable
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart
-from spec_model.lang.edit import entry
-from spec_model.lang.expr import Var
-from spec_model.repairs import Repair
-from spec_model.signals import board1, board2_motion
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.edit import entry
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.repairs import Repair
+from rovercheck.spec_model.signals import board1, board2_motion
 
 
 def _measured(stopped: Var, below: Var) -> Callable[[Chart], Chart]:

@@ -2,11 +2,11 @@
 
 from collections.abc import Callable
 
-from spec_model.lang.chart import Chart, Junction, to
-from spec_model.lang.edit import begin, guard
-from spec_model.lang.expr import Var
-from spec_model.repairs import Repair
-from spec_model.signals.board1 import cmd, rover_safety_state
+from rovercheck.spec_model.lang.chart import Chart, Junction, to
+from rovercheck.spec_model.lang.edit import begin, guard
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.repairs import Repair
+from rovercheck.spec_model.signals.board1 import cmd, rover_safety_state
 
 
 def stop_while_commanded(cmd: Var, safety: Var) -> Callable[[Chart], Chart]:

@@ -1,6 +1,6 @@
 """Temperature: readings that are absent for 0.5 s degrade, so that bit 0 of a mask is set (Table 1)."""
 
-from spec_model.repairs import Repair
+from rovercheck.spec_model.repairs import Repair
 
 absent_degrades = Repair(
     name="temperature-absent-degrades",

@@ -1,6 +1,6 @@
 """Temperature: readings that are absent for 0.5 s slow the rover, until their estimate stops it."""
 
-from spec_model.repairs import Repair, safety_critical_first, temperature_absent_degrades
+from rovercheck.spec_model.repairs import Repair, safety_critical_first, temperature_absent_degrades
 
 absent_slows = Repair(
     name="temperature-absent-slows",

@@ -1,6 +1,6 @@
 """Temperature: readings that are absent for 0.5 s are a critical fault, the safer reading of Table 1."""
 
-from spec_model.repairs import Repair
+from rovercheck.spec_model.repairs import Repair
 
 absent_stops = Repair(
     name="temperature-absent-stops",

@@ -1,11 +1,11 @@
 """Obstacles: a turn to the wrong side does not end a deviation."""
 
-from spec_model.lang.chart import Chart
-from spec_model.lang.edit import in_expressions, instead
-from spec_model.lang.expr import Expr
-from spec_model.lang.walk import variables
-from spec_model.lang.words import absolute, named, wrap
-from spec_model.repairs import Repair
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.edit import in_expressions, instead
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.walk import variables
+from rovercheck.spec_model.lang.words import absolute, named, wrap
+from rovercheck.spec_model.repairs import Repair
 
 TEST = "gyroTargetDiff(yaw, targetAngle)"
 

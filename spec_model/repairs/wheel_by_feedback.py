@@ -1,7 +1,7 @@
 """Wheels: a wheel with feedback is OK, whatever the motion coherence says of the rover as a whole."""
 
-from spec_model.repairs import Repair
-from spec_model.signals.board1 import WHEELS
+from rovercheck.spec_model.repairs import Repair
+from rovercheck.spec_model.signals.board1 import WHEELS
 
 by_feedback = Repair(
     name="wheel-by-feedback",

@@ -3,9 +3,9 @@
 Where the document indexes a signal by wheel, the wheel's letters follow the name: FL, FR, RL, RR.
 """
 
-from spec_model.lang.domain import boolean, chosen, enumeration, fixed, integer
-from spec_model.lang.expr import Var, flag, var
-from spec_model.signals.common import (
+from rovercheck.spec_model.lang.domain import boolean, chosen, enumeration, fixed, integer
+from rovercheck.spec_model.lang.expr import Var, flag, var
+from rovercheck.spec_model.signals.common import (
     B2_FAULT_MASK,
     COMMAND,
     FAULT_MASK,
@@ -18,7 +18,7 @@ from spec_model.signals.common import (
     USER_Y,
     WHEEL_RPM,
 )
-from spec_model.signals.rotation import ERROR, ERROR_CLASSES, HEADING, TARGET
+from rovercheck.spec_model.signals.rotation import ERROR, ERROR_CLASSES, HEADING, TARGET
 
 WHEELS = ("FL", "FR", "RL", "RR")
 """Front left, front right, rear left, rear right: bits 3 to 6 of the masks [seed Table 1]."""

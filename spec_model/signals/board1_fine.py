@@ -1,7 +1,7 @@
 """Signals of the links of Board 1 where an update may come at any ms between two steps."""
 
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import Var, var
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import Var, var
 
 LAG = integer(0, 19, "ms")
 """From an arrival to the step that sees it; an arrival at the instant of a step is seen by it."""

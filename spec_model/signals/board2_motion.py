@@ -3,10 +3,10 @@
 Where Board 1 has a signal of the same name, the name begins with ``B2.``.
 """
 
-from spec_model.lang.domain import fixed
-from spec_model.lang.expr import flag, var
-from spec_model.signals.common import COMMAND, USER_X, USER_Y
-from spec_model.signals.rotation import ERROR, ERROR_CLASSES, HEADING, TARGET
+from rovercheck.spec_model.lang.domain import fixed
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.signals.common import COMMAND, USER_X, USER_Y
+from rovercheck.spec_model.signals.rotation import ERROR, ERROR_CLASSES, HEADING, TARGET
 
 # --- the user, by the joystick; the heading, by the IMU; the wheels, as Board 1 reports them --------
 

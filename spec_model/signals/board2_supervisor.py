@@ -6,11 +6,11 @@ Where the document indexes a signal by wheel, the wheel's letters follow the nam
 
 from dataclasses import dataclass, replace
 
-from spec_model.lang.domain import Domain, boolean, chosen, enumeration, fixed, integer
-from spec_model.lang.expr import Var, flag, var
-from spec_model.signals.board1 import WHEELS
-from spec_model.signals.board2 import decision
-from spec_model.signals.common import (
+from rovercheck.spec_model.lang.domain import Domain, boolean, chosen, enumeration, fixed, integer
+from rovercheck.spec_model.lang.expr import Var, flag, var
+from rovercheck.spec_model.signals.board1 import WHEELS
+from rovercheck.spec_model.signals.board2 import decision
+from rovercheck.spec_model.signals.common import (
     B2_FAULT_MASK,
     COMMAND,
     FAULT_MASK,

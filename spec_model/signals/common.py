@@ -1,6 +1,6 @@
 """Enumerations and domains that both boards use; the names of the members are the document's own."""
 
-from spec_model.lang.domain import chosen, enumeration, fixed, integer
+from rovercheck.spec_model.lang.domain import chosen, enumeration, fixed, integer
 
 COMMAND = enumeration(
     "SupervisorCommand_t",

@@ -6,7 +6,7 @@ values on both sides of it occur, and 0.005 times an error is exact.
 
 from fractions import Fraction
 
-from spec_model.lang.domain import Domain, Num, Unit, exact, fixed
+from rovercheck.spec_model.lang.domain import Domain, Num, Unit, exact, fixed
 
 GRID = Fraction("2.5")
 """Degrees between two headings of the model."""

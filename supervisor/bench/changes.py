@@ -3,10 +3,10 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from supervisor.bench.columns import Scalar
-from supervisor.bench.judge import history
-from supervisor.bench.record import Record
-from supervisor.bench.signals import SIGNALS
+from rovercheck.supervisor.bench.columns import Scalar
+from rovercheck.supervisor.bench.judge import history
+from rovercheck.supervisor.bench.record import Record
+from rovercheck.supervisor.bench.signals import SIGNALS
 
 TOLD = (
     *(f"board1.{name}" for name in ("temp_status", "batt_status", "b2_sup_status", "rx_status")),

@@ -1,9 +1,9 @@
 """Inputs and outputs of both boards as flat columns, named as in the document: for logs and expectations."""
 
-from supervisor.bench.conditions import WHEELS
-from supervisor.board1 import Board1Inputs, Board1Outputs
-from supervisor.board2.actuation import MotorCommand
-from supervisor.board2.signals import Board2Inputs, Board2Outputs
+from rovercheck.supervisor.bench.conditions import WHEELS
+from rovercheck.supervisor.board1 import Board1Inputs, Board1Outputs
+from rovercheck.supervisor.board2.actuation import MotorCommand
+from rovercheck.supervisor.board2.signals import Board2Inputs, Board2Outputs
 
 Scalar = bool | int | float
 """A value of a column; a member of an enumeration is an ``IntEnum``."""

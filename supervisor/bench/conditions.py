@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from math import inf
 from types import MappingProxyType
 
-from supervisor.bench.course import Setting
-from supervisor.bench.errors import ScenarioError, nearest, quoted
-from supervisor.bench.quantities import CHARGE, DISTANCE, TEMPERATURE, TIME, Dimension
-from supervisor.bench.table import number, truth
+from rovercheck.supervisor.bench.course import Setting
+from rovercheck.supervisor.bench.errors import ScenarioError, nearest, quoted
+from rovercheck.supervisor.bench.quantities import CHARGE, DISTANCE, TEMPERATURE, TIME, Dimension
+from rovercheck.supervisor.bench.table import number, truth
 
 WHEELS = ("FL", "FR", "RL", "RR")
 """Front left, front right, rear left, rear right."""

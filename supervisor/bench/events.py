@@ -4,11 +4,11 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from math import isfinite
 
-from supervisor.bench.conditions import BOTH, CONDITIONS, NO_ECHO
-from supervisor.bench.course import Course, Piece, Setting
-from supervisor.bench.errors import ScenarioError, nearest
-from supervisor.bench.quantities import shown, time_us
-from supervisor.bench.table import Table
+from rovercheck.supervisor.bench.conditions import BOTH, CONDITIONS, NO_ECHO
+from rovercheck.supervisor.bench.course import Course, Piece, Setting
+from rovercheck.supervisor.bench.errors import ScenarioError, nearest
+from rovercheck.supervisor.bench.quantities import shown, time_us
+from rovercheck.supervisor.bench.table import Table
 
 KEYS = ("at", "over", "for", "label")
 

@@ -2,10 +2,10 @@
 
 from dataclasses import dataclass
 
-from supervisor.bench.errors import ScenarioError
-from supervisor.bench.quantities import shown, time_us
-from supervisor.bench.signals import Scalar, parse_value, pick_signal
-from supervisor.bench.table import Table, number
+from rovercheck.supervisor.bench.errors import ScenarioError
+from rovercheck.supervisor.bench.quantities import shown, time_us
+from rovercheck.supervisor.bench.signals import Scalar, parse_value, pick_signal
+from rovercheck.supervisor.bench.table import Table, number
 
 KEYS = ("at", "within", "during", "signal", "value", "min", "max")
 

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from supervisor.bench.conditions import WHEELS
-from supervisor.bench.scenario import Scenario
+from rovercheck.supervisor.bench.conditions import WHEELS
+from rovercheck.supervisor.bench.scenario import Scenario
 
 Four = tuple[float, float, float, float]
 RESOLUTION_RPM = 0.5

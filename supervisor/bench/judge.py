@@ -4,12 +4,12 @@ from bisect import bisect_left, bisect_right
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from supervisor.bench.columns import Scalar, inputs1, inputs2, outputs1, outputs2
-from supervisor.bench.expectation import Expectation
-from supervisor.bench.quantities import shown
-from supervisor.bench.record import Record
-from supervisor.bench.scenario import Scenario
-from supervisor.bench.signals import SIGNALS, name_of
+from rovercheck.supervisor.bench.columns import Scalar, inputs1, inputs2, outputs1, outputs2
+from rovercheck.supervisor.bench.expectation import Expectation
+from rovercheck.supervisor.bench.quantities import shown
+from rovercheck.supervisor.bench.record import Record
+from rovercheck.supervisor.bench.scenario import Scenario
+from rovercheck.supervisor.bench.signals import SIGNALS, name_of
 
 
 @dataclass(frozen=True)

@@ -5,12 +5,12 @@ from dataclasses import dataclass, field
 from random import Random
 from typing import Generic
 
-from supervisor.bench.record import Traffic
-from supervisor.bench.scenario import Scenario
-from supervisor.bench.schedule import MILLION, Agenda, Rank
-from supervisor.link.frame import Refusal
-from supervisor.link.receiver import Receiver
-from supervisor.link.wire import P
+from rovercheck.supervisor.bench.record import Traffic
+from rovercheck.supervisor.bench.scenario import Scenario
+from rovercheck.supervisor.bench.schedule import MILLION, Agenda, Rank
+from rovercheck.supervisor.link.frame import Refusal
+from rovercheck.supervisor.link.receiver import Receiver
+from rovercheck.supervisor.link.wire import P
 
 BAUD = 460_800
 BITS_PER_BYTE = 10

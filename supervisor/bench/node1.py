@@ -2,18 +2,18 @@
 
 from dataclasses import dataclass, field
 
-from supervisor.bench.health import Encoders, Health
-from supervisor.bench.line import Line, Port
-from supervisor.bench.record import Side, Step1
-from supervisor.bench.rover import Rover
-from supervisor.bench.schedule import Rank
-from supervisor.bench.tasks import Tasks
-from supervisor.board1 import Board1, Board1Inputs, Board1Outputs
-from supervisor.link.frame import Transmitter
-from supervisor.link.heartbeat import AliveCounter, Heartbeat
-from supervisor.link.payloads import FromBoard1, FromBoard2
-from supervisor.link.wire import B1_TO_B2
-from supervisor.types import SupervisorCommand
+from rovercheck.supervisor.bench.health import Encoders, Health
+from rovercheck.supervisor.bench.line import Line, Port
+from rovercheck.supervisor.bench.record import Side, Step1
+from rovercheck.supervisor.bench.rover import Rover
+from rovercheck.supervisor.bench.schedule import Rank
+from rovercheck.supervisor.bench.tasks import Tasks
+from rovercheck.supervisor.board1 import Board1, Board1Inputs, Board1Outputs
+from rovercheck.supervisor.link.frame import Transmitter
+from rovercheck.supervisor.link.heartbeat import AliveCounter, Heartbeat
+from rovercheck.supervisor.link.payloads import FromBoard1, FromBoard2
+from rovercheck.supervisor.link.wire import B1_TO_B2
+from rovercheck.supervisor.types import SupervisorCommand
 
 SPEED_RPM, TURN_RPM, MOST_RPM = 160.0, 80.0, 160.0
 """Full scale of both references, and the most that they may ask of a side together."""

@@ -2,19 +2,19 @@
 
 from dataclasses import dataclass, field
 
-from supervisor.bench.line import Line, Port
-from supervisor.bench.record import Side, Step2
-from supervisor.bench.rover import Rover
-from supervisor.bench.schedule import Rank
-from supervisor.bench.sensors import Sensors
-from supervisor.bench.tasks import Tasks
-from supervisor.board2.board import Board2
-from supervisor.board2.distances import Distances
-from supervisor.board2.signals import Board2Inputs, Board2Outputs
-from supervisor.link.frame import Transmitter
-from supervisor.link.heartbeat import AliveCounter, Heartbeat
-from supervisor.link.payloads import FromBoard1, FromBoard2
-from supervisor.link.wire import B2_TO_B1
+from rovercheck.supervisor.bench.line import Line, Port
+from rovercheck.supervisor.bench.record import Side, Step2
+from rovercheck.supervisor.bench.rover import Rover
+from rovercheck.supervisor.bench.schedule import Rank
+from rovercheck.supervisor.bench.sensors import Sensors
+from rovercheck.supervisor.bench.tasks import Tasks
+from rovercheck.supervisor.board2.board import Board2
+from rovercheck.supervisor.board2.distances import Distances
+from rovercheck.supervisor.board2.signals import Board2Inputs, Board2Outputs
+from rovercheck.supervisor.link.frame import Transmitter
+from rovercheck.supervisor.link.heartbeat import AliveCounter, Heartbeat
+from rovercheck.supervisor.link.payloads import FromBoard1, FromBoard2
+from rovercheck.supervisor.link.wire import B2_TO_B1
 
 
 @dataclass

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 
-from supervisor.bench.errors import ScenarioError, quoted
+from rovercheck.supervisor.bench.errors import ScenarioError, quoted
 
 _QUANTITY = re.compile(r"([+-]?\d{1,12}(?:\.\d{1,12})?)\s*([^\s\d.]\S*)")
 

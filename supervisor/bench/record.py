@@ -4,9 +4,9 @@ from collections import Counter
 from dataclasses import dataclass, field, fields
 from enum import IntEnum
 
-from supervisor.bench.columns import Scalar
-from supervisor.board1 import Board1Inputs, Board1Outputs
-from supervisor.board2.signals import Board2Inputs, Board2Outputs
+from rovercheck.supervisor.bench.columns import Scalar
+from rovercheck.supervisor.board1 import Board1Inputs, Board1Outputs
+from rovercheck.supervisor.board2.signals import Board2Inputs, Board2Outputs
 
 SAMPLE_US = 10_000
 """Time between two samples of the rover; more are taken when who drives changes."""

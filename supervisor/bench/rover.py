@@ -8,10 +8,10 @@ their mean; a blocked wheel slides.
 from dataclasses import dataclass, field
 from math import pi
 
-from supervisor.bench.conditions import WHEELS
-from supervisor.bench.record import Driver, Sample, Side
-from supervisor.bench.scenario import Scenario
-from supervisor.board2.coherence import WHEEL_RADIUS_M, wheel_yaw_rate
+from rovercheck.supervisor.bench.conditions import WHEELS
+from rovercheck.supervisor.bench.record import Driver, Sample, Side
+from rovercheck.supervisor.bench.scenario import Scenario
+from rovercheck.supervisor.board2.coherence import WHEEL_RADIUS_M, wheel_yaw_rate
 
 STEP_US = 1000
 MOTOR_US = 120_000

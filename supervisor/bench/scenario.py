@@ -5,13 +5,13 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from supervisor.bench.course import Course, Setting
-from supervisor.bench.errors import ScenarioError
-from supervisor.bench.events import Event, courses, parse_event, parse_settings
-from supervisor.bench.expectation import Expectation, parse_expectation
-from supervisor.bench.quantities import DRIFT, shown, time_us
-from supervisor.bench.schedule import PERIODS_US
-from supervisor.bench.table import Table
+from rovercheck.supervisor.bench.course import Course, Setting
+from rovercheck.supervisor.bench.errors import ScenarioError
+from rovercheck.supervisor.bench.events import Event, courses, parse_event, parse_settings
+from rovercheck.supervisor.bench.expectation import Expectation, parse_expectation
+from rovercheck.supervisor.bench.quantities import DRIFT, shown, time_us
+from rovercheck.supervisor.bench.schedule import PERIODS_US
+from rovercheck.supervisor.bench.table import Table
 
 LONGEST_US = 600 * 10**6
 MOST_PHASE_US = 19_999

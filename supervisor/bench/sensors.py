@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from dataclasses import dataclass, field
 
-from supervisor.bench.conditions import SIDES
-from supervisor.bench.scenario import Scenario
-from supervisor.board2.distances import Distances
+from rovercheck.supervisor.bench.conditions import SIDES
+from rovercheck.supervisor.bench.scenario import Scenario
+from rovercheck.supervisor.board2.distances import Distances
 
 SCAN_US = 20_000
 """Longest wait for the echoes of a scan."""

@@ -5,12 +5,12 @@ from dataclasses import dataclass
 from enum import IntEnum
 from types import MappingProxyType
 
-from supervisor.bench.columns import Scalar, inputs1, inputs2, outputs1, outputs2
-from supervisor.bench.errors import ScenarioError, nearest, quoted
-from supervisor.bench.record import Sample
-from supervisor.bench.table import number, truth
-from supervisor.board1 import Board1Inputs, Board1Outputs
-from supervisor.board2.signals import Board2Inputs, Board2Outputs
+from rovercheck.supervisor.bench.columns import Scalar, inputs1, inputs2, outputs1, outputs2
+from rovercheck.supervisor.bench.errors import ScenarioError, nearest, quoted
+from rovercheck.supervisor.bench.record import Sample
+from rovercheck.supervisor.bench.table import number, truth
+from rovercheck.supervisor.board1 import Board1Inputs, Board1Outputs
+from rovercheck.supervisor.board2.signals import Board2Inputs, Board2Outputs
 
 __all__ = ["SIGNALS", "Scalar", "Signal", "name_of", "parse_value", "pick_signal"]
 

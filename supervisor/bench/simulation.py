@@ -2,17 +2,17 @@
 
 from collections.abc import Callable
 
-from supervisor.bench.line import Line, Port
-from supervisor.bench.node1 import Node1
-from supervisor.bench.node2 import Node2
-from supervisor.bench.record import SAMPLE_US, Record
-from supervisor.bench.rover import STEP_US, Rover
-from supervisor.bench.scenario import Scenario
-from supervisor.bench.schedule import Agenda, Clock, Rank
-from supervisor.bench.sensors import Sensors
-from supervisor.bench.tasks import Tasks
-from supervisor.link.receiver import Receiver
-from supervisor.link.wire import B1_TO_B2, B2_TO_B1
+from rovercheck.supervisor.bench.line import Line, Port
+from rovercheck.supervisor.bench.node1 import Node1
+from rovercheck.supervisor.bench.node2 import Node2
+from rovercheck.supervisor.bench.record import SAMPLE_US, Record
+from rovercheck.supervisor.bench.rover import STEP_US, Rover
+from rovercheck.supervisor.bench.scenario import Scenario
+from rovercheck.supervisor.bench.schedule import Agenda, Clock, Rank
+from rovercheck.supervisor.bench.sensors import Sensors
+from rovercheck.supervisor.bench.tasks import Tasks
+from rovercheck.supervisor.link.receiver import Receiver
+from rovercheck.supervisor.link.wire import B1_TO_B2, B2_TO_B1
 
 SECOND_US = 10**6
 

@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Mapping
 from typing import Any
 
-from supervisor.bench.errors import ScenarioError, nearest, quoted
-from supervisor.bench.quantities import time_us
+from rovercheck.supervisor.bench.errors import ScenarioError, nearest, quoted
+from rovercheck.supervisor.bench.quantities import time_us
 
 MOST = 10**12
 """Numbers in scenarios are smaller."""

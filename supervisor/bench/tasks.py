@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from itertools import cycle
 
-from supervisor.bench.scenario import Scenario
-from supervisor.bench.schedule import LATER, Action, Agenda, Clock, Rank
+from rovercheck.supervisor.bench.scenario import Scenario
+from rovercheck.supervisor.bench.schedule import LATER, Action, Agenda, Clock, Rank
 
 
 @dataclass

@@ -1,15 +1,20 @@
 """The supervisor of Board 1: its blocks in their order, once every 20 ms [seed §2.1, Fig 11]."""
 
-from supervisor.backward import BackwardToggle
-from supervisor.board1.classify import Requirements, classify
-from supervisor.board1.masks import Masks, fault_masks
-from supervisor.board1.monitors import BatteryMonitor, TemperatureMonitor, UpdateMonitor, wheel_status
-from supervisor.board1.motion import MotionSupervision
-from supervisor.board1.relay import Relay
-from supervisor.board1.safety import Safety
-from supervisor.board1.signals import Board1Inputs, Board1Outputs, Statuses
-from supervisor.board1.states import MotionInputs
-from supervisor.motion import axis, heading
+from rovercheck.supervisor.backward import BackwardToggle
+from rovercheck.supervisor.board1.classify import Requirements, classify
+from rovercheck.supervisor.board1.masks import Masks, fault_masks
+from rovercheck.supervisor.board1.monitors import (
+    BatteryMonitor,
+    TemperatureMonitor,
+    UpdateMonitor,
+    wheel_status,
+)
+from rovercheck.supervisor.board1.motion import MotionSupervision
+from rovercheck.supervisor.board1.relay import Relay
+from rovercheck.supervisor.board1.safety import Safety
+from rovercheck.supervisor.board1.signals import Board1Inputs, Board1Outputs, Statuses
+from rovercheck.supervisor.board1.states import MotionInputs
+from rovercheck.supervisor.motion import axis, heading
 
 
 class Board1:

@@ -1,9 +1,9 @@
 """How Board 1 steers around an obstacle, and how it turns by 180° [seed §2.7, Fig 20]."""
 
-from supervisor.board1.limits import Limits
-from supervisor.board1.states import Motion
-from supervisor.motion import UserReferences, sign
-from supervisor.types import SafetyState
+from rovercheck.supervisor.board1.limits import Limits
+from rovercheck.supervisor.board1.states import Motion
+from rovercheck.supervisor.motion import UserReferences, sign
+from rovercheck.supervisor.types import SafetyState
 
 FINE_DEG = 45
 """Within this angle of its target a half turn slows down."""

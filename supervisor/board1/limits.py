@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from supervisor.types import SafetyState
+from rovercheck.supervisor.types import SafetyState
 
 
 @dataclass(frozen=True, slots=True)

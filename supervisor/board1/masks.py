@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from supervisor.board1.signals import Statuses
-from supervisor.types import Level
+from rovercheck.supervisor.board1.signals import Statuses
+from rovercheck.supervisor.types import Level
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,8 +6,8 @@ Each tests its rows in order of severity in every step, the first one included; 
 from dataclasses import dataclass, field
 from math import isfinite
 
-from supervisor.timing import Age, Held, IntervalMean
-from supervisor.types import Level
+from rovercheck.supervisor.timing import Age, Held, IntervalMean
+from rovercheck.supervisor.types import Level
 
 ESTIMATE_FROM_MS = 500
 """From this age on, a measured value is assumed to drift."""

@@ -6,12 +6,18 @@
 from dataclasses import dataclass, field
 from math import isfinite
 
-from supervisor.board1.laws import avoid, turn
-from supervisor.board1.limits import LIMITS, Limits
-from supervisor.board1.states import ACTIONS, MANOEUVRES, PROCEDURA_EMERGENCY_STOP, Motion, MotionInputs
-from supervisor.motion import UserReferences, angle180, angle_error, check_stop
-from supervisor.timing import Duration, steps
-from supervisor.types import SafetyState, SupervisorCommand
+from rovercheck.supervisor.board1.laws import avoid, turn
+from rovercheck.supervisor.board1.limits import LIMITS, Limits
+from rovercheck.supervisor.board1.states import (
+    ACTIONS,
+    MANOEUVRES,
+    PROCEDURA_EMERGENCY_STOP,
+    Motion,
+    MotionInputs,
+)
+from rovercheck.supervisor.motion import UserReferences, angle180, angle_error, check_stop
+from rovercheck.supervisor.timing import Duration, steps
+from rovercheck.supervisor.types import SafetyState, SupervisorCommand
 
 TURNED_DEG = 7.5
 """A half turn ends within this angle of its target."""

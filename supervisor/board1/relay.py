@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from supervisor.timing import Duration, steps
-from supervisor.types import Level
+from rovercheck.supervisor.timing import Duration, steps
+from rovercheck.supervisor.types import Level
 
 
 @dataclass

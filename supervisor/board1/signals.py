@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from supervisor.link.payloads import FromBoard2
-from supervisor.types import Level, SafetyState, SupervisorCommand
+from rovercheck.supervisor.link.payloads import FromBoard2
+from rovercheck.supervisor.types import Level, SafetyState, SupervisorCommand
 
 
 @dataclass(frozen=True, slots=True)

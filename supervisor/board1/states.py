@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from enum import Enum, auto
 
-from supervisor.types import SafetyState, SupervisorCommand
+from rovercheck.supervisor.types import SafetyState, SupervisorCommand
 
 
 class Motion(Enum):

@@ -1,13 +1,13 @@
 """The supervisor of Board 2: its blocks in their order, once every 20 ms."""
 
-from supervisor.board2.actuation import Actuated, Actuation
-from supervisor.board2.coherence import Coherence
-from supervisor.board2.driving import Driving
-from supervisor.board2.failure_check import FailureCheck
-from supervisor.board2.faults import FaultFinder, Faults
-from supervisor.board2.selection import Selected, Selection
-from supervisor.board2.signals import Board2Inputs, Board2Outputs
-from supervisor.board2.validity import Validity
+from rovercheck.supervisor.board2.actuation import Actuated, Actuation
+from rovercheck.supervisor.board2.coherence import Coherence
+from rovercheck.supervisor.board2.driving import Driving
+from rovercheck.supervisor.board2.failure_check import FailureCheck
+from rovercheck.supervisor.board2.faults import FaultFinder, Faults
+from rovercheck.supervisor.board2.selection import Selected, Selection
+from rovercheck.supervisor.board2.signals import Board2Inputs, Board2Outputs
+from rovercheck.supervisor.board2.validity import Validity
 
 
 class Board2:

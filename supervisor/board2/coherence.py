@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
 
-from supervisor.timing import elapsed_ms
+from rovercheck.supervisor.timing import elapsed_ms
 
 WHEEL_RADIUS_M = 0.07
 TRACK_M = 0.38

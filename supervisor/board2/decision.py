@@ -3,7 +3,7 @@
 from enum import IntEnum
 from types import MappingProxyType
 
-from supervisor.types import SupervisorCommand
+from rovercheck.supervisor.types import SupervisorCommand
 
 
 class Decision(IntEnum):

@@ -5,14 +5,14 @@ Without authorisation all of it stands still, timers, edges and outputs included
 
 from dataclasses import dataclass, field
 
-from supervisor.backward import BackwardToggle
-from supervisor.board2.decision import COMMANDS
-from supervisor.board2.faults import Faults
-from supervisor.board2.motion import Motion, MotionInputs
-from supervisor.board2.obstacles_degraded import DegradedObstacles
-from supervisor.board2.safety import Safety
-from supervisor.board2.signals import Board2Inputs
-from supervisor.types import SupervisorCommand
+from rovercheck.supervisor.backward import BackwardToggle
+from rovercheck.supervisor.board2.decision import COMMANDS
+from rovercheck.supervisor.board2.faults import Faults
+from rovercheck.supervisor.board2.motion import Motion, MotionInputs
+from rovercheck.supervisor.board2.obstacles_degraded import DegradedObstacles
+from rovercheck.supervisor.board2.safety import Safety
+from rovercheck.supervisor.board2.signals import Board2Inputs
+from rovercheck.supervisor.types import SupervisorCommand
 
 
 @dataclass

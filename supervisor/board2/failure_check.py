@@ -3,8 +3,8 @@
 from dataclasses import dataclass, field
 from enum import Enum, auto
 
-from supervisor.timing import Duration, steps
-from supervisor.types import Level
+from rovercheck.supervisor.timing import Duration, steps
+from rovercheck.supervisor.types import Level
 
 
 class _State(Enum):

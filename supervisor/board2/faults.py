@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass, field
 
-from supervisor.board2.classify import Classification, classify
-from supervisor.board2.masks import Statuses, mask
-from supervisor.board2.monitors import Monitors
-from supervisor.board2.signals import Board2Inputs
-from supervisor.types import Level
+from rovercheck.supervisor.board2.classify import Classification, classify
+from rovercheck.supervisor.board2.masks import Statuses, mask
+from rovercheck.supervisor.board2.monitors import Monitors
+from rovercheck.supervisor.board2.signals import Board2Inputs
+from rovercheck.supervisor.types import Level
 
 
 @dataclass(frozen=True, slots=True)

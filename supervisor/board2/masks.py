@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from supervisor.types import Level
+from rovercheck.supervisor.types import Level
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,10 +7,10 @@ changes.  Data missing since power-up are data of time 0.
 from collections import deque
 from dataclasses import dataclass, field
 
-from supervisor.board2.masks import Statuses
-from supervisor.board2.signals import Board2Inputs
-from supervisor.timing import INTERVALS, Duration, elapsed_ms, steps
-from supervisor.types import Level
+from rovercheck.supervisor.board2.masks import Statuses
+from rovercheck.supervisor.board2.signals import Board2Inputs
+from rovercheck.supervisor.timing import INTERVALS, Duration, elapsed_ms, steps
+from rovercheck.supervisor.types import Level
 
 
 @dataclass

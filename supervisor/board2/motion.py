@@ -7,9 +7,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import Enum, auto
 
-from supervisor.motion import UserReferences, angle180, angle_error, check_stop, sign
-from supervisor.timing import After, Duration, steps
-from supervisor.types import Level, SafetyState, SupervisorCommand
+from rovercheck.supervisor.motion import UserReferences, angle180, angle_error, check_stop, sign
+from rovercheck.supervisor.timing import After, Duration, steps
+from rovercheck.supervisor.types import Level, SafetyState, SupervisorCommand
 
 SPEED_LIMIT = 0.5
 """V_MAX and OMEGA_MAX of a degraded rover; both are 0 in the critical state [seed Fig 20]."""

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from supervisor.board2.decision import Decision
-from supervisor.board2.distances import STOP_DEGRADED_CM, Distances, within
+from rovercheck.supervisor.board2.decision import Decision
+from rovercheck.supervisor.board2.distances import STOP_DEGRADED_CM, Distances, within
 
 
 @dataclass

@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass, field
 
-from supervisor.board2.decision import COMMANDS, Decision
-from supervisor.board2.distances import Distances
-from supervisor.board2.obstacles import Obstacles
-from supervisor.board2.obstacles_degraded import DegradedObstacles
-from supervisor.types import SupervisorCommand
+from rovercheck.supervisor.board2.decision import COMMANDS, Decision
+from rovercheck.supervisor.board2.distances import Distances
+from rovercheck.supervisor.board2.obstacles import Obstacles
+from rovercheck.supervisor.board2.obstacles_degraded import DegradedObstacles
+from rovercheck.supervisor.types import SupervisorCommand
 
 
 @dataclass(frozen=True)

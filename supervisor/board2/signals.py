@@ -5,12 +5,12 @@ The lists follow the interface of Board 1 [seed §2.2, §2.3], for the sources t
 
 from dataclasses import dataclass, field
 
-from supervisor.board2.actuation import Actuated
-from supervisor.board2.decision import Decision
-from supervisor.board2.distances import Distances
-from supervisor.board2.masks import Statuses
-from supervisor.link.payloads import FromBoard1
-from supervisor.types import SafetyState, SupervisorCommand
+from rovercheck.supervisor.board2.actuation import Actuated
+from rovercheck.supervisor.board2.decision import Decision
+from rovercheck.supervisor.board2.distances import Distances
+from rovercheck.supervisor.board2.masks import Statuses
+from rovercheck.supervisor.link.payloads import FromBoard1
+from rovercheck.supervisor.types import SafetyState, SupervisorCommand
 
 __all__ = ["Board2Inputs", "Board2Outputs", "FromBoard1", "Statuses"]
 

@@ -7,8 +7,8 @@ after a read that failed, so the monitor of the source finds them too old and th
 from dataclasses import dataclass, field, replace
 from math import isfinite
 
-from supervisor.board2.signals import Board2Inputs
-from supervisor.motion import axis
+from rovercheck.supervisor.board2.signals import Board2Inputs
+from rovercheck.supervisor.motion import axis
 
 
 @dataclass

@@ -9,8 +9,8 @@ from enum import Enum
 from struct import Struct
 from typing import Generic
 
-from supervisor.link.crc import crc16
-from supervisor.link.wire import Direction, P
+from rovercheck.supervisor.link.crc import crc16
+from rovercheck.supervisor.link.wire import Direction, P
 
 _HEADER = Struct(">2s H I I")
 _CHECKSUM = Struct(">H")

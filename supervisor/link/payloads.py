@@ -5,7 +5,7 @@
 
 from dataclasses import dataclass
 
-from supervisor.types import SupervisorCommand
+from rovercheck.supervisor.types import SupervisorCommand
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Generic
 
-from supervisor.link.frame import Frame, Refusal, decode, frame_size
-from supervisor.link.wire import Direction, P
+from rovercheck.supervisor.link.frame import Frame, Refusal, decode, frame_size
+from rovercheck.supervisor.link.wire import Direction, P
 
 
 @dataclass(frozen=True)

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 from struct import Struct
 from typing import Generic, TypeVar
 
-from supervisor.link.payloads import FromBoard1, FromBoard2
-from supervisor.types import SupervisorCommand
+from rovercheck.supervisor.link.payloads import FromBoard1, FromBoard2
+from rovercheck.supervisor.types import SupervisorCommand
 
 P = TypeVar("P", FromBoard1, FromBoard2)
 

@@ -2,8 +2,8 @@
 
 from playwright.sync_api import Page, expect
 
-from checker.explore.graphs.making import made
-from checker.render.graph_html import render
+from rovercheck.checker.explore.graphs.making import made
+from rovercheck.checker.render.graph_html import render
 from tests import toys
 from tests.render.zoo import GRAPHS, ring
 

@@ -3,7 +3,7 @@
 from markupsafe import Markup, escape
 from playwright.sync_api import Page
 
-from checker.render.page import Part, data, page
+from rovercheck.checker.render.page import Part, data, page
 
 COUNTS = """'use strict';
 const found = JSON.parse(document.querySelector('script.numbers').textContent);

@@ -6,12 +6,12 @@ import pytest
 from markupsafe import Markup
 from playwright.sync_api import Page
 
-from checker.render import player, trace_play
-from checker.render.page import Part
-from checker.render.page import page as whole
-from checker.render.statechart_svg import render
-from checker.results.trace import Trace
-from spec_model.rover import charts
+from rovercheck.checker.render import player, trace_play
+from rovercheck.checker.render.page import Part
+from rovercheck.checker.render.page import page as whole
+from rovercheck.checker.render.statechart_svg import render
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.rover import charts
 from tests.browser.conftest import Show
 from tests.render.test_player import TOY, run, shining
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from playwright.sync_api import Browser, Page, expect
 
-from checker.render.review import render
+from rovercheck.checker.render.review import render
 from tests.browser.conftest import Show
 from tests.render.toy_review import RUN, checked, review
 

@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 from playwright.sync_api import Browser, Page
 
-from checker.render import timeline, trace_html
-from checker.render.page import page as whole
+from rovercheck.checker.render import timeline, trace_html
+from rovercheck.checker.render.page import page as whole
 from tests.browser.conftest import Show
 from tests.render.test_timeline import drawn
 

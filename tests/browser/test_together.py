@@ -3,8 +3,8 @@
 import pytest
 from playwright.sync_api import Page
 
-from checker.render import player, timeline, trace_html
-from checker.render.page import page as whole
+from rovercheck.checker.render import player, timeline, trace_html
+from rovercheck.checker.render.page import page as whole
 from tests.browser.conftest import Show
 from tests.browser.test_player import long, where
 

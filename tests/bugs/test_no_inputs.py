@@ -1,14 +1,14 @@
 """A system without inputs: its counterexample was calmed to no tick at all, and could not be replayed."""
 
-from checker.results.verdict import Run
-from checker.verify.runs.calm import calmed
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import flag, var
-from spec_model.lang.lower import lower
-from spec_model.lang.system import in_order
-from spec_model.lang.words import minimum
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.verify.runs.calm import calmed
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.words import minimum
 
 
 def test_a_run_without_inputs_keeps_its_ticks() -> None:

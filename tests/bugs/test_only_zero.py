@@ -2,15 +2,15 @@
 
 import pytest
 
-from checker.commands.check.run import results
-from checker.engines import Limits
-from checker.results.verdict import Proved
-from properties.forms import always, never
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import flag, var
-from spec_model.lang.system import in_order
+from rovercheck.checker.commands.check.run import results
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.results.verdict import Proved
+from rovercheck.properties.forms import always, never
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.lang.system import in_order
 
 none = var("none", integer(0, 0))
 kept, seen = var("kept", integer(0, 0)), flag("seen")

@@ -1,12 +1,12 @@
 """A memory of a memory was renewed after the inner one, so that previous(previous(x)) was previous(x)."""
 
-from properties.forms import Always, Property
-from properties.reduce import reduce
-from spec_model.lang.action import Assign
-from spec_model.lang.evaluate import step
-from spec_model.lang.expr import flag
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import previous
+from rovercheck.properties.forms import Always, Property
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expr import flag
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import previous
 
 p, x = flag("p"), flag("x")
 FREE = TransitionSystem("free", (p,), (), (x,), (), (Assign(x, p),))

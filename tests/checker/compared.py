@@ -3,15 +3,15 @@
 from collections.abc import Callable
 from functools import cache
 
-from checker.encode.native import OutsideDomain
-from checker.engines import Limits, Timers, explicit
-from checker.engines import quiet as silent
-from checker.results.verdict import Answer, Exhausted, Reached, Unreachable
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import FALSE, Var, all_of, flag, ite, var
-from spec_model.lang.system import Statement, TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.encode.native import OutsideDomain
+from rovercheck.checker.engines import Limits, Timers, explicit
+from rovercheck.checker.engines import quiet as silent
+from rovercheck.checker.results.verdict import Answer, Exhausted, Reached, Unreachable
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import chosen, integer
+from rovercheck.spec_model.lang.expr import FALSE, Var, all_of, flag, ite, var
+from rovercheck.spec_model.lang.system import Statement, TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests import naive
 
 Group = tuple[TransitionSystem, tuple[Var, ...]]

@@ -4,22 +4,22 @@ import re
 
 import pytest
 
-from checker.encode.counting import counters
-from checker.encode.native import NativeSearch, NativeTask, layout, shifts
-from checker.engines import Limits, Timers, explicit, quiet
-from checker.engines.explicit.advice import Advisor
-from checker.engines.explicit.levels import LevelSearch
-from checker.engines.explicit.lines import LineSearch
-from checker.results.verdict import Open
-from checker.system.slice import sliced
-from spec_model.lang.action import Assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import Var, all_of, flag, ite, var
-from spec_model.lang.lower import lower
-from spec_model.lang.system import Statement, TransitionSystem, in_order
-from spec_model.lang.time import ticks
-from spec_model.lang.words import after, minimum
+from rovercheck.checker.encode.counting import counters
+from rovercheck.checker.encode.native import NativeSearch, NativeTask, layout, shifts
+from rovercheck.checker.engines import Limits, Timers, explicit, quiet
+from rovercheck.checker.engines.explicit.advice import Advisor
+from rovercheck.checker.engines.explicit.levels import LevelSearch
+from rovercheck.checker.engines.explicit.lines import LineSearch
+from rovercheck.checker.results.verdict import Open
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.domain import chosen, integer
+from rovercheck.spec_model.lang.expr import Var, all_of, flag, ite, var
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import Statement, TransitionSystem, in_order
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import after, minimum
 
 end = flag("end")
 

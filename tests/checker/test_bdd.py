@@ -8,21 +8,21 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from benchmarks.roverlite import roverlite
-from checker.encode.bits import circuit
-from checker.encode.bits.inputs import input_cut
-from checker.encode.bits.order import orders
-from checker.engines import Limits, bdd, engines, quiet
-from checker.engines.bdd import search as kept
-from checker.engines.bdd.events import BddBound, BddClosed, BddFound, BddStuck
-from checker.engines.bdd.search import search
-from checker.results.diagram import Diagram
-from checker.results.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import Bool, chosen, integer
-from spec_model.lang.expr import FALSE, TRUE, Apply, Var, all_of, const, flag, ite, var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.encode.bits import circuit
+from rovercheck.checker.encode.bits.inputs import input_cut
+from rovercheck.checker.encode.bits.order import orders
+from rovercheck.checker.engines import Limits, bdd, engines, quiet
+from rovercheck.checker.engines.bdd import search as kept
+from rovercheck.checker.engines.bdd.events import BddBound, BddClosed, BddFound, BddStuck
+from rovercheck.checker.engines.bdd.search import search
+from rovercheck.checker.results.diagram import Diagram
+from rovercheck.checker.results.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import Bool, chosen, integer
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Var, all_of, const, flag, ite, var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests import naive
 from tests.engine_children import LIMIT, cut_off
 from tests.strategies_ts import goals, transition_systems

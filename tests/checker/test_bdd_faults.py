@@ -9,19 +9,19 @@ import pytest
 from hypothesis import Phase, given, settings
 
 from benchmarks.roverlite import roverlite
-from checker.encode.bits import TRUE, Circuit, Latch
-from checker.engines.bdd import layers, relation, search
-from checker.engines.bdd import search as groups
-from checker.engines.bdd import search as runs
-from checker.engines.bdd.layers import Layers
-from checker.engines.bdd.relation import Relation
-from checker.engines.bdd.search import BddGroup
-from checker.engines.bdd.space import Function, Space
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import Var, flag, ite, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.encode.bits import TRUE, Circuit, Latch
+from rovercheck.checker.engines.bdd import layers, relation, search
+from rovercheck.checker.engines.bdd import search as groups
+from rovercheck.checker.engines.bdd import search as runs
+from rovercheck.checker.engines.bdd.layers import Layers
+from rovercheck.checker.engines.bdd.relation import Relation
+from rovercheck.checker.engines.bdd.search import BddGroup
+from rovercheck.checker.engines.bdd.space import Function, Space
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import Var, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests import naive
 from tests.checker.test_bdd import agrees
 from tests.strategies_ts import goals, transition_systems

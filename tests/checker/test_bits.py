@@ -8,14 +8,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.encode.bits import FALSE, TRUE, Aig, Bit, Blaster, Circuit, circuit
-from checker.encode.bits.aig import bits_of
-from checker.encode.bits.blast import as_word, bits_needed, value_of
-from spec_model.lang.domain import Bool
-from spec_model.lang.evaluate import admissible, evaluate, step
-from spec_model.lang.expr import Apply, Expr, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.bits import FALSE, TRUE, Aig, Bit, Blaster, Circuit, circuit
+from rovercheck.checker.encode.bits.aig import bits_of
+from rovercheck.checker.encode.bits.blast import as_word, bits_needed, value_of
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.evaluate import admissible, evaluate, step
+from rovercheck.spec_model.lang.expr import Apply, Expr, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.checker.test_bitvector import CASES, sort_of
 from tests.strategies_ts import goals, transition_systems
 

@@ -6,14 +6,14 @@ import pytest
 import z3
 from hypothesis import given, settings
 
-from checker.encode.bitvector import OPERATORS, Encoder, literal, member, symbol, value, width
-from checker.system.intervals import Interval, intervals
-from spec_model.lang.domain import Bool, Domain, Num, Sort, boolean, chosen, enumeration, integer
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Apply, Const, Expr, Var, ite
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.checker.encode.bitvector import OPERATORS, Encoder, literal, member, symbol, value, width
+from rovercheck.checker.system.intervals import Interval, intervals
+from rovercheck.spec_model.lang.domain import Bool, Domain, Num, Sort, boolean, chosen, enumeration, integer
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var, ite
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 from tests.strategies_ts import transition_systems
 
 B0, B1, B2 = (Var(f"b{i}", boolean) for i in range(3))

@@ -6,16 +6,16 @@ from dataclasses import dataclass, field, replace
 import pytest
 from hypothesis import given, settings
 
-from checker.engines import Limits, bmc, engines, quiet
-from checker.engines.bmc.events import BmcBound, BmcFound, BmcUndefined
-from checker.engines.bmc.search import search
-from checker.process.isolate import Send
-from checker.results.verdict import Open, Reached, Run
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import FALSE, TRUE, flag, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.engines import Limits, bmc, engines, quiet
+from rovercheck.checker.engines.bmc.events import BmcBound, BmcFound, BmcUndefined
+from rovercheck.checker.engines.bmc.search import search
+from rovercheck.checker.process.isolate import Send
+from rovercheck.checker.results.verdict import Open, Reached, Run
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, flag, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests import naive
 from tests.engine_children import LIMIT, cut_off
 from tests.strategies_ts import goals, transition_systems

@@ -10,19 +10,19 @@ from pathlib import Path
 
 import pytest
 
-from checker import cache
-from checker.encode import native
-from checker.encode.counting import counters
-from checker.encode.native import NativeSearch, NativeTask, fingerprint, jit, layout, shifts
-from checker.encode.native.jit import OptimisationLevel
-from checker.engines import Limits, explicit, quiet
-from checker.engines.explicit import levels
-from checker.results.verdict import Answer, Reached, Unreachable
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import Var, flag, ite, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker import cache
+from rovercheck.checker.encode import native
+from rovercheck.checker.encode.counting import counters
+from rovercheck.checker.encode.native import NativeSearch, NativeTask, fingerprint, jit, layout, shifts
+from rovercheck.checker.encode.native.jit import OptimisationLevel
+from rovercheck.checker.engines import Limits, explicit, quiet
+from rovercheck.checker.engines.explicit import levels
+from rovercheck.checker.results.verdict import Answer, Reached, Unreachable
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import chosen, integer
+from rovercheck.spec_model.lang.expr import Var, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 
 ROOT = Path(__file__).parents[2]
 

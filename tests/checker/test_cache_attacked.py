@@ -12,12 +12,12 @@ from pathlib import Path
 
 import pytest
 
-from checker import cache
-from checker.cache import CacheRefused, listening
-from checker.encode.native import fingerprint
-from checker.results.verdict import Answer, Reached, Unreachable
-from spec_model.lang.action import Assign
-from spec_model.lang.expr import flag
+from rovercheck.checker import cache
+from rovercheck.checker.cache import CacheRefused, listening
+from rovercheck.checker.encode.native import fingerprint
+from rovercheck.checker.results.verdict import Answer, Reached, Unreachable
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.expr import flag
 from tests.checker.test_cache import answers, compiled, folder, system
 
 __all__ = ["compiled", "folder"]  # fixtures
@@ -219,7 +219,7 @@ def test_the_secret_is_made_once_and_is_for_the_user_alone(folder: Path, secret:
 
 def test_two_processes_that_start_at_once_make_one_secret(folder: Path, secret: Path) -> None:
     script = (
-        "import sys; from checker import cache\n"
+        "import sys; from rovercheck.checker import cache\n"
         "sys.stdin.readline()\n"
         "cache.write(sys.argv[1], b'code'); print(cache.read(sys.argv[1]) == b'code')"
     )
@@ -342,7 +342,11 @@ def test_a_home_that_may_only_be_read_means_no_cache_and_no_failure(
     def refused(*_: object, **__: object) -> None:
         raise PermissionError("read-only file system")
 
-    owner = {"mkstemp": "checker.cache.secret_file.tempfile", "mkdir": "pathlib.Path", "fsync": "os"}[failing]
+    owner = {
+        "mkstemp": "rovercheck.checker.cache.secret_file.tempfile",
+        "mkdir": "pathlib.Path",
+        "fsync": "os",
+    }[failing]
     monkeypatch.setattr(f"{owner}.{failing}", refused)
     said: list[object] = []
     with listening(said.append):

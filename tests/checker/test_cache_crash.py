@@ -12,16 +12,16 @@ from pathlib import Path
 
 import pytest
 
-from checker import cache
-from checker.cache import Taken
-from checker.encode.native.jit import OptimisationLevel, object_code
-from checker.engines import Engine, Limits, Progress, explicit
-from checker.process.pool import PoolEvent
-from checker.results.verdict import Answer, Exhausted, Proved, Unknown, Violated
-from checker.verify.result import Result
-from checker.verify.searches import Heard, Over, Warned, _Decided, _Returns, searches
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker import cache
+from rovercheck.checker.cache import Taken
+from rovercheck.checker.encode.native.jit import OptimisationLevel, object_code
+from rovercheck.checker.engines import Engine, Limits, Progress, explicit
+from rovercheck.checker.process.pool import PoolEvent
+from rovercheck.checker.results.verdict import Answer, Exhausted, Proved, Unknown, Violated
+from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.searches import Heard, Over, Warned, _Decided, _Returns, searches
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.checker.test_cache import folder
 from tests.checker.test_searches import Erratic, work
 
@@ -160,7 +160,7 @@ def test_a_cache_that_is_refused_is_told_once(folder: Path, truth: dict[str, str
 
 def test_the_command_says_it_on_standard_error(folder: Path, tmp_path: Path) -> None:
     def check() -> subprocess.CompletedProcess[str]:
-        command = [sys.executable, "-m", "checker", "check", "PB1-11", "--engine", "explicit"]
+        command = [sys.executable, "-m", "rovercheck", "check", "PB1-11", "--engine", "explicit"]
         return subprocess.run(command, capture_output=True, text=True, timeout=300, check=False)
 
     first = check()
@@ -173,7 +173,7 @@ def test_the_command_says_it_on_standard_error(folder: Path, tmp_path: Path) -> 
 # --- in a process that nobody listens to, as `graph` is ----------------------------------------------
 
 ALONE = """
-from checker.cache import running
+from rovercheck.checker.cache import running
 from tests.checker.test_cache import answers, system
 print(*answers(system()), len(running._marks))
 """

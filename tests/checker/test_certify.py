@@ -7,19 +7,19 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.strategies import DataObject
 
-from checker.certify.certificate import Certificate, certificate, certificates, document
-from checker.certify.check import check
-from checker.certify.diagram import CertifiedDiagram, CertifiedNode, Nodes
-from checker.certify.outcome import Accepted, Rejected
-from checker.certify.reduction import diagram
-from checker.results.closed import ClosedSet
-from checker.results.verdict import Exhausted, Unreachable
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import integer
-from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.expr import TRUE, flag, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.certify.certificate import Certificate, certificate, certificates, document
+from rovercheck.checker.certify.check import check
+from rovercheck.checker.certify.diagram import CertifiedDiagram, CertifiedNode, Nodes
+from rovercheck.checker.certify.outcome import Accepted, Rejected
+from rovercheck.checker.certify.reduction import diagram
+from rovercheck.checker.results.closed import ClosedSet
+from rovercheck.checker.results.verdict import Exhausted, Unreachable
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.evaluate import admissible, step
+from rovercheck.spec_model.lang.expr import TRUE, flag, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests.certifying import (
     BOTH,
     ENUMERATION,

@@ -6,10 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
-from checker.certify import reduction
-from checker.certify.diagram import CertifiedDiagram, Nodes, count, members
-from checker.results.closed import BitPlace, ClosedSet
-from spec_model.lang.expr import Var
+from rovercheck.checker.certify import reduction
+from rovercheck.checker.certify.diagram import CertifiedDiagram, Nodes, count, members
+from rovercheck.checker.results.closed import BitPlace, ClosedSet
+from rovercheck.spec_model.lang.expr import Var
 from tests.certifying import closed_set
 from tests.naive import vectors
 from tests.strategies_ts import DOMAINS

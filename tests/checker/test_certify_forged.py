@@ -5,15 +5,15 @@ from itertools import pairwise
 
 import pytest
 
-from checker.certify.check import check
-from checker.certify.diagram import CertifiedDiagram, CertifiedNode, Nodes
-from checker.certify.invariant import Conjuncts
-from checker.certify.outcome import Accepted, Rejected, Undecided
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import TRUE, all_of, const, flag, ite, var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.certify.check import check
+from rovercheck.checker.certify.diagram import CertifiedDiagram, CertifiedNode, Nodes
+from rovercheck.checker.certify.invariant import Conjuncts
+from rovercheck.checker.certify.outcome import Accepted, Rejected, Undecided
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import TRUE, all_of, const, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.certifying import (
     BACK,
     BOTH,

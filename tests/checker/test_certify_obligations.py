@@ -4,16 +4,16 @@ from dataclasses import replace
 
 import pytest
 
-from checker.certify import solver
-from checker.certify.certificate import Certificate
-from checker.certify.check import check
-from checker.certify.invariant import Conjuncts
-from checker.certify.outcome import Accepted, Rejected
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import const, flag, ite, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.certify import solver
+from rovercheck.checker.certify.certificate import Certificate
+from rovercheck.checker.certify.check import check
+from rovercheck.checker.certify.invariant import Conjuncts
+from rovercheck.checker.certify.outcome import Accepted, Rejected
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import const, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests.certifying import (
     BACK,
     BOTH,

@@ -7,19 +7,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.strategies import DataObject, DrawFn
 
-from checker.certify import smtlib, solver
-from checker.certify.invariant import conjuncts
-from checker.certify.question import CertifyQuestion, question
-from checker.certify.smtlib import own, quoted
-from checker.certify.terms import DEEPEST, TRUTH, Malformed, definitions, evaluate, read
-from checker.certify.tick import conjuncts as parts
-from checker.certify.tick import executed
-from checker.results.verdict import Inductive
-from spec_model.lang.evaluate import evaluate as value_of
-from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.certify import smtlib, solver
+from rovercheck.checker.certify.invariant import conjuncts
+from rovercheck.checker.certify.question import CertifyQuestion, question
+from rovercheck.checker.certify.smtlib import own, quoted
+from rovercheck.checker.certify.terms import DEEPEST, TRUTH, Malformed, definitions, evaluate, read
+from rovercheck.checker.certify.tick import conjuncts as parts
+from rovercheck.checker.certify.tick import executed
+from rovercheck.checker.results.verdict import Inductive
+from rovercheck.spec_model.lang.evaluate import evaluate as value_of
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.strategies_ts import booleans, goals, transition_systems
 
 

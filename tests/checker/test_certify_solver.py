@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from checker.certify import solver
-from checker.certify.check import By, CheckEffort, check
-from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
-from checker.process.isolate import Send
+from rovercheck.checker.certify import solver
+from rovercheck.checker.certify.check import By, CheckEffort, check
+from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
+from rovercheck.checker.process.isolate import Send
 from tests.certifying import BACK, BOTH, COUNT, SOLVER, claimed, counting, inline
 
 Solve = Callable[..., None]

@@ -8,24 +8,24 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from hypothesis.strategies import DataObject
 
-import checker.certify.check as checking
-from checker.certify import diagram as diagrams
-from checker.certify import enumeration, sweep
-from checker.certify.certificate import Certificate
-from checker.certify.check import By, check
-from checker.certify.diagram import TRUE as END
-from checker.certify.diagram import CertifiedDiagram, CertifiedNode, Nodes
-from checker.certify.enumeration import enumerated
-from checker.certify.outcome import Accepted, Rejected, TooMuch, Undecided
-from checker.certify.question import question
-from checker.certify.reduction import diagram
-from checker.certify.sweep import OPERATORS, Formulas, SweepRows, columns, swept
-from checker.certify.tick import executed
-from checker.system.intervals import postorder
-from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Var, flag
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
+import rovercheck.checker.certify.check as checking
+from rovercheck.checker.certify import diagram as diagrams
+from rovercheck.checker.certify import enumeration, sweep
+from rovercheck.checker.certify.certificate import Certificate
+from rovercheck.checker.certify.check import By, check
+from rovercheck.checker.certify.diagram import TRUE as END
+from rovercheck.checker.certify.diagram import CertifiedDiagram, CertifiedNode, Nodes
+from rovercheck.checker.certify.enumeration import enumerated
+from rovercheck.checker.certify.outcome import Accepted, Rejected, TooMuch, Undecided
+from rovercheck.checker.certify.question import question
+from rovercheck.checker.certify.reduction import diagram
+from rovercheck.checker.certify.sweep import OPERATORS, Formulas, SweepRows, columns, swept
+from rovercheck.checker.certify.tick import executed
+from rovercheck.checker.system.intervals import postorder
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expr import Var, flag
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.certifying import BACK, BOTH, COUNT, certified, closed_set, counting, many, proofs
 from tests.checker.test_certify_diagram import sets
 from tests.naive import vectors

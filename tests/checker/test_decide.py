@@ -1,10 +1,10 @@
 """Properties with and without a bound in one task: each is decided as what it is."""
 
-from checker.engines import Limits, quiet
-from checker.results.verdict import Violated
-from checker.verify.decide import AUTO, Task, decide
-from properties.catalogue import catalogue
-from spec_model.rover import systems
+from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.results.verdict import Violated
+from rovercheck.checker.verify.decide import AUTO, Task, decide
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.spec_model.rover import systems
 
 
 def test_a_bounded_property_is_never_searched_as_a_loop() -> None:

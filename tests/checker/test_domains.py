@@ -5,18 +5,18 @@ Formulas are simplified on the assumption that variables stay in their domains, 
 
 import pytest
 
-from checker.certify.certificate import certificates
-from checker.certify.check import check
-from checker.certify.outcome import Accepted
-from checker.encode.cone import as_written, folded, straying
-from checker.encode.symbolic import transition
-from checker.engines import Limits, engines, quiet
-from checker.results.verdict import Answer, Open
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import Bool, Domain, chosen, integer
-from spec_model.lang.expr import Expr, Var, flag, ite, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.certify.certificate import certificates
+from rovercheck.checker.certify.check import check
+from rovercheck.checker.certify.outcome import Accepted
+from rovercheck.checker.encode.cone import as_written, folded, straying
+from rovercheck.checker.encode.symbolic import transition
+from rovercheck.checker.engines import Limits, engines, quiet
+from rovercheck.checker.results.verdict import Answer, Open
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import Bool, Domain, chosen, integer
+from rovercheck.spec_model.lang.expr import Expr, Var, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests.certifying import SOLVER
 from tests.toys import GOAL
 

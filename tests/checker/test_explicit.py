@@ -7,17 +7,17 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmarks.roverlite import roverlite
-from checker.encode.native import OutsideDomain
-from checker.engines import Limits, explicit, quiet
-from checker.results.closed import ClosedSet
-from checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
-from checker.system.slice import sliced
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Var, all_of, const, flag, ite, var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.encode.native import OutsideDomain
+from rovercheck.checker.engines import Limits, explicit, quiet
+from rovercheck.checker.results.closed import ClosedSet
+from rovercheck.checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import chosen, integer
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Var, all_of, const, flag, ite, var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests.naive import Searched, State, projected, replay, search
 from tests.strategies_ts import goals, transition_systems
 

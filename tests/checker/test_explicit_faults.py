@@ -10,19 +10,19 @@ from typing import Any
 
 import pytest
 
-from checker.encode import native, path_statements, paths
-from checker.encode.native import Field, Layout, body, quiet, retrace, search, table
-from checker.encode.native.expressions import BIT, INT, Expressions
-from checker.engines import Limits, Timers, explicit
-from checker.engines import quiet as silent
-from checker.engines.explicit import answers, levels, parents, runs
-from checker.system.partition import Partition, partitions
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import Var, const, flag, var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.encode import native, path_statements, paths
+from rovercheck.checker.encode.native import Field, Layout, body, quiet, retrace, search, table
+from rovercheck.checker.encode.native.expressions import BIT, INT, Expressions
+from rovercheck.checker.engines import Limits, Timers, explicit
+from rovercheck.checker.engines import quiet as silent
+from rovercheck.checker.engines.explicit import answers, levels, parents, runs
+from rovercheck.checker.system.partition import Partition, partitions
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import Var, const, flag, var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests import naive
 from tests.checker.compared import SYSTEMS, Differs, Group, chain, compare, must_agree
 

@@ -4,15 +4,15 @@ from functools import partial
 
 import pytest
 
-from checker.engines import Limits, Timers, explicit
-from checker.engines.explicit import levels, store
-from checker.results.verdict import Exhausted, Open, Reached
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import TRUE, Var, all_of, const, flag, ite, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.engines import Limits, Timers, explicit
+from rovercheck.checker.engines.explicit import levels, store
+from rovercheck.checker.results.verdict import Exhausted, Open, Reached
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import TRUE, Var, all_of, const, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests.checker.test_explicit import UNLIMITED, check, exhausted
 
 

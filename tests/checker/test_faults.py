@@ -5,16 +5,16 @@ from dataclasses import dataclass
 
 import pytest
 
-from checker.engines import ALL, AUTO, Engine, Limits, Progress
-from checker.process.faults import Fault, InternalError, attempted, listening, tell
-from checker.process.isolate import Send, Stopped, messages
-from checker.results.verdict import Answer, Inductive, Open, Reached, Run, Unreachable
-from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers, turns
-from checker.verify.portfolio.order import ORDERS, Turn
-from spec_model.lang.action import Assign
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Var, flag
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.engines import ALL, AUTO, Engine, Limits, Progress
+from rovercheck.checker.process.faults import Fault, InternalError, attempted, listening, tell
+from rovercheck.checker.process.isolate import Send, Stopped, messages
+from rovercheck.checker.results.verdict import Answer, Inductive, Open, Reached, Run, Unreachable
+from rovercheck.checker.verify.portfolio import Callbacks, PortfolioQuestion, answers, turns
+from rovercheck.checker.verify.portfolio.order import ORDERS, Turn
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Var, flag
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 TOGGLE, ON, OFF, STRAY = flag("toggle"), flag("on"), flag("off"), flag("stray", "on leaves its domain")
 SYSTEM = TransitionSystem(

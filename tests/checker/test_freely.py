@@ -4,22 +4,22 @@ from dataclasses import replace
 
 import pytest
 
-from checker.commands.check.run import length
-from checker.engines import Limits, Timers, quiet
-from checker.results.trace import Trace
-from checker.results.verdict import Exhausted, Proved, Violated
-from checker.verify.decide import Task, decide
-from checker.verify.result import Result
-from properties.forms import Never, Property, Reachable
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.domain import integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expiry import free_timers
-from spec_model.lang.expr import Expr, flag, var
-from spec_model.lang.system import System, in_order
-from spec_model.lang.time import ticks
-from spec_model.lang.words import after, minimum
+from rovercheck.checker.commands.check.run import length
+from rovercheck.checker.engines import Limits, Timers, quiet
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Exhausted, Proved, Violated
+from rovercheck.checker.verify.decide import Task, decide
+from rovercheck.checker.verify.result import Result
+from rovercheck.properties.forms import Never, Property, Reachable
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expiry import free_timers
+from rovercheck.spec_model.lang.expr import Expr, flag, var
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import after, minimum
 
 go, late = flag("go"), var("late", integer(0, 9))
 CHART = Chart("C", [

@@ -3,9 +3,9 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.encode.gather import gathered
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import Var, var
+from rovercheck.checker.encode.gather import gathered
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import Var, var
 
 BYTES = [var(f"v{n}", integer(0, 255)) for n in range(6)]
 

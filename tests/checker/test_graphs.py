@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.engines import Limits
-from checker.explore.graphs.making import LIMITS, Made, made
-from checker.explore.graphs.projecting import exact_with
-from checker.results.graph import ProjectionKind, StateGraph
-from checker.system.slice import sliced
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Const, all_of
-from spec_model.lang.system import System, TransitionSystem
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.explore.graphs.making import LIMITS, Made, made
+from rovercheck.checker.explore.graphs.projecting import exact_with
+from rovercheck.checker.results.graph import ProjectionKind, StateGraph
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Const, all_of
+from rovercheck.spec_model.lang.system import System, TransitionSystem
 from tests import toys
 from tests.naive import replay, successors, vectors
 from tests.profiles import examples

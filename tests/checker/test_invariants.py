@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 
-from checker.encode.cone import Slice, cone
-from checker.encode.invariants import Candidates, TemplateCube, TemplatePool
-from checker.encode.simulate import Columns, Simulator, Vectorised
-from checker.encode.symbolic import transition
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Expr
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.cone import Slice, cone
+from rovercheck.checker.encode.invariants import Candidates, TemplateCube, TemplatePool
+from rovercheck.checker.encode.simulate import Columns, Simulator, Vectorised
+from rovercheck.checker.encode.symbolic import transition
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.strategies_ts import transition_systems
 from tests.toys import counter, relay, waiting
 

@@ -11,9 +11,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.process.isolate import Send, Stopped, messages
-from spec_model.lang.expr import flag
-from spec_model.lang.walk import nodes
+from rovercheck.checker.process.isolate import Send, Stopped, messages
+from rovercheck.spec_model.lang.expr import flag
+from rovercheck.spec_model.lang.walk import nodes
 
 ROOT = Path(__file__).parents[2]
 
@@ -148,7 +148,7 @@ def test_nobody_listens_any_more() -> None:
 
 PARENT = """
 from contextlib import closing
-from checker.process.isolate import messages
+from rovercheck.checker.process.isolate import messages
 from tests.checker import test_isolate
 with closing(messages(test_isolate.{work}, 60)) as inbox:
     for message in inbox:

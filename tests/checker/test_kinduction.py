@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given, settings
 
 from benchmarks.roverlite import roverlite
-from checker.engines import Limits, engines, kinduction, quiet
-from checker.engines.kinduction.events import (
+from rovercheck.checker.engines import Limits, engines, kinduction, quiet
+from rovercheck.checker.engines.kinduction.events import (
     Event,
     InductionBound,
     InductionClosed,
@@ -16,14 +16,14 @@ from checker.engines.kinduction.events import (
     InductionProgress,
     InductionStuck,
 )
-from checker.engines.kinduction.hunt import InvariantHunt
-from checker.engines.kinduction.search import search
-from checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import FALSE, Var, flag, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.engines.kinduction.hunt import InvariantHunt
+from rovercheck.checker.engines.kinduction.search import search
+from rovercheck.checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import chosen, integer
+from rovercheck.spec_model.lang.expr import FALSE, Var, flag, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests import naive
 from tests.inductive import problems
 from tests.strategies_ts import goals, transition_systems

@@ -4,15 +4,15 @@ from collections.abc import Iterator
 
 import pytest
 
-from checker.encode.bitvector import Term
-from checker.encode.cone import Slice
-from checker.encode.terms import Terms
-from checker.engines.kinduction import houdini, hunt, search
-from checker.engines.kinduction import search as induction
-from checker.engines.kinduction.events import Event, InductionBound, InductionClosed
-from checker.engines.kinduction.ticks import Ticks
-from spec_model.lang.expr import Expr
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.bitvector import Term
+from rovercheck.checker.encode.cone import Slice
+from rovercheck.checker.encode.terms import Terms
+from rovercheck.checker.engines.kinduction import houdini, hunt, search
+from rovercheck.checker.engines.kinduction import search as induction
+from rovercheck.checker.engines.kinduction.events import Event, InductionBound, InductionClosed
+from rovercheck.checker.engines.kinduction.ticks import Ticks
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.inductive import problems
 from tests.toys import GOAL, counter, once, overflowing, relay, waiting
 

@@ -10,29 +10,38 @@ from typing import get_args
 
 import pytest
 
-from checker.engines import Engine, Limits, Progress, engines, explicit, quiet
-from checker.explore.graphs.making import made
-from checker.results.graph import ProjectionKind
-from checker.results.trace import Trace
-from checker.results.verdict import Answer, Exhausted, Open, Proved, Reached, Run, Unknown, Violated
-from checker.system.lowered import lowered
-from checker.verify.decide import ALL, AUTO, Task, decide
-from checker.verify.result import Result
-from checker.verify.runs.calm import calmed
-from checker.verify.runs.domains import LeavesDomain, stray
-from checker.verify.runs.replay import replay
-from checker.verify.searches import Heard, searches
-from properties import forms
-from properties.forms import Form, Property
-from properties.reduce import reduce
-from spec_model.lang.action import Assign, assign
-from spec_model.lang.chart import Block, Chart, State, to
-from spec_model.lang.domain import integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Expr, Var, flag, ite, var
-from spec_model.lang.system import System, TransitionSystem, in_order
-from spec_model.lang.time import ticks
-from spec_model.lang.words import minimum
+from rovercheck.checker.engines import Engine, Limits, Progress, engines, explicit, quiet
+from rovercheck.checker.explore.graphs.making import made
+from rovercheck.checker.results.graph import ProjectionKind
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import (
+    Answer,
+    Exhausted,
+    Open,
+    Proved,
+    Reached,
+    Run,
+    Unknown,
+    Violated,
+)
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.decide import ALL, AUTO, Task, decide
+from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.runs.calm import calmed
+from rovercheck.checker.verify.runs.domains import LeavesDomain, stray
+from rovercheck.checker.verify.runs.replay import replay
+from rovercheck.checker.verify.searches import Heard, searches
+from rovercheck.properties import forms
+from rovercheck.properties.forms import Form, Property
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.action import Assign, assign
+from rovercheck.spec_model.lang.chart import Block, Chart, State, to
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Expr, Var, flag, ite, var
+from rovercheck.spec_model.lang.system import System, TransitionSystem, in_order
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import minimum
 
 X, Y, GO, PUSH = var("x", integer(0, 3)), var("y", integer(0, 7)), flag("go"), flag("push")
 LAMP = Chart(

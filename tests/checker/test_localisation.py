@@ -9,18 +9,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.engines import Limits, engines, localisation, quiet
-from checker.engines.localisation.bounded import BoundedEngine, BoundedHit, Core
-from checker.engines.localisation.cuts import with_cuts, with_switches, written
-from checker.engines.localisation.orders import Orders
-from checker.process.isolate import Stopped
-from checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
-from spec_model.lang.action import If, assign, when
-from spec_model.lang.domain import integer
-from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Var, flag, ite, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum, modulo
+from rovercheck.checker.engines import Limits, engines, localisation, quiet
+from rovercheck.checker.engines.localisation.bounded import BoundedEngine, BoundedHit, Core
+from rovercheck.checker.engines.localisation.cuts import with_cuts, with_switches, written
+from rovercheck.checker.engines.localisation.orders import Orders
+from rovercheck.checker.process.isolate import Stopped
+from rovercheck.checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
+from rovercheck.spec_model.lang.action import If, assign, when
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expr import Var, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum, modulo
 from tests import naive
 from tests.engine_children import engines_here
 from tests.inductive import problems

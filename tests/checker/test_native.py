@@ -9,16 +9,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from llvmlite import ir
 
-from checker.encode.native import OutsideDomain, TooWide, layout
-from checker.encode.native.expressions import BIT, INT, Expressions, Slot
-from checker.encode.native.jit import NativeLibrary
-from checker.encode.native.table import WORDS, function
-from checker.system.intervals import Interval
-from spec_model.lang.domain import Bool, Num, chosen, integer
-from spec_model.lang.evaluate import evaluate, operate
-from spec_model.lang.expr import Apply, Expr, Var, flag, var
-from spec_model.lang.operators import COMPARISONS, Op
-from spec_model.lang.walk import variables
+from rovercheck.checker.encode.native import OutsideDomain, TooWide, layout
+from rovercheck.checker.encode.native.expressions import BIT, INT, Expressions, Slot
+from rovercheck.checker.encode.native.jit import NativeLibrary
+from rovercheck.checker.encode.native.table import WORDS, function
+from rovercheck.checker.system.intervals import Interval
+from rovercheck.spec_model.lang.domain import Bool, Num, chosen, integer
+from rovercheck.spec_model.lang.evaluate import evaluate, operate
+from rovercheck.spec_model.lang.expr import Apply, Expr, Var, flag, var
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.spec_model.lang.walk import variables
 from tests.strategies_ts import MODE, booleans, integers, number
 
 SCOPE = (

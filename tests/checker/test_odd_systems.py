@@ -5,13 +5,13 @@ from collections.abc import Mapping, Sequence
 import pytest
 from hypothesis import given
 
-from checker.certify.certificate import certificates
-from checker.certify.check import check
-from checker.certify.outcome import Accepted
-from checker.engines import Limits, engines, quiet
-from checker.results.verdict import Answer, Open, Reached, Unreachable
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.certify.certificate import certificates
+from rovercheck.checker.certify.check import check
+from rovercheck.checker.certify.outcome import Accepted
+from rovercheck.checker.engines import Limits, engines, quiet
+from rovercheck.checker.results.verdict import Answer, Open, Reached, Unreachable
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests import naive
 from tests.certifying import SOLVER
 from tests.profiles import examples

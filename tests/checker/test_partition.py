@@ -2,14 +2,14 @@
 
 from hypothesis import given
 
-from checker.system.partition import Partition, expressions, partitions
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import Bool, chosen, integer
-from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.expr import TRUE, Apply, Expr, Var, all_of, any_of, flag, ite, var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import Program, TransitionSystem
-from spec_model.lang.words import absolute, named
+from rovercheck.checker.system.partition import Partition, expressions, partitions
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import Bool, chosen, integer
+from rovercheck.spec_model.lang.evaluate import admissible, step
+from rovercheck.spec_model.lang.expr import TRUE, Apply, Expr, Var, all_of, any_of, flag, ite, var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import Program, TransitionSystem
+from rovercheck.spec_model.lang.words import absolute, named
 from tests.naive import vectors
 from tests.strategies_ts import transition_systems
 

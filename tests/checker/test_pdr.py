@@ -6,20 +6,20 @@ from dataclasses import replace
 import pytest
 from hypothesis import given, settings
 
-from checker.encode.bits import circuit
-from checker.encode.bits.aig import Aig, Literal
-from checker.encode.bits.cnf import Cnf
-from checker.engines import Limits, engines, pdr, quiet
-from checker.engines.pdr.events import Decided, PdrBound, PdrUndefined
-from checker.engines.pdr.groups import decisions
-from checker.process.isolate import Send
-from checker.results.verdict import Inductive, Open, Reached, Unreachable
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import chosen, integer
-from spec_model.lang.evaluate import admissible, evaluate, step
-from spec_model.lang.expr import FALSE, TRUE, Expr, flag, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.encode.bits import circuit
+from rovercheck.checker.encode.bits.aig import Aig, Literal
+from rovercheck.checker.encode.bits.cnf import Cnf
+from rovercheck.checker.engines import Limits, engines, pdr, quiet
+from rovercheck.checker.engines.pdr.events import Decided, PdrBound, PdrUndefined
+from rovercheck.checker.engines.pdr.groups import decisions
+from rovercheck.checker.process.isolate import Send
+from rovercheck.checker.results.verdict import Inductive, Open, Reached, Unreachable
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import chosen, integer
+from rovercheck.spec_model.lang.evaluate import admissible, evaluate, step
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, flag, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests import naive
 from tests.engine_children import LIMIT, cut_off
 from tests.strategies_ts import goals, transition_systems

@@ -9,21 +9,21 @@ from dataclasses import dataclass, replace
 
 import pytest
 
-from checker.encode.bits import Circuit, Literal
-from checker.engines.pdr import groups, search, seeds
-from checker.engines.pdr.cubes import Cube, cube
-from checker.engines.pdr.events import Decided, PdrBound
-from checker.engines.pdr.frames import Frames
-from checker.engines.pdr.groups import decisions
-from checker.engines.pdr.lemmas import Lemma, LemmaStep
-from checker.engines.pdr.machine import PdrMachine, machine
-from checker.engines.pdr.search import Generaliser, Lifter
-from checker.results.verdict import Reached, Unreachable
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import TRUE, Expr, flag, ite, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.encode.bits import Circuit, Literal
+from rovercheck.checker.engines.pdr import groups, search, seeds
+from rovercheck.checker.engines.pdr.cubes import Cube, cube
+from rovercheck.checker.engines.pdr.events import Decided, PdrBound
+from rovercheck.checker.engines.pdr.frames import Frames
+from rovercheck.checker.engines.pdr.groups import decisions
+from rovercheck.checker.engines.pdr.lemmas import Lemma, LemmaStep
+from rovercheck.checker.engines.pdr.machine import PdrMachine, machine
+from rovercheck.checker.engines.pdr.search import Generaliser, Lifter
+from rovercheck.checker.results.verdict import Reached, Unreachable
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import chosen, integer
+from rovercheck.spec_model.lang.expr import TRUE, Expr, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests import naive
 from tests.checker.test_pdr import justified
 from tests.toys import filling

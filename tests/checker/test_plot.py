@@ -12,8 +12,8 @@ from benchmarks.growth import SCALES, SEARCH, pictured, symbolic
 from benchmarks.labels import HEIGHT, SIZE, Box, labels
 from benchmarks.measure import Sample
 from benchmarks.plot import Series, plot
-from checker.engines import engines
-from checker.render.drawing.text import width
+from rovercheck.checker.engines import engines
+from rovercheck.checker.render.drawing.text import width
 
 SVG = "{http://www.w3.org/2000/svg}"
 TOOLS = (SEARCH, *sorted(engines()), "ABC pdr", "ABC bmc3", "Z3", "SPIN")

@@ -8,8 +8,8 @@ from dataclasses import replace
 
 import pytest
 
-from checker.process.isolate import Send, messages
-from checker.process.pool import Granted, Order, Pool, PoolEvent
+from rovercheck.checker.process.isolate import Send, messages
+from rovercheck.checker.process.pool import Granted, Order, Pool, PoolEvent
 from tests.checker.test_isolate import _tell_and_sleep as tell_and_sleep
 from tests.checker.test_isolate import gone
 

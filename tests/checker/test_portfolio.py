@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.engines import ALL, AUTO, Engine, Limits, Progress, engines
-from checker.results.verdict import Answer, Exhausted, Inductive, Open, Reached, Run, Unreachable
-from checker.verify.portfolio import (
+from rovercheck.checker.engines import ALL, AUTO, Engine, Limits, Progress, engines
+from rovercheck.checker.results.verdict import Answer, Exhausted, Inductive, Open, Reached, Run, Unreachable
+from rovercheck.checker.verify.portfolio import (
     Callbacks,
     Disagreement,
     Found,
@@ -20,12 +20,12 @@ from checker.verify.portfolio import (
     as_found,
     turns,
 )
-from checker.verify.portfolio.order import ORDERS, Turn
-from checker.verify.portfolio.shape import VAST, WIDE, Shape
-from checker.verify.portfolio.turns import better
-from spec_model.lang.action import Assign
-from spec_model.lang.expr import Var, flag
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.verify.portfolio.order import ORDERS, Turn
+from rovercheck.checker.verify.portfolio.shape import VAST, WIDE, Shape
+from rovercheck.checker.verify.portfolio.turns import better
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.expr import Var, flag
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 TOGGLE, ON, OFF, STRAY = (
     flag("toggle"),

@@ -6,8 +6,8 @@ from collections.abc import Callable
 
 import pytest
 
-from checker.process import isolate
-from checker.process.isolate import Send, Stopped, messages, prepared
+from rovercheck.checker.process import isolate
+from rovercheck.checker.process.isolate import Send, Stopped, messages, prepared
 from tests.checker.test_isolate import gone
 
 SELDOM_READ = "wave"

@@ -8,18 +8,18 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
-from checker.encode.counting import counters
-from checker.encode.native import Layout, layout, moved_on, shifts
-from checker.engines import Limits, Timers, explicit, quiet
-from checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
-from spec_model.lang.action import Assign, If
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.domain import Domain, Num, integer
-from spec_model.lang.expr import Expr, Var, all_of, any_of, const, flag, ite, var
-from spec_model.lang.lower import lower
-from spec_model.lang.system import Statement, TransitionSystem, in_order
-from spec_model.lang.time import ticks
-from spec_model.lang.words import after, duration, maximum, minimum
+from rovercheck.checker.encode.counting import counters
+from rovercheck.checker.encode.native import Layout, layout, moved_on, shifts
+from rovercheck.checker.engines import Limits, Timers, explicit, quiet
+from rovercheck.checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.domain import Domain, Num, integer
+from rovercheck.spec_model.lang.expr import Expr, Var, all_of, any_of, const, flag, ite, var
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import Statement, TransitionSystem, in_order
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import after, duration, maximum, minimum
 from tests.naive import replay, search
 from tests.strategies_ts import goals, transition_systems
 

@@ -8,17 +8,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.engines import AUTO, Engine, Limits
-from checker.engines.kinduction.search import with_given
-from checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
-from checker.system.formula_json import Tree, Unreadable, formula, readable, size, written
-from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers, turns
-from checker.verify.portfolio.order import ORDERS, SOON
-from checker.verify.portfolio.turns import RecordedInvariants
-from spec_model.lang.domain import integer
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Expr, Var, flag, var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.engines import AUTO, Engine, Limits
+from rovercheck.checker.engines.kinduction.search import with_given
+from rovercheck.checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
+from rovercheck.checker.system.formula_json import Tree, Unreadable, formula, readable, size, written
+from rovercheck.checker.verify.portfolio import Callbacks, PortfolioQuestion, answers, turns
+from rovercheck.checker.verify.portfolio.order import ORDERS, SOON
+from rovercheck.checker.verify.portfolio.turns import RecordedInvariants
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Expr, Var, flag, var
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.checker.test_kinduction import agrees, answered, searched
 from tests.inductive import problems
 from tests.strategies_ts import booleans, goals, transition_systems
@@ -141,7 +141,7 @@ def asked(system: TransitionSystem, candidates: tuple[Expr, ...] | None, engine:
 def test_what_a_record_shows_is_not_searched_for(monkeypatch: pytest.MonkeyPatch) -> None:
     system = relay()
     hold, since, on = (system.var(name) for name in ("hold", "since", "on"))
-    monkeypatch.setattr("checker.verify.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, ()))
+    monkeypatch.setattr("rovercheck.checker.verify.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, ()))
     answer = asked(system, (~on | (hold == since),))
     assert isinstance(answer, Unreachable) and isinstance(answer.because, Inductive)
     assert problems(system, GOAL, answer.because) == []
@@ -175,7 +175,7 @@ def test_what_a_record_leaves_open_is_enumerated_next(monkeypatch: pytest.Monkey
 
     monkeypatch.setattr(turns, "asked", noted)
     monkeypatch.setattr(
-        "checker.verify.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, (SOON, ORDERS["narrow"][0]))
+        "rovercheck.checker.verify.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, (SOON, ORDERS["narrow"][0]))
     )
     assert isinstance(asked(relay(20), ()), Unreachable)
     assert order == [RecordedInvariants.SUMMARY, "explicit"]

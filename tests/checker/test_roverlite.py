@@ -14,13 +14,13 @@ from benchmarks.explicit import ours
 from benchmarks.peers.unrolling import induct, unroll
 from benchmarks.roverlite import question, roverlite
 from benchmarks.targets import agrees
-from checker.engines import Limits, explicit, quiet
-from checker.results.verdict import Reached
-from checker.verify.decide import Task, decide
-from spec_model.lang.domain import Enum
-from spec_model.lang.evaluate import step
-from spec_model.lang.lower import lower
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.engines import Limits, explicit, quiet
+from rovercheck.checker.results.verdict import Reached
+from rovercheck.checker.verify.decide import Task, decide
+from rovercheck.spec_model.lang.domain import Enum
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 ALL = 127
 Inputs = Mapping[str, int]

@@ -8,19 +8,19 @@ from dataclasses import dataclass, replace
 
 import pytest
 
-from checker.engines import Limits, Progress, explicit
-from checker.process.faults import Fault, listening
-from checker.results.verdict import Answer, Proved, Unknown, Violated
-from checker.verify.result import Result
-from checker.verify.searches import Over, searches
-from checker.verify.tasks import MOST, Task, tasks
-from properties.catalogue import catalogue
-from properties.forms import Always, Never, Property
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Var
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System, TransitionSystem
-from spec_model.rover import systems
+from rovercheck.checker.engines import Limits, Progress, explicit
+from rovercheck.checker.process.faults import Fault, listening
+from rovercheck.checker.results.verdict import Answer, Proved, Unknown, Violated
+from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.searches import Over, searches
+from rovercheck.checker.verify.tasks import MOST, Task, tasks
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.properties.forms import Always, Never, Property
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System, TransitionSystem
+from rovercheck.spec_model.rover import systems
 
 RELAY = systems()["relay"]
 
@@ -123,7 +123,7 @@ def test_properties_are_grouped_as_the_lowered_system_says(
 ) -> None:
     about = [p for p in catalogue().values() if p.on == name]
     quick = [task.properties for task in tasks(about, systems())]
-    monkeypatch.setattr("checker.verify.tasks.without_step", lower)
+    monkeypatch.setattr("rovercheck.checker.verify.tasks.without_step", lower)
     assert quick == [task.properties for task in tasks(about, systems())]
     assert max(map(len, quick)) <= MOST
     assert sorted(p.id for group in quick for p in group) == sorted(p.id for p in about)

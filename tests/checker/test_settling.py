@@ -1,18 +1,18 @@
 """Loops far too long for an unrolling are found by letting inputs settle, and none where there is none."""
 
-from checker.encode.bits import circuit
-from checker.encode.bits.simulate import BitSimulation
-from checker.engines import quiet
-from checker.verify.liveness.loops import LoopHunt, hunt, looped
-from checker.verify.liveness.settling import settled
-from properties.forms import settles
-from properties.reduce import reduce
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import Expr, flag, ite, var
-from spec_model.lang.lower import lower
-from spec_model.lang.system import in_order
+from rovercheck.checker.encode.bits import circuit
+from rovercheck.checker.encode.bits.simulate import BitSimulation
+from rovercheck.checker.engines import quiet
+from rovercheck.checker.verify.liveness.loops import LoopHunt, hunt, looped
+from rovercheck.checker.verify.liveness.settling import settled
+from rovercheck.properties.forms import settles
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import Expr, flag, ite, var
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import in_order
 
 DAYS = 365
 day, rain, wet, locked = var("day", integer(0, DAYS - 1)), flag("rain"), flag("wet"), flag("locked")

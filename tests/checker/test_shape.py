@@ -2,16 +2,16 @@
 
 import pytest
 
-from checker.verify.portfolio import Hint, PortfolioQuestion
-from checker.verify.portfolio.order import ORDERS
-from checker.verify.portfolio.shape import BROAD, FEW, MANY, VAST, WIDE, Shape, shape
-from spec_model.composition.motors import motors_zero
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.lower import lower
-from spec_model.lang.system import in_order
-from spec_model.lang.time import ticks
-from spec_model.lang.words import after
-from spec_model.rover import systems
+from rovercheck.checker.verify.portfolio import Hint, PortfolioQuestion
+from rovercheck.checker.verify.portfolio.order import ORDERS
+from rovercheck.checker.verify.portfolio.shape import BROAD, FEW, MANY, VAST, WIDE, Shape, shape
+from rovercheck.spec_model.composition.motors import motors_zero
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import after
+from rovercheck.spec_model.rover import systems
 
 REGION = 100
 PAIR = {"One": 0, "Two": REGION}

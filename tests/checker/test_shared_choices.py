@@ -5,10 +5,10 @@ from collections.abc import Callable
 import pytest
 from hypothesis import given
 
-from checker.encode.native import NativeTask, assembly, layout, search
-from checker.engines import Timers
-from checker.system.slice import sliced
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.native import NativeTask, assembly, layout, search
+from rovercheck.checker.engines import Timers
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests import naive
 from tests.checker.compared import Group, compare, long, many, mixed, overflowing, wide
 from tests.checker.test_explicit import agrees

@@ -4,16 +4,16 @@ import numpy as np
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
-from checker.encode.cone import cone
-from checker.encode.simulate import OPERATIONS, Simulator, Trail, Vectorised, column
-from checker.encode.symbolic import transition
-from checker.encode.unrolling import Outside
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import chosen
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.cone import cone
+from rovercheck.checker.encode.simulate import OPERATIONS, Simulator, Trail, Vectorised, column
+from rovercheck.checker.encode.symbolic import transition
+from rovercheck.checker.encode.unrolling import Outside
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import chosen
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests import naive
 from tests.strategies_ts import transition_systems
 from tests.toys import GOAL, counter, overflowing, relay

@@ -2,21 +2,21 @@
 
 import pytest
 
-from checker.engines import Limits, quiet, simulation
-from checker.results.trace import Trace
-from checker.results.verdict import Open, Proved, Reached
-from checker.verify.decide import AUTO, Task, decide
-from checker.verify.portfolio.order import ORDERS
-from checker.verify.runs.domains import stray
-from properties.forms import Property, Reachable
-from spec_model.lang.action import Assign, assign
-from spec_model.lang.chart import Block, Chart, State, to
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import Expr, Var, all_of, flag, ite, var
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System, TransitionSystem, in_order
-from spec_model.lang.time import sec
-from spec_model.lang.words import duration, minimum
+from rovercheck.checker.engines import Limits, quiet, simulation
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Open, Proved, Reached
+from rovercheck.checker.verify.decide import AUTO, Task, decide
+from rovercheck.checker.verify.portfolio.order import ORDERS
+from rovercheck.checker.verify.runs.domains import stray
+from rovercheck.properties.forms import Property, Reachable
+from rovercheck.spec_model.lang.action import Assign, assign
+from rovercheck.spec_model.lang.chart import Block, Chart, State, to
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import Expr, Var, all_of, flag, ite, var
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System, TransitionSystem, in_order
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import duration, minimum
 from tests import naive
 from tests.toys import GOAL, counter, overflowing
 

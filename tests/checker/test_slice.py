@@ -4,12 +4,12 @@ from dataclasses import replace
 
 from hypothesis import given
 
-from checker.system.slice import sliced
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import FALSE, TRUE, Expr, Var, flag, ite, var
-from spec_model.lang.system import Program, TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var, flag, ite, var
+from rovercheck.spec_model.lang.system import Program, TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests.naive import projected, search
 from tests.strategies_ts import goals, transition_systems
 

@@ -7,18 +7,26 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.strategies import DataObject
 
-from checker.encode.native import NativeTask, OutsideDomain, layout, search
-from checker.encode.path_statements import Branch, Choose, Complete, Each, PathProgram, PathStatement, Require
-from checker.encode.sinking import sunk
-from checker.engines import Limits, Timers
-from checker.results.verdict import Open, Reached
-from checker.system.slice import sliced
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import chosen, enumeration, integer
-from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Var, all_of, any_of, flag, ite, member, var
-from spec_model.lang.system import Program, Statement, TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.encode.native import NativeTask, OutsideDomain, layout, search
+from rovercheck.checker.encode.path_statements import (
+    Branch,
+    Choose,
+    Complete,
+    Each,
+    PathProgram,
+    PathStatement,
+    Require,
+)
+from rovercheck.checker.encode.sinking import sunk
+from rovercheck.checker.engines import Limits, Timers
+from rovercheck.checker.results.verdict import Open, Reached
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import chosen, enumeration, integer
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expr import Var, all_of, any_of, flag, ite, member, var
+from rovercheck.spec_model.lang.system import Program, Statement, TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests import naive
 from tests.checker.compared import Group, compare
 from tests.checker.test_explicit import agrees, check, exhausted

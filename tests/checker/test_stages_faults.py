@@ -6,12 +6,12 @@ from typing import Any
 
 import pytest
 
-from checker.encode import path_statements, paths, sinking
-from checker.encode.native import body, search
-from checker.encode.path_statements import Choose
-from checker.system import partition
-from spec_model.lang.expr import TRUE, Expr
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode import path_statements, paths, sinking
+from rovercheck.checker.encode.native import body, search
+from rovercheck.checker.encode.path_statements import Choose
+from rovercheck.checker.system import partition
+from rovercheck.spec_model.lang.expr import TRUE, Expr
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.checker.compared import Differs, compare
 from tests.checker.test_stages import GROUPS
 

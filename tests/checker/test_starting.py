@@ -3,17 +3,17 @@
 import pytest
 from hypothesis import given
 
-from checker.engines import Limits, quiet
-from checker.system import initial as starting
-from checker.system.initial import check_starts, starts
-from checker.verify.decide import AUTO, Task, decide
-from properties.forms import never
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import FALSE, TRUE, Expr, flag, var
-from spec_model.lang.system import TransitionSystem, in_order
+from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.system import initial as starting
+from rovercheck.checker.system.initial import check_starts, starts
+from rovercheck.checker.verify.decide import AUTO, Task, decide
+from rovercheck.properties.forms import never
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, flag, var
+from rovercheck.spec_model.lang.system import TransitionSystem, in_order
 from tests.naive import successors, vectors
 from tests.strategies_ts import transition_systems
 

@@ -9,12 +9,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmarks.roverlite import roverlite
-from checker.encode.native import NativeSearch, NativeTask, layout
-from checker.engines import Limits, quiet
-from checker.engines.explicit.levels import ExplicitFound, LevelSearch
-from checker.engines.explicit.parents import Unary
-from checker.engines.explicit.store import StateStore
-from checker.system.slice import sliced
+from rovercheck.checker.encode.native import NativeSearch, NativeTask, layout
+from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.engines.explicit.levels import ExplicitFound, LevelSearch
+from rovercheck.checker.engines.explicit.parents import Unary
+from rovercheck.checker.engines.explicit.store import StateStore
+from rovercheck.checker.system.slice import sliced
 
 
 @given(st.lists(st.integers(0, 40), max_size=300), st.integers(1, 3))

@@ -5,16 +5,16 @@ import random
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.encode.cone import cone, constants, folded, settled
-from checker.encode.symbolic import transition
-from checker.system.intervals import intervals, postorder
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import boolean, enumeration, integer
-from spec_model.lang.evaluate import admissible, evaluate, step
-from spec_model.lang.expr import TRUE, Var, flag, ite, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import nodes
-from spec_model.lang.words import minimum
+from rovercheck.checker.encode.cone import cone, constants, folded, settled
+from rovercheck.checker.encode.symbolic import transition
+from rovercheck.checker.system.intervals import intervals, postorder
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import boolean, enumeration, integer
+from rovercheck.spec_model.lang.evaluate import admissible, evaluate, step
+from rovercheck.spec_model.lang.expr import TRUE, Var, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import nodes
+from rovercheck.spec_model.lang.words import minimum
 from tests.naive import search, vectors
 from tests.strategies_ts import goals, transition_systems
 

@@ -7,17 +7,17 @@ from typing import Any
 
 import pytest
 
-from checker.engines import AUTO, Limits
-from checker.results.verdict import Unknown
-from checker.verify.certificates import Certifying
-from checker.verify.result import Result
-from checker.verify.searches import Over, searches
-from checker.verify.tasks import Task
-from properties.forms import Always, Property
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.expr import flag
-from spec_model.lang.system import System, in_order
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.results.verdict import Unknown
+from rovercheck.checker.verify.certificates import Certifying
+from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.searches import Over, searches
+from rovercheck.checker.verify.tasks import Task
+from rovercheck.properties.forms import Always, Property
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.expr import flag
+from rovercheck.spec_model.lang.system import System, in_order
 
 SECONDS = 4.0
 """Long enough for a child to come to the stage that is slow, on a machine that is busy."""
@@ -68,12 +68,15 @@ def heard(*functions: str, certify: bool = False) -> tuple[Result, float]:
 @pytest.mark.parametrize(
     ("function", "stage"),
     [
-        ("checker.system.lowered.lower", "while lowering lamp"),
-        ("checker.verify.decide.check_starts", "while lowering lamp"),
-        ("checker.verify.portfolio.shape.sliced", "while slicing lamp"),
-        ("checker.encode.native.search.partitions", "while compiling 2 variables in 3 bits (explicit)"),
-        ("checker.encode.native.object_code", "while compiling 2 variables in 3 bits (explicit)"),
-        ("checker.engines.explicit.answers.sliced", "while searching (explicit)"),
+        ("rovercheck.checker.system.lowered.lower", "while lowering lamp"),
+        ("rovercheck.checker.verify.decide.check_starts", "while lowering lamp"),
+        ("rovercheck.checker.verify.portfolio.shape.sliced", "while slicing lamp"),
+        (
+            "rovercheck.checker.encode.native.search.partitions",
+            "while compiling 2 variables in 3 bits (explicit)",
+        ),
+        ("rovercheck.checker.encode.native.object_code", "while compiling 2 variables in 3 bits (explicit)"),
+        ("rovercheck.checker.engines.explicit.answers.sliced", "while searching (explicit)"),
     ],
 )
 def test_what_looks_at_no_clock_is_ended_and_named(function: str, stage: str) -> None:
@@ -83,7 +86,7 @@ def test_what_looks_at_no_clock_is_ended_and_named(function: str, stage: str) ->
 
 
 def test_a_proof_that_cannot_be_certified_in_time_stays_a_proof_without_certificate() -> None:
-    result, took = heard("checker.verify.certificates.check", certify=True)
+    result, took = heard("rovercheck.checker.verify.certificates.check", certify=True)
     assert result.verdict.word == "proved"
     assert "time: 4 s ended while certifying 1 verdict" in str(result.certificate)
     assert took < 30
@@ -95,7 +98,7 @@ def test_without_a_slow_stage_the_question_is_decided() -> None:
 
 
 def test_no_engine_is_asked_when_the_time_is_over() -> None:
-    from checker.verify.decide import decide
+    from rovercheck.checker.verify.decide import decide
 
     system = in_order("lamp", LAMP)
     prop = Property("LAMP", "", Always(lamp | ~lamp), (), "lamp")

@@ -8,22 +8,22 @@ import pytest
 from hypothesis import given
 from hypothesis.strategies import booleans
 
-from checker.certify.certificate import certificates
-from checker.certify.check import CheckEffort, check
-from checker.certify.outcome import Accepted
-from checker.encode import values as known_values
-from checker.encode.native import OutsideDomain, layout
-from checker.encode.values import Values, ends, possible, values
-from checker.engines import Limits, explicit, quiet
-from checker.engines.explicit import answers as explicit_answers
-from checker.engines.explicit import answers as explicit_cases
-from checker.engines.explicit.answers import cases, joined
-from checker.results.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
-from checker.system.slice import sliced
-from spec_model.lang.action import Assign, If, assign
-from spec_model.lang.domain import chosen, enumeration, integer
-from spec_model.lang.expr import TRUE, Expr, Var, flag, ite, var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.certify.certificate import certificates
+from rovercheck.checker.certify.check import CheckEffort, check
+from rovercheck.checker.certify.outcome import Accepted
+from rovercheck.checker.encode import values as known_values
+from rovercheck.checker.encode.native import OutsideDomain, layout
+from rovercheck.checker.encode.values import Values, ends, possible, values
+from rovercheck.checker.engines import Limits, explicit, quiet
+from rovercheck.checker.engines.explicit import answers as explicit_answers
+from rovercheck.checker.engines.explicit import answers as explicit_cases
+from rovercheck.checker.engines.explicit.answers import cases, joined
+from rovercheck.checker.results.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.action import Assign, If, assign
+from rovercheck.spec_model.lang.domain import chosen, enumeration, integer
+from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests import naive
 from tests.profiles import examples
 from tests.strategies_timed import timed_systems

@@ -10,15 +10,15 @@ from itertools import islice
 from pathlib import Path
 from unittest.mock import patch
 
-from checker.cli import run
-from checker.commands.reports import run as reporting
-from checker.commands.testgen import run as generating
-from checker.compare import check, recorded
-from checker.compare.environment import Environment
-from checker.compare.search import Run
-from checker.system.instrument.watch import watched
-from checker.testgen.generate import Aim
-from properties.catalogue import catalogue
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.reports import run as reporting
+from rovercheck.checker.commands.testgen import run as generating
+from rovercheck.checker.compare import check, recorded
+from rovercheck.checker.compare.environment import Environment
+from rovercheck.checker.compare.search import Run
+from rovercheck.checker.system.instrument.watch import watched
+from rovercheck.checker.testgen.generate import Aim
+from rovercheck.properties.catalogue import catalogue
 from tests.conform import cover_toys
 
 ROOT = Path(__file__).parents[2]

@@ -11,8 +11,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
 
 WRONG = [
     (["check", "PB1-111"], Exit.USAGE, "There is no property 'PB1-111'. Did you mean 'PB1-11"),
@@ -76,7 +76,7 @@ def left_behind(mark: str) -> list[str]:
 def test_whoever_ends_it_in_the_middle_gets_what_was_found(number: signal.Signals) -> None:
     mark = f"ROVERCHECK_TEST_{os.getpid()}_{time.monotonic_ns()}"
     child = subprocess.Popen(
-        [sys.executable, "-m", "checker", "check", "--engine", "bmc", "--depth", "100000", "--json"],
+        [sys.executable, "-m", "rovercheck", "check", "--engine", "bmc", "--depth", "100000", "--json"],
         stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
         env={**os.environ, "MARK": mark},
     )  # fmt: skip

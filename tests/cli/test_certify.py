@@ -11,13 +11,13 @@ import jsonschema
 import pytest
 import z3
 
-import checker
-from checker import cli
-from checker.certify.file import SCHEMA, Unwritable, read, write
-from checker.certify.terms import Malformed
-from checker.commands.certify.run import certify
-from checker.commands.shared.codes import Exit
-from properties.catalogue import catalogue
+from rovercheck import checker
+from rovercheck.checker import cli
+from rovercheck.checker.certify.file import SCHEMA, Unwritable, read, write
+from rovercheck.checker.certify.terms import Malformed
+from rovercheck.checker.commands.certify.run import certify
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.properties.catalogue import catalogue
 from tests.certificate_files import COUNTERS, WHEEL, changed, counters, two_searches, written
 from tests.certifying import SOLVER
 

@@ -6,15 +6,15 @@ from typing import Any
 
 import pytest
 
-from checker import cli
-from checker.certify.file import CertificateOrigin, Written, read, write
-from checker.certify.outcome import Rejected
-from checker.certify.terms import Malformed
-from checker.commands.certify import derive as deriving
-from checker.commands.certify.derive import Checking, DerivedVerdict, told_of
-from checker.commands.certify.run import certify
-from checker.commands.shared.codes import Exit
-from checker.process.pool import Order, Pool, PoolEvent
+from rovercheck.checker import cli
+from rovercheck.checker.certify.file import CertificateOrigin, Written, read, write
+from rovercheck.checker.certify.outcome import Rejected
+from rovercheck.checker.certify.terms import Malformed
+from rovercheck.checker.commands.certify import derive as deriving
+from rovercheck.checker.commands.certify.derive import Checking, DerivedVerdict, told_of
+from rovercheck.checker.commands.certify.run import certify
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.process.pool import Order, Pool, PoolEvent
 from tests.certificate_files import COUNTERS, WHEEL, changed, counters, two_searches, written
 from tests.certifying import SOLVER
 

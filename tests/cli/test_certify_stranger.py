@@ -12,14 +12,14 @@ from typing import Any
 import pytest
 import z3
 
-from checker.certify.certificate import certificates
-from checker.certify.file import CertificateOrigin, write
-from checker.results.verdict import Inductive, Unreachable
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import chosen, integer
-from spec_model.lang.expr import TRUE, Expr, Var, const, flag, ite, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.certify.certificate import certificates
+from rovercheck.checker.certify.file import CertificateOrigin, write
+from rovercheck.checker.results.verdict import Inductive, Unreachable
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import chosen, integer
+from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, const, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests.certificate_files import COUNTERS, WHEEL, written
 from tests.certifying import certified
 

@@ -7,20 +7,20 @@ from pathlib import Path
 
 import pytest
 
-from checker.certify.file import read
-from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
-from checker.certify.record import Recorder
-from checker.cli import run
-from checker.commands.shared.codes import Exit
-from checker.engines import Limits, quiet
-from checker.verify.certificates import Certifying
-from checker.verify.decide import decide
-from checker.verify.portfolio.question import Callbacks
-from checker.verify.result import Result
-from checker.verify.searches import searches as honest
-from checker.verify.tasks import tasks
-from properties.catalogue import catalogue
-from spec_model.rover import systems
+from rovercheck.checker.certify.file import read
+from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
+from rovercheck.checker.certify.record import Recorder
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.verify.certificates import Certifying
+from rovercheck.checker.verify.decide import decide
+from rovercheck.checker.verify.portfolio.question import Callbacks
+from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.searches import searches as honest
+from rovercheck.checker.verify.tasks import tasks
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.spec_model.rover import systems
 
 
 def test_every_proof_is_certified_and_written(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -58,9 +58,9 @@ def test_a_proof_stands_that_is_too_large_for_a_certificate(
         raise MemoryError
 
     if known:
-        monkeypatch.setattr("checker.certify.certificate.MOST", 1)
+        monkeypatch.setattr("rovercheck.checker.certify.certificate.MOST", 1)
     else:
-        monkeypatch.setattr("checker.certify.certificate.diagram", no_room)
+        monkeypatch.setattr("rovercheck.checker.certify.certificate.diagram", no_room)
     [task] = tasks([catalogue()["PB1-11"]], systems())
     recorder = Recorder()
     told = Callbacks(answered=recorder.answered)
@@ -78,7 +78,7 @@ def test_certifying_within_little_memory(monkeypatch: pytest.MonkeyPatch) -> Non
     def no_room(*_: object) -> Outcome:
         raise MemoryError
 
-    monkeypatch.setattr("checker.verify.certificates.check", no_room)
+    monkeypatch.setattr("rovercheck.checker.verify.certificates.check", no_room)
     [task] = tasks([catalogue()["PB1-11"]], systems())
     recorder = Recorder()
     told = Callbacks(answered=recorder.answered)
@@ -108,7 +108,7 @@ def test_what_comes_of_a_certificate_is_shown(
         for heard in honest(*arguments):  # type: ignore[arg-type]
             yield replace(heard, certificate=outcome) if isinstance(heard, Result) else heard
 
-    monkeypatch.setattr("checker.commands.check.run.searches", searches)
+    monkeypatch.setattr("rovercheck.checker.commands.check.run.searches", searches)
     assert run(["check", "PB1-11"]) == code
     shown = capfd.readouterr()
     assert said in shown.out
@@ -118,7 +118,7 @@ def test_what_comes_of_a_certificate_is_shown(
 def test_a_folder_that_cannot_be_written_any_more(
     tmp_path: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("checker.commands.check.certificates.writable", lambda folder: None)
+    monkeypatch.setattr("rovercheck.checker.commands.check.certificates.writable", lambda folder: None)
     (tmp_path / "taken").write_text("a file")
     assert run(["check", "PB1-11", "--certificates", str(tmp_path / "taken" / "in")]) == Exit.USAGE
     shown = capfd.readouterr()

@@ -5,18 +5,18 @@ from dataclasses import replace
 
 import pytest
 
-from checker.cli import run
-from checker.commands.check import standing
-from checker.commands.check.further import Further
-from checker.commands.check.run import Compared, check, results
-from checker.commands.check.standing import Chains
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.variant import Variant
-from checker.engines import AUTO, Limits
-from properties.catalogue import promises
-from properties.promises.promise import Promise
-from spec_model.repairs import repairs
-from spec_model.rover import systems
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.check import standing
+from rovercheck.checker.commands.check.further import Further
+from rovercheck.checker.commands.check.run import Compared, check, results
+from rovercheck.checker.commands.check.standing import Chains
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.properties.catalogue import promises
+from rovercheck.properties.promises.promise import Promise
+from rovercheck.spec_model.repairs import repairs
+from rovercheck.spec_model.rover import systems
 
 RELAY = next(promise for promise in promises() if promise.id == "RELAY")
 

@@ -9,19 +9,19 @@ from typing import Any
 import pytest
 from junitparser import Error, Failure, JUnitXml
 
-from checker.certify.outcome import Rejected
-from checker.cli import run
-from checker.commands.check import run as checking
-from checker.commands.check.ci import finding, level
-from checker.commands.check.run import Compared
-from checker.commands.shared.codes import Exit
-from checker.render.ci import FindingLevel
-from checker.results.trace import Trace
-from checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
-from checker.verify.result import Result
-from properties.catalogue import Expected, catalogue, expected
-from spec_model.lang.errors import ModelError
-from spec_model.rover import systems
+from rovercheck.checker.certify.outcome import Rejected
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.check import run as checking
+from rovercheck.checker.commands.check.ci import finding, level
+from rovercheck.checker.commands.check.run import Compared
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.render.ci import FindingLevel
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
+from rovercheck.checker.verify.result import Result
+from rovercheck.properties.catalogue import Expected, catalogue, expected
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.rover import systems
 from tests.render.exits_zoo import told
 from tests.render.test_exits_ci import commands
 from tests.render.zoo import long_trace

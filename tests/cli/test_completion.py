@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.completing import BY_NAME, IN_VERB
-from checker.engines import engines
-from checker.render import renderers
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.completing import BY_NAME, IN_VERB
+from rovercheck.checker.engines import engines
+from rovercheck.checker.render import renderers
 
 LIFT = Path(__file__).parents[2] / "examples/models/lift"
 SOLVERS = ("z3", "bitwuzla", "llvmlite", "oxidd", "pysat", "cvc5")
@@ -23,7 +23,7 @@ def offered(*words: str) -> list[str]:
     asked = {"COMP_WORDS": " ".join(("rovercheck", *words)), "COMP_CWORD": str(len(words))}
     asked["_ROVERCHECK_COMPLETE"] = "bash_complete"
     done = subprocess.run(
-        [sys.executable, "-m", "checker"], env={**os.environ, **asked},
+        [sys.executable, "-m", "rovercheck"], env={**os.environ, **asked},
         capture_output=True, text=True, check=False, timeout=60,
     )  # fmt: skip
     assert done.stderr == ""
@@ -66,8 +66,8 @@ def test_a_model_of_your_own_that_cannot_be_read_offers_nothing() -> None:
 
 def test_no_solver_is_loaded() -> None:
     program = (
-        "import sys, click; from checker.cli import app\n"
-        "from checker.commands.shared.completing import BY_NAME\n"
+        "import sys, click; from rovercheck.checker.cli import app\n"
+        "from rovercheck.checker.commands.shared.completing import BY_NAME\n"
         "found = BY_NAME['id'](click.Context(app), click.Option(['--id']), 'PB1')\n"
         f"assert found; print([m for m in {SOLVERS} if m in sys.modules])"
     )

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
-from spec_model.abstraction import boards
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.spec_model.abstraction import boards
 from tests.conform.recorded import copied, long_log, written
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "logs"

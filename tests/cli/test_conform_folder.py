@@ -9,13 +9,13 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-import checker
-from checker.adapters.c_build import compiler
-from checker.cli import run
-from checker.commands.conform import run as conforming
-from checker.commands.shared.codes import Exit
-from checker.logs import LogResult, examine
-from spec_model.abstraction import boards
+from rovercheck import checker
+from rovercheck.checker.adapters.c_build import compiler
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.conform import run as conforming
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.logs import LogResult, examine
+from rovercheck.spec_model.abstraction import boards
 from tests.conform.recorded import Row, copied, long_log, written
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "logs"

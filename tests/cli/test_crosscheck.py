@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
-from checker.compare import check, recorded
-from checker.compare.environment import Environment
-from checker.compare.search import Run
-from spec_model.abstraction import boards
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.compare import check, recorded
+from rovercheck.checker.compare.environment import Environment
+from rovercheck.checker.compare.search import Run
+from rovercheck.spec_model.abstraction import boards
 from tests.conform import cross_faults
 
 FAULTS = Path(cross_faults.__file__)

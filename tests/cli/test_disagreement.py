@@ -8,15 +8,15 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.disagreement import bundle
-from checker.verify.portfolio import Disagreement
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.disagreement import bundle
+from rovercheck.checker.verify.portfolio import Disagreement
 
 ROOT = Path(__file__).parents[2]
 LIAR = '''
 """An engine for tests: says that nothing is ever reached."""
 
-from checker.results.verdict import Inductive, Unreachable
+from rovercheck.checker.results.verdict import Inductive, Unreachable
 
 NAME = "liar"
 SUMMARY = "wrong on purpose"
@@ -40,7 +40,7 @@ def environment(tmp_path: Path) -> dict[str, str]:
 
 
 def check(environment: dict[str, str], folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    command = [sys.executable, "-m", "checker", "check", *arguments]
+    command = [sys.executable, "-m", "rovercheck", "check", *arguments]
     return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, check=False)
 
 

@@ -11,15 +11,15 @@ from typing import Any
 
 import pytest
 
-from checker import cache
-from checker.cli import run
-from checker.commands.doctor import run as doctor
-from checker.commands.shared.codes import Exit
-from checker.engines import Limits, Progress, engines
-from checker.results.verdict import Unknown
-from checker.verify.decide import Task, decide
-from checker.verify.result import Result
-from spec_model.lang.system import System
+from rovercheck.checker import cache
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.doctor import run as doctor
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.engines import Limits, Progress, engines
+from rovercheck.checker.results.verdict import Unknown
+from rovercheck.checker.verify.decide import Task, decide
+from rovercheck.checker.verify.result import Result
+from rovercheck.spec_model.lang.system import System
 
 ROOT = Path(__file__).parents[2]
 
@@ -102,7 +102,7 @@ def test_an_engine_that_gives_up_on_what_is_true_is_found_out(monkeypatch: pytes
             unknown = Unknown("no more time", 7, "bmc")
             yield replace(found, verdict=unknown) if found.property.id == "true" else found
 
-    monkeypatch.setattr("checker.verify.decide.decide", giving_up)
+    monkeypatch.setattr("rovercheck.checker.verify.decide.decide", giving_up)
     assert doctor.tried("bmc") == "says unknown of what is true"
 
 

@@ -2,12 +2,12 @@
 
 import pytest
 
-from checker.commands.check.run import evidence, in_short, recorded
-from checker.results.verdict import Unknown
-from checker.verify.result import Result
-from properties.catalogue import Expected
-from properties.forms import Property, never, reachable
-from spec_model.lang.expr import flag
+from rovercheck.checker.commands.check.run import evidence, in_short, recorded
+from rovercheck.checker.results.verdict import Unknown
+from rovercheck.checker.verify.result import Result
+from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.forms import Property, never, reachable
+from rovercheck.spec_model.lang.expr import flag
 
 THERE = flag("there")
 REACHED = reachable("T-1", "It can be reached.", that=THERE, covers=["R"], on="toy")

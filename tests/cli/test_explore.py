@@ -8,13 +8,13 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.explore.run import COMMANDS, named
-from checker.commands.shared.codes import Exit
-from checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.explore.run import COMMANDS, named
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.explore.by_hand.written import RefusedInput
 from tests.cli.terminal import Terminal
 
-COMMAND = [sys.executable, "-m", "checker", "explore"]
+COMMAND = [sys.executable, "-m", "rovercheck", "explore"]
 
 
 @pytest.fixture

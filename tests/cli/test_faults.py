@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 from junitparser import JUnitXml
 
-from checker.commands.shared.codes import Exit
-from checker.engines import explicit, kinduction
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.engines import explicit, kinduction
 
 ROOT = Path(__file__).parents[2]
 FOUND = "import checker.engines; checker.engines.__path__.insert(0, {folder!r})"
@@ -38,7 +38,7 @@ def broken(folder: Path, *names: str) -> dict[str, str]:
 
 
 def command(environment: dict[str, str], folder: Path, *arguments: str) -> subprocess.CompletedProcess[str]:
-    line = [sys.executable, "-m", "checker", *arguments]
+    line = [sys.executable, "-m", "rovercheck", *arguments]
     return subprocess.run(line, cwd=folder, env=environment, capture_output=True, text=True, check=False)
 
 

@@ -7,20 +7,20 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import app, run
-from checker.commands.check import findings
-from checker.commands.check.findings import SHOWN, Guide, gravest, listed, program, read_on, totals
-from checker.commands.check.run import Compared
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.wrapping import plain
-from checker.model.rover import rover
-from checker.results.trace import Trace
-from checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
-from checker.verify.result import Result
-from properties.catalogue import Expected
-from properties.forms import Property, Reachable, always, reachable
-from properties.requirements import PROMISES, requirements
-from spec_model.lang.expr import flag
+from rovercheck.checker.cli import app, run
+from rovercheck.checker.commands.check import findings
+from rovercheck.checker.commands.check.findings import SHOWN, Guide, gravest, listed, program, read_on, totals
+from rovercheck.checker.commands.check.run import Compared
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.wrapping import plain
+from rovercheck.checker.model.rover import rover
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
+from rovercheck.checker.verify.result import Result
+from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.forms import Property, Reachable, always, reachable
+from rovercheck.properties.requirements import PROMISES, requirements
+from rovercheck.spec_model.lang.expr import flag
 from tests.render.exits_zoo import told
 from tests.render.zoo import long_trace
 

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.graph import run as graphing
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.graph import run as graphing
+from rovercheck.checker.commands.shared.codes import Exit
 from tests.model_files.files import HEATER
 
 Capture = pytest.CaptureFixture[str]

@@ -10,13 +10,13 @@ import click
 import pytest
 from click.testing import CliRunner
 
-from checker.cli import app, run
-from checker.commands.list import LISTS
-from checker.commands.list.run import LISTS as LISTED
-from checker.commands.list.run import OTHERS
-from checker.commands.shared.help_examples import EXAMPLES
-from checker.commands.shared.output import counted
-from checker.engines import engines
+from rovercheck.checker.cli import app, run
+from rovercheck.checker.commands.list import LISTS
+from rovercheck.checker.commands.list.run import LISTS as LISTED
+from rovercheck.checker.commands.list.run import OTHERS
+from rovercheck.checker.commands.shared.help_examples import EXAMPLES
+from rovercheck.checker.commands.shared.output import counted
+from rovercheck.checker.engines import engines
 
 ROOT = Path(__file__).parents[2]
 WRITTEN = "".join(p.read_text(encoding="utf-8") for p in (ROOT / "README.md", *(ROOT / "docs").glob("*.md")))

@@ -5,8 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
 from tests.cli.test_report import EMPTY
 
 IDLE = """

@@ -9,8 +9,8 @@ from types import ModuleType
 
 import pytest
 
-from checker.__main__ import main
-from checker.commands.shared.codes import Exit
+from rovercheck.__main__ import main
+from rovercheck.checker.commands.shared.codes import Exit
 
 
 class Interrupting:
@@ -22,7 +22,7 @@ class Interrupting:
     def find_spec(
         self, name: str, path: Sequence[str] | None, target: ModuleType | None = None
     ) -> ModuleSpec | None:
-        if name == "checker.cli":
+        if name == "rovercheck.checker.cli":
             os.kill(os.getpid(), self._number)
         return None
 
@@ -44,7 +44,7 @@ def test_a_signal_while_the_program_loads(
     name: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """SIGTERM ended it with -15, and nobody was told."""
-    monkeypatch.delitem(sys.modules, "checker.cli", raising=False)
+    monkeypatch.delitem(sys.modules, "rovercheck.checker.cli", raising=False)
     monkeypatch.setattr(sys, "meta_path", [Interrupting(signal.Signals[name]), *sys.meta_path])
     with pytest.raises(SystemExit) as ended:
         main()

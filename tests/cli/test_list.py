@@ -7,16 +7,16 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-import checker
-from checker.cli import run
-from checker.commands.list import LISTS
-from checker.commands.shared.codes import Exit
-from checker.engines import engines
-from properties.catalogue import catalogue
-from properties.requirements import requirements
-from spec_model.readings import readings
-from spec_model.repairs import proposals
-from spec_model.rover import systems
+from rovercheck import checker
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.list import LISTS
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.engines import engines
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.properties.requirements import requirements
+from rovercheck.spec_model.readings import readings
+from rovercheck.spec_model.repairs import proposals
+from rovercheck.spec_model.rover import systems
 from tests.model_files.files import START
 
 SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "list-1.json").read_text("utf-8"))

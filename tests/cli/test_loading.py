@@ -7,21 +7,20 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import app
-from checker.engines import LOADED
+from rovercheck.checker.cli import app
+from rovercheck.checker.engines import LOADED
 
 LIFT = str(Path(__file__).parents[2] / "examples/models/lift")
 RUNS = """
 import json, sys
 started = set(sys.modules)
-from rovercheck import claim; claim()
-from checker.process import isolate
+from rovercheck.checker.process import isolate
 def show(*_):
     print(json.dumps(sorted(sys.modules.keys() - started)), file=sys.stderr)
     raise SystemExit(0)
 isolate.Child.order = show  # the first order of a search process
 sys.argv[1:] = {arguments}
-from checker.__main__ import main
+from rovercheck.__main__ import main
 try:
     main()
 finally:
@@ -47,9 +46,8 @@ def loaded(program: str) -> set[str]:
 
 def of_others(modules: set[str]) -> set[str]:
     """The packages among them that pip installs, and not Python's own or ours."""
-    ours = {"rovercheck", "checker", "properties", "spec_model", "supervisor"}
     heads = {m.partition(".")[0] for m in modules if not m.startswith("<")}  # a model is called <...>
-    return heads - sys.stdlib_module_names - ours
+    return heads - sys.stdlib_module_names - {"rovercheck"}
 
 
 LIGHT = [[], ["--version"], ["--help"], ["completion", "bash"], ["nonsense"]]
@@ -65,16 +63,30 @@ def test_help_loads_click_alone(arguments: list[str]) -> None:
     own = {
         m
         for m in found
-        if m.startswith(("spec_model.", "properties", "checker.e", "checker.results", "checker.verify"))
+        if m.startswith(
+            (
+                "rovercheck.spec_model.",
+                "rovercheck.properties",
+                "rovercheck.checker.e",
+                "rovercheck.checker.results",
+                "rovercheck.checker.verify",
+            )
+        )
     }
-    assert own - {"checker.engines", "spec_model.lang", "spec_model.lang.errors"} == set()
+    assert (
+        own
+        - {"rovercheck.checker.engines", "rovercheck.spec_model.lang", "rovercheck.spec_model.lang.errors"}
+        == set()
+    )
 
 
 def test_engines_are_listed_without_loading_one() -> None:
     found = loaded(RUNS.format(arguments=["list", "engines"]))
     assert of_others(found) == {"click", "rich"}
-    assert {m for m in found if m.startswith("spec_model.lang.")} == {"spec_model.lang.errors"}
-    assert {m for m in found if m.startswith("checker.engines.explicit.")} == set()
+    assert {m for m in found if m.startswith("rovercheck.spec_model.lang.")} == {
+        "rovercheck.spec_model.lang.errors"
+    }
+    assert {m for m in found if m.startswith("rovercheck.checker.engines.explicit.")} == set()
 
 
 @pytest.mark.parametrize(
@@ -83,14 +95,14 @@ def test_engines_are_listed_without_loading_one() -> None:
 def test_a_search_begins_before_anything_is_loaded_that_searches(arguments: list[str]) -> None:
     """The process that searches loads it, while this one reads the model."""
     found = loaded(RUNS.format(arguments=[*arguments, "--model", LIFT]))
-    assert "checker.verify.searches" in found
+    assert "rovercheck.checker.verify.searches" in found
     assert of_others(found) == {"click", "rich"}
     late = (
-        "checker.verify.liveness",
-        "checker.certify.c",
-        "checker.encode.",
-        "spec_model.board",
-        "properties.areas",
+        "rovercheck.checker.verify.liveness",
+        "rovercheck.checker.certify.c",
+        "rovercheck.checker.encode.",
+        "rovercheck.spec_model.board",
+        "rovercheck.properties.areas",
     )
     assert {m for m in found if m.startswith(late)} == set()
 
@@ -102,10 +114,10 @@ def test_a_mistake_is_told_before_anything_is_loaded_that_searches() -> None:
 
 NEEDS = {
     LOADED: {"numpy", "llvmlite"},
-    ("checker.engines.bmc.search",): {"z3"},
-    ("checker.engines.kinduction.search",): {"z3", "numpy"},
-    ("checker.engines.pdr.search",): {"pysat", "numpy"},
-    ("checker.engines.bdd.search",): {"oxidd"},
+    ("rovercheck.checker.engines.bmc.search",): {"z3"},
+    ("rovercheck.checker.engines.kinduction.search",): {"z3", "numpy"},
+    ("rovercheck.checker.engines.pdr.search",): {"pysat", "numpy"},
+    ("rovercheck.checker.engines.bdd.search",): {"oxidd"},
 }
 """What the process of a search loads, and the solvers and libraries that it needs for that."""
 HEAVY = {

@@ -8,12 +8,12 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-import checker
-from checker.cli import run
-from checker.commands.mutate import judge as mutating_judging
-from checker.commands.shared.codes import Exit
-from checker.mutate import planning
-from checker.mutate.running import MutantJudged, fates
+from rovercheck import checker
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.mutate import judge as mutating_judging
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.mutate import planning
+from rovercheck.checker.mutate.running import MutantJudged, fates
 from tests.cli.test_widths import at_terminal, too_long
 from tests.mutate import lamp
 
@@ -22,11 +22,11 @@ MODEL = Path(lamp.__file__)
 LAMP = ["mutate", "--model", str(MODEL), "--quiet", "--jobs", "2"]
 
 WEAK = """
-from properties.forms import always
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.expr import flag
-from spec_model.lang.system import in_order
+from rovercheck.properties.forms import always
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.expr import flag
+from rovercheck.spec_model.lang.system import in_order
 
 go, out = flag("go"), flag("out")
 copying = in_order("copying", Block("Copy", [assign(out, go)]))
@@ -109,12 +109,12 @@ def test_a_run_on_record_of_another_system_kills_before_anything_is_searched(
 
 
 RARE = """
-from properties.forms import always
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import flag, ite, var
-from spec_model.lang.system import in_order
+from rovercheck.properties.forms import always
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import flag, ite, var
+from rovercheck.spec_model.lang.system import in_order
 
 code, out = var("code", integer(0, 99)), flag("out")
 right = var("right", integer(0, 5))

@@ -9,10 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.output import write
-from checker.commands.trace import run as tracing
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.output import write
+from rovercheck.checker.commands.trace import run as tracing
 
 COMMANDS = [["check", "PB1-11"], ["check", "PB1-11", "--json"], ["list", "properties"]]
 
@@ -28,7 +28,7 @@ def unread() -> Iterator[int]:
 
 def ended(arguments: list[str], target: int, errors: int = subprocess.PIPE) -> tuple[int, str]:
     """The exit code and what standard error says, with standard output going to the target."""
-    command = [sys.executable, "-m", "checker", *arguments]
+    command = [sys.executable, "-m", "rovercheck", *arguments]
     shown = subprocess.run(command, stdout=target, stderr=errors, text=True, check=False)
     return shown.returncode, shown.stderr or ""
 

@@ -7,11 +7,11 @@ from typing import Any
 
 import pytest
 
-from checker.cli import run
-from checker.commands.check.run import results
-from checker.commands.shared.codes import Exit
-from checker.verify.result import Result
-from properties.forms import Property
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.check.run import results
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.verify.result import Result
+from rovercheck.properties.forms import Property
 from tests.cli.test_report import EMPTY
 
 
@@ -45,7 +45,7 @@ def test_with_strict_it_is_an_error(hall: Path, capsys: pytest.CaptureFixture[st
 
 
 def test_what_is_not_known_is_no_pass_with_strict(hall: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    from checker.commands.check import premises
+    from rovercheck.checker.commands.check import premises
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(premises, "cases", lambda *_, **__: {"FULL": premises.PremiseCase(None, "not known")})
@@ -63,7 +63,7 @@ def test_json_has_the_case(hall: Path, capsys: pytest.CaptureFixture[str]) -> No
 
 
 def test_runs_are_kept_and_gone_through_again(hall: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    from checker.commands.check import premises
+    from rovercheck.checker.commands.check import premises
 
     kept = hall.with_name("premises.json")
     assert checked(hall, "--record-premises") == Exit.AS_EXPECTED
@@ -79,7 +79,7 @@ def test_runs_are_kept_and_gone_through_again(hall: Path, capsys: pytest.Capture
 def test_a_run_that_shows_its_case_no_more_is_searched_anew(
     hall: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from checker.commands.check import premises
+    from rovercheck.checker.commands.check import premises
 
     searched = list[int]()
 
@@ -107,7 +107,7 @@ def test_a_run_that_shows_its_case_no_more_is_searched_anew(
 def test_a_run_on_record_is_gone_through_once_when_its_proof_is_heard_of(
     hall: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    from checker.commands.check import premises
+    from rovercheck.checker.commands.check import premises
 
     checked(hall, "--record-premises")
     again, told, order = premises._again, premises.cases, list[str]()

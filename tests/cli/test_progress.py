@@ -7,11 +7,11 @@ import click
 import pytest
 from rich.console import Console
 
-from checker.cli import app, run
-from checker.commands.shared import progress
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.progress import Watch
-from checker.commands.shared.silence import silence
+from rovercheck.checker.cli import app, run
+from rovercheck.checker.commands.shared import progress
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.progress import Watch
+from rovercheck.checker.commands.shared.silence import silence
 
 
 def watch() -> Watch:

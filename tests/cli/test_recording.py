@@ -5,17 +5,17 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
 
 TWINS = """
-from properties.forms import never
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import flag, var
-from spec_model.lang.system import in_order
-from spec_model.lang.words import minimum, modulo
+from rovercheck.properties.forms import never
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.words import minimum, modulo
 
 button = flag("button")
 first = [var(f"a{i}", integer(0, 4000)) for i in range(12)]
@@ -98,7 +98,7 @@ def test_a_record_that_is_out_of_date_or_wrong_changes_no_verdict(
 def test_formulas_that_are_too_large_to_keep_are_told(
     model: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("checker.model.kept_invariants.MOST_NODES", 0)
+    monkeypatch.setattr("rovercheck.checker.model.kept_invariants.MOST_NODES", 0)
     assert recorded(model) == Exit.AS_EXPECTED
     assert "LAST" not in kept(model)
     said = " ".join(capsys.readouterr().err.split())

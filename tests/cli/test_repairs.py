@@ -4,15 +4,15 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.check.run import results
-from checker.commands.reports.promises import page
-from checker.commands.reports.repairs import Proof, repair_pages, sections
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.variant import Variant
-from checker.engines import AUTO, Limits
-from properties.catalogue import expected, promises
-from spec_model.repairs import repairs
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.check.run import results
+from rovercheck.checker.commands.reports.promises import page
+from rovercheck.checker.commands.reports.repairs import Proof, repair_pages, sections
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.properties.catalogue import expected, promises
+from rovercheck.spec_model.repairs import repairs
 
 
 def shown(capfd: pytest.CaptureFixture[str]) -> str:

@@ -5,24 +5,24 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.check.premises import told
-from checker.commands.check.run import Compared
-from checker.commands.report import command
-from checker.commands.report import graphs as reviewing_graphs
-from checker.commands.report import report as verb
-from checker.commands.report import run as reviewing
-from checker.commands.report.data import by_number, cause, drawn, named, written
-from checker.commands.report.graphs import state_graphs
-from checker.commands.report.rover import coverage
-from checker.commands.shared.codes import Exit
-from checker.engines import Limits
-from checker.model.rover import rover
-from checker.render.review.model import Seen
-from checker.results.verdict import Unknown, Violated
-from checker.verify.result import Result
-from properties.catalogue import catalogue, expected
-from spec_model.rover import systems
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.check.premises import told
+from rovercheck.checker.commands.check.run import Compared
+from rovercheck.checker.commands.report import command
+from rovercheck.checker.commands.report import graphs as reviewing_graphs
+from rovercheck.checker.commands.report import report as verb
+from rovercheck.checker.commands.report import run as reviewing
+from rovercheck.checker.commands.report.data import by_number, cause, drawn, named, written
+from rovercheck.checker.commands.report.graphs import state_graphs
+from rovercheck.checker.commands.report.rover import coverage
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.model.rover import rover
+from rovercheck.checker.render.review.model import Seen
+from rovercheck.checker.results.verdict import Unknown, Violated
+from rovercheck.checker.verify.result import Result
+from rovercheck.properties.catalogue import catalogue, expected
+from rovercheck.spec_model.rover import systems
 from tests.render.test_page import Reader
 from tests.render.zoo import long_trace
 
@@ -198,11 +198,11 @@ def test_the_figures_of_the_covering_tests_add_up() -> None:
 
 
 EMPTY = """
-from properties.forms import always
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.expr import flag, implies
-from spec_model.lang.system import in_order
+from rovercheck.properties.forms import always
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.expr import flag, implies
+from rovercheck.spec_model.lang.system import in_order
 
 button, lamp = flag("button"), flag("lamp")
 on = State("On", entry=[assign(lamp, True)], transitions=[to("Off", when=button)])

@@ -7,21 +7,29 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.check.run import Compared, results
-from checker.commands.report.forced import with_reasons
-from checker.commands.reports.run import NOT_ASKED, differences, pages_of_verdicts
-from checker.commands.requirements.run import DECIDED, ON_RECORD, because, counts, page, show, words
-from checker.commands.shared.codes import Exit
-from checker.engines import AUTO, Limits
-from checker.model.rover import rover
-from properties.catalogue import catalogue, expected
-from properties.coverage import RequirementCoverage, matrix
-from properties.forms import Property, always, reachable
-from properties.requirements import Requirement, requirements
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import flag
-from spec_model.rover import systems
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.check.run import Compared, results
+from rovercheck.checker.commands.report.forced import with_reasons
+from rovercheck.checker.commands.reports.run import NOT_ASKED, differences, pages_of_verdicts
+from rovercheck.checker.commands.requirements.run import (
+    DECIDED,
+    ON_RECORD,
+    because,
+    counts,
+    page,
+    show,
+    words,
+)
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.model.rover import rover
+from rovercheck.properties.catalogue import catalogue, expected
+from rovercheck.properties.coverage import RequirementCoverage, matrix
+from rovercheck.properties.forms import Property, always, reachable
+from rovercheck.properties.requirements import Requirement, requirements
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import flag
+from rovercheck.spec_model.rover import systems
 
 ROOT = Path(__file__).parents[2]
 x = flag("x")
@@ -128,7 +136,7 @@ def test_verdicts_can_be_decided_now(
 ) -> None:
     some = {id: catalogue()[id] for id in ("PB1-11", "PB2-12-first")}
     model = replace(rover(), properties=some)
-    monkeypatch.setattr("checker.commands.requirements.run.rover", lambda: model)
+    monkeypatch.setattr("rovercheck.checker.commands.requirements.run.rover", lambda: model)
     code = run(["requirements", "--check", "--json"])
     found = json.loads(capfd.readouterr().out)
     assert (code, found["verdicts"]) == (Exit.CHANGED, DECIDED)

@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.select import again, pick_properties
-from properties.catalogue import catalogue
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.select import again, pick_properties
+from rovercheck.properties.catalogue import catalogue
 
 
 def test_several_systems_are_all_looked_at() -> None:

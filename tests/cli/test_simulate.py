@@ -9,12 +9,12 @@ from xml.etree import ElementTree
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
-from checker.commands.simulate.run import lanes
-from checker.render import run_plot
-from supervisor.bench import judge, loads, simulate
-from supervisor.bench.conditions import BOTH, CONDITIONS
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.simulate.run import lanes
+from rovercheck.checker.render import run_plot
+from rovercheck.supervisor.bench import judge, loads, simulate
+from rovercheck.supervisor.bench.conditions import BOTH, CONDITIONS
 
 ROOT = Path(__file__).parents[2]
 EXAMPLES = sorted((ROOT / "examples" / "scenarios").glob("*.toml"))
@@ -216,7 +216,7 @@ def test_a_slip_gets_one_message_and_leaves_nothing(
 @pytest.mark.skipif(not Path("/dev/full").exists(), reason="a device that is always full")
 def test_a_full_disk_is_no_verdict(place: Path) -> None:
     with Path("/dev/full").open("wb") as full:
-        command = [sys.executable, "-m", "checker", "simulate", "cut.toml", "--no-plot"]
+        command = [sys.executable, "-m", "rovercheck", "simulate", "cut.toml", "--no-plot"]
         shown = subprocess.run(command, stdout=full, stderr=subprocess.PIPE, text=True, check=False)
     assert shown.returncode == Exit.INCONCLUSIVE and "No space left on device" in shown.stderr
 

@@ -10,19 +10,19 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-import checker
-from checker.cli import run
-from checker.commands.check.run import check
-from checker.commands.doctor.run import memory
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.progress import Watch
-from checker.commands.shared.variant import Variant
-from checker.engines import AUTO, Limits
-from properties.catalogue import Expected
-from spec_model.rover import systems
+from rovercheck import checker
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.check.run import check
+from rovercheck.checker.commands.doctor.run import memory
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.progress import Watch
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.properties.catalogue import Expected
+from rovercheck.spec_model.rover import systems
 from tests.cli.terminal import Terminal
 
-COMMAND = [sys.executable, "-m", "checker"]
+COMMAND = [sys.executable, "-m", "rovercheck"]
 COLOUR = re.compile(r"\x1b\[(?:\d+;)*(?:3[0-7]|9[0-7]|4[0-7]|38;[\d;]+)m")
 SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "check-1.json").read_text("utf-8"))
 
@@ -123,7 +123,7 @@ def test_a_quiet_watch_shows_nothing(monkeypatch: pytest.MonkeyPatch) -> None:
     from rich.console import Console
 
     told = StringIO()
-    monkeypatch.setattr("checker.commands.shared.progress.PAUSE", 0.0)
+    monkeypatch.setattr("rovercheck.checker.commands.shared.progress.PAUSE", 0.0)
     for quiet in (True, False):
         with Watch(Console(file=told), 2, quiet) as watch:
             watch.say("one", "depth 3")

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.codes import Exit
 from tests.cli import conversation
 from tests.cli.conversation import COMMANDS, MARK
 from tests.cli.terminal import PATIENCE, Terminal
@@ -19,7 +19,7 @@ from tests.cli.terminal import PATIENCE, Terminal
 ROOT = Path(__file__).parents[2]
 LIFT = ROOT / "examples/models/lift"
 TALK = [sys.executable, "-m", conversation.__name__]
-CHECK = [sys.executable, "-m", "checker", "check", "--model", str(LIFT)]
+CHECK = [sys.executable, "-m", "rovercheck", "check", "--model", str(LIFT)]
 SPINNER = re.compile(r"[\u2800-\u28ff]")
 MOVES = re.compile(r"\x1b\[[0-9;?]*[A-GHJKhl]")
 """Whatever moves the cursor, erases or changes the terminal."""
@@ -197,8 +197,8 @@ LONG = [
 ]
 RAISING = f"""
 import sys
-from checker.cli import main
-from checker.commands.check import run as check
+from rovercheck.checker.cli import main
+from rovercheck.checker.commands.check import run as check
 def broken(compared): raise {{error}}
 check.line = broken
 sys.argv[1:] = {CHECK[3:]}

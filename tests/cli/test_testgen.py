@@ -7,15 +7,15 @@ from typing import Any
 import pytest
 from jsonschema import Draft202012Validator
 
-import checker
-from checker.cli import run
-from checker.commands.shared.codes import Exit
-from checker.commands.testgen import run as generating
-from checker.commands.testgen.run import GenerationProgress
-from checker.system.instrument.watch import watched
-from checker.testgen.fingerprint import fingerprint
-from checker.testgen.generate import Aim
-from checker.testgen.keep import KeptTests, kept_of, written
+from rovercheck import checker
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.testgen import run as generating
+from rovercheck.checker.commands.testgen.run import GenerationProgress
+from rovercheck.checker.system.instrument.watch import watched
+from rovercheck.checker.testgen.fingerprint import fingerprint
+from rovercheck.checker.testgen.generate import Aim
+from rovercheck.checker.testgen.keep import KeptTests, kept_of, written
 from tests.conform.cover_toys import SYSTEM, TOY
 
 SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "testgen-1.json").read_text("utf-8"))

@@ -18,19 +18,19 @@ import pytest
 from jsonschema import validate
 from markdown_it import MarkdownIt
 
-from checker.cli import run
-from checker.commands.check.run import results
-from checker.commands.shared.codes import Exit
-from checker.commands.trace.board_steps import concrete
-from checker.commands.trace.formats import exit_written
-from checker.commands.trace.run import Showing
-from checker.engines import AUTO, Limits
-from checker.render import renderers, trace_itf, trace_json
-from checker.results.trace import Trace
-from checker.results.verdict import Violated
-from properties.catalogue import catalogue
-from spec_model.lang.errors import ModelError
-from spec_model.rover import systems
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.check.run import results
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.trace.board_steps import concrete
+from rovercheck.checker.commands.trace.formats import exit_written
+from rovercheck.checker.commands.trace.run import Showing
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.render import renderers, trace_itf, trace_json
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Violated
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.rover import systems
 from tests.render.test_exits_ci import cases, commands, locations, valid
 from tests.render.test_exits_data import VCDVCD, dumped
 from tests.render.zoo import long_trace

@@ -5,16 +5,16 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
-from checker.commands.trace.examples import TraceRequest
-from checker.commands.trace.explain import Explaining
-from checker.commands.trace.run import Showing, trace
-from checker.engines import Limits
-from checker.results.trace import Trace
-from properties.catalogue import Expected
-from properties.forms import Property, reachable
-from spec_model.rover import systems
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.trace.examples import TraceRequest
+from rovercheck.checker.commands.trace.explain import Explaining
+from rovercheck.checker.commands.trace.run import Showing, trace
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.results.trace import Trace
+from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.forms import Property, reachable
+from rovercheck.spec_model.rover import systems
 from tests.explain.test_others import BOTH, ENDS, SYSTEM, first, left
 
 
@@ -77,7 +77,7 @@ def test_when_interrupted_the_run_is_shown_all_the_same(
     def interrupted(*_: object) -> Trace:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("checker.explain.explained.explained", interrupted)
+    monkeypatch.setattr("rovercheck.checker.explain.explained.explained", interrupted)
     assert trace_of(Explaining()).needed is None
     assert "Interrupted: the run is shown without what forces it." in capfd.readouterr().err
 

@@ -5,25 +5,25 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.variant import pick_variant
-from checker.commands.trace import run as tracing
-from checker.commands.trace.examples import TraceRequest, asked, of_arrow, of_state
-from checker.commands.trace.explain import Explaining
-from checker.commands.trace.formats import exit_written
-from checker.commands.trace.run import Showing, trace
-from checker.engines import Limits
-from checker.render import renderers
-from checker.render.ci import FindingLevel, of_trace
-from checker.render.waves import outcome
-from checker.results.trace import Trace
-from checker.results.verdict import Reached, Run, Unknown, Violated
-from checker.system.lowered import lowered
-from checker.verify.result import Result, result
-from properties.catalogue import Expected
-from properties.forms import Property, reachable
-from properties.reduce import reduce
-from spec_model.lang.system import System
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.variant import pick_variant
+from rovercheck.checker.commands.trace import run as tracing
+from rovercheck.checker.commands.trace.examples import TraceRequest, asked, of_arrow, of_state
+from rovercheck.checker.commands.trace.explain import Explaining
+from rovercheck.checker.commands.trace.formats import exit_written
+from rovercheck.checker.commands.trace.run import Showing, trace
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.render import renderers
+from rovercheck.checker.render.ci import FindingLevel, of_trace
+from rovercheck.checker.render.waves import outcome
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Reached, Run, Unknown, Violated
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.result import Result, result
+from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.forms import Property, reachable
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.system import System
 from tests.explain.test_others import CHART, ENDS, SYSTEM, first, left
 
 PARTLESS = replace(first(), false_parts=(), parts=(), truths=())

@@ -4,8 +4,8 @@ import json
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
 
 WRONG = [
     (["check", "PB1-11", "--reading", "S43=XOR"], "S43 has no choice 'XOR'. Did you mean 'OR'"),

@@ -10,12 +10,12 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-from checker.cli import app
-from checker.commands.shared.wrapping import filled, fitted, plain, whole
+from rovercheck.checker.cli import app
+from rovercheck.checker.commands.shared.wrapping import filled, fitted, plain, whole
 from tests.cli.terminal import PATIENCE, Terminal
 from tests.model_files.files import START
 
-COMMAND = [sys.executable, "-m", "checker"]
+COMMAND = [sys.executable, "-m", "rovercheck"]
 ROOT = Path(__file__).parents[2]
 BLANKS = "a folder with blanks in its long name"
 

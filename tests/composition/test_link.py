@@ -5,15 +5,15 @@ from collections.abc import Sequence
 from hypothesis import given
 from hypothesis import strategies as st
 
-from spec_model.composition.link import ARRIVAL, link
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import integer
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import flag, var
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.system import in_order
-from spec_model.lang.words import modulo
+from rovercheck.spec_model.composition.link import ARRIVAL, link
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.words import modulo
 
 number = var("number", integer(0, 63), doc="frames sent")
 received = var("received", integer(0, 63))

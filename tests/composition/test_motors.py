@@ -1,7 +1,7 @@
 """Relay and motor driver: whose commands reach the motors when a supervisor stops."""
 
-from spec_model.lang.interpret import Interpreter
-from spec_model.rover import systems
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.rover import systems
 
 COMMANDING = {"Board1.powered": True, "B2.sends_speeds": True, "rover.started": True}
 TIME_OUT_STEPS = 15

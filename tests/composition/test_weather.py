@@ -6,19 +6,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from spec_model.board2.supervisor_systems import coherence_exact
-from spec_model.composition.weather import FIRST_HEARD, HEARD, SECOND, SYSTEMS, with_another
-from spec_model.composition.world import FAULTS, stick, which
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System
-from spec_model.rover import systems
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board2 import d1, d2, d3
-from spec_model.signals.common import PHASE, PHASE_CLASS
+from rovercheck.spec_model.board2.supervisor_systems import coherence_exact
+from rovercheck.spec_model.composition.weather import FIRST_HEARD, HEARD, SECOND, SYSTEMS, with_another
+from rovercheck.spec_model.composition.world import FAULTS, stick, which
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.rover import systems
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.board2 import d1, d2, d3
+from rovercheck.spec_model.signals.common import PHASE, PHASE_CLASS
 
 HELD = [s.name for s in SYSTEMS if "stick" not in s.inputs and "new_ay_norm" not in s.inputs]
 ALONE = [systems()[n] for n in HELD if "other" not in {v.name for v in systems()[n].frozen}]

@@ -2,7 +2,7 @@
 
 import pytest
 
-from checker.adapters.c_build import compiler
+from rovercheck.checker.adapters.c_build import compiler
 
 
 @pytest.fixture(scope="session")

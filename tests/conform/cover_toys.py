@@ -2,16 +2,16 @@
 
 from collections.abc import Mapping
 
-from spec_model.abstraction import Board, Output, Value
-from spec_model.abstraction.board import Values, units
-from spec_model.abstraction.signals import discrete, measured, stamp
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.domain import chosen
-from spec_model.lang.expr import flag, var
-from spec_model.lang.system import TICK_MS, in_order
-from spec_model.lang.time import ticks
-from spec_model.lang.words import after, rising
+from rovercheck.spec_model.abstraction import Board, Output, Value
+from rovercheck.spec_model.abstraction.board import Values, units
+from rovercheck.spec_model.abstraction.signals import discrete, measured, stamp
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.domain import chosen
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.lang.system import TICK_MS, in_order
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import after, rising
 
 press = flag("press", "the button is held down")
 light = var("light_lx", chosen([0, 9, 10, 11, 100], "lx"), 100, "how bright it is")

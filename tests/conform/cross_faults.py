@@ -3,15 +3,15 @@
 from collections import deque
 from dataclasses import replace
 
-from supervisor.board1 import Board1
-from supervisor.board1.monitors import BatteryMonitor, UpdateMonitor
-from supervisor.board1.motion import TURNED_DEG, MotionSupervision
-from supervisor.board1.signals import Board1Inputs, Board1Outputs
-from supervisor.board1.states import MotionInputs
-from supervisor.board2.board import Board2
-from supervisor.board2.signals import Board2Inputs, Board2Outputs
-from supervisor.timing import Duration, steps
-from supervisor.types import Level, SafetyState
+from rovercheck.supervisor.board1 import Board1
+from rovercheck.supervisor.board1.monitors import BatteryMonitor, UpdateMonitor
+from rovercheck.supervisor.board1.motion import TURNED_DEG, MotionSupervision
+from rovercheck.supervisor.board1.signals import Board1Inputs, Board1Outputs
+from rovercheck.supervisor.board1.states import MotionInputs
+from rovercheck.supervisor.board2.board import Board2
+from rovercheck.supervisor.board2.signals import Board2Inputs, Board2Outputs
+from rovercheck.supervisor.timing import Duration, steps
+from rovercheck.supervisor.types import Level, SafetyState
 
 
 class LateReception(Board1):

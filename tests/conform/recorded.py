@@ -7,10 +7,10 @@ from io import StringIO
 from pathlib import Path
 from random import Random
 
-from checker.adapters.python_calls import Instance
-from spec_model.abstraction import Board, BoardSignal, boards
-from supervisor.board1 import Board1
-from supervisor.board2.board import Board2
+from rovercheck.checker.adapters.python_calls import Instance
+from rovercheck.spec_model.abstraction import Board, BoardSignal, boards
+from rovercheck.supervisor.board1 import Board1
+from rovercheck.supervisor.board2.board import Board2
 
 Row = dict[str, bool | int | float]
 

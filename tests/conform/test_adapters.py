@@ -14,10 +14,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.adapters import AdapterLimits, adapters, start
-from checker.adapters.implementation import ImplementationError, notes, run
-from checker.adapters.python import start as start_python
-from spec_model.abstraction import boards
+from rovercheck.checker.adapters import AdapterLimits, adapters, start
+from rovercheck.checker.adapters.implementation import ImplementationError, notes, run
+from rovercheck.checker.adapters.python import start as start_python
+from rovercheck.spec_model.abstraction import boards
 from tests.conform.adapters_counter import TELL
 from tests.profiles import examples
 
@@ -231,7 +231,7 @@ def test_adapters_are_found_and_describe_themselves():
         assert adapter.SUMMARY and "\n" not in adapter.SUMMARY
 
 
-@pytest.mark.parametrize("address", ["", "c", "python:", "pyhton:x:Y", "supervisor.board1:Board1"])
+@pytest.mark.parametrize("address", ["", "c", "python:", "pyhton:x:Y", "rovercheck.supervisor.board1:Board1"])
 def test_an_address_without_meaning_shows_what_to_write(address):
     with pytest.raises(ImplementationError) as caught:
         start(address, BOARD)

@@ -7,9 +7,9 @@ from contextlib import closing
 
 import pytest
 
-from checker.adapters import AdapterLimits, start
-from checker.adapters.implementation import ImplementationError, run
-from spec_model.abstraction import boards
+from rovercheck.checker.adapters import AdapterLimits, start
+from rovercheck.checker.adapters.implementation import ImplementationError, run
+from rovercheck.spec_model.abstraction import boards
 
 BOARD = boards()["board1"]
 AT_REST = BOARD.at_power_up()

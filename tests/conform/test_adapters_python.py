@@ -5,13 +5,13 @@ from math import isinf
 
 import pytest
 
-from checker.adapters import AdapterLimits, firmware, start
-from checker.adapters.implementation import ImplementationError, run
-from checker.adapters.python import start as start_python
-from checker.adapters.records import builder, reader
-from spec_model.abstraction import boards
-from supervisor import Board1, Board1Inputs, Board1Outputs, Board2, Board2Inputs, Board2Outputs
-from supervisor.board2.actuation import Actuated, MotorCommand
+from rovercheck.checker.adapters import AdapterLimits, firmware, start
+from rovercheck.checker.adapters.implementation import ImplementationError, run
+from rovercheck.checker.adapters.python import start as start_python
+from rovercheck.checker.adapters.records import builder, reader
+from rovercheck.spec_model.abstraction import boards
+from rovercheck.supervisor import Board1, Board1Inputs, Board1Outputs, Board2, Board2Inputs, Board2Outputs
+from rovercheck.supervisor.board2.actuation import Actuated, MotorCommand
 
 BOARDS = boards()
 LIMITS = AdapterLimits(step=60, start=120)

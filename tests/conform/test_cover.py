@@ -5,23 +5,30 @@ from random import Random
 
 import pytest
 
-from checker.system.instrument.goals import CoverGoal, GoalKind
-from checker.system.instrument.watch import watched
-from checker.testgen.coverage import NOT_TRIED, GenerationEffort, GoalCoverage, chosen, cover
-from checker.testgen.explore import RandomMachine, TriedPlace, Weather, explored, first_reached, shortened
-from checker.testgen.fingerprint import fingerprint
-from checker.testgen.keep import KeptTests, kept_of, written
-from checker.testgen.replay import first_reached as replayed
-from checker.testgen.replay import played
-from checker.testgen.scripts import Script, blocks, script, steps, unfolded
-from checker.testgen.search import CoverFound, Uncoverable
-from spec_model.abstraction import Board, boards
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.errors import ModelError
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.system import System, in_order
-from spec_model.rover import systems
+from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind
+from rovercheck.checker.system.instrument.watch import watched
+from rovercheck.checker.testgen.coverage import NOT_TRIED, GenerationEffort, GoalCoverage, chosen, cover
+from rovercheck.checker.testgen.explore import (
+    RandomMachine,
+    TriedPlace,
+    Weather,
+    explored,
+    first_reached,
+    shortened,
+)
+from rovercheck.checker.testgen.fingerprint import fingerprint
+from rovercheck.checker.testgen.keep import KeptTests, kept_of, written
+from rovercheck.checker.testgen.replay import first_reached as replayed
+from rovercheck.checker.testgen.replay import played
+from rovercheck.checker.testgen.scripts import Script, blocks, script, steps, unfolded
+from rovercheck.checker.testgen.search import CoverFound, Uncoverable
+from rovercheck.spec_model.abstraction import Board, boards
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.rover import systems
 from tests.conform.cover_toys import AFTER_NEVER, NEVER, SYSTEM, TOY, lamp, lit, press
 
 LOOKED = watched(TOY.system)
@@ -184,7 +191,7 @@ def test_few_tests_reach_all_that_is_covered(covered: GoalCoverage) -> None:
 
 
 def test_a_false_claim_is_not_kept() -> None:
-    from checker.verify.runs.replay import ReplayError
+    from rovercheck.checker.verify.runs.replay import ReplayError
 
     coverage = GoalCoverage(TOY, LOOKED.goals)
     coverage.scripts.append((toy("00"), {NEVER: 2}))
@@ -228,7 +235,7 @@ def test_going_on_asks_for_nothing_that_is_settled(
         asked.extend(goals)
         return ()
 
-    monkeypatch.setattr("checker.testgen.coverage.searched", search)
+    monkeypatch.setattr("rovercheck.checker.testgen.coverage.searched", search)
     cover(again, SYSTEM, GenerationEffort(ticks=0), lambda line: None)
     assert asked == [] and again.kept("as drawn") == covered.kept("as drawn")
 

@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from checker.testgen import kept_text
-from checker.testgen.formats import FORMATS
-from checker.testgen.formats.expected import ExpectedTest, expected, rows
-from checker.testgen.keep import kept_of
-from checker.testgen.scripts import Script, unfolded
-from spec_model.abstraction import boards
+from rovercheck.checker.testgen import kept_text
+from rovercheck.checker.testgen.formats import FORMATS
+from rovercheck.checker.testgen.formats.expected import ExpectedTest, expected, rows
+from rovercheck.checker.testgen.keep import kept_of
+from rovercheck.checker.testgen.scripts import Script, unfolded
+from rovercheck.spec_model.abstraction import boards
 from tests.conform.cover_toys import TOY
 
 LAMP = """

@@ -2,19 +2,22 @@
 
 import pytest
 
-from checker.adapters import python
-from checker.system.instrument.goals import GoalKind
-from checker.system.instrument.watch import watched
-from checker.testgen import kept, kept_text
-from checker.testgen.fingerprint import fingerprint
-from checker.testgen.formats.expected import required
-from checker.testgen.keep import kept_of
-from checker.testgen.replay import first_reached
-from spec_model.abstraction import boards
-from spec_model.rover import systems
+from rovercheck.checker.adapters import python
+from rovercheck.checker.system.instrument.goals import GoalKind
+from rovercheck.checker.system.instrument.watch import watched
+from rovercheck.checker.testgen import kept, kept_text
+from rovercheck.checker.testgen.fingerprint import fingerprint
+from rovercheck.checker.testgen.formats.expected import required
+from rovercheck.checker.testgen.keep import kept_of
+from rovercheck.checker.testgen.replay import first_reached
+from rovercheck.spec_model.abstraction import boards
+from rovercheck.spec_model.rover import systems
 
 BOARDS = ["board1", "board2"]
-OURS = {"board1": "supervisor.board1:Board1", "board2": "supervisor.board2.board:Board2"}
+OURS = {
+    "board1": "rovercheck.supervisor.board1:Board1",
+    "board2": "rovercheck.supervisor.board2.board:Board2",
+}
 LEAST = {"board1": 104, "board2": 127}
 """Arrows that the kept tests reach at least."""
 

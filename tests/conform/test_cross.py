@@ -7,19 +7,19 @@ from pathlib import Path
 
 import pytest
 
-from checker.adapters import python
-from checker.adapters.implementation import Implementation, ImplementationError, Values
-from checker.compare import Allowance, StepMismatch, cross_check, effort, quick_check, replay
-from checker.compare.beside import rerun
-from checker.compare.check import Remembered, recorded_suite
-from checker.compare.coverage import arrows
-from checker.compare.recorded import counterexamples
-from checker.compare.reproduce import file_name, pytest_file, stimulus_of
-from checker.compare.result import ALLOWED, FIXED, RANDOM
-from checker.compare.search import CompareSearch, Run
-from checker.compare.smaller import Budget, smaller
-from checker.compare.strategy import ENVIRONMENTS
-from spec_model.abstraction import boards
+from rovercheck.checker.adapters import python
+from rovercheck.checker.adapters.implementation import Implementation, ImplementationError, Values
+from rovercheck.checker.compare import Allowance, StepMismatch, cross_check, effort, quick_check, replay
+from rovercheck.checker.compare.beside import rerun
+from rovercheck.checker.compare.check import Remembered, recorded_suite
+from rovercheck.checker.compare.coverage import arrows
+from rovercheck.checker.compare.recorded import counterexamples
+from rovercheck.checker.compare.reproduce import file_name, pytest_file, stimulus_of
+from rovercheck.checker.compare.result import ALLOWED, FIXED, RANDOM
+from rovercheck.checker.compare.search import CompareSearch, Run
+from rovercheck.checker.compare.smaller import Budget, smaller
+from rovercheck.checker.compare.strategy import ENVIRONMENTS
+from rovercheck.spec_model.abstraction import boards
 from tests.conform import cross_faults
 from tests.conform.cross_faults import FAULTS
 
@@ -27,7 +27,10 @@ EXAMPLES = {"board1": 5, "board2": 10}
 """Random runs beside the fixed ones: enough for these faults."""
 BUDGET = 8_000
 """Steps for making one mismatch small."""
-OURS = {"board1": "supervisor.board1:Board1", "board2": "supervisor.board2.board:Board2"}
+OURS = {
+    "board1": "rovercheck.supervisor.board1:Board1",
+    "board2": "rovercheck.supervisor.board2.board:Board2",
+}
 HERE = Path(cross_faults.__file__)
 PLANTED = [(board, fault.__name__) for board, faults in FAULTS.items() for fault in faults]
 

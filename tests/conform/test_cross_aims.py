@@ -5,18 +5,18 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from checker.compare.aims import aims
-from checker.compare.beside import SteppedCharts, played, rerun
-from checker.compare.environment import AROUND
-from checker.compare.fixed import fixed
-from checker.compare.smaller import columns
-from checker.compare.stimulus import SILENT, Every, InputBlock, Stimulus, StimulusPlayer, Toward
-from checker.compare.strategy import ENVIRONMENTS
-from checker.compare.values import nearest
-from spec_model.abstraction import Value, boards
-from spec_model.abstraction.stamps import CLOCK
-from spec_model.lang.expr import Temporal
-from spec_model.lang.walk import nodes
+from rovercheck.checker.compare.aims import aims
+from rovercheck.checker.compare.beside import SteppedCharts, played, rerun
+from rovercheck.checker.compare.environment import AROUND
+from rovercheck.checker.compare.fixed import fixed
+from rovercheck.checker.compare.smaller import columns
+from rovercheck.checker.compare.stimulus import SILENT, Every, InputBlock, Stimulus, StimulusPlayer, Toward
+from rovercheck.checker.compare.strategy import ENVIRONMENTS
+from rovercheck.checker.compare.values import nearest
+from rovercheck.spec_model.abstraction import Value, boards
+from rovercheck.spec_model.abstraction.stamps import CLOCK
+from rovercheck.spec_model.lang.expr import Temporal
+from rovercheck.spec_model.lang.walk import nodes
 
 BOARDS = ("board1", "board2")
 

@@ -7,10 +7,10 @@ import pytest
 
 from benchmarks.faults.by_hand import Fault, faults
 from benchmarks.faults.hand_run import InProcess
-from checker.compare.beside import compared, played
-from checker.compare.environment import Environment
-from checker.compare.stimulus import InputBlock, Stimulus
-from checker.compare.strategy import ENVIRONMENTS
+from rovercheck.checker.compare.beside import compared, played
+from rovercheck.checker.compare.environment import Environment
+from rovercheck.checker.compare.stimulus import InputBlock, Stimulus
+from rovercheck.checker.compare.strategy import ENVIRONMENTS
 
 FAULTS = {
     "timer, board1, Backward_mode_toggle: 1 s becomes 1.02 s": "presses",

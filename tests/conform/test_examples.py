@@ -12,10 +12,10 @@ import pytest
 from hypothesis import Phase, find, given, settings
 from hypothesis import strategies as st
 
-from checker.adapters import AdapterLimits, start
-from checker.adapters.implementation import notes, run
-from checker.adapters.python import start as start_python
-from spec_model.abstraction import boards
+from rovercheck.checker.adapters import AdapterLimits, start
+from rovercheck.checker.adapters.implementation import notes, run
+from rovercheck.checker.adapters.python import start as start_python
+from rovercheck.spec_model.abstraction import boards
 from tests.profiles import examples
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -46,7 +46,7 @@ def faulty():
 
 @pytest.fixture(scope="module")
 def firmware():
-    return start_python("supervisor.board1:Board1", BOARD, isolated=False)
+    return start_python("rovercheck.supervisor.board1:Board1", BOARD, isolated=False)
 
 
 levels = {

@@ -10,11 +10,11 @@ from benchmarks.faults.judged import KINDS, judgements
 from benchmarks.faults.mutate import path
 from benchmarks.faults.package import importers, replaced
 from benchmarks.faults.recorded import Found, Run, prepared, search
-from checker.compare import SILENT, Every, InputBlock, Stimulus
-from checker.compare.beside import ComparedStep, compared, played
-from checker.compare.stimulus import Change
-from checker.compare.strategy import ENVIRONMENTS
-from spec_model.abstraction import boards
+from rovercheck.checker.compare import SILENT, Every, InputBlock, Stimulus
+from rovercheck.checker.compare.beside import ComparedStep, compared, played
+from rovercheck.checker.compare.stimulus import Change
+from rovercheck.checker.compare.strategy import ENVIRONMENTS
+from rovercheck.spec_model.abstraction import boards
 
 Changes = dict[str, Change]
 
@@ -98,14 +98,29 @@ def _differs(fault: Fault, run: Stimulus) -> bool:
 
 # Module, the board on which it is found, and what is replaced by what.
 MUTANTS = [
-    ("supervisor.board1.relay", "board1", "steps(3)", "steps(4)"),
-    ("supervisor.board1.monitors", "board1", "pct < 23", "pct <= 23"),
-    ("supervisor.board1.laws", "board1", "max(user.omega_user, 0.0)", "max(user.omega_user, -1.0)"),
-    ("supervisor.board1.states", "board1", "Motion.EVITA_DESTRA: SupervisorCommand.CMD_AVOID_RIGHT", "0: 0"),
-    ("supervisor.board2.distances", "board2", "STOP_CM = 70", "STOP_CM = 71"),
-    ("supervisor.board2.actuation", "board2", "v_ref - omega_ref", "v_ref + omega_ref"),
-    ("supervisor.board2.classify", "board2", "b1_critical_mask & ~switch", "b1_critical_mask & switch"),
-    ("supervisor.types", "board1", "CRITICAL = 2", "CRITICAL = 3"),
+    ("rovercheck.supervisor.board1.relay", "board1", "steps(3)", "steps(4)"),
+    ("rovercheck.supervisor.board1.monitors", "board1", "pct < 23", "pct <= 23"),
+    (
+        "rovercheck.supervisor.board1.laws",
+        "board1",
+        "max(user.omega_user, 0.0)",
+        "max(user.omega_user, -1.0)",
+    ),
+    (
+        "rovercheck.supervisor.board1.states",
+        "board1",
+        "Motion.EVITA_DESTRA: SupervisorCommand.CMD_AVOID_RIGHT",
+        "0: 0",
+    ),
+    ("rovercheck.supervisor.board2.distances", "board2", "STOP_CM = 70", "STOP_CM = 71"),
+    ("rovercheck.supervisor.board2.actuation", "board2", "v_ref - omega_ref", "v_ref + omega_ref"),
+    (
+        "rovercheck.supervisor.board2.classify",
+        "board2",
+        "b1_critical_mask & ~switch",
+        "b1_critical_mask & switch",
+    ),
+    ("rovercheck.supervisor.types", "board1", "CRITICAL = 2", "CRITICAL = 3"),
 ]
 
 
@@ -120,16 +135,16 @@ def test_a_mutant_is_found(
 
 
 def test_the_supervisor_itself_is_not(recorded: dict[str, Sequence[Run]]) -> None:
-    source = path("supervisor.types").read_text(encoding="utf-8")
-    with replaced("supervisor.types", source):
+    source = path("rovercheck.supervisor.types").read_text(encoding="utf-8")
+    with replaced("rovercheck.supervisor.types", source):
         for board, runs in recorded.items():
             assert search(board, runs) == sum(len(run.steps) for run in runs)
 
 
 def test_what_imports_a_module_is_loaded_anew_and_the_rest_is_not() -> None:
-    anew = importers("supervisor.board1.relay")
-    assert {"supervisor.board1.board", "supervisor.board1", "supervisor"} <= anew
-    assert not any(name.startswith("supervisor.board2") for name in anew)
+    anew = importers("rovercheck.supervisor.board1.relay")
+    assert {"rovercheck.supervisor.board1.board", "rovercheck.supervisor.board1", "supervisor"} <= anew
+    assert not any(name.startswith("rovercheck.supervisor.board2") for name in anew)
 
 
 def test_every_judgement_names_a_line_that_exists() -> None:

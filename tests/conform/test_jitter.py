@@ -4,17 +4,17 @@ from collections.abc import Mapping
 
 import pytest
 
-from checker.adapters.python_calls import Instance
-from checker.commands.check.run import results
-from checker.commands.crosscheck.record import in_steps_of
-from checker.compare.beside import differs, rerun
-from checker.engines import AUTO, Limits
-from checker.results.trace import Trace
-from checker.results.verdict import Violated
-from properties.catalogue import catalogue, expected
-from spec_model.abstraction import Board, boards
-from spec_model.abstraction.board import units
-from spec_model.rover import systems
+from rovercheck.checker.adapters.python_calls import Instance
+from rovercheck.checker.commands.check.run import results
+from rovercheck.checker.commands.crosscheck.record import in_steps_of
+from rovercheck.checker.compare.beside import differs, rerun
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Violated
+from rovercheck.properties.catalogue import catalogue, expected
+from rovercheck.spec_model.abstraction import Board, boards
+from rovercheck.spec_model.abstraction.board import units
+from rovercheck.spec_model.rover import systems
 from tests.conform.recorded import FIRMWARE
 
 SHOWN: Mapping[str, tuple[str, str, str]] = {

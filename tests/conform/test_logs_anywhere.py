@@ -9,13 +9,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
-from checker.logs import ColumnMap, LogResult, examine
-from checker.logs.cones import LogCone, cones
-from checker.logs.program import NeededInputs
-from checker.logs.signals import TIME, Vocabulary
-from spec_model.abstraction import boards
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.logs import ColumnMap, LogResult, examine
+from rovercheck.checker.logs.cones import LogCone, cones
+from rovercheck.checker.logs.program import NeededInputs
+from rovercheck.checker.logs.signals import TIME, Vocabulary
+from rovercheck.spec_model.abstraction import boards
 from tests.conform.recorded import copied, long_log
 from tests.profiles import examples
 

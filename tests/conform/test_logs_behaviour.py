@@ -8,16 +8,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.logs import ColumnMap, examine
-from checker.logs.check import Behaviour
-from checker.logs.cones import LogCone, cones
-from checker.logs.deviations import Deviation
-from checker.logs.mapping import Column
-from checker.logs.program import NeededInputs
-from checker.logs.signals import Vocabulary
-from spec_model.abstraction import boards
-from spec_model.lang.evaluate import step
-from spec_model.lang.interpret import Interpreter
+from rovercheck.checker.logs import ColumnMap, examine
+from rovercheck.checker.logs.check import Behaviour
+from rovercheck.checker.logs.cones import LogCone, cones
+from rovercheck.checker.logs.deviations import Deviation
+from rovercheck.checker.logs.mapping import Column
+from rovercheck.checker.logs.program import NeededInputs
+from rovercheck.checker.logs.signals import Vocabulary
+from rovercheck.spec_model.abstraction import boards
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.interpret import Interpreter
 from tests.conform.recorded import Row, copied, frozen, late, long_log, record, swapped, written
 from tests.profiles import examples
 

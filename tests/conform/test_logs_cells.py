@@ -4,9 +4,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.logs import ColumnMap, LogError, LogResult, examine, read_map
-from checker.logs.cells import LARGEST
-from checker.logs.invalid import MOST_VALUES, InvalidCell
+from rovercheck.checker.logs import ColumnMap, LogError, LogResult, examine, read_map
+from rovercheck.checker.logs.cells import LARGEST
+from rovercheck.checker.logs.invalid import MOST_VALUES, InvalidCell
 from tests.conform.recorded import copied, long_log, text
 
 SHORT = 40
@@ -137,7 +137,7 @@ def test_a_value_that_is_not_known_hides_no_fault_elsewhere(tmp_path: Path) -> N
 
 def value(folder: Path, column: str, cell: str, options: str, board: str = "board1") -> object:
     """The value that is read, or why there is none."""
-    from checker.logs.log import open_log
+    from rovercheck.checker.logs.log import open_log
 
     log = open_log(with_cells(folder, column, {AT: cell}, board), mapped(folder, column, options), board)
     (block,) = log.blocks()

@@ -9,12 +9,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.logs import ColumnMap, LogError
-from checker.logs import files as log_files
-from checker.logs.cells import Raw, converter
-from checker.logs.files import BLOCK, opened
-from checker.logs.mapping import Column
-from spec_model.abstraction import BoardSignal, boards
+from rovercheck.checker.logs import ColumnMap, LogError
+from rovercheck.checker.logs import files as log_files
+from rovercheck.checker.logs.cells import Raw, converter
+from rovercheck.checker.logs.files import BLOCK, opened
+from rovercheck.checker.logs.mapping import Column
+from rovercheck.spec_model.abstraction import BoardSignal, boards
 
 Rows = list[tuple[int, list[str]]]
 SIGNALS = {s.name: s for b in boards().values() for s in b.inputs}

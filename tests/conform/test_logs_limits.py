@@ -10,9 +10,9 @@ from random import Random
 
 import pytest
 
-from checker.logs import ColumnMap, LogError, files, limits
-from checker.logs.files import BLOCK, BUFFER, PIECE, opened
-from checker.logs.log import open_log
+from rovercheck.checker.logs import ColumnMap, LogError, files, limits
+from rovercheck.checker.logs.files import BLOCK, BUFFER, PIECE, opened
+from rovercheck.checker.logs.log import open_log
 
 HEAD = "now_ms,temp_status\n20,0\n"
 

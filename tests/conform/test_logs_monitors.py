@@ -9,16 +9,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.logs import ColumnMap, as_on_record, examine
-from checker.logs.cells import converter
-from checker.logs.check import LogResult
-from checker.logs.choosing import choose
-from checker.logs.formula import FormulaRows
-from checker.logs.judge import Judge
-from checker.logs.mapping import Column
-from checker.logs.signals import Vocabulary
-from properties.catalogue import catalogue
-from properties.forms import (
+from rovercheck.checker.logs import ColumnMap, as_on_record, examine
+from rovercheck.checker.logs.cells import converter
+from rovercheck.checker.logs.check import LogResult
+from rovercheck.checker.logs.choosing import choose
+from rovercheck.checker.logs.formula import FormulaRows
+from rovercheck.checker.logs.judge import Judge
+from rovercheck.checker.logs.mapping import Column
+from rovercheck.checker.logs.signals import Vocabulary
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.properties.forms import (
     Always,
     EntersOnlyIf,
     Form,
@@ -32,15 +32,15 @@ from properties.forms import (
     Responds,
     Until,
 )
-from properties.reduce import reduce
-from spec_model.abstraction import Output, boards
-from spec_model.abstraction.board import computed
-from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Const, flag, implies
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.time import ticks
-from spec_model.lang.words import held, once, previous, rising
-from spec_model.rover import systems
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.abstraction import Output, boards
+from rovercheck.spec_model.abstraction.board import computed
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expr import Const, flag, implies
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import held, once, previous, rising
+from rovercheck.spec_model.rover import systems
 from tests.conform.recorded import Row, copied, long_log, written
 from tests.profiles import examples
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.logs import ColumnMap, LogError, examine, read_map
-from checker.logs.log import LogBlock, open_log
-from spec_model.abstraction import boards
+from rovercheck.checker.logs import ColumnMap, LogError, examine, read_map
+from rovercheck.checker.logs.log import LogBlock, open_log
+from rovercheck.spec_model.abstraction import boards
 from tests.conform.recorded import Row, copied, long_log, text, written
 
 SHORT = 40

@@ -4,10 +4,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.strategies import DataObject
 
-from checker.encode.python_text import text_of
-from spec_model.lang.domain import chosen, integer
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Var, flag, var
+from rovercheck.checker.encode.python_text import text_of
+from rovercheck.spec_model.lang.domain import chosen, integer
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Var, flag, var
 from tests.strategies_ts import booleans, integers
 
 SCOPE: tuple[Var, ...] = (

@@ -165,7 +165,7 @@ SHOWN = {
 PROGRAMS = {
     ("docs/adapters.md", "class Supervisor:"): "python",
     ("docs/adapters.md", "import json, sys"): "python",
-    ("docs/crosscheck.md", "from checker.compare import cross_check, quick_check"): "imports",
-    ("docs/models.md", "from properties.forms import always"): "model",
+    ("docs/crosscheck.md", "from rovercheck.checker.compare import cross_check, quick_check"): "imports",
+    ("docs/models.md", "from rovercheck.properties.forms import always"): "model",
 }
 """Python of a page: compiled; its imports executed; or read as a model."""

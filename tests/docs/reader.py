@@ -13,8 +13,8 @@ from functools import cache
 from pathlib import Path
 from unittest.mock import patch
 
-from checker.cli import run
 from docs.reference.listings import Listing, applied
+from rovercheck.checker.cli import run
 
 MARKS = "✓✗≈?"
 ANYWHERE = re.compile(r"(?:check|trace)(?: P[A-Z0-9]+-[0-9a-z]+)+")

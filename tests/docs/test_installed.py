@@ -9,12 +9,12 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.codes import Exit
 
 ROOT = Path(__file__).parents[2]
 INSTALLED = """
 import sys
-from checker.__main__ import __file__ as place, main
+from rovercheck.__main__ import __file__ as place, main
 assert place.startswith(sys.path[0]), place
 main()
 """

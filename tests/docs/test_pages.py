@@ -9,10 +9,10 @@ from pathlib import Path
 import click
 import pytest
 
-from checker.cli import app
-from checker.model.load import load
 from docs.reference.kept import DOCS, KEPT
 from docs.reference.listings import Listing, listings
+from rovercheck.checker.cli import app
+from rovercheck.checker.model.load import load
 from tests.docs.elsewhere import BEFORE, COMMANDS, GIVEN, PROGRAMS, SHOWN
 from tests.docs.reader import Reader, differs, session, typed
 

@@ -14,11 +14,11 @@ from mkdocs.commands.build import build
 from mkdocs.config import load_config
 from playwright.sync_api import Page
 
-from checker.cli import app
-from checker.commands.shared.codes import Exit
 from docs.reference import forms, language
 from docs.reference.listings import applied, listings
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.cli import app
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.spec_model.lang.errors import ModelError
 
 ROOT = Path(__file__).parents[2]
 FETCHES = re.compile(

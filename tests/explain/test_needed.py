@@ -7,20 +7,20 @@ from itertools import combinations
 import pytest
 from hypothesis import assume, given, settings
 
-from checker.engines.bdd.space import DDMemoryError, Overdrawn
-from checker.explain import backwards, fewest, needed
-from checker.explain.explained import check
-from checker.explain.needed import Forcing, forcing
-from checker.explain.unrolled import OutOfTime, Unrolled
-from checker.results.trace import Needed
-from checker.results.verdict import Run
-from checker.verify.runs.replay import ReplayError
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import chosen, integer
-from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.expr import Var, flag, ite, var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.words import minimum
+from rovercheck.checker.engines.bdd.space import DDMemoryError, Overdrawn
+from rovercheck.checker.explain import backwards, fewest, needed
+from rovercheck.checker.explain.explained import check
+from rovercheck.checker.explain.needed import Forcing, forcing
+from rovercheck.checker.explain.unrolled import OutOfTime, Unrolled
+from rovercheck.checker.results.trace import Needed
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.verify.runs.replay import ReplayError
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import chosen, integer
+from rovercheck.spec_model.lang.evaluate import admissible, step
+from rovercheck.spec_model.lang.expr import Var, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.words import minimum
 from tests.naive import vectors
 from tests.strategies_ts import goals, transition_systems
 from tests.toys import GOAL, counter, filling, once
@@ -251,7 +251,7 @@ def test_a_set_that_does_not_force_the_end_is_noticed() -> None:
 
 
 def test_a_solver_that_takes_anything_for_forced_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    from checker.explain.unrolled import Answer
+    from rovercheck.checker.explain.unrolled import Answer
 
     monkeypatch.setattr(Unrolled, "asked", lambda *_: Answer(True))
     monkeypatch.setattr(Unrolled, "avoids", lambda _, changes: iter([False] * len(changes)))

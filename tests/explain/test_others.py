@@ -2,21 +2,21 @@
 
 from dataclasses import replace
 
-from checker.engines import Limits
-from checker.explain.explained import explained, unexplained
-from checker.explain.others import NoMore, Other, Others
-from checker.explain.unlike import Unlike
-from checker.render.reasons import in_reason
-from checker.render.trace_table import render as table
-from checker.results.trace import Trace
-from checker.results.verdict import Reached, Run, Violated
-from checker.system.lowered import lowered
-from checker.verify.result import result
-from properties.forms import Property, never
-from properties.reduce import reduce
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.expr import flag
-from spec_model.lang.system import System, in_order
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.explain.explained import explained, unexplained
+from rovercheck.checker.explain.others import NoMore, Other, Others
+from rovercheck.checker.explain.unlike import Unlike
+from rovercheck.checker.render.reasons import in_reason
+from rovercheck.checker.render.trace_table import render as table
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Reached, Run, Violated
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.result import result
+from rovercheck.properties.forms import Property, never
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.expr import flag
+from rovercheck.spec_model.lang.system import System, in_order
 
 left, right, quick = flag("left"), flag("right"), flag("quick")
 

@@ -2,12 +2,12 @@
 
 import pytest
 
-from checker.explore.by_hand.condition import condition
-from checker.explore.by_hand.names import Names
-from checker.explore.by_hand.written import RefusedInput
-from spec_model.lang.domain import enumeration, integer
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import flag, var
+from rovercheck.checker.explore.by_hand.condition import condition
+from rovercheck.checker.explore.by_hand.names import Names
+from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.spec_model.lang.domain import enumeration, integer
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import flag, var
 from tests.render import zoo
 
 NAMES = Names({**zoo.VARIABLES, "level": zoo.level}, {"Relay": zoo.relay, "Nested": zoo.nested})

@@ -2,13 +2,13 @@
 
 import pytest
 
-from checker.explore.by_hand import session
-from checker.explore.by_hand.session import Session
-from checker.explore.by_hand.written import RefusedInput
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.expr import flag
-from spec_model.lang.system import Assumption, in_order
+from rovercheck.checker.explore.by_hand import session
+from rovercheck.checker.explore.by_hand.session import Session
+from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.expr import flag
+from rovercheck.spec_model.lang.system import Assumption, in_order
 from tests.exploring.test_simulation import system
 
 

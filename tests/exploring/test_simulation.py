@@ -8,20 +8,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.explore.by_hand import simulation
-from checker.explore.by_hand.admitted import broken, drawn
-from checker.explore.by_hand.simulation import HandSimulation
-from checker.explore.by_hand.written import RefusedInput, value
-from checker.verify.runs.replay import ReplayError
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block, Chart, State, to
-from spec_model.lang.domain import chosen, enumeration, fixed, integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.expr import flag, var
-from spec_model.lang.system import Assumption, System, in_order
-from spec_model.lang.time import ms
-from spec_model.lang.words import duration, minimum
+from rovercheck.checker.explore.by_hand import simulation
+from rovercheck.checker.explore.by_hand.admitted import broken, drawn
+from rovercheck.checker.explore.by_hand.simulation import HandSimulation
+from rovercheck.checker.explore.by_hand.written import RefusedInput, value
+from rovercheck.checker.verify.runs.replay import ReplayError
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block, Chart, State, to
+from rovercheck.spec_model.lang.domain import chosen, enumeration, fixed, integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import admissible, step
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.lang.system import Assumption, System, in_order
+from rovercheck.spec_model.lang.time import ms
+from rovercheck.spec_model.lang.words import duration, minimum
 
 level = var("level", integer(0, 300))
 pump = flag("pump")

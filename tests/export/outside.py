@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.export import Problem, exporters
+from rovercheck.checker.export import Problem, exporters
 
 needs_abc = pytest.mark.skipif(not shutil.which("berkeley-abc"), reason="berkeley-abc is not installed")
 needs_spin = pytest.mark.skipif(

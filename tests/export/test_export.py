@@ -8,19 +8,19 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.export.run import file_name
-from checker.commands.shared.codes import Exit
-from checker.export import Problem, exporters, problem
-from checker.export.names import identifiers, symbols
-from properties.catalogue import catalogue
-from properties.forms import Always, Property
-from spec_model.lang.domain import integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Var, flag
-from spec_model.lang.lower import lower
-from spec_model.lang.system import TransitionSystem
-from spec_model.rover import systems
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.export.run import file_name
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.export import Problem, exporters, problem
+from rovercheck.checker.export.names import identifiers, symbols
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.properties.forms import Always, Property
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Var, flag
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.rover import systems
 from tests.export import read_aiger, read_btor2, read_smv
 from tests.export.reading import Machine
 

@@ -7,17 +7,17 @@ from pathlib import Path
 import pytest
 from hypothesis import given, settings
 
-from checker.engines import Limits, engines, quiet
-from checker.export import Bad, Problem, exporters, problem
-from checker.results.verdict import Reached, Unreachable
-from properties.catalogue import catalogue
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import Domain, Num, boolean, chosen, integer
-from spec_model.lang.expr import Apply, Const, Var, all_of, flag
-from spec_model.lang.lower import lower
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
-from spec_model.rover import systems
+from rovercheck.checker.engines import Limits, engines, quiet
+from rovercheck.checker.export import Bad, Problem, exporters, problem
+from rovercheck.checker.results.verdict import Reached, Unreachable
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import Domain, Num, boolean, chosen, integer
+from rovercheck.spec_model.lang.expr import Apply, Const, Var, all_of, flag
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.rover import systems
 from tests.export import read_aiger, read_btor2, read_smv
 from tests.export.outside import Outcome, abc, needs_abc, needs_spin, spin
 from tests.export.reading import Machine

@@ -7,15 +7,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.export import Bad, Problem, exporters
-from checker.export.names import identifiers, symbols
-from checker.export.problem import LEAVES
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import Bool, Domain, Num, chosen, integer
-from spec_model.lang.evaluate import admissible, evaluate, step
-from spec_model.lang.expr import Apply, Const, Var, flag
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.export import Bad, Problem, exporters
+from rovercheck.checker.export.names import identifiers, symbols
+from rovercheck.checker.export.problem import LEAVES
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import Bool, Domain, Num, chosen, integer
+from rovercheck.spec_model.lang.evaluate import admissible, evaluate, step
+from rovercheck.spec_model.lang.expr import Apply, Const, Var, flag
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.checker.test_bitvector import CASES, sort_of
 from tests.export import read_aiger, read_btor2, read_smv
 from tests.export.reading import Machine

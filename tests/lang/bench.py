@@ -2,12 +2,12 @@
 
 from collections.abc import Sequence
 
-from spec_model.lang.action import Action, assign
-from spec_model.lang.chart import Block, Component, Junction, State, Transition
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import Var, flag, var
-from spec_model.lang.interpret import Fired, Interpreter
-from spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.action import Action, assign
+from rovercheck.spec_model.lang.chart import Block, Component, Junction, State, Transition
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import Var, flag, var
+from rovercheck.spec_model.lang.interpret import Fired, Interpreter
+from rovercheck.spec_model.lang.system import in_order
 
 log = var("log", integer(0, 10**9))
 a, b, c = flag("a"), flag("b"), flag("c")

@@ -2,13 +2,13 @@
 
 from collections.abc import Callable
 
-from spec_model.lang.action import Action
-from spec_model.lang.chart import Chart, State
-from spec_model.lang.domain import integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import flag, var
-from spec_model.lang.system import in_order
-from spec_model.lang.wellformed import check_chart, check_system
+from rovercheck.spec_model.lang.action import Action
+from rovercheck.spec_model.lang.chart import Chart, State
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.wellformed import check_chart, check_system
 
 a, b = flag("a"), flag("b")
 n = var("n", integer(0, 9))

@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from spec_model.lang.domain import (
+from rovercheck.spec_model.lang.domain import (
     Domain,
     Num,
     Unit,
@@ -19,9 +19,9 @@ from spec_model.lang.domain import (
     integer,
     show,
 )
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.expr import const
-from spec_model.lang.time import ms, sec, tick, ticks
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.expr import const
+from rovercheck.spec_model.lang.time import ms, sec, tick, ticks
 
 STATUS = enumeration("Status", {"OK": 0, "DEGRADED": 1, "CRITICAL": 4})
 

@@ -6,17 +6,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block, Chart, State, to
-from spec_model.lang.domain import integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Temporal, flag, var
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System, in_order
-from spec_model.lang.time import ms, ticks
-from spec_model.lang.words import after, duration, held
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block, Chart, State, to
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expr import Temporal, flag, var
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.time import ms, ticks
+from rovercheck.spec_model.lang.words import after, duration, held
 
 a = flag("a")
 passed = var("passed", integer(19, 21, "ms"), 20, "how long the tick lasted")

@@ -6,18 +6,18 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import step
-from spec_model.lang.expiry import Counter, Expiry, free_timers
-from spec_model.lang.expr import Var, When, flag
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.lower import lower
-from spec_model.lang.lower.timers import ChartTimers
-from spec_model.lang.system import System, in_order
-from spec_model.lang.time import sec, ticks
-from spec_model.lang.walk import structure
-from spec_model.lang.words import after, duration, held
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expiry import Counter, Expiry, free_timers
+from rovercheck.spec_model.lang.expr import Var, When, flag
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.lower.timers import ChartTimers
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.time import sec, ticks
+from rovercheck.spec_model.lang.walk import structure
+from rovercheck.spec_model.lang.words import after, duration, held
 from tests.strategies import frozen_values, input_blocks, systems
 
 

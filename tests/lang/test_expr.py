@@ -7,15 +7,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from spec_model.lang.action import assign, send, when
-from spec_model.lang.domain import boolean, enumeration, fixed, integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import all_of, any_of, const, flag, implies, ite, var
-from spec_model.lang.label import text
-from spec_model.lang.time import ms, sec, ticks
-from spec_model.lang.walk import structure
-from spec_model.lang.words import (
+from rovercheck.spec_model.lang.action import assign, send, when
+from rovercheck.spec_model.lang.domain import boolean, enumeration, fixed, integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import all_of, any_of, const, flag, implies, ite, var
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.lang.time import ms, sec, ticks
+from rovercheck.spec_model.lang.walk import structure
+from rovercheck.spec_model.lang.words import (
     absolute,
     after,
     bit,

@@ -1,8 +1,8 @@
 """Executions, arrows, paths and sends in the reference interpreter (rules G1 to G10)."""
 
-from spec_model.lang.action import assign, send, when
-from spec_model.lang.chart import Chart, Enabled, Junction, State, to
-from spec_model.lang.interpret import Fired
+from rovercheck.spec_model.lang.action import assign, send, when
+from rovercheck.spec_model.lang.chart import Chart, Enabled, Junction, State, to
+from rovercheck.spec_model.lang.interpret import Fired
 from tests.lang.bench import Bench, a, b, c, n, note, state
 
 # --- executions and the order of states (G1 to G5) ---------------------------------------------

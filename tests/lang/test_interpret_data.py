@@ -2,15 +2,15 @@
 
 import pytest
 
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block, Chart, Enabled, State, to
-from spec_model.lang.domain import boolean, integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Var, var
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.system import in_order
-from spec_model.lang.time import ticks
-from spec_model.lang.words import after, maximum, minimum
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block, Chart, Enabled, State, to
+from rovercheck.spec_model.lang.domain import boolean, integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Var, var
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import after, maximum, minimum
 from tests.lang.bench import Bench, a, b, n
 
 # --- data, frozen subsystems (G11, G12) -------------------------------------------------------

@@ -4,12 +4,12 @@ from collections.abc import Iterable
 
 import pytest
 
-from spec_model.lang.action import assign, send, when
-from spec_model.lang.chart import Chart, Enabled, Junction, State, to
-from spec_model.lang.domain import enumeration
-from spec_model.lang.expr import Temporal, Var, flag, var
-from spec_model.lang.time import ms, sec, ticks
-from spec_model.lang.words import after, duration, held, rising
+from rovercheck.spec_model.lang.action import assign, send, when
+from rovercheck.spec_model.lang.chart import Chart, Enabled, Junction, State, to
+from rovercheck.spec_model.lang.domain import enumeration
+from rovercheck.spec_model.lang.expr import Temporal, Var, flag, var
+from rovercheck.spec_model.lang.time import ms, sec, ticks
+from rovercheck.spec_model.lang.words import after, duration, held, rising
 from tests.lang.bench import Bench, a, b, c, n, note
 
 

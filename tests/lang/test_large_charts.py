@@ -7,24 +7,24 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from checker.encode.paths import path_program
-from checker.encode.symbolic import transition
-from checker.engines import Limits, explicit, quiet
-from checker.results.verdict import Reached
-from checker.system.partition import partitions
-from checker.system.slice import sliced
-from properties.forms import Never, Property
-from properties.reduce import reduce
-from spec_model.lang.action import If, assign, send
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.domain import integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import flag, var
-from spec_model.lang.lower import flow, lower
-from spec_model.lang.system import System, in_order
-from spec_model.lang.time import ticks
-from spec_model.lang.wellformed import check_system
-from spec_model.lang.words import after, minimum
+from rovercheck.checker.encode.paths import path_program
+from rovercheck.checker.encode.symbolic import transition
+from rovercheck.checker.engines import Limits, explicit, quiet
+from rovercheck.checker.results.verdict import Reached
+from rovercheck.checker.system.partition import partitions
+from rovercheck.checker.system.slice import sliced
+from rovercheck.properties.forms import Never, Property
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.action import If, assign, send
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.lang.lower import flow, lower
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.wellformed import check_system
+from rovercheck.spec_model.lang.words import after, minimum
 from tests.profiles import examples
 from tests.strategies import frozen_values, input_blocks, systems
 from tests.test_lowering import compare

@@ -7,17 +7,17 @@ from pathlib import Path
 
 import pytest
 
-from properties.catalogue import as_written, catalogue
-from properties.forms import always
-from spec_model.lang.chart import Chart, State, Transition, to
-from spec_model.lang.edit import drop, guard
-from spec_model.lang.expr import FALSE, TRUE, Const, flag
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.lower import lower
-from spec_model.lang.place import Place, here
-from spec_model.lang.specialise import Fixing
-from spec_model.lang.system import in_order
-from spec_model.rover import systems
+from rovercheck.properties.catalogue import as_written, catalogue
+from rovercheck.properties.forms import always
+from rovercheck.spec_model.lang.chart import Chart, State, Transition, to
+from rovercheck.spec_model.lang.edit import drop, guard
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, flag
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.place import Place, here
+from rovercheck.spec_model.lang.specialise import Fixing
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.rover import systems
 
 ROOT = Path(__file__).parents[2]
 go = flag("go")

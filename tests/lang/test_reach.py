@@ -6,10 +6,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from spec_model.lang.chart import Chart, Path, State, to
-from spec_model.lang.wellformed import check_chart
-from spec_model.lang.wellformed.paths import PathReach
-from spec_model.lang.wellformed.places import Leg, legs
+from rovercheck.spec_model.lang.chart import Chart, Path, State, to
+from rovercheck.spec_model.lang.wellformed import check_chart
+from rovercheck.spec_model.lang.wellformed.paths import PathReach
+from rovercheck.spec_model.lang.wellformed.places import Leg, legs
 from tests.profiles import examples
 from tests.strategies import systems
 

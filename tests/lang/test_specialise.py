@@ -3,16 +3,16 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block, Chart, Enabled, Junction, State, to
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import Const, Expr, flag, ite, var
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.specialise import Fixing
-from spec_model.lang.system import in_order
-from spec_model.lang.time import tick
-from spec_model.lang.walk import variables
-from spec_model.lang.words import after, held, named, once
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block, Chart, Enabled, Junction, State, to
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import Const, Expr, flag, ite, var
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.specialise import Fixing
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.time import tick
+from rovercheck.spec_model.lang.walk import variables
+from rovercheck.spec_model.lang.words import after, held, named, once
 
 switch, a, b = flag("switch"), flag("a"), flag("b")
 n, log = var("n", integer(0, 3)), var("log", integer(0, 99))

@@ -2,12 +2,12 @@
 
 import pytest
 
-from spec_model.lang.action import Action, assign, send, when
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.errors import ModelError
-from spec_model.lang.time import ms, ticks
-from spec_model.lang.wellformed import check_chart
-from spec_model.lang.words import after, duration, rising
+from rovercheck.spec_model.lang.action import Action, assign, send, when
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.time import ms, ticks
+from rovercheck.spec_model.lang.wellformed import check_chart
+from rovercheck.spec_model.lang.words import after, duration, rising
 from tests.lang.faults import a, faults, kept, leaf, n, of
 
 

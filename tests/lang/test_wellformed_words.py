@@ -4,14 +4,14 @@ from collections.abc import Sequence
 
 import pytest
 
-from spec_model.lang.action import assign, send, when
-from spec_model.lang.chart import Block, Chart, Enabled, State, to
-from spec_model.lang.domain import enumeration, integer
-from spec_model.lang.expr import TRUE, Temporal, Var, When, var
-from spec_model.lang.system import System
-from spec_model.lang.time import ms, ticks
-from spec_model.lang.wellformed import check_chart, check_system
-from spec_model.lang.words import after, duration, held, once, previous, rising
+from rovercheck.spec_model.lang.action import assign, send, when
+from rovercheck.spec_model.lang.chart import Block, Chart, Enabled, State, to
+from rovercheck.spec_model.lang.domain import enumeration, integer
+from rovercheck.spec_model.lang.expr import TRUE, Temporal, Var, When, var
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.time import ms, ticks
+from rovercheck.spec_model.lang.wellformed import check_chart, check_system
+from rovercheck.spec_model.lang.words import after, duration, held, once, previous, rising
 from tests.lang.faults import a, b, faults, kept, leaf, n, of, of_system, simple
 
 # --- temporal words and conditions ---------------------------------------------------------------

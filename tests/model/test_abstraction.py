@@ -9,19 +9,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from checker.adapters.python import start
-from spec_model.abstraction import Board, boards
-from spec_model.abstraction.stamps import CLOCK, MeanOfTen, Stamp, Updates, age, since
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import Num, fixed
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Var, var
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.lower import lower
-from spec_model.lang.system import in_order
-from spec_model.rover import systems
+from rovercheck.checker.adapters.python import start
+from rovercheck.spec_model.abstraction import Board, boards
+from rovercheck.spec_model.abstraction.stamps import CLOCK, MeanOfTen, Stamp, Updates, age, since
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import Num, fixed
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Var, var
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.rover import systems
 
 NAMES = ("board1", "board2")
 FEW = 3
@@ -133,7 +133,7 @@ def test_stamps_of_board_2_may_lie_between_its_steps(seed: int) -> None:
     random, board = Random(seed), boards()["board2"]
     charts, firmware = (
         Interpreter(board.system, measured=True),
-        start("supervisor.board2.board:Board2", board, isolated=False),
+        start("rovercheck.supervisor.board2.board:Board2", board, isolated=False),
     )
     reader, inputs = board.reader(), board.at_power_up()
     phases = {s.name: random.randrange(20) for s in board.inputs if s.stamp} | {"last_valid_b1_ms": 0}

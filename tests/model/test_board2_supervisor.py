@@ -9,18 +9,18 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from spec_model.board2 import acquisition, coherence
-from spec_model.board2.monitor_systems import SYSTEMS as MONITORS
-from spec_model.board2.monitors import from_critical
-from spec_model.board2.slow2 import exact, runs
-from spec_model.board2.supervisor_systems import SYSTEMS as OTHERS
-from spec_model.lang.chart import Chart, State
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.system import System, in_order
-from spec_model.readings import fixed
-from spec_model.signals import board2_motion as motion
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.board2_supervisor import BLE, IMU, RX, SOURCES, SUP, SourceSignals
+from rovercheck.spec_model.board2 import acquisition, coherence
+from rovercheck.spec_model.board2.monitor_systems import SYSTEMS as MONITORS
+from rovercheck.spec_model.board2.monitors import from_critical
+from rovercheck.spec_model.board2.slow2 import exact, runs
+from rovercheck.spec_model.board2.supervisor_systems import SYSTEMS as OTHERS
+from rovercheck.spec_model.lang.chart import Chart, State
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.readings import fixed
+from rovercheck.spec_model.signals import board2_motion as motion
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.board2_supervisor import BLE, IMU, RX, SOURCES, SUP, SourceSignals
 from tests.test_lowering import compare
 
 SYSTEM = {system.name: fixed({}).system(system) for system in (*MONITORS, *OTHERS)}

@@ -8,23 +8,23 @@ from collections.abc import Iterator
 
 import pytest
 
-from checker.system.slice import sliced
-from spec_model.board1 import REFERENCES, SUPERVISOR, monitors
-from spec_model.board1.masks import COMPONENTS
-from spec_model.board2.acquisition import axis_x, axis_y, ble_task, button1, button2
-from spec_model.board2.obstacles import WINDOWS
-from spec_model.environment import received_payload
-from spec_model.lang.action import Send, each_action
-from spec_model.lang.chart import State, Transition, parts
-from spec_model.lang.domain import Num
-from spec_model.lang.expr import Var
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.lower import lower
-from spec_model.lang.system import in_order
-from spec_model.rover import systems
-from spec_model.signals import board1 as b1
-from spec_model.signals.board2 import SONARS
-from spec_model.signals.common import FAULT_MASK
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.board1 import REFERENCES, SUPERVISOR, monitors
+from rovercheck.spec_model.board1.masks import COMPONENTS
+from rovercheck.spec_model.board2.acquisition import axis_x, axis_y, ble_task, button1, button2
+from rovercheck.spec_model.board2.obstacles import WINDOWS
+from rovercheck.spec_model.environment import received_payload
+from rovercheck.spec_model.lang.action import Send, each_action
+from rovercheck.spec_model.lang.chart import State, Transition, parts
+from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.rover import systems
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals.board2 import SONARS
+from rovercheck.spec_model.signals.common import FAULT_MASK
 
 BOARD1 = {p.name: p for p in parts(systems()["board1"].components)}
 [OBSTACLES] = systems()["obstacles_n"].charts

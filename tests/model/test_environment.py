@@ -2,21 +2,28 @@
 
 import pytest
 
-from spec_model.board1.battery import stale_below_15
-from spec_model.board1.temperature import stale_above_65
-from spec_model.environment import (
+from rovercheck.spec_model.board1.battery import stale_below_15
+from rovercheck.spec_model.board1.temperature import stale_above_65
+from rovercheck.spec_model.environment import (
     battery_readings,
     heartbeat_clock,
     reception_clock,
     temperature_readings,
 )
-from spec_model.lang.chart import Block
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.system import in_order
-from spec_model.readings import fixed
-from spec_model.signals.board1 import batt_age, battery_pct, heartbeat_age, rx_age, temp_age, temperature_degC
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.readings import fixed
+from rovercheck.spec_model.signals.board1 import (
+    batt_age,
+    battery_pct,
+    heartbeat_age,
+    rx_age,
+    temp_age,
+    temperature_degC,
+)
 
 
 @pytest.mark.parametrize(

@@ -5,10 +5,10 @@ from itertools import accumulate, pairwise
 from hypothesis import given
 from hypothesis import strategies as st
 
-from spec_model.environment_jitter import JITTER
-from spec_model.lang.interpret import Interpreter
-from spec_model.rover import systems
-from spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.environment_jitter import JITTER
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.rover import systems
+from rovercheck.spec_model.signals import board2_supervisor as b2
 
 PERIODS = st.lists(st.sampled_from([19, 20, 21]), min_size=2, max_size=30)
 

@@ -6,16 +6,16 @@ from pathlib import Path
 
 import pytest
 
-from checker.model.kept_runs import PREMISES, KeptRun, file_of, read, text
-from checker.model.kept_runs import SCHEMA as SCHEMAS
-from checker.model.rover import rover
-from checker.results.verdict import Run
-from checker.system.lowered import lowered
-from checker.verify.runs.known import reached
-from checker.verify.runs.replay import replay
-from properties.premise import premise
-from properties.reduce import reduce
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.model.kept_runs import PREMISES, KeptRun, file_of, read, text
+from rovercheck.checker.model.kept_runs import SCHEMA as SCHEMAS
+from rovercheck.checker.model.rover import rover
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.runs.known import reached
+from rovercheck.checker.verify.runs.replay import replay
+from rovercheck.properties.premise import premise
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.errors import ModelError
 
 SCHEMA = SCHEMAS.format(PREMISES)
 LONG = 500

@@ -9,20 +9,20 @@ from fractions import Fraction
 
 import pytest
 
-from spec_model.board1 import REFERENCES
-from spec_model.board1.backward import toggle
-from spec_model.board1.limits import update_safety_limits
-from spec_model.board1.motion import motion_with_free_error
-from spec_model.board1.safety import safety_state
-from spec_model.board2.motion import REFERENCES2_PARTS, motion_2_with_free_error
-from spec_model.lang.chart import Enabled
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.system import System, in_order
-from spec_model.manoeuvres.rotation import angle180, angleError
-from spec_model.signals import board1 as b1
-from spec_model.signals.board2_supervisor import autorized_to_send_command
-from spec_model.signals.rotation import ERROR_CLASSES, GRID, HEADING
+from rovercheck.spec_model.board1 import REFERENCES
+from rovercheck.spec_model.board1.backward import toggle
+from rovercheck.spec_model.board1.limits import update_safety_limits
+from rovercheck.spec_model.board1.motion import motion_with_free_error
+from rovercheck.spec_model.board1.safety import safety_state
+from rovercheck.spec_model.board2.motion import REFERENCES2_PARTS, motion_2_with_free_error
+from rovercheck.spec_model.lang.chart import Enabled
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.manoeuvres.rotation import angle180, angleError
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals.board2_supervisor import autorized_to_send_command
+from rovercheck.spec_model.signals.rotation import ERROR_CLASSES, GRID, HEADING
 
 Given = Mapping[str, bool | float | str]
 Block = tuple[int, Given]

@@ -4,13 +4,13 @@ from random import Random
 
 import pytest
 
-from spec_model.board2.heading import angleCalculator, headings, measured
-from spec_model.board2.obstacles import obstacles_n
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.system import in_order
-from spec_model.readings import fixed
-from spec_model.signals.board2 import B2Decision
+from rovercheck.spec_model.board2.heading import angleCalculator, headings, measured
+from rovercheck.spec_model.board2.obstacles import obstacles_n
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.readings import fixed
+from rovercheck.spec_model.signals.board2 import B2Decision
 
 yaw, target = headings(15)
 as_read = fixed({})

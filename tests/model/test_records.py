@@ -11,12 +11,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from spec_model.lang.chart import Block
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.system import TICK_MS, in_order
-from spec_model.readings import fixed
-from spec_model.records import arrival_window, slow_record
-from spec_model.signals.board1 import rx_update
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.system import TICK_MS, in_order
+from rovercheck.spec_model.readings import fixed
+from rovercheck.spec_model.records import arrival_window, slow_record
+from rovercheck.spec_model.signals.board1 import rx_update
 
 blocks = st.lists(st.tuples(st.integers(1, 26), st.integers(1, 12)), min_size=1, max_size=8)
 """Intervals in ticks, and how often each is repeated."""

@@ -8,11 +8,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from spec_model.environment_fine import heartbeat_record, reception_any_mean, reception_record
-from spec_model.lang.chart import Block
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.system import TICK_MS, in_order
-from spec_model.readings import fixed
+from rovercheck.spec_model.environment_fine import heartbeat_record, reception_any_mean, reception_record
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.system import TICK_MS, in_order
+from rovercheck.spec_model.readings import fixed
 from tests.readings.arrivals import at
 
 intervals = st.lists(

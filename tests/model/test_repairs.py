@@ -2,15 +2,15 @@
 
 import pytest
 
-from checker.commands.check.run import results
-from checker.commands.shared.variant import Variant
-from checker.engines import AUTO, Limits, Timers
-from checker.render.drawing.changes import changes
-from properties.catalogue import baseline, catalogue, expected
-from spec_model.lang.chart import Chart, parts, to
-from spec_model.lang.edit import also, begin
-from spec_model.repairs import ALL, Repair, in_force, proposals, repaired, repairs
-from spec_model.rover import charts, systems
+from rovercheck.checker.commands.check.run import results
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.engines import AUTO, Limits, Timers
+from rovercheck.checker.render.drawing.changes import changes
+from rovercheck.properties.catalogue import baseline, catalogue, expected
+from rovercheck.spec_model.lang.chart import Chart, parts, to
+from rovercheck.spec_model.lang.edit import also, begin
+from rovercheck.spec_model.repairs import ALL, Repair, in_force, proposals, repaired, repairs
+from rovercheck.spec_model.rover import charts, systems
 
 SPECIFIED = systems()
 EVERY = list(repairs().values())

@@ -2,10 +2,10 @@
 
 import pytest
 
-from spec_model import rover
-from spec_model.lang.errors import ModelError
-from spec_model.lang.lower import lower
-from spec_model.rover import merged, systems
+from rovercheck.spec_model import rover
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.rover import merged, systems
 
 
 @pytest.mark.parametrize("name", systems())

@@ -9,10 +9,10 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import pytest
 
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.system import TICK_MS, System
-from spec_model.rover import systems
-from spec_model.signals.board1 import WHEELS
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.system import TICK_MS, System
+from rovercheck.spec_model.rover import systems
+from rovercheck.spec_model.signals.board1 import WHEELS
 
 Given = Mapping[str, bool | float | str]
 Block = tuple[int, Given]

@@ -8,12 +8,12 @@ from itertools import groupby
 
 import pytest
 
-from spec_model.board2.heading import headings, measured
-from spec_model.board2.obstacles import obstacles_n
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.system import System, in_order
-from spec_model.readings import fixed
-from spec_model.rover import systems
+from rovercheck.spec_model.board2.heading import headings, measured
+from rovercheck.spec_model.board2.obstacles import obstacles_n
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.readings import fixed
+from rovercheck.spec_model.rover import systems
 
 Block = tuple[int, dict[str, int]]
 SYSTEM = systems()

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
-import checker.model
+from rovercheck.checker import model
 
-START = Path(str(checker.model.__file__)).parent / "start"
+START = Path(str(model.__file__)).parent / "start"
 HEATER = (START / "heater.py").read_text(encoding="utf-8")
 BASELINE = (START / "baseline.toml").read_text(encoding="utf-8")
 

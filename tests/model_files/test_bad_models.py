@@ -4,16 +4,16 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
 from tests.model_files.files import BASELINE, HEATER, but, line_of
 
 ENUM = """
 from enum import StrEnum
-from spec_model.lang.chart import Chart, State
-from spec_model.lang.action import assign
-from spec_model.lang.domain import enumeration
-from spec_model.lang.expr import var
+from rovercheck.spec_model.lang.chart import Chart, State
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.domain import enumeration
+from rovercheck.spec_model.lang.expr import var
 class Mode(StrEnum):
     A = "A"
 mode = var("mode", enumeration("Mode", [Mode.A]), "A")
@@ -187,6 +187,6 @@ def test_an_error_in_a_neighbour_is_shown_there(here: Path, capfd: pytest.Captur
 
 def test_a_neighbour_with_the_name_of_a_package(here: Path, capfd: pytest.CaptureFixture[str]) -> None:
     (here / "properties.py").write_text("limit = 1\n")
-    (here / "m.py").write_text("from properties import limit\n")
+    (here / "m.py").write_text("from rovercheck.properties import limit\n")
     said = refused(capfd, "check", "--model", "m.py")
     assert "An installed package is named properties too: write `from .properties import ...`" in said

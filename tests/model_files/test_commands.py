@@ -6,8 +6,8 @@ from shlex import quote
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
 from tests.model_files.files import BASELINE, HEATER, START
 
 EXAMPLES = Path(__file__).parents[2] / "examples"

@@ -11,8 +11,8 @@ import click
 import pytest
 from ruamel.yaml import YAML
 
-from checker.cli import app, run
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.cli import app, run
+from rovercheck.checker.commands.shared.codes import Exit
 from tests.model_files.files import START
 
 ROOT = Path(__file__).parents[2]

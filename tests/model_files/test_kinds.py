@@ -8,18 +8,18 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
 
 HEAD = """
-from properties.forms import Always, Property, always, leads_to, never, recoverable, responds
-from spec_model.lang.action import assign, send, when
-from spec_model.lang.chart import Block, Chart, Enabled, State, Transition, to
-from spec_model.lang.domain import enumeration, integer
-from spec_model.lang.expr import const, flag, member, var
-from spec_model.lang.system import in_order
-from spec_model.lang.time import ms, sec, ticks
-from spec_model.lang.words import absolute, after, duration, held, previous, quotient, rising
+from rovercheck.properties.forms import Always, Property, always, leads_to, never, recoverable, responds
+from rovercheck.spec_model.lang.action import assign, send, when
+from rovercheck.spec_model.lang.chart import Block, Chart, Enabled, State, Transition, to
+from rovercheck.spec_model.lang.domain import enumeration, integer
+from rovercheck.spec_model.lang.expr import const, flag, member, var
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.time import ms, sec, ticks
+from rovercheck.spec_model.lang.words import absolute, after, duration, held, previous, quotient, rising
 hot, on, minutes = flag("hot"), flag("on"), var("minutes", integer(0, 9, "min"))
 off = State("Off", entry=[assign(on, False)], transitions=[to("On", when=hot)])
 oven = Chart("Oven", [off, State("On", entry=[assign(on, True)])], default="Off")
@@ -152,7 +152,7 @@ WRONG = {
         "S: 2 frozen variables are named minutes; name each once.",
     ),
     "two assumptions of one id": (
-        "from spec_model.lang.system import Assumption\n"
+        "from rovercheck.spec_model.lang.system import Assumption\n"
         + system('oven, assumptions=[Assumption("A", "a", hot)] * 2'),
         "S: 2 assumptions have the id A; name each once.",
     ),

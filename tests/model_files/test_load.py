@@ -6,22 +6,22 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.model import Model
-from checker.model.load import load
-from properties.catalogue import Expected
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.cli import run
+from rovercheck.checker.model import Model
+from rovercheck.checker.model.load import load
+from rovercheck.properties.catalogue import Expected
+from rovercheck.spec_model.lang.errors import ModelError
 from tests.model_files.files import BASELINE, HEATER, START, but
 
 SIGNALS = """
-from spec_model.lang.expr import flag
+from rovercheck.spec_model.lang.expr import flag
 signal = flag("{name}")
 print("said while it is read")
 """
 CHART = """
 {imports}
-from properties.forms import always
-from spec_model.lang.chart import Chart, State, to
+from rovercheck.properties.forms import always
+from rovercheck.spec_model.lang.chart import Chart, State, to
 chart = Chart("C", [State("A", transitions=[to("B", when=signal)]), State("B")], default="A")
 properties = [always("C-1", "It stays.", that=chart.active("A"), covers=["a letter"], on="C")]
 """
@@ -69,7 +69,7 @@ def test_what_is_in_a_system_is_no_system_of_its_own(tmp_path: Path) -> None:
     (tmp_path / "heater.py").write_text(
         but(
             "REQUIREMENTS",
-            "from spec_model.lang.system import in_order\nroom = in_order('room', heater)\nREQUIREMENTS",
+            "from rovercheck import in_order\nroom = in_order('room', heater)\nREQUIREMENTS",
         ).replace('on="Heater"', 'on="room"')
     )
     assert list(load(tmp_path / "heater.py").systems) == ["room"]

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from checker.model.load import load
-from spec_model.lang.errors import ModelError
-from spec_model.lang.place import Place
+from rovercheck.checker.model.load import load
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.place import Place
 from tests.model_files.test_kinds import FIRST, HEAD, always
 
 FAULTS = {

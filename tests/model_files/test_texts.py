@@ -4,16 +4,16 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
-from checker.model.load import load
-from checker.model.texts import HIDDEN
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.model.load import load
+from rovercheck.checker.model.texts import HIDDEN
+from rovercheck.spec_model.lang.errors import ModelError
 
 MODEL = """
-from properties.forms import always
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.expr import flag
+from rovercheck.properties.forms import always
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.expr import flag
 
 go = flag({input!r})
 chart = Chart("C", [State({state!r}, transitions=[to("B", when=go)]), State("B")], default={state!r})

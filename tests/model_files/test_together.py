@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from checker.model.load import load
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.model.load import load
+from rovercheck.spec_model.lang.errors import ModelError
 from tests.model_files.test_kinds import FIRST, HEAD
 
 SIX = """

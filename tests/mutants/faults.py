@@ -4,17 +4,17 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
-from checker.commands.check.run import length
-from checker.engines import Limits, quiet
-from checker.results.verdict import Verdict
-from checker.verify.decide import Task, decide
-from properties.catalogue import catalogue
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.chart import Block, Chart
-from spec_model.lang.edit import edit_state, entry, everywhere, in_block, in_system, instead
-from spec_model.lang.expr import Const, Expr, Var
-from spec_model.lang.system import System
-from spec_model.rover import systems
+from rovercheck.checker.commands.check.run import length
+from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.results.verdict import Verdict
+from rovercheck.checker.verify.decide import Task, decide
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.chart import Block, Chart
+from rovercheck.spec_model.lang.edit import edit_state, entry, everywhere, in_block, in_system, instead
+from rovercheck.spec_model.lang.expr import Const, Expr, Var
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.rover import systems
 
 ChartEdit = Callable[[Chart], Chart]
 BlockEdit = Callable[[Block], Block]

@@ -5,10 +5,10 @@ from fractions import Fraction
 
 import pytest
 
-from spec_model.board2 import acquisition as acq
-from spec_model.board2 import coherence as coh
-from spec_model.lang.chart import Chart
-from spec_model.lang.edit import (
+from rovercheck.spec_model.board2 import acquisition as acq
+from rovercheck.spec_model.board2 import coherence as coh
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.edit import (
     arrow,
     constant,
     drop,
@@ -18,13 +18,13 @@ from spec_model.lang.edit import (
     operator,
     timer,
 )
-from spec_model.lang.expr import FALSE, TRUE, member, var
-from spec_model.lang.operators import Op
-from spec_model.lang.time import ms, sec
-from spec_model.lang.words import bit, maximum
-from spec_model.signals import board2 as obstacles
-from spec_model.signals import board2_supervisor as b2
-from spec_model.signals.common import COMMAND, RX_STATUS
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, member, var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.time import ms, sec
+from rovercheck.spec_model.lang.words import bit, maximum
+from rovercheck.spec_model.signals import board2 as obstacles
+from rovercheck.spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.signals.common import COMMAND, RX_STATUS
 from tests.mutants.faults import (
     BlockEdit,
     ChartEdit,

@@ -2,12 +2,12 @@
 
 import pytest
 
-from spec_model.composition import counters, fine_systems, motors, receiver
-from spec_model.lang.edit import constant, instead, operator
-from spec_model.lang.expr import FALSE, TRUE, Var, flag, member
-from spec_model.lang.operators import Op
-from spec_model.signals import board1 as b1
-from spec_model.signals import board2_supervisor as b2
+from rovercheck.spec_model.composition import counters, fine_systems, motors, receiver
+from rovercheck.spec_model.lang.edit import constant, instead, operator
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Var, flag, member
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.signals import board1 as b1
+from rovercheck.spec_model.signals import board2_supervisor as b2
 from tests.mutants.faults import (
     BlockEdit,
     Fault,

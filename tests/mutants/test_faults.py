@@ -5,9 +5,9 @@ from itertools import chain
 
 import pytest
 
-from checker.results.trace import Trace
-from checker.results.verdict import Violated
-from spec_model.lang.edit import (
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Violated
+from rovercheck.spec_model.lang.edit import (
     constant,
     drop,
     everywhere,
@@ -17,11 +17,11 @@ from spec_model.lang.edit import (
     swap,
     timer,
 )
-from spec_model.lang.expr import Apply, Expr
-from spec_model.lang.operators import Op
-from spec_model.lang.time import sec
-from spec_model.rover import charts
-from spec_model.signals import board1 as b1
+from rovercheck.spec_model.lang.expr import Apply, Expr
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.rover import charts
+from rovercheck.spec_model.signals import board1 as b1
 from tests.mutants import test_board2_faults, test_composition_faults, test_motion_faults
 from tests.mutants.faults import (
     BlockEdit,

@@ -5,8 +5,8 @@ from dataclasses import replace
 
 import pytest
 
-from spec_model.lang.action import Action
-from spec_model.lang.edit import (
+from rovercheck.spec_model.lang.action import Action
+from rovercheck.spec_model.lang.edit import (
     arrow,
     constant,
     drop,
@@ -18,9 +18,9 @@ from spec_model.lang.edit import (
     swap,
     timer,
 )
-from spec_model.lang.expr import Apply, Expr, all_of
-from spec_model.lang.operators import Op
-from spec_model.lang.time import sec
+from rovercheck.spec_model.lang.expr import Apply, Expr, all_of
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.time import sec
 from tests.mutants.faults import ChartEdit, Fault, in_charts, noticed
 
 

@@ -1,13 +1,13 @@
 """A lamp with an alarm and a few properties: a model of which every mutant can be judged by hand."""
 
-from properties.forms import always, never, reachable
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block, Chart, State, to
-from spec_model.lang.domain import enumeration, integer
-from spec_model.lang.expr import flag, implies, ite, var
-from spec_model.lang.system import in_order
-from spec_model.lang.time import ticks
-from spec_model.lang.words import after, bit
+from rovercheck.properties.forms import always, never, reachable
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block, Chart, State, to
+from rovercheck.spec_model.lang.domain import enumeration, integer
+from rovercheck.spec_model.lang.expr import flag, implies, ite, var
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.words import after, bit
 
 press, level = flag("press"), var("level", integer(0, 3))
 lit, shade = flag("lit"), var("shade", enumeration("Shade", ["DARK", "WARM", "COLD"]))

@@ -5,27 +5,27 @@ from functools import cache
 
 import pytest
 
-from checker.engines import Limits, quiet
-from checker.mutate.asked import as_it_is, cones
-from checker.mutate.judging import DOMAINS, Fate, Judged, MutantCase, judged
-from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.observing import observable
-from checker.mutate.planning import Plan, homes
-from checker.verify.decide import decide
-from checker.verify.runs.known import reached, run_of
-from checker.verify.tasks import Task
-from properties.forms import Reachable
-from properties.reduce import reduce
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block, Enabled
-from spec_model.lang.domain import integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import step
-from spec_model.lang.expr import flag, ite, var
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System, in_order
-from spec_model.lang.words import minimum
+from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.mutate.asked import as_it_is, cones
+from rovercheck.checker.mutate.judging import DOMAINS, Fate, Judged, MutantCase, judged
+from rovercheck.checker.mutate.mutants import Mutant, mutants
+from rovercheck.checker.mutate.observing import observable
+from rovercheck.checker.mutate.planning import Plan, homes
+from rovercheck.checker.verify.decide import decide
+from rovercheck.checker.verify.runs.known import reached, run_of
+from rovercheck.checker.verify.tasks import Task
+from rovercheck.properties.forms import Reachable
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block, Enabled
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expr import flag, ite, var
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.words import minimum
 from tests.mutate.lamp import LIT, NEVER, NIGHT, QUIET, lamps
 from tests.naive import search, vectors
 

@@ -8,26 +8,26 @@ from pathlib import Path
 
 import pytest
 
-from checker.cli import run
-from checker.commands.check.further import noticing
-from checker.commands.mutate import kills as killing
-from checker.commands.shared.codes import Exit
-from checker.model.kept_runs import KILLS, file_of, read
-from checker.model.load import load
-from checker.model.rover import rover
-from checker.mutate.asked import as_it_is, changed
-from checker.mutate.killing import kills, noticed, searched, still
-from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.tries import BACK, COUNT, ON, TICKS, RandomRuns, spread, tried
-from checker.results.verdict import Run
-from checker.system.lowered import lowered
-from checker.verify.runs.known import reached
-from properties.coverage import matrix
-from properties.forms import Always, always
-from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.expr import implies
-from spec_model.lang.words import bit
-from spec_model.rover import systems
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.check.further import noticing
+from rovercheck.checker.commands.mutate import kills as killing
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.model.kept_runs import KILLS, file_of, read
+from rovercheck.checker.model.load import load
+from rovercheck.checker.model.rover import rover
+from rovercheck.checker.mutate.asked import as_it_is, changed
+from rovercheck.checker.mutate.killing import kills, noticed, searched, still
+from rovercheck.checker.mutate.mutants import Mutant, mutants
+from rovercheck.checker.mutate.tries import BACK, COUNT, ON, TICKS, RandomRuns, spread, tried
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.runs.known import reached
+from rovercheck.properties.coverage import matrix
+from rovercheck.properties.forms import Always, always
+from rovercheck.spec_model.lang.evaluate import admissible, step
+from rovercheck.spec_model.lang.expr import implies
+from rovercheck.spec_model.lang.words import bit
+from rovercheck.spec_model.rover import systems
 from tests.cli.test_report import EMPTY
 from tests.mutate.lamp import LIT, NEVER, QUIET, alarm, lamps, level, lit
 

@@ -2,20 +2,20 @@
 
 import pytest
 
-from checker.mutate.formulas import slips
-from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.product import same
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block, Chart, Enabled, State, to
-from spec_model.lang.domain import integer
-from spec_model.lang.edit import in_system
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Expr, flag, var
-from spec_model.lang.lower import lower
-from spec_model.lang.place import Place
-from spec_model.lang.system import in_order
-from spec_model.lang.time import ms
-from spec_model.lang.words import duration
+from rovercheck.checker.mutate.formulas import slips
+from rovercheck.checker.mutate.mutants import Mutant, mutants
+from rovercheck.checker.mutate.product import same
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block, Chart, Enabled, State, to
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.edit import in_system
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Expr, flag, var
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.place import Place
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.time import ms
+from rovercheck.spec_model.lang.words import duration
 from tests.mutate.lamp import lamps, level, press
 
 ALL = {m.id: m for m in mutants(lamps)}
@@ -128,7 +128,7 @@ def test_regions_that_share_data_are_exchanged() -> None:
 
 
 def test_arrows_of_a_junction_are_faulty_too() -> None:
-    from spec_model.lang.chart import Junction
+    from rovercheck.spec_model.lang.chart import Junction
 
     chart = Chart(
         "Way",

@@ -4,21 +4,21 @@ import hypothesis.strategies as st
 import pytest
 from hypothesis import given, settings
 
-from checker.engines import Limits, quiet
-from checker.mutate.judging import EQUAL_STEPS, OVERWRITTEN, Fate, MutantCase, judged
-from checker.mutate.mutants import mutants
-from checker.mutate.step_equality import equal_in_every_step
-from checker.system.lowered import lowered
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.domain import integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import flag, var
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.lower import lower
-from spec_model.lang.system import in_order
-from spec_model.lang.time import sec
-from spec_model.lang.words import after
+from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.mutate.judging import EQUAL_STEPS, OVERWRITTEN, Fate, MutantCase, judged
+from rovercheck.checker.mutate.mutants import mutants
+from rovercheck.checker.mutate.step_equality import equal_in_every_step
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import after
 from tests.strategies import frozen_values, input_blocks, systems
 
 level = var("level", integer(0, 3))

@@ -10,16 +10,15 @@ from xml.etree import ElementTree
 
 import pytest
 
-from checker.commands.check import run as check
-from checker.commands.trace.explain import Explaining
-from checker.process.faults import Fault, tell
-from checker.pytest_plugin import deciding
-from checker.pytest_plugin.deciding import Decider
-from checker.pytest_plugin.item import PropertyItem
-from checker.verify.result import Result
-from checker.verify.runs.replay import ReplayError
-from rovercheck import NAMES
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.commands.check import run as check
+from rovercheck.checker.commands.trace.explain import Explaining
+from rovercheck.checker.process.faults import Fault, tell
+from rovercheck.checker.pytest_plugin import deciding
+from rovercheck.checker.pytest_plugin.deciding import Decider
+from rovercheck.checker.pytest_plugin.item import PropertyItem
+from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.runs.replay import ReplayError
+from rovercheck.spec_model.lang.errors import ModelError
 from tests.cli.terminal import Terminal
 from tests.model_files.files import BASELINE, HEATER
 
@@ -27,6 +26,8 @@ pytest_plugins = ["pytester"]
 PLUGIN = ("-p", "no:rovercheck", "-p", "rovercheck.pytest_plugin", "-p", "no:cacheprovider",
           "-W", "ignore:Module already imported")  # fmt: skip
 """The module itself, whether or not the installed rovercheck has registered it, and imported it."""
+NAMES = ("checker", "properties", "spec_model", "supervisor")
+"""Our folders: packages of a user's own may have these names."""
 
 
 @pytest.fixture
@@ -243,7 +244,7 @@ def test_a_worker_decides_a_system_only_if_it_has_all_of_it(grouped: bool, apart
 
 
 def test_the_plugin_alone_loads_no_solver() -> None:
-    heavy = "checker z3 llvmlite numpy bitwuzla oxidd pysat spec_model properties rich click"
+    heavy = "rovercheck.checker rovercheck.api z3 llvmlite numpy bitwuzla oxidd pysat rich click"
     code = f"import sys, rovercheck.pytest_plugin; print(*set('{heavy}'.split()) & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == []

@@ -1,12 +1,12 @@
 """The properties that every arrow of the obstacle chart can be taken: together their runs take them all."""
 
-from checker.engines import Limits, quiet
-from checker.results.trace import Trace
-from checker.results.verdict import Proved
-from checker.verify.decide import AUTO, decide, tasks
-from properties.catalogue import catalogue
-from spec_model.lang.chart import Chart, Path, Transition
-from spec_model.rover import systems
+from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Proved
+from rovercheck.checker.verify.decide import AUTO, decide, tasks
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.spec_model.lang.chart import Chart, Path, Transition
+from rovercheck.spec_model.rover import systems
 
 WITNESSES = [p for p in catalogue().values() if p.area in ("obstacles_arrows", "obstacles_states")]
 

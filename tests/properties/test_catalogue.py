@@ -4,13 +4,13 @@ from functools import cache
 
 import pytest
 
-from checker.model.checks import property_faults, system_faults
-from properties.catalogue import baseline, catalogue
-from properties.forms import Property
-from properties.reduce import reduce
-from spec_model.lang.lower import lower
-from spec_model.lang.system import TransitionSystem
-from spec_model.rover import charts, systems
+from rovercheck.checker.model.checks import property_faults, system_faults
+from rovercheck.properties.catalogue import baseline, catalogue
+from rovercheck.properties.forms import Property
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.rover import charts, systems
 
 ALL = list(catalogue().values())
 

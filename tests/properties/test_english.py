@@ -4,21 +4,21 @@ from typing import get_args
 
 import pytest
 
-from checker.cli import run
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.wording import formally
-from properties import forms
-from properties.catalogue import catalogue
-from properties.english import definitions, sentence
-from properties.forms import Property
-from properties.phrases import Voice, clause, term
-from spec_model.lang.domain import enumeration, fixed, integer
-from spec_model.lang.expr import FALSE, TRUE, Expr, Named, any_of, const, flag, implies, ite, var
-from spec_model.lang.label import text
-from spec_model.lang.operators import Op
-from spec_model.lang.time import ms, sec, ticks
-from spec_model.lang.walk import nodes, structure
-from spec_model.lang.words import (
+from rovercheck.checker.cli import run
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.wording import formally
+from rovercheck.properties import forms
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.properties.english import definitions, sentence
+from rovercheck.properties.forms import Property
+from rovercheck.properties.phrases import Voice, clause, term
+from rovercheck.spec_model.lang.domain import enumeration, fixed, integer
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Named, any_of, const, flag, implies, ite, var
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.time import ms, sec, ticks
+from rovercheck.spec_model.lang.walk import nodes, structure
+from rovercheck.spec_model.lang.words import (
     absolute,
     after,
     bit,

@@ -7,19 +7,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from properties import forms
-from properties.forms import Form, Property
-from properties.reduce import reduce
-from spec_model.lang.action import Assign, assign
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import enumeration, fixed, integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Expr, Var, flag, var
-from spec_model.lang.lower import lower
-from spec_model.lang.system import TransitionSystem, in_order
-from spec_model.lang.time import ms, ticks
-from spec_model.lang.words import after, held, once, previous, rising
+from rovercheck.properties import forms
+from rovercheck.properties.forms import Form, Property
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.action import Assign, assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import enumeration, fixed, integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expr import Expr, Var, flag, var
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import TransitionSystem, in_order
+from rovercheck.spec_model.lang.time import ms, ticks
+from rovercheck.spec_model.lang.words import after, held, once, previous, rising
 
 p, q, r = flag("p"), flag("q"), flag("r")
 x = flag("x")

@@ -7,19 +7,19 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from properties import forms
-from properties.english import sentence
-from properties.forms import Form, Property
-from properties.reduce import reduce
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import integer
-from spec_model.lang.evaluate import step
-from spec_model.lang.expr import flag, var
-from spec_model.lang.lower import lower
-from spec_model.lang.system import in_order
-from spec_model.lang.time import ms, ticks
-from spec_model.lang.words import held
+from rovercheck.properties import forms
+from rovercheck.properties.english import sentence
+from rovercheck.properties.forms import Form, Property
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.time import ms, ticks
+from rovercheck.spec_model.lang.words import held
 
 p, q, x = flag("p"), flag("q"), flag("x")
 passed = var("passed", integer(19, 21, "ms"), 20)

@@ -9,30 +9,30 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.engines import Limits, engines, quiet
-from checker.process.faults import Fault, listening
-from checker.render import renderers
-from checker.render.trace_json import SCHEMA, document
-from checker.render.trace_table import render
-from checker.results.trace import Trace
-from checker.results.verdict import Exhausted, Proved, Reached, Unknown, Unreachable, Violated
-from checker.verify.decide import AUTO, Task, decide, tasks
-from checker.verify.liveness import verdicts
-from checker.verify.liveness import verdicts as recover
-from checker.verify.liveness.loops import hunt, looped
-from checker.verify.liveness.verdicts import NO_LOOP, Trap, trapped
-from checker.verify.result import Result
-from properties import forms
-from properties.forms import Form, LeadsTo, Property, Recoverable, Settles
-from properties.reduce import reduce
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Expr, flag
-from spec_model.lang.system import System, TransitionSystem, in_order
-from spec_model.lang.time import ms, ticks
-from spec_model.lang.words import after
+from rovercheck.checker.engines import Limits, engines, quiet
+from rovercheck.checker.process.faults import Fault, listening
+from rovercheck.checker.render import renderers
+from rovercheck.checker.render.trace_json import SCHEMA, document
+from rovercheck.checker.render.trace_table import render
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Exhausted, Proved, Reached, Unknown, Unreachable, Violated
+from rovercheck.checker.verify.decide import AUTO, Task, decide, tasks
+from rovercheck.checker.verify.liveness import verdicts
+from rovercheck.checker.verify.liveness import verdicts as recover
+from rovercheck.checker.verify.liveness.loops import hunt, looped
+from rovercheck.checker.verify.liveness.verdicts import NO_LOOP, Trap, trapped
+from rovercheck.checker.verify.result import Result
+from rovercheck.properties import forms
+from rovercheck.properties.forms import Form, LeadsTo, Property, Recoverable, Settles
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Expr, flag
+from rovercheck.spec_model.lang.system import System, TransitionSystem, in_order
+from rovercheck.spec_model.lang.time import ms, ticks
+from rovercheck.spec_model.lang.words import after
 from tests.naive import successors, vectors
 from tests.strategies_ts import booleans, transition_systems
 

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.codes import Exit
 
 ROOT = Path(__file__).parents[2]
 AREA = "properties/areas/relay.py"
@@ -31,7 +31,7 @@ def test_a_misspelt_name_is_a_mistake_of_its_file(tmp_path: Path, right: str, wr
     assert right in text
     file.unlink()
     file.write_text(text.replace(right, wrong), encoding="utf-8")
-    command = [sys.executable, "-m", "checker", "check", "PB1-14"]
+    command = [sys.executable, "-m", "rovercheck", "check", "PB1-14"]
     shown = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
     assert shown.returncode == Exit.USAGE
     assert f"{AREA}:" in shown.stderr and said in " ".join(shown.stderr.split())

@@ -14,18 +14,18 @@ from types import ModuleType
 
 import pytest
 
-from spec_model.board1.wheels import monitor_wheel_FL
-from spec_model.lang.chart import Chart
-from spec_model.lang.domain import Domain
-from spec_model.lang.expr import Expr, Var
-from spec_model.signals.board1 import has_no_feedback, v_ref
-from spec_model.signals.board2 import SONARS, objDetected
+from rovercheck.spec_model.board1.wheels import monitor_wheel_FL
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.domain import Domain
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.signals.board1 import has_no_feedback, v_ref
+from rovercheck.spec_model.signals.board2 import SONARS, objDetected
 
 ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "properties"
 STATES_NO_PROPERTY = {"properties/catalogue.py"}
 MODULES = {p.relative_to(ROOT).as_posix() for p in FOLDER.rglob("*.py")} - STATES_NO_PROPERTY
-VOCABULARY = ("spec_model.lang", "spec_model.readings")
+VOCABULARY = ("rovercheck.spec_model.lang", "rovercheck.spec_model.readings")
 
 
 def faults(source: str) -> list[str]:
@@ -34,7 +34,7 @@ def faults(source: str) -> list[str]:
     found: list[str] = []
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
-            whole = [a.name for a in node.names if a.name.partition(".")[0] == "spec_model"]
+            whole = [a.name for a in node.names if a.name.startswith("rovercheck.spec_model")]
             found += (f"{name}: import its names one by one" for name in whole)
         elif isinstance(node, ast.ImportFrom) and _of_the_model(node.module or ""):
             found += chain.from_iterable(_taken(node.module or "", alias, tree) for alias in node.names)
@@ -43,7 +43,7 @@ def faults(source: str) -> list[str]:
 
 def _of_the_model(module: str) -> bool:
     parts = module.split(".")
-    return parts[0] == "spec_model" and ".".join(parts[:2]) not in VOCABULARY
+    return parts[:2] == ["rovercheck", "spec_model"] and ".".join(parts[:3]) not in VOCABULARY
 
 
 def _taken(module: str, alias: ast.alias, tree: ast.AST) -> Iterator[str]:
@@ -73,7 +73,7 @@ def _is_name(node: ast.AST, name: str) -> bool:
 
 
 def _refused(module: str, name: str, thing: object) -> Iterator[str]:
-    if isinstance(thing, Domain) and module.startswith("spec_model.signals"):
+    if isinstance(thing, Domain) and module.startswith("rovercheck.spec_model.signals"):
         return
     if not isinstance(thing, Chart | Var) and not _is_family(thing):
         kind = "formula" if isinstance(thing, Expr) else type(thing).__name__
@@ -106,26 +106,26 @@ def test_every_area_is_examined() -> None:
 @pytest.mark.parametrize(
     "source",
     [
-        "from spec_model.board1.battery import critical_range",
-        "from spec_model.board1.temperature import ok_range as fine",
-        "from spec_model.board1.safety import critical",
-        "from spec_model.board1.masks import COMPONENTS",
-        "from spec_model.board2.actuation import LIMIT",
-        "from spec_model.board2.monitors import silent",
-        "from spec_model.board2.failure_check import check_board1, q",
-        "from spec_model.board2.coherence import ring, hits",
-        "from spec_model.composition.motors import motors_zero, zero_1",
-        "from spec_model.signals.board2 import within",
-        "from spec_model.signals.board2 import MEANING",
-        "from spec_model.signals.board1 import WHEELS",
-        "from spec_model.signals.board2_supervisor import BLE",
-        "from spec_model.signals import board2\nnear = board2.within(70)",
-        "from spec_model.signals import board1\nwheels = getattr(board1, 'WHEELS')",
-        "from spec_model.composition import link as the_link\nmany = the_link.MANY",
-        "from spec_model.board1.limits import *",
+        "from rovercheck.spec_model.board1.battery import critical_range",
+        "from rovercheck.spec_model.board1.temperature import ok_range as fine",
+        "from rovercheck.spec_model.board1.safety import critical",
+        "from rovercheck.spec_model.board1.masks import COMPONENTS",
+        "from rovercheck.spec_model.board2.actuation import LIMIT",
+        "from rovercheck.spec_model.board2.monitors import silent",
+        "from rovercheck.spec_model.board2.failure_check import check_board1, q",
+        "from rovercheck.spec_model.board2.coherence import ring, hits",
+        "from rovercheck.spec_model.composition.motors import motors_zero, zero_1",
+        "from rovercheck.spec_model.signals.board2 import within",
+        "from rovercheck.spec_model.signals.board2 import MEANING",
+        "from rovercheck.spec_model.signals.board1 import WHEELS",
+        "from rovercheck.spec_model.signals.board2_supervisor import BLE",
+        "from rovercheck.spec_model.signals import board2\nnear = board2.within(70)",
+        "from rovercheck.spec_model.signals import board1\nwheels = getattr(board1, 'WHEELS')",
+        "from rovercheck.spec_model.composition import link as the_link\nmany = the_link.MANY",
+        "from rovercheck.spec_model.board1.limits import *",
         "import spec_model.board1.safety",
         "import spec_model.board1.safety as safety\ncause = safety.critical",
-        "def cause():\n    from spec_model.board1.safety import critical\n    return critical",
+        "def cause():\n    from rovercheck.spec_model.board1.safety import critical\n    return critical",
     ],
 )
 def test_what_a_chart_computes_is_refused(source: str) -> None:
@@ -135,13 +135,13 @@ def test_what_a_chart_computes_is_refused(source: str) -> None:
 @pytest.mark.parametrize(
     "source",
     [
-        "from spec_model.board1.battery import monitor_battery",
-        "from spec_model.board2.coherence import ring, differs",
-        "from spec_model.signals.common import COMMAND",
-        "from spec_model.signals.board1 import v_ref, has_no_feedback",
-        "from spec_model.signals import board2\nmoving = board2.B2Decision == 2",
-        "from spec_model.lang.words import held\nfrom spec_model.readings import choose",
-        "from properties.document.distances import within",
+        "from rovercheck.spec_model.board1.battery import monitor_battery",
+        "from rovercheck.spec_model.board2.coherence import ring, differs",
+        "from rovercheck.spec_model.signals.common import COMMAND",
+        "from rovercheck.spec_model.signals.board1 import v_ref, has_no_feedback",
+        "from rovercheck.spec_model.signals import board2\nmoving = board2.B2Decision == 2",
+        "from rovercheck.spec_model.lang.words import held\nfrom spec_model.readings import choose",
+        "from rovercheck.properties.document.distances import within",
     ],
 )
 def test_states_variables_and_domains_are_not_refused(source: str) -> None:

@@ -4,10 +4,10 @@ from typing import Any
 
 import pytest
 
-from checker.engines import Limits, quiet
-from checker.verify.decide import decide, tasks
-from properties.catalogue import catalogue
-from properties.forms import (
+from rovercheck.checker.engines import Limits, quiet
+from rovercheck.checker.verify.decide import decide, tasks
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.properties.forms import (
     Property,
     Reachable,
     always,
@@ -24,13 +24,13 @@ from properties.forms import (
     settles,
     until,
 )
-from properties.premise import premise
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.expr import Expr, flag, implies
-from spec_model.lang.label import text
-from spec_model.lang.system import in_order
-from spec_model.lang.time import ticks
+from rovercheck.properties.premise import premise
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Chart, State, to
+from rovercheck.spec_model.lang.expr import Expr, flag, implies
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.time import ticks
 
 x, y, z = flag("x"), flag("y"), flag("z")
 ABOUT: Any = {"covers": ["R"], "on": "toy"}

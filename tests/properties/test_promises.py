@@ -7,25 +7,25 @@ from itertools import product
 
 import pytest
 
-from checker.commands.check.chains import check, holes
-from checker.commands.shared.variant import Variant
-from properties.catalogue import as_written, catalogue, expected, promises
-from properties.forms import Always, EntersOnlyIf, HoldsAfter, LeavesOnlyIf, Property, formulas
-from properties.promises.promise import Chain, Promise
-from spec_model.composition.contracts import Contract
-from spec_model.composition.fine_systems import CONTRACTS
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, implies
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.operators import Op
-from spec_model.lang.system import in_order
-from spec_model.lang.walk import variables
-from spec_model.lang.words import previous
-from spec_model.repairs import repairs
-from spec_model.rover import systems
-from spec_model.signals.board1 import give_b2_actuation
-from spec_model.signals.common import PHASE, PHASE_CLASS
+from rovercheck.checker.commands.check.chains import check, holes
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.properties.catalogue import as_written, catalogue, expected, promises
+from rovercheck.properties.forms import Always, EntersOnlyIf, HoldsAfter, LeavesOnlyIf, Property, formulas
+from rovercheck.properties.promises.promise import Chain, Promise
+from rovercheck.spec_model.composition.contracts import Contract
+from rovercheck.spec_model.composition.fine_systems import CONTRACTS
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, implies
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import in_order
+from rovercheck.spec_model.lang.walk import variables
+from rovercheck.spec_model.lang.words import previous
+from rovercheck.spec_model.repairs import repairs
+from rovercheck.spec_model.rover import systems
+from rovercheck.spec_model.signals.board1 import give_b2_actuation
+from rovercheck.spec_model.signals.common import PHASE, PHASE_CLASS
 
 PROMISES = promises()
 OWN = {p.id: p for p in as_written().values() if p.id.startswith("P-")}
@@ -177,7 +177,7 @@ def test_a_link_that_begins_later_than_what_rests_on_it_is_a_hole(monkeypatch: p
     say, obey = CONTRACTS["critical_1_to_2"]
     assert say.begins == 2
     everywhere = {**CONTRACTS, "critical_1_to_2": (replace(say, first=True), obey)}
-    monkeypatch.setattr("checker.commands.check.chains.CONTRACTS", everywhere)
+    monkeypatch.setattr("rovercheck.checker.commands.check.chains.CONTRACTS", everywhere)
     hole = "P-SHOWN-TEMPERATURE says nothing before step 2; Sender.contract does"
     assert hole in "\n".join(holes(CRITICAL.chains[0]))
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from spec_model.lang.system import TICK_MS
+from rovercheck.spec_model.lang.system import TICK_MS
 from tests.readings.scenario import Blocks
 
 

@@ -5,8 +5,8 @@ Time 0 is the first step of the scenario, in ms; what is not given stays nominal
 
 from collections.abc import Iterator, Mapping, Sequence
 
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.system import TICK_MS, System
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.system import TICK_MS, System
 
 Given = Mapping[str, bool | float | str]
 Blocks = Sequence[tuple[int, Given]]

@@ -10,17 +10,17 @@ from functools import cache
 
 import pytest
 
-from properties.catalogue import under
-from properties.reduce import reduce
-from spec_model.board2.heading import headings, measured
-from spec_model.board2.obstacles import obstacles_n
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import step
-from spec_model.lang.interpret import Interpreter
-from spec_model.lang.lower import lower
-from spec_model.lang.system import TICK_MS, System, in_order
-from spec_model.readings import fixed, readings
-from spec_model.rover import as_written, systems
+from rovercheck.properties.catalogue import under
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.board2.heading import headings, measured
+from rovercheck.spec_model.board2.obstacles import obstacles_n
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import TICK_MS, System, in_order
+from rovercheck.spec_model.readings import fixed, readings
+from rovercheck.spec_model.rover import as_written, systems
 from tests.readings.scenario import BOARD1, WARM_UP, Blocks, Given, histories, shown
 
 NOMINAL: Given = {

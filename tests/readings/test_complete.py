@@ -2,7 +2,7 @@
 
 import pytest
 
-from spec_model.readings import Reading, readings
+from rovercheck.spec_model.readings import Reading, readings
 from tests.readings import test_board2, test_links_relay_references, test_monitors
 
 SHOWN = {

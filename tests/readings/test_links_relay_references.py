@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import pytest
 
-from spec_model.readings import readings
-from spec_model.rover import systems
+from rovercheck.spec_model.readings import readings
+from rovercheck.spec_model.rover import systems
 from tests.readings.arrivals import at
 from tests.readings.scenario import WARM_UP, Blocks, Given, histories
 

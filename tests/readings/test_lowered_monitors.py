@@ -7,10 +7,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System
-from spec_model.readings import readings
-from spec_model.rover import systems
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.readings import readings
+from rovercheck.spec_model.rover import systems
 from tests.strategies import input_blocks
 from tests.test_lowering import compare
 

@@ -10,11 +10,11 @@ from functools import cache
 
 import pytest
 
-from spec_model.lang.domain import fixed
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import System
-from spec_model.readings import readings
-from spec_model.rover import systems
+from rovercheck.spec_model.lang.domain import fixed
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.readings import readings
+from rovercheck.spec_model.rover import systems
 from tests.readings.scenario import Blocks, Given, histories
 from tests.readings.wider import widened
 

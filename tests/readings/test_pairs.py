@@ -2,7 +2,7 @@
 
 import pytest
 
-from spec_model.rover import systems
+from rovercheck.spec_model.rover import systems
 from tests.readings.scenario import Blocks, Given, histories
 
 STALE: Given = {"temp_update": False}

@@ -4,9 +4,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from spec_model.lang.domain import Domain, fixed
-from spec_model.rover import systems
-from spec_model.signals.board1 import DEGREES_C, PERCENT
+from rovercheck.spec_model.lang.domain import Domain, fixed
+from rovercheck.spec_model.rover import systems
+from rovercheck.spec_model.signals.board1 import DEGREES_C, PERCENT
 from tests.readings.scenario import Blocks, shown
 from tests.readings.wider import widened
 

@@ -5,15 +5,15 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from spec_model.lang.action import Action, Assign, If, assign
-from spec_model.lang.chart import Block, Chart, Component, Enabled
-from spec_model.lang.domain import Domain
-from spec_model.lang.edit import in_expressions
-from spec_model.lang.expr import Apply, Expr, Named, Temporal, Var, all_of, any_of, ite
-from spec_model.lang.operators import Op
-from spec_model.lang.system import System
-from spec_model.lang.walk import variables
-from spec_model.lang.words import minimum
+from rovercheck.spec_model.lang.action import Action, Assign, If, assign
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
+from rovercheck.spec_model.lang.domain import Domain
+from rovercheck.spec_model.lang.edit import in_expressions
+from rovercheck.spec_model.lang.expr import Apply, Expr, Named, Temporal, Var, all_of, any_of, ite
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.walk import variables
+from rovercheck.spec_model.lang.words import minimum
 
 WRITTEN: Mapping[Op, Callable[..., Any]] = {
     Op.AND: all_of, Op.OR: any_of, Op.NOT: operator.invert, Op.ITE: ite, Op.EQ: operator.eq,

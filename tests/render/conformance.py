@@ -4,8 +4,8 @@ from typing import Any, ClassVar
 
 import pytest
 
-from checker.render import Renderer, renderers
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.render import Renderer, renderers
+from rovercheck.spec_model.lang.errors import ModelError
 
 
 class Suite:

@@ -3,11 +3,11 @@
 from dataclasses import replace
 from functools import cache
 
-from checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSignal
-from checker.results.trace import Arrow, Needed, Tick, Trace
-from spec_model.lang.domain import enumeration, integer
-from spec_model.lang.expr import flag, var
-from spec_model.lang.place import Place
+from rovercheck.checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSignal
+from rovercheck.checker.results.trace import Arrow, Needed, Tick, Trace
+from rovercheck.spec_model.lang.domain import enumeration, integer
+from rovercheck.spec_model.lang.expr import flag, var
+from rovercheck.spec_model.lang.place import Place
 from tests.render import zoo
 from tests.render.zoo import long_trace, relay
 

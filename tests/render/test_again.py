@@ -2,13 +2,13 @@
 
 import pytest
 
-from checker.render import again as folding
-from checker.render.again import Again, folded
-from checker.render.story import StoryEvent, rows
-from checker.render.trace_markdown import render as markdown
-from checker.render.trace_table import render as table
-from checker.results.trace import Tick, Trace
-from spec_model.lang.expr import flag
+from rovercheck.checker.render import again as folding
+from rovercheck.checker.render.again import Again, folded
+from rovercheck.checker.render.story import StoryEvent, rows
+from rovercheck.checker.render.trace_markdown import render as markdown
+from rovercheck.checker.render.trace_table import render as table
+from rovercheck.checker.results.trace import Tick, Trace
+from rovercheck.spec_model.lang.expr import flag
 
 BEEP = flag("beep")
 

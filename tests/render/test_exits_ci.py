@@ -15,12 +15,12 @@ import pytest
 from jsonschema import Draft4Validator
 from junitparser import Error, Failure, JUnitXml, Skipped
 
-from checker.render.ci import CiFinding, CiReport, FindingLevel, github, of_trace
-from checker.render.ci.github import MOST, annotations, command, summary
-from checker.render.ci.junit import junit
-from checker.render.ci.sarif import LOCATIONS, RESULTS, document, sarif
-from checker.results.trace import Trace
-from spec_model.lang.place import Place
+from rovercheck.checker.render.ci import CiFinding, CiReport, FindingLevel, github, of_trace
+from rovercheck.checker.render.ci.github import MOST, annotations, command, summary
+from rovercheck.checker.render.ci.junit import junit
+from rovercheck.checker.render.ci.sarif import LOCATIONS, RESULTS, document, sarif
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.place import Place
 from tests.render.conformance import Suite
 from tests.render.exits_zoo import TRACES, huge, lasso, odd, told, witness
 from tests.render.xsd import Schema

@@ -13,11 +13,11 @@ import pytest
 from jsonschema import validate
 from vcd.reader import TokenKind, tokenize
 
-from checker.render import renderers, trace_csv, trace_gtkw, trace_itf, trace_json, trace_vcd
-from checker.render.waves import waves
-from checker.results.trace import Tick, Trace
-from spec_model.lang.domain import enumeration, integer
-from spec_model.lang.expr import var
+from rovercheck.checker.render import renderers, trace_csv, trace_gtkw, trace_itf, trace_json, trace_vcd
+from rovercheck.checker.render.waves import waves
+from rovercheck.checker.results.trace import Tick, Trace
+from rovercheck.spec_model.lang.domain import enumeration, integer
+from rovercheck.spec_model.lang.expr import var
 from tests.render.conformance import Suite
 from tests.render.exits_zoo import TRACES, huge, lasso, needed, odd, witness
 from tests.render.zoo import long_trace

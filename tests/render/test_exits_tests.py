@@ -10,12 +10,12 @@ from pathlib import Path
 
 import pytest
 
-from checker.commands.trace.board_steps import signals
-from checker.render import trace_c, trace_pytest
-from checker.render.trace_c import render as as_c
-from checker.results.board_steps import BoardRun, held
-from checker.testgen.formats import FORMATS
-from spec_model.abstraction import boards
+from rovercheck.checker.commands.trace.board_steps import signals
+from rovercheck.checker.render import trace_c, trace_pytest
+from rovercheck.checker.render.trace_c import render as as_c
+from rovercheck.checker.results.board_steps import BoardRun, held
+from rovercheck.checker.testgen.formats import FORMATS
+from rovercheck.spec_model.abstraction import boards
 from tests.render.conformance import Suite
 from tests.render.exits_zoo import CONCRETE, LAMP
 
@@ -74,8 +74,8 @@ def boards():
 
 def replaced(text: str) -> str:
     """The file with the lamp of this module in place of the adapters and boards of the rover."""
-    left = text.replace("    from checker.adapters import start\n", "    pass\n")
-    return left.replace("    from spec_model.abstraction import boards\n", FAKES)
+    left = text.replace("    from rovercheck.checker.adapters import start\n", "    pass\n")
+    return left.replace("    from rovercheck.spec_model.abstraction import boards\n", FAKES)
 
 
 class Exits(Suite):

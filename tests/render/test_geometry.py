@@ -7,12 +7,12 @@ from xml.etree import ElementTree
 
 import pytest
 
-from checker.render import statechart_svg
-from checker.render.drawing.graph import Point
-from checker.render.drawing.nested import picture
-from checker.render.drawing.picture import Box, DrawnPicture, PicturePiece
-from checker.render.drawing.text import LINE, SIZE, block, width, wrap
-from spec_model.rover import charts_of, systems
+from rovercheck.checker.render import statechart_svg
+from rovercheck.checker.render.drawing.graph import Point
+from rovercheck.checker.render.drawing.nested import picture
+from rovercheck.checker.render.drawing.picture import Box, DrawnPicture, PicturePiece
+from rovercheck.checker.render.drawing.text import LINE, SIZE, block, width, wrap
+from rovercheck.spec_model.rover import charts_of, systems
 from tests.render.zoo import CHARTS
 
 SVG = "{http://www.w3.org/2000/svg}"

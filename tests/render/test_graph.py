@@ -9,21 +9,21 @@ import networkx as nx
 import pytest
 from jsonschema import validate
 
-from checker.engines import Limits
-from checker.explore.graphs.explored import tabulated
-from checker.explore.graphs.making import made
-from checker.explore.graphs.projecting import project
-from checker.render import graph_json
-from checker.render.stategraph.findings import findings, told
-from checker.render.stategraph.fragment import document, rows
-from checker.render.stategraph.picture import LABELLED, drawn, in_rows, too_long
-from checker.render.stategraph.words import brief, several, short, spans
-from checker.results.graph import StateGraph, drawable, with_trace
-from spec_model.lang.action import Assign, assign
-from spec_model.lang.domain import integer
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Var, flag, ite, var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.explore.graphs.explored import tabulated
+from rovercheck.checker.explore.graphs.making import made
+from rovercheck.checker.explore.graphs.projecting import project
+from rovercheck.checker.render import graph_json
+from rovercheck.checker.render.stategraph.findings import findings, told
+from rovercheck.checker.render.stategraph.fragment import document, rows
+from rovercheck.checker.render.stategraph.picture import LABELLED, drawn, in_rows, too_long
+from rovercheck.checker.render.stategraph.words import brief, several, short, spans
+from rovercheck.checker.results.graph import StateGraph, drawable, with_trace
+from rovercheck.spec_model.lang.action import Assign, assign
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Var, flag, ite, var
+from rovercheck.spec_model.lang.system import TransitionSystem
 from tests import toys
 from tests.render.conformance import Suite
 from tests.render.zoo import GRAPHS, long_trace, ring, short_trace

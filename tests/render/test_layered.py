@@ -5,10 +5,10 @@ from itertools import product
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from checker.render.drawing.graph import DrawnNode, Edge
-from checker.render.drawing.layered import layered
-from checker.render.drawing.ranking import backward
-from checker.render.drawing.solve import least_stretch
+from rovercheck.checker.render.drawing.graph import DrawnNode, Edge
+from rovercheck.checker.render.drawing.layered import layered
+from rovercheck.checker.render.drawing.ranking import backward
+from rovercheck.checker.render.drawing.solve import least_stretch
 
 SIZE = 4
 bounds = st.lists(

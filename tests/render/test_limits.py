@@ -4,12 +4,12 @@ from dataclasses import replace
 
 import pytest
 
-from checker.render.limits import Timer, bounds, timer
-from checker.render.story import Quiet, rows
-from spec_model.lang.chart import Chart
-from spec_model.lang.expr import When
-from spec_model.lang.lower.timers import ChartTimers
-from spec_model.rover import charts
+from rovercheck.checker.render.limits import Timer, bounds, timer
+from rovercheck.checker.render.story import Quiet, rows
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.expr import When
+from rovercheck.spec_model.lang.lower.timers import ChartTimers
+from rovercheck.spec_model.rover import charts
 from tests.render.zoo import long_trace, relay
 
 

@@ -9,7 +9,7 @@ from html.parser import HTMLParser
 import pytest
 from markupsafe import Markup
 
-from checker.render.page import Part, data, own, page
+from rovercheck.checker.render.page import Part, data, own, page
 
 EVIL = "</script><script>alert(1)</script><!-- & \"'"
 

@@ -9,18 +9,18 @@ from xml.etree import ElementTree
 
 import pytest
 
-from checker.render import player, trace_play
-from checker.render.drawing.activity import active, followed
-from checker.render.drawing.scheme import arrows
-from checker.render.page import page
-from checker.render.player.steps import script, shown_charts
-from checker.render.statechart_svg import inline
-from checker.results.trace import Arrow, Needed, Tick, Trace
-from spec_model.lang.action import assign, send
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.interpret import Fired, Interpreter
-from spec_model.lang.system import System
-from spec_model.rover import charts_of, systems
+from rovercheck.checker.render import player, trace_play
+from rovercheck.checker.render.drawing.activity import active, followed
+from rovercheck.checker.render.drawing.scheme import arrows
+from rovercheck.checker.render.page import page
+from rovercheck.checker.render.player.steps import script, shown_charts
+from rovercheck.checker.render.statechart_svg import inline
+from rovercheck.checker.results.trace import Arrow, Needed, Tick, Trace
+from rovercheck.spec_model.lang.action import assign, send
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.interpret import Fired, Interpreter
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.rover import charts_of, systems
 from tests.render.conformance import Suite
 from tests.render.exits_zoo import TRACES, lasso
 from tests.render.zoo import CHARTS, alarm, level, relay

@@ -2,7 +2,7 @@
 
 import pytest
 
-from checker.render import KINDS, renderers
+from rovercheck.checker.render import KINDS, renderers
 
 
 def test_every_promised_exit_is_there() -> None:

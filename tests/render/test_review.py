@@ -11,9 +11,9 @@ from urllib.parse import unquote
 
 import pytest
 
-from checker.render.review import grouped, render, title_of
-from checker.render.review.packed import TOGETHER, Packed
-from checker.render.review.traces import shared
+from rovercheck.checker.render.review import grouped, render, title_of
+from rovercheck.checker.render.review.packed import TOGETHER, Packed
+from rovercheck.checker.render.review.traces import shared
 from tests.render.test_page import Reader
 from tests.render.toy_review import ALL, BROKEN, CHANGED, EVIL, FINE, GRAPH, OPEN, RUN, SAME, checked, review
 

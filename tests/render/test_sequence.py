@@ -5,22 +5,22 @@ from dataclasses import replace
 
 import pytest
 
-from checker.render import trace_sequence
-from checker.render.sequence.flow import ENVIRONMENT, flow
-from checker.render.sequence.steps import Message, SequenceNote, SequenceStep, message_sequence
-from checker.results.trace import Arrow, Tick, Trace
-from spec_model.composition.fine_systems import SYSTEMS as FINE
-from spec_model.composition.systems import SYSTEMS as COMPOSED
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block, Chart, Component, Enabled, State, to
-from spec_model.lang.domain import integer
-from spec_model.lang.edit import in_system
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expiry import free_timers
-from spec_model.lang.expr import TRUE, flag, var
-from spec_model.lang.specialise import Fixing
-from spec_model.lang.system import System, in_order
-from spec_model.lang.words import minimum
+from rovercheck.checker.render import trace_sequence
+from rovercheck.checker.render.sequence.flow import ENVIRONMENT, flow
+from rovercheck.checker.render.sequence.steps import Message, SequenceNote, SequenceStep, message_sequence
+from rovercheck.checker.results.trace import Arrow, Tick, Trace
+from rovercheck.spec_model.composition.fine_systems import SYSTEMS as FINE
+from rovercheck.spec_model.composition.systems import SYSTEMS as COMPOSED
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, State, to
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.edit import in_system
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expiry import free_timers
+from rovercheck.spec_model.lang.expr import TRUE, flag, var
+from rovercheck.spec_model.lang.specialise import Fixing
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.words import minimum
 from tests.render.conformance import Suite
 from tests.render.zoo import TRACES
 

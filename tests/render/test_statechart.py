@@ -7,10 +7,10 @@ from xml.etree import ElementTree
 import networkx as nx
 import pytest
 
-from checker.render import statechart_svg
-from checker.render.drawing.scheme import arrows
-from checker.results.trace import Arrow
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.render import statechart_svg
+from rovercheck.checker.render.drawing.scheme import arrows
+from rovercheck.checker.results.trace import Arrow
+from rovercheck.spec_model.lang.errors import ModelError
 from tests.render.conformance import Suite
 from tests.render.zoo import CHARTS, crossing, monitor, nested, parallel, relay
 

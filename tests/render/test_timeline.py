@@ -9,21 +9,21 @@ from itertools import pairwise
 
 import pytest
 
-from checker.render import trace_html, trace_svg
-from checker.render.lanes import Tone
-from checker.render.timeline import timeline, told
-from checker.render.timeline.axis import fit, labelled
-from checker.render.timeline.drawing import place
-from checker.render.timeline.limits import thresholds, time_limits
-from checker.render.timeline.model import Lane, LaneGroup, LaneKind, Need, Timeline
-from checker.render.timeline.shapes import fitting
-from checker.render.timeline.tones import tone
-from checker.results.trace import Needed, Tick, Trace
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import fixed, integer
-from spec_model.lang.expr import Var, const, flag, var
-from spec_model.lang.words import absolute, named, once
+from rovercheck.checker.render import trace_html, trace_svg
+from rovercheck.checker.render.lanes import Tone
+from rovercheck.checker.render.timeline import timeline, told
+from rovercheck.checker.render.timeline.axis import fit, labelled
+from rovercheck.checker.render.timeline.drawing import place
+from rovercheck.checker.render.timeline.limits import thresholds, time_limits
+from rovercheck.checker.render.timeline.model import Lane, LaneGroup, LaneKind, Need, Timeline
+from rovercheck.checker.render.timeline.shapes import fitting
+from rovercheck.checker.render.timeline.tones import tone
+from rovercheck.checker.results.trace import Needed, Tick, Trace
+from rovercheck.spec_model.lang.action import assign, when
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import fixed, integer
+from rovercheck.spec_model.lang.expr import Var, const, flag, var
+from rovercheck.spec_model.lang.words import absolute, named, once
 from tests.render.conformance import Suite
 from tests.render.zoo import TRACES, level, long_trace, relay, short_trace
 

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import pytest
 
-from checker.render import trace_markdown, trace_table
-from checker.render.reasons import forced, reasons
-from checker.render.story import Quiet, StoryEvent, conjuncts, false_parts, rows
-from checker.results.trace import Needed, Trace
+from rovercheck.checker.render import trace_markdown, trace_table
+from rovercheck.checker.render.reasons import forced, reasons
+from rovercheck.checker.render.story import Quiet, StoryEvent, conjuncts, false_parts, rows
+from rovercheck.checker.results.trace import Needed, Trace
 from tests.render.conformance import Suite
 from tests.render.zoo import TRACES, long_trace
 

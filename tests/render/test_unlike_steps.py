@@ -6,15 +6,15 @@ from io import StringIO
 
 import pytest
 
-from checker.commands.check.run import results
-from checker.commands.trace.board_steps import concrete
-from checker.engines import AUTO, Limits
-from checker.render import trace_csv, trace_json, trace_svg, trace_table, trace_vcd
-from checker.results.trace import Trace
-from checker.results.verdict import Violated
-from properties.catalogue import catalogue
-from spec_model.lang.errors import ModelError
-from spec_model.rover import systems
+from rovercheck.checker.commands.check.run import results
+from rovercheck.checker.commands.trace.board_steps import concrete
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.render import trace_csv, trace_json, trace_svg, trace_table, trace_vcd
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Violated
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.rover import systems
 
 
 @cache

@@ -3,8 +3,8 @@
 from dataclasses import replace
 from typing import Any
 
-from checker.explore.graphs.making import made
-from checker.render.review.model import (
+from rovercheck.checker.explore.graphs.making import made
+from rovercheck.checker.render.review.model import (
     About,
     Ambiguity,
     Checked,

@@ -1,15 +1,15 @@
 """Toy charts, graphs and traces that every renderer must be able to show."""
 
-from checker.explore.graphs.explored import tabulated
-from checker.explore.graphs.projecting import project
-from checker.results.graph import StateGraph, with_trace
-from checker.results.trace import Arrow, Tick, Trace
-from spec_model.lang.action import assign, send, when
-from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.domain import enumeration, fixed, integer
-from spec_model.lang.expr import Var, flag, var
-from spec_model.lang.time import sec
-from spec_model.lang.words import after, duration, named, rising
+from rovercheck.checker.explore.graphs.explored import tabulated
+from rovercheck.checker.explore.graphs.projecting import project
+from rovercheck.checker.results.graph import StateGraph, with_trace
+from rovercheck.checker.results.trace import Arrow, Tick, Trace
+from rovercheck.spec_model.lang.action import assign, send, when
+from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
+from rovercheck.spec_model.lang.domain import enumeration, fixed, integer
+from rovercheck.spec_model.lang.expr import Var, flag, var
+from rovercheck.spec_model.lang.time import sec
+from rovercheck.spec_model.lang.words import after, duration, named, rising
 
 level = var("level", integer(0, 300), 0, "how high <it> stands & more")
 speed = var("speed", fixed(-1, 1, 0.1, "m/s"))

@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from supervisor.bench import Record, Scenario, parse, simulate
-from supervisor.bench.columns import outputs1, outputs2
+from rovercheck.supervisor.bench import Record, Scenario, parse, simulate
+from rovercheck.supervisor.bench.columns import outputs1, outputs2
 
 
 def scenario(*events: dict[str, Any], duration: str = "2 s", **keys: Any) -> Scenario:

@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 
-from supervisor.board1 import Board1, Board1Inputs
-from supervisor.link.payloads import FromBoard2
-from supervisor.timing import CLOCK
+from rovercheck.supervisor.board1 import Board1, Board1Inputs
+from rovercheck.supervisor.link.payloads import FromBoard2
+from rovercheck.supervisor.timing import CLOCK
 
 
 class Sensor:

@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 
-from supervisor.board1.motion import MotionSupervision
-from supervisor.board1.states import MANOEUVRES, Motion, MotionInputs
-from supervisor.types import SafetyState, SupervisorCommand
+from rovercheck.supervisor.board1.motion import MotionSupervision
+from rovercheck.supervisor.board1.states import MANOEUVRES, Motion, MotionInputs
+from rovercheck.supervisor.types import SafetyState, SupervisorCommand
 
 SAFE, CARE, STOP = SafetyState.SAFETY_OK, SafetyState.SAFETY_DEGRADED, SafetyState.SAFETY_CRITICAL
 NORMAL, ESTOP = SupervisorCommand.CMD_NORMAL, SupervisorCommand.CMD_ESTOP

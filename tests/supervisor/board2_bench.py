@@ -3,10 +3,10 @@
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from supervisor.board2.board import Board2
-from supervisor.board2.signals import Board2Inputs, Board2Outputs, FromBoard1
-from supervisor.timing import CLOCK
-from supervisor.types import STEP_MS
+from rovercheck.supervisor.board2.board import Board2
+from rovercheck.supervisor.board2.signals import Board2Inputs, Board2Outputs, FromBoard1
+from rovercheck.supervisor.timing import CLOCK
+from rovercheck.supervisor.types import STEP_MS
 
 STAMPS = (
     "last_valid_b1_ms",

@@ -4,10 +4,10 @@ from typing import Any
 
 from hypothesis import strategies as st
 
-from supervisor.link.frame import Frame
-from supervisor.link.payloads import FromBoard1, FromBoard2
-from supervisor.link.wire import B1_TO_B2, B2_TO_B1, Direction
-from supervisor.types import SupervisorCommand
+from rovercheck.supervisor.link.frame import Frame
+from rovercheck.supervisor.link.payloads import FromBoard1, FromBoard2
+from rovercheck.supervisor.link.wire import B1_TO_B2, B2_TO_B1, Direction
+from rovercheck.supervisor.types import SupervisorCommand
 
 DIRECTIONS: tuple[Direction[Any], ...] = (B1_TO_B2, B2_TO_B1)
 SIZE = 42

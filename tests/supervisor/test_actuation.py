@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from supervisor.board2.actuation import Actuated, Actuation, MotorCommand, next_rpm
+from rovercheck.supervisor.board2.actuation import Actuated, Actuation, MotorCommand, next_rpm
 
 
 def started() -> Actuation:

@@ -5,7 +5,7 @@ from math import nan
 
 import pytest
 
-from supervisor.backward import BackwardToggle, Combo
+from rovercheck.supervisor.backward import BackwardToggle, Combo
 
 NONE, BTN1, BTN2, BOTH = (0, 0), (1, 0), (0, 1), (1, 1)
 

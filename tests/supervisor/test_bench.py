@@ -8,10 +8,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from supervisor.bench import Record
-from supervisor.bench.columns import inputs1, inputs2, outputs1, outputs2
-from supervisor.bench.record import Driver, Side
-from supervisor.types import Level, SupervisorCommand
+from rovercheck.supervisor.bench import Record
+from rovercheck.supervisor.bench.columns import inputs1, inputs2, outputs1, outputs2
+from rovercheck.supervisor.bench.record import Driver, Side
+from rovercheck.supervisor.types import Level, SupervisorCommand
 from tests.profiles import examples
 from tests.supervisor.bench_runs import at, board1, board2, first, run
 

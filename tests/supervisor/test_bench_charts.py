@@ -4,10 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from spec_model.abstraction import boards
-from spec_model.lang.interpret import Interpreter
-from supervisor.bench import loads, simulate
-from supervisor.bench.columns import inputs1, outputs1
+from rovercheck.spec_model.abstraction import boards
+from rovercheck.spec_model.lang.interpret import Interpreter
+from rovercheck.supervisor.bench import loads, simulate
+from rovercheck.supervisor.bench.columns import inputs1, outputs1
 
 EXAMPLES = Path(__file__).parents[2] / "examples" / "scenarios"
 NEAR = 1e-9

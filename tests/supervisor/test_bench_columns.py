@@ -1,9 +1,9 @@
 """The columns of the logs have the names by which the checker knows the signals of the boards."""
 
-from spec_model.abstraction import boards
-from supervisor.bench.columns import inputs1, inputs2, outputs1, outputs2
-from supervisor.board1 import Board1Inputs, Board1Outputs
-from supervisor.board2.signals import Board2Inputs, Board2Outputs
+from rovercheck.spec_model.abstraction import boards
+from rovercheck.supervisor.bench.columns import inputs1, inputs2, outputs1, outputs2
+from rovercheck.supervisor.board1 import Board1Inputs, Board1Outputs
+from rovercheck.supervisor.board2.signals import Board2Inputs, Board2Outputs
 
 
 def test_logs_hold_every_signal_of_a_board_and_no_other() -> None:

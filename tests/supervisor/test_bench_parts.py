@@ -7,22 +7,22 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from supervisor.bench import Outcome, judge, parse, simulate
-from supervisor.bench.changes import changes
-from supervisor.bench.columns import inputs1, inputs2, outputs1, outputs2
-from supervisor.bench.line import Line, Port, duration_us
-from supervisor.bench.node1 import sides
-from supervisor.bench.record import Driver, Side, Traffic
-from supervisor.bench.rover import MotorDriver
-from supervisor.bench.schedule import Agenda, Clock, Rank
-from supervisor.bench.sensors import scan
-from supervisor.bench.signals import SIGNALS
-from supervisor.board1 import Board1Inputs, Board1Outputs
-from supervisor.board2.signals import Board2Inputs, Board2Outputs
-from supervisor.link.frame import Frame, Transmitter, encode
-from supervisor.link.payloads import FromBoard1
-from supervisor.link.receiver import Receiver, hides_sync
-from supervisor.link.wire import B1_TO_B2
+from rovercheck.supervisor.bench import Outcome, judge, parse, simulate
+from rovercheck.supervisor.bench.changes import changes
+from rovercheck.supervisor.bench.columns import inputs1, inputs2, outputs1, outputs2
+from rovercheck.supervisor.bench.line import Line, Port, duration_us
+from rovercheck.supervisor.bench.node1 import sides
+from rovercheck.supervisor.bench.record import Driver, Side, Traffic
+from rovercheck.supervisor.bench.rover import MotorDriver
+from rovercheck.supervisor.bench.schedule import Agenda, Clock, Rank
+from rovercheck.supervisor.bench.sensors import scan
+from rovercheck.supervisor.bench.signals import SIGNALS
+from rovercheck.supervisor.board1 import Board1Inputs, Board1Outputs
+from rovercheck.supervisor.board2.signals import Board2Inputs, Board2Outputs
+from rovercheck.supervisor.link.frame import Frame, Transmitter, encode
+from rovercheck.supervisor.link.payloads import FromBoard1
+from rovercheck.supervisor.link.receiver import Receiver, hides_sync
+from rovercheck.supervisor.link.wire import B1_TO_B2
 from tests.profiles import examples
 from tests.supervisor.bench_runs import scenario
 from tests.supervisor.frames import MASKS, SIZE, WORDS

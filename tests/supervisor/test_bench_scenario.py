@@ -4,9 +4,9 @@ from math import inf
 
 import pytest
 
-from supervisor.bench import ScenarioError, loads, parse
-from supervisor.bench.conditions import CONDITIONS
-from supervisor.bench.quantities import shown
+from rovercheck.supervisor.bench import ScenarioError, loads, parse
+from rovercheck.supervisor.bench.conditions import CONDITIONS
+from rovercheck.supervisor.bench.quantities import shown
 
 HEAD = 'duration = "10 s"\n'
 

@@ -4,9 +4,9 @@ from math import inf, nan, nextafter
 
 import pytest
 
-from supervisor.board1.monitors import BatteryMonitor
-from supervisor.timing import CLOCK
-from supervisor.types import Level
+from rovercheck.supervisor.board1.monitors import BatteryMonitor
+from rovercheck.supervisor.timing import CLOCK
+from rovercheck.supervisor.types import Level
 from tests.supervisor.board1_bench import Sensor
 
 OK, DEGRADED, CRITICAL = Level.OK, Level.DEGRADED, Level.CRITICAL

@@ -2,9 +2,9 @@
 
 import pytest
 
-from supervisor.board1 import Board1Outputs
-from supervisor.types import SafetyState
-from supervisor.types import SupervisorCommand as COMMAND
+from rovercheck.supervisor.board1 import Board1Outputs
+from rovercheck.supervisor.types import SafetyState
+from rovercheck.supervisor.types import SupervisorCommand as COMMAND
 from tests.supervisor.board1_bench import Bench, references
 
 

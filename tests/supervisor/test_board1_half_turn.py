@@ -4,7 +4,7 @@ from math import inf, nan, nextafter
 
 import pytest
 
-from supervisor.board1.states import Motion
+from rovercheck.supervisor.board1.states import Motion
 from tests.supervisor.board1_motions import CARE, NORMAL, SAFE, rotating, started, step
 
 

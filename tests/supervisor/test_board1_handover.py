@@ -1,7 +1,7 @@
 """Board 1 gives actuation to Board 2 and takes it back: what is frozen meanwhile, and goes on from there."""
 
-from supervisor.types import Level, SafetyState
-from supervisor.types import SupervisorCommand as COMMAND
+from rovercheck.supervisor.types import Level, SafetyState
+from rovercheck.supervisor.types import SupervisorCommand as COMMAND
 from tests.supervisor.board1_bench import Bench, lose_link, references
 
 

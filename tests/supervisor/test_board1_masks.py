@@ -2,10 +2,10 @@
 
 import pytest
 
-from supervisor.board1.classify import Requirements, classify
-from supervisor.board1.masks import Masks, fault_masks
-from supervisor.board1.signals import Statuses
-from supervisor.types import Level
+from rovercheck.supervisor.board1.classify import Requirements, classify
+from rovercheck.supervisor.board1.masks import Masks, fault_masks
+from rovercheck.supervisor.board1.signals import Statuses
+from rovercheck.supervisor.types import Level
 
 COMPONENTS = [
     ("temp_status", None, 1),

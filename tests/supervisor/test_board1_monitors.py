@@ -2,9 +2,9 @@
 
 import pytest
 
-from supervisor.board1.monitors import UpdateMonitor, wheel_status
-from supervisor.timing import CLOCK
-from supervisor.types import Level
+from rovercheck.supervisor.board1.monitors import UpdateMonitor, wheel_status
+from rovercheck.supervisor.timing import CLOCK
+from rovercheck.supervisor.types import Level
 
 OK, DEGRADED, CRITICAL = Level.OK, Level.DEGRADED, Level.CRITICAL
 

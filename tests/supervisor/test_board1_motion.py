@@ -2,8 +2,8 @@
 
 import pytest
 
-from supervisor.board1.states import ACTIONS, MANOEUVRES, Motion
-from supervisor.types import SupervisorCommand
+from rovercheck.supervisor.board1.states import ACTIONS, MANOEUVRES, Motion
+from rovercheck.supervisor.types import SupervisorCommand
 from tests.supervisor.board1_motions import CARE, ESTOP, NORMAL, SAFE, STOP, manoeuvring, started, step
 
 

@@ -4,10 +4,10 @@ from itertools import product
 
 import pytest
 
-from supervisor.board1.limits import LIMITS, Limits
-from supervisor.board1.relay import Relay
-from supervisor.board1.safety import Safety
-from supervisor.types import Level, SafetyState
+from rovercheck.supervisor.board1.limits import LIMITS, Limits
+from rovercheck.supervisor.board1.relay import Relay
+from rovercheck.supervisor.board1.safety import Safety
+from rovercheck.supervisor.types import Level, SafetyState
 
 OK, DEGRADED, CRITICAL = Level.OK, Level.DEGRADED, Level.CRITICAL
 SAFE, CARE, STOP = SafetyState.SAFETY_OK, SafetyState.SAFETY_DEGRADED, SafetyState.SAFETY_CRITICAL

@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from supervisor.board1 import Board1, Board1Inputs
-from supervisor.link.payloads import FromBoard2
-from supervisor.timing import CLOCK
-from supervisor.types import Level
-from supervisor.types import SupervisorCommand as COMMAND
+from rovercheck.supervisor.board1 import Board1, Board1Inputs
+from rovercheck.supervisor.link.payloads import FromBoard2
+from rovercheck.supervisor.timing import CLOCK
+from rovercheck.supervisor.types import Level
+from rovercheck.supervisor.types import SupervisorCommand as COMMAND
 from tests.supervisor.board1_bench import Bench, lose_link, references
 
 

@@ -4,8 +4,8 @@ from math import inf, nan
 
 import pytest
 
-from supervisor.board1.states import MANOEUVRES, Motion
-from supervisor.types import SupervisorCommand
+from rovercheck.supervisor.board1.states import MANOEUVRES, Motion
+from rovercheck.supervisor.types import SupervisorCommand
 from tests.supervisor.board1_motions import (
     CARE,
     ESTOP,

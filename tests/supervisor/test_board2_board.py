@@ -8,12 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from supervisor.board2.actuation import DRIVER_TIMEOUT_MS, Actuated
-from supervisor.board2.board import Board2
-from supervisor.board2.decision import Decision
-from supervisor.board2.signals import Board2Inputs, Board2Outputs, FromBoard1, Statuses
-from supervisor.timing import CLOCK
-from supervisor.types import Level, SafetyState, SupervisorCommand
+from rovercheck.supervisor.board2.actuation import DRIVER_TIMEOUT_MS, Actuated
+from rovercheck.supervisor.board2.board import Board2
+from rovercheck.supervisor.board2.decision import Decision
+from rovercheck.supervisor.board2.signals import Board2Inputs, Board2Outputs, FromBoard1, Statuses
+from rovercheck.supervisor.timing import CLOCK
+from rovercheck.supervisor.types import Level, SafetyState, SupervisorCommand
 from tests.supervisor.board2_bench import B1_RECEPTION, STAMPS, Bench
 
 LINK = {"last_valid_b1_ms", "b1_data_last_valid_ms"}

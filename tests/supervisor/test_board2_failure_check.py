@@ -4,8 +4,8 @@ from functools import partial
 
 import pytest
 
-from supervisor.board2.failure_check import FailureCheck
-from supervisor.types import Level
+from rovercheck.supervisor.board2.failure_check import FailureCheck
+from rovercheck.supervisor.types import Level
 
 FAILED = (
     (True, Level.OK, Level.OK),

@@ -2,9 +2,9 @@
 
 import pytest
 
-from supervisor.board2.classify import Classification, classify
-from supervisor.board2.masks import Statuses, mask
-from supervisor.types import Level
+from rovercheck.supervisor.board2.classify import Classification, classify
+from rovercheck.supervisor.board2.masks import Statuses, mask
+from rovercheck.supervisor.types import Level
 
 BITS = {"esp_status": 1, "imu_status": 2, "rx_status": 4, "b1_sup_status": 8}
 

@@ -6,10 +6,10 @@ from typing import Any
 
 import pytest
 
-from supervisor.board2.monitors import Monitor, Monitors, Slow2, TooOld
-from supervisor.board2.signals import Board2Inputs
-from supervisor.timing import CLOCK
-from supervisor.types import Level
+from rovercheck.supervisor.board2.monitors import Monitor, Monitors, Slow2, TooOld
+from rovercheck.supervisor.board2.signals import Board2Inputs
+from rovercheck.supervisor.timing import CLOCK
+from rovercheck.supervisor.types import Level
 
 FIELDS = ("last_valid_b1_ms", "ble_last_valid_ms", "imu_last_valid_ms", "b1_data_last_valid_ms")
 STATUSES = ("b1_sup_status", "esp_status", "imu_status", "rx_status")

@@ -5,8 +5,8 @@ from typing import Any
 
 import pytest
 
-from supervisor.board2.motion import Motion, MotionInputs, State
-from supervisor.types import Level, SafetyState, SupervisorCommand
+from rovercheck.supervisor.board2.motion import Motion, MotionInputs, State
+from rovercheck.supervisor.types import Level, SafetyState, SupervisorCommand
 
 STANDING, MOVING = (0.0,) * 4, (60.0,) * 4
 DEGRADED, CRITICAL = SafetyState.SAFETY_DEGRADED, SafetyState.SAFETY_CRITICAL

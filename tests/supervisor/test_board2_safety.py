@@ -1,7 +1,7 @@
 """The safety state while Board 2 drives."""
 
-from supervisor.board2.safety import Safety
-from supervisor.types import SafetyState
+from rovercheck.supervisor.board2.safety import Safety
+from rovercheck.supervisor.types import SafetyState
 
 
 def test_the_first_authorised_step_is_degraded_whatever_the_masks() -> None:

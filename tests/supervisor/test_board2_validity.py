@@ -5,9 +5,9 @@ from typing import Any
 
 import pytest
 
-from supervisor.board2.signals import Board2Inputs
-from supervisor.board2.validity import Validity
-from supervisor.types import Level
+from rovercheck.supervisor.board2.signals import Board2Inputs
+from rovercheck.supervisor.board2.validity import Validity
+from rovercheck.supervisor.types import Level
 from tests.supervisor.board2_bench import Bench
 
 NO_NUMBERS = (float("nan"), float("inf"), float("-inf"))

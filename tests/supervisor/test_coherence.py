@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from supervisor.board2.coherence import DPS_PER_RPM, Coherence, wheel_yaw_rate
+from rovercheck.supervisor.board2.coherence import DPS_PER_RPM, Coherence, wheel_yaw_rate
 
 REST = (0.0, 0.0, 0.0, 0.0)
 

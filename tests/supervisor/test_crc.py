@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from supervisor.link.crc import crc16
+from rovercheck.supervisor.link.crc import crc16
 from tests.supervisor.frames import SIZE, flipped
 
 BITS = SIZE * 8

@@ -9,11 +9,11 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from supervisor.link.crc import crc16
-from supervisor.link.frame import Frame, Refusal, Transmitter, decode, encode, frame_size
-from supervisor.link.payloads import FromBoard1, FromBoard2
-from supervisor.link.wire import B1_TO_B2, B2_TO_B1, Direction, single
-from supervisor.types import SupervisorCommand
+from rovercheck.supervisor.link.crc import crc16
+from rovercheck.supervisor.link.frame import Frame, Refusal, Transmitter, decode, encode, frame_size
+from rovercheck.supervisor.link.payloads import FromBoard1, FromBoard2
+from rovercheck.supervisor.link.wire import B1_TO_B2, B2_TO_B1, Direction, single
+from rovercheck.supervisor.types import SupervisorCommand
 from tests.supervisor.frames import DIRECTIONS, NUMBERS, SIZE, flipped, sent
 
 B1 = Frame(FromBoard1((60.0, 59.5, -2.5, 0.0), 0x84, 0x01, 1000), 77, 20_000)

@@ -4,8 +4,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from supervisor.link.heartbeat import AliveCounter, Heartbeat
-from supervisor.link.payloads import FromBoard1, FromBoard2
+from rovercheck.supervisor.link.heartbeat import AliveCounter, Heartbeat
+from rovercheck.supervisor.link.payloads import FromBoard1, FromBoard2
 
 COUNTERS = st.integers(0, 2**32 - 1)
 

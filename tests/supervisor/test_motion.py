@@ -6,7 +6,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from supervisor.motion import UserReferences, angle180, angle_error, axis, check_stop, heading, sign, wrap
+from rovercheck.supervisor.motion import (
+    UserReferences,
+    angle180,
+    angle_error,
+    axis,
+    check_stop,
+    heading,
+    sign,
+    wrap,
+)
 
 
 @pytest.mark.parametrize(

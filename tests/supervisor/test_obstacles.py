@@ -6,13 +6,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from supervisor.board2.decision import Decision
-from supervisor.board2.distances import Distances, close_range, within
-from supervisor.board2.obstacles import Obstacles
-from supervisor.board2.obstacles.decisions import Decisions, has_turned, target_angle
-from supervisor.board2.obstacles.events import Event
-from supervisor.board2.obstacles.timers import PairTimer, pair_timers
-from supervisor.board2.obstacles_degraded import DegradedObstacles
+from rovercheck.supervisor.board2.decision import Decision
+from rovercheck.supervisor.board2.distances import Distances, close_range, within
+from rovercheck.supervisor.board2.obstacles import Obstacles
+from rovercheck.supervisor.board2.obstacles.decisions import Decisions, has_turned, target_angle
+from rovercheck.supervisor.board2.obstacles.events import Event
+from rovercheck.supervisor.board2.obstacles.timers import PairTimer, pair_timers
+from rovercheck.supervisor.board2.obstacles_degraded import DegradedObstacles
 
 FAR, SEEN, NEAR = 301, 200, 60
 CLEAR: Distances = (FAR, FAR, FAR)

@@ -6,10 +6,10 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from supervisor.link.frame import Frame, Refusal, Transmitter, decode, encode
-from supervisor.link.payloads import FromBoard1, FromBoard2
-from supervisor.link.receiver import Receiver, RxSnapshot, hides_sync
-from supervisor.link.wire import B1_TO_B2, B2_TO_B1, Direction
+from rovercheck.supervisor.link.frame import Frame, Refusal, Transmitter, decode, encode
+from rovercheck.supervisor.link.payloads import FromBoard1, FromBoard2
+from rovercheck.supervisor.link.receiver import Receiver, RxSnapshot, hides_sync
+from rovercheck.supervisor.link.wire import B1_TO_B2, B2_TO_B1, Direction
 from tests.supervisor.frames import DIRECTIONS, FROM_BOARD_1, FROM_BOARD_2, SIZE, flipped
 
 OLD, NEW, LAST = (FromBoard1((speed, 0.0, 0.0, 0.0), 1, 2, int(speed)) for speed in (10.0, 20.0, 30.0))

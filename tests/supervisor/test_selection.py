@@ -2,10 +2,10 @@
 
 import pytest
 
-from supervisor.board2.decision import COMMANDS, Decision
-from supervisor.board2.distances import Distances
-from supervisor.board2.selection import Selected, Selection
-from supervisor.types import SupervisorCommand as Command
+from rovercheck.supervisor.board2.decision import COMMANDS, Decision
+from rovercheck.supervisor.board2.distances import Distances
+from rovercheck.supervisor.board2.selection import Selected, Selection
+from rovercheck.supervisor.types import SupervisorCommand as Command
 
 CLEAR: Distances = (301, 301, 301)
 AHEAD: Distances = (301, 200, 301)

@@ -2,7 +2,17 @@
 
 import pytest
 
-from supervisor.timing import CLOCK, After, Age, Duration, Held, IntervalMean, Rising, elapsed_ms, steps
+from rovercheck.supervisor.timing import (
+    CLOCK,
+    After,
+    Age,
+    Duration,
+    Held,
+    IntervalMean,
+    Rising,
+    elapsed_ms,
+    steps,
+)
 
 
 def test_the_clock_has_32_bits():

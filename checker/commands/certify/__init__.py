@@ -5,8 +5,8 @@ from pathlib import Path
 
 import click
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import SECONDS, gathered, modelling, quietly
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import SECONDS, gathered, modelling, quietly
 
 
 @dataclass(frozen=True)
@@ -40,8 +40,8 @@ class CertificationOptions:
 @gathered(CertificationOptions, "options")
 def certify(paths: tuple[Path, ...], options: CertificationOptions, model: Path | None) -> Exit:
     """Check the certificates of proofs again, by other means than found them."""
-    from checker.certify.check import By, CheckEffort
-    from checker.commands.certify.run import certify as run
+    from rovercheck.checker.certify.check import By, CheckEffort
+    from rovercheck.checker.commands.certify.run import certify as run
 
     return run(
         paths,

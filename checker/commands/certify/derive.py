@@ -6,27 +6,27 @@ from dataclasses import dataclass, field
 from itertools import count
 from pathlib import Path
 
-from checker.certify.certificate import Certificate, meaningful
-from checker.certify.check import CheckEffort, check, rebuilt
-from checker.certify.file import CertificateOrigin, Unwritable, Written
-from checker.certify.obligations import obligations, too_long
-from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
-from checker.certify.reader import CertificateReader
-from checker.certify.terms import Malformed
-from checker.certify.tick import executed
-from checker.commands.shared.codes import UsageError
-from checker.commands.shared.select import pick
-from checker.commands.shared.variant import Variant, pick_variant
-from checker.commands.shared.wrapping import whole
-from checker.engines import Limits, Timers, quiet
-from checker.io.files import replaced
-from checker.process.isolate import Send
-from checker.results.verdict import Unknown
-from checker.verify.decide import Task, decide
-from checker.verify.result import Result
-from properties.forms import Property, Unbounded
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import System, TransitionSystem
+from rovercheck.checker.certify.certificate import Certificate, meaningful
+from rovercheck.checker.certify.check import CheckEffort, check, rebuilt
+from rovercheck.checker.certify.file import CertificateOrigin, Unwritable, Written
+from rovercheck.checker.certify.obligations import obligations, too_long
+from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
+from rovercheck.checker.certify.reader import CertificateReader
+from rovercheck.checker.certify.terms import Malformed
+from rovercheck.checker.certify.tick import executed
+from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.commands.shared.variant import Variant, pick_variant
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.engines import Limits, Timers, quiet
+from rovercheck.checker.io.files import replaced
+from rovercheck.checker.process.isolate import Send
+from rovercheck.checker.results.verdict import Unknown
+from rovercheck.checker.verify.decide import Task, decide
+from rovercheck.checker.verify.result import Result
+from rovercheck.properties.forms import Property, Unbounded
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 
 @dataclass(frozen=True)

@@ -7,19 +7,19 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from shlex import quote
 
-from checker.certify.check import CheckEffort
-from checker.certify.file import Unwritable, Written, read
-from checker.certify.outcome import Accepted, Rejected, Undecided
-from checker.certify.terms import Malformed
-from checker.commands.certify.derive import DerivedVerdict, Deriving
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import counted, out, wrapped
-from checker.commands.shared.progress import ProgressLine
-from checker.commands.shared.wrapping import whole
-from checker.engines import Limits
-from checker.io.printable import json_text
-from checker.model.load import load
-from checker.process.pool import Order, Pool
+from rovercheck.checker.certify.check import CheckEffort
+from rovercheck.checker.certify.file import Unwritable, Written, read
+from rovercheck.checker.certify.outcome import Accepted, Rejected, Undecided
+from rovercheck.checker.certify.terms import Malformed
+from rovercheck.checker.commands.certify.derive import DerivedVerdict, Deriving
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import counted, out, wrapped
+from rovercheck.checker.commands.shared.progress import ProgressLine
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.model.load import load
+from rovercheck.checker.process.pool import Order, Pool
 
 WORKERS = 2
 WHY = 34

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.options import (
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.options import (
     GIB,
     SearchOptions,
     VariantOptions,
@@ -16,13 +16,13 @@ from checker.commands.shared.options import (
     searching,
     varying,
 )
-from checker.engines import ALL, AUTO, LOADED, Limits
+from rovercheck.checker.engines import ALL, AUTO, LOADED, Limits
 
 if TYPE_CHECKING:
-    from checker.commands.check.further import Further
-    from checker.commands.check.premises import PremiseSearch
-    from checker.commands.check.standing import Chains
-    from checker.commands.shared.variant import Variant
+    from rovercheck.checker.commands.check.further import Further
+    from rovercheck.checker.commands.check.premises import PremiseSearch
+    from rovercheck.checker.commands.check.standing import Chains
+    from rovercheck.checker.commands.shared.variant import Variant
 
 
 @dataclass(frozen=True)
@@ -115,15 +115,15 @@ class CheckOptions:
 @gathered(CheckOptions, "options")
 def check(options: CheckOptions, charts: VariantOptions, search: SearchOptions) -> Exit:
     """Check properties and compare the verdicts with the baseline."""
-    from checker.process.isolate import prepared
+    from rovercheck.checker.process.isolate import prepared
 
     with prepared(*LOADED):
-        from checker.commands.check.certificates import writable
-        from checker.commands.check.findings import Guide, causes
-        from checker.commands.check.run import check as run
-        from checker.commands.check.run import undelivered
-        from checker.commands.shared.select import again, pick_engine, pick_properties
-        from checker.model.kept_invariants import invariants_of
+        from rovercheck.checker.commands.check.certificates import writable
+        from rovercheck.checker.commands.check.findings import Guide, causes
+        from rovercheck.checker.commands.check.run import check as run
+        from rovercheck.checker.commands.check.run import undelivered
+        from rovercheck.checker.commands.shared.select import again, pick_engine, pick_properties
+        from rovercheck.checker.model.kept_invariants import invariants_of
 
         variant = charts.variant()
         properties = pick_properties(
@@ -154,7 +154,7 @@ def check(options: CheckOptions, charts: VariantOptions, search: SearchOptions) 
         systems = variant.systems()
         deliver = undelivered
         if options.junit or options.sarif or options.annotations:
-            from checker.commands.check.ci import Reports
+            from rovercheck.checker.commands.check.ci import Reports
 
             charted = _again(variant.model.options, charts.chosen, charts.repair, charts.dropped)
             reports = Reports(
@@ -176,7 +176,7 @@ def check(options: CheckOptions, charts: VariantOptions, search: SearchOptions) 
             chains,
         )
         if options.record_invariants:
-            from checker.commands.check.invariants import Recording
+            from rovercheck.checker.commands.check.invariants import Recording
 
             further = replace(further, keep=Recording(variant.model, variant.name))
         return run(
@@ -207,14 +207,14 @@ def _chains(variant: "Variant") -> "Chains | None":
     """The chains of the rover's promises, checked for holes; a model of a user's own has none."""
     if variant.own is not None:
         return None
-    from checker.commands.check.standing import Chains
+    from rovercheck.checker.commands.check.standing import Chains
 
     return Chains(variant)
 
 
 def _further(variant: "Variant", premises: "PremiseSearch | None", chains: "Chains | None") -> "Further":
     """What is asked of the verdicts; faults are kept of the charts as they are."""
-    from checker.commands.check.further import Further, noticing
+    from rovercheck.checker.commands.check.further import Further, noticing
 
     further = Further(noticing=None if variant.name else noticing(variant.model))
     if premises is not None:
@@ -226,8 +226,8 @@ def _premises(
     variant: "Variant", engine: str, limits: Limits, jobs: int | None, quiet: bool, keep: bool
 ) -> "PremiseSearch":
     """Asks whether the cases occur that proofs speak of, and keeps the runs if wanted."""
-    from checker.commands.check.premises import PremiseSearch, recordable
-    from checker.model.kept_runs import file_of, read
+    from rovercheck.checker.commands.check.premises import PremiseSearch, recordable
+    from rovercheck.checker.model.kept_runs import file_of, read
 
     model = variant.model
     if keep:

@@ -5,11 +5,11 @@ from collections.abc import Sequence
 from pathlib import Path
 from tempfile import TemporaryFile
 
-from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
-from checker.commands.shared.codes import UsageError
-from checker.commands.shared.output import err, out
-from checker.commands.shared.wrapping import whole
-from checker.verify.result import Result
+from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
+from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.commands.shared.output import err, out
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.verify.result import Result
 
 
 def writable(folder: Path) -> None:

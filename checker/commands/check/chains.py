@@ -2,22 +2,22 @@
 
 from collections.abc import Iterator, Mapping
 
-from checker.engines import AUTO, Limits, quiet
-from checker.results.verdict import Reached, Unreachable
-from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
-from properties.catalogue import as_written
-from properties.forms import Always, Form, HoldsAfter
-from properties.promises.promise import Chain, Promise
-from spec_model.composition.contracts import Contract
-from spec_model.composition.fine_systems import CONTRACTS, WIRES
-from spec_model.composition.systems import link12, link21
-from spec_model.lang.action import assign
-from spec_model.lang.edit import everywhere
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.expr import FALSE, TRUE, Expr, Temporal, Var, flag
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
-from spec_model.lang.words import previous
+from rovercheck.checker.engines import AUTO, Limits, quiet
+from rovercheck.checker.results.verdict import Reached, Unreachable
+from rovercheck.checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
+from rovercheck.properties.catalogue import as_written
+from rovercheck.properties.forms import Always, Form, HoldsAfter
+from rovercheck.properties.promises.promise import Chain, Promise
+from rovercheck.spec_model.composition.contracts import Contract
+from rovercheck.spec_model.composition.fine_systems import CONTRACTS, WIRES
+from rovercheck.spec_model.composition.systems import link12, link21
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.edit import everywhere
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Temporal, Var, flag
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
+from rovercheck.spec_model.lang.words import previous
 
 SECONDS = 60
 FIELDS: Mapping[str, Expr] = {

@@ -7,20 +7,20 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from secrets import token_hex
 
-from checker.certify.outcome import Rejected
-from checker.commands.check.run import Compared, evidence, length, recorded
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import possible, write
-from checker.commands.shared.wording import formally
-from checker.commands.shared.wrapping import whole
-from checker.render.ci import CiFinding, CiReport, FindingLevel
-from checker.render.ci.github import annotations, summary
-from checker.render.ci.junit import junit
-from checker.render.ci.sarif import sarif
-from checker.results.trace import Trace, counted_ticks
-from checker.results.verdict import Exhausted, Unknown, Violated
-from properties.forms import Reachable
-from spec_model.lang.system import System
+from rovercheck.checker.certify.outcome import Rejected
+from rovercheck.checker.commands.check.run import Compared, evidence, length, recorded
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import possible, write
+from rovercheck.checker.commands.shared.wording import formally
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.render.ci import CiFinding, CiReport, FindingLevel
+from rovercheck.checker.render.ci.github import annotations, summary
+from rovercheck.checker.render.ci.junit import junit
+from rovercheck.checker.render.ci.sarif import sarif
+from rovercheck.checker.results.trace import Trace, counted_ticks
+from rovercheck.checker.results.verdict import Exhausted, Unknown, Violated
+from rovercheck.properties.forms import Reachable
+from rovercheck.spec_model.lang.system import System
 
 SUMMARY = "GITHUB_STEP_SUMMARY"
 """The file, named by GitHub, to which a step adds its summary."""

@@ -3,12 +3,12 @@
 from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
-from checker.commands.check.certificates import outcome
-from checker.commands.check.run import Compared, evidence, length, worst
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.check.certificates import outcome
+from rovercheck.checker.commands.check.run import Compared, evidence, length, worst
+from rovercheck.checker.commands.shared.codes import Exit
 
 if TYPE_CHECKING:
-    from checker.commands.check.standing import Standing
+    from rovercheck.checker.commands.check.standing import Standing
 
 SCHEMA = 1
 CASE = {True: "occurs", False: "never", None: "unknown"}

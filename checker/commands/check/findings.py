@@ -10,15 +10,15 @@ from shlex import quote
 from shutil import which
 from typing import TYPE_CHECKING
 
-from checker.commands.shared.output import counted
-from checker.commands.shared.wrapping import whole
-from properties.forms import Property, Reachable
-from spec_model.lang.system import System
+from rovercheck.checker.commands.shared.output import counted
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.properties.forms import Property, Reachable
+from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from checker.commands.check.run import Compared
-    from checker.commands.check.standing import Standing
-    from checker.commands.shared.variant import Variant
+    from rovercheck.checker.commands.check.run import Compared
+    from rovercheck.checker.commands.check.standing import Standing
+    from rovercheck.checker.commands.shared.variant import Variant
 
 REPORTS = Path("reports/README.md")
 

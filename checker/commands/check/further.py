@@ -4,15 +4,15 @@ from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from checker.model import Model
-from checker.model.kept_runs import KILLS, file_of, read
-from checker.results.verdict import Proved
-from properties.forms import Property, Reachable, Unbounded
+from rovercheck.checker.model import Model
+from rovercheck.checker.model.kept_runs import KILLS, file_of, read
+from rovercheck.checker.results.verdict import Proved
+from rovercheck.properties.forms import Property, Reachable, Unbounded
 
 if TYPE_CHECKING:
-    from checker.commands.check.premises import PremiseCase
-    from checker.commands.check.run import Compared
-    from checker.commands.check.standing import Standing
+    from rovercheck.checker.commands.check.premises import PremiseCase
+    from rovercheck.checker.commands.check.run import Compared
+    from rovercheck.checker.commands.check.standing import Standing
 
 
 def _unheard(_: "Compared") -> None:

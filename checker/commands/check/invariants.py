@@ -3,13 +3,13 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from checker.commands.check.premises import recordable
-from checker.commands.check.run import Compared
-from checker.commands.shared.output import counted, err, wrapped, write
-from checker.model import Model
-from checker.model.kept_invariants import MOST_NODES, invariants_of, row, text
-from checker.model.kept_runs import INVARIANTS, file_of
-from checker.results.verdict import Inductive, Unknown
+from rovercheck.checker.commands.check.premises import recordable
+from rovercheck.checker.commands.check.run import Compared
+from rovercheck.checker.commands.shared.output import counted, err, wrapped, write
+from rovercheck.checker.model import Model
+from rovercheck.checker.model.kept_invariants import MOST_NODES, invariants_of, row, text
+from rovercheck.checker.model.kept_runs import INVARIANTS, file_of
+from rovercheck.checker.results.verdict import Inductive, Unknown
 
 
 @dataclass(frozen=True)

@@ -4,20 +4,20 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from checker.commands.check.run import Compared, evidence, results
-from checker.commands.shared.codes import UsageError
-from checker.commands.shared.output import write
-from checker.commands.shared.wrapping import whole
-from checker.engines import Limits
-from checker.model import Model
-from checker.model.kept_runs import INVARIANTS, PREMISES, KeptRun, file_of, read, text
-from checker.results.trace import counted_ticks
-from checker.results.verdict import Proved, Unknown
-from checker.verify.result import Result
-from checker.verify.runs.known import reached, run_of
-from properties.forms import Property
-from properties.premise import premise
-from spec_model.lang.system import System
+from rovercheck.checker.commands.check.run import Compared, evidence, results
+from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.commands.shared.output import write
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.model import Model
+from rovercheck.checker.model.kept_runs import INVARIANTS, PREMISES, KeptRun, file_of, read, text
+from rovercheck.checker.results.trace import counted_ticks
+from rovercheck.checker.results.verdict import Proved, Unknown
+from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.runs.known import reached, run_of
+from rovercheck.properties.forms import Property
+from rovercheck.properties.premise import premise
+from rovercheck.spec_model.lang.system import System
 
 PATIENCE = 5.0
 """Seconds for each search for a case where verdicts are what is asked for."""

@@ -5,9 +5,9 @@ from contextlib import closing
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol
 
-from checker.certify.outcome import Rejected
-from checker.commands.check.certificates import certificates, certified
-from checker.commands.check.findings import (
+from rovercheck.checker.certify.outcome import Rejected
+from rovercheck.checker.commands.check.certificates import certificates, certified
+from rovercheck.checker.commands.check.findings import (
     ALONE,
     Guide,
     about_cases,
@@ -16,30 +16,30 @@ from checker.commands.check.findings import (
     read_on,
     totals,
 )
-from checker.commands.check.further import NOTHING_FURTHER, Further
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.failure import alarm, code_of, told
-from checker.commands.shared.output import err, out, wrapped
-from checker.commands.shared.progress import Watch
-from checker.commands.shared.wrapping import plain
-from checker.engines import Limits
-from checker.io.printable import json_text
-from checker.model.kept_invariants import Recorded
-from checker.process.faults import Fault, heard, listening, tell
-from checker.render.story import repeating
-from checker.results.trace import Trace, counted_ticks
-from checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
-from checker.system.formula_json import Tree
-from checker.verify.result import Result
-from checker.verify.searches import Over, SearchDoing, Warned, searches
-from checker.verify.tasks import Task, tasks
-from properties.catalogue import Expected, expected
-from properties.forms import Property, Reachable
-from spec_model.lang.system import System
+from rovercheck.checker.commands.check.further import NOTHING_FURTHER, Further
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.failure import alarm, code_of, told
+from rovercheck.checker.commands.shared.output import err, out, wrapped
+from rovercheck.checker.commands.shared.progress import Watch
+from rovercheck.checker.commands.shared.wrapping import plain
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.model.kept_invariants import Recorded
+from rovercheck.checker.process.faults import Fault, heard, listening, tell
+from rovercheck.checker.render.story import repeating
+from rovercheck.checker.results.trace import Trace, counted_ticks
+from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
+from rovercheck.checker.system.formula_json import Tree
+from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.searches import Over, SearchDoing, Warned, searches
+from rovercheck.checker.verify.tasks import Task, tasks
+from rovercheck.properties.catalogue import Expected, expected
+from rovercheck.properties.forms import Property, Reachable
+from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from checker.commands.check.premises import PremiseCase
-    from checker.verify.certificates import Certifying
+    from rovercheck.checker.commands.check.premises import PremiseCase
+    from rovercheck.checker.verify.certificates import Certifying
 
 NONE_RECORDED: Recorded = {}
 EVIDENCE = 33
@@ -227,13 +227,13 @@ def check(
         ]
     except BaseException as error:
         if as_json:
-            from checker.commands.check.document import document
+            from rovercheck.checker.commands.check.document import document
 
             gravest = bool(faults) and not isinstance(error, KeyboardInterrupt)
             print(json_text(document(found, code_of(error), gravest), ascii=True))
         alarms = _alarmed(faults)
         deliver(found, len(properties), " ".join(filter(None, (_why(error), alarms))))
-        from checker.certify.file import Unwritable
+        from rovercheck.checker.certify.file import Unwritable
 
         if isinstance(error, Unwritable):
             raise UsageError(str(error)) from error
@@ -242,7 +242,7 @@ def check(
         err.print(f"Interrupted: {len(found)} of {len(properties)} properties decided.")
         return Exit.INTERRUPTED
     if as_json:
-        from checker.commands.check.document import document
+        from rovercheck.checker.commands.check.document import document
 
         print(json_text(document(found, chains=chains, faulty=bool(faults)), ascii=True))
     elif not quiet:

@@ -5,18 +5,18 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
 
-from checker.commands.check.chains import check
-from checker.commands.shared.variant import Variant
-from checker.mutate.asked import depends_on
-from checker.mutate.product import same
-from checker.system.lowered import lowered
-from properties.catalogue import promises
-from properties.forms import Property
-from properties.promises.promise import Chain, Promise
-from spec_model.lang.system import System, TransitionSystem
+from rovercheck.checker.commands.check.chains import check
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.mutate.asked import depends_on
+from rovercheck.checker.mutate.product import same
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.properties.catalogue import promises
+from rovercheck.properties.forms import Property
+from rovercheck.properties.promises.promise import Chain, Promise
+from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 if TYPE_CHECKING:
-    from checker.commands.check.run import Compared
+    from rovercheck.checker.commands.check.run import Compared
 
 
 @dataclass(frozen=True)

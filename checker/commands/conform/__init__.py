@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import VariantOptions, changing, quietly
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import VariantOptions, changing, quietly
 
 
 @click.command(short_help="Check logs recorded on a board.")
@@ -31,6 +31,6 @@ def conform(
     charts: VariantOptions,
 ) -> Exit:
     """Check a log, or all logs of a folder: every property as a monitor, and as a run of the charts."""
-    from checker.commands.conform.run import conform as run
+    from rovercheck.checker.commands.conform.run import conform as run
 
     return run(place, map_file, system, as_json, verbose, charts.chosen, charts.repair)

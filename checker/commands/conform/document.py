@@ -1,9 +1,9 @@
 """What was found in a log, for machines."""
 
-from checker.logs import LogResult, as_on_record
-from checker.logs.deviations import Deviation
-from checker.logs.invalid import InvalidCell
-from checker.logs.monitors import Verdict
+from rovercheck.checker.logs import LogResult, as_on_record
+from rovercheck.checker.logs.deviations import Deviation
+from rovercheck.checker.logs.invalid import InvalidCell
+from rovercheck.checker.logs.monitors import Verdict
 
 Entry = dict[str, object]
 

@@ -4,16 +4,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from checker.commands.conform.document import as_json
-from checker.commands.conform.text import LogFault, Outcome, page, summary
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.failure import told
-from checker.commands.shared.output import err, out
-from checker.commands.shared.progress import ProgressLine
-from checker.commands.shared.variant import Variant, pick_variant
-from checker.compare.varied import varied
-from checker.io.printable import json_text
-from checker.logs import Against, ColumnMap, LogError, LogResult, examine, read_map
+from rovercheck.checker.commands.conform.document import as_json
+from rovercheck.checker.commands.conform.text import LogFault, Outcome, page, summary
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.failure import told
+from rovercheck.checker.commands.shared.output import err, out
+from rovercheck.checker.commands.shared.progress import ProgressLine
+from rovercheck.checker.commands.shared.variant import Variant, pick_variant
+from rovercheck.checker.compare.varied import varied
+from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.logs import Against, ColumnMap, LogError, LogResult, examine, read_map
 
 SCHEMA = "rovercheck/conform/1"
 """The format of the JSON documents, and its version."""

@@ -5,12 +5,12 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from textwrap import fill, shorten
 
-from checker.commands.shared.output import counted, text_width
-from checker.io.printable import one_line
-from checker.logs import LogError, LogResult, as_on_record
-from checker.logs.deviations import Deviation
-from checker.logs.invalid import Invalid
-from checker.logs.monitors import Verdict
+from rovercheck.checker.commands.shared.output import counted, text_width
+from rovercheck.checker.io.printable import one_line
+from rovercheck.checker.logs import LogError, LogResult, as_on_record
+from rovercheck.checker.logs.deviations import Deviation
+from rovercheck.checker.logs.invalid import Invalid
+from rovercheck.checker.logs.monitors import Verdict
 
 KINDS = {
     "value": "",

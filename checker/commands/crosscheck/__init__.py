@@ -5,8 +5,8 @@ from pathlib import Path
 
 import click
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import VariantOptions, changing, gathered, quietly
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import VariantOptions, changing, gathered, quietly
 
 
 @dataclass(frozen=True)
@@ -65,9 +65,9 @@ def crosscheck(
     options: ComparisonOptions, as_json: bool, output: Path | None, charts: VariantOptions
 ) -> Exit:
     """Run a supervisor and the charts side by side; exit code 1 where they differ."""
-    from checker.commands.crosscheck.run import CrosscheckOptions
-    from checker.commands.crosscheck.run import crosscheck as run
-    from checker.compare import Allowance
+    from rovercheck.checker.commands.crosscheck.run import CrosscheckOptions
+    from rovercheck.checker.commands.crosscheck.run import crosscheck as run
+    from rovercheck.checker.compare import Allowance
 
     allowed = Allowance(options.mismatches, options.failures)
     asked = CrosscheckOptions(

@@ -1,6 +1,6 @@
 """Keeps the runs that the model checker found as inputs for the cross-check; run as a module after a change.
 
-``python -m checker.commands.crosscheck.record [FILE]`` decides every violated property that is quick to
+``python -m rovercheck.commands.crosscheck.record [FILE]`` decides every violated property that is quick to
 decide, and writes its run on each board that it concerns; into another file than that of the project if one
 is named.
 """
@@ -9,19 +9,19 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
-import checker.compare
-from checker.commands.check.run import results
-from checker.compare.recorded import COUNTEREXAMPLES, KeptSuite, encoded, kept
-from checker.engines import AUTO, Limits
-from checker.io.files import replaced
-from checker.results.trace import Trace
-from checker.results.verdict import Unknown
-from properties.catalogue import catalogue, expected
-from spec_model.abstraction import Board, boards
-from spec_model.abstraction.board import computed, whole
-from spec_model.lang.domain import Num
-from spec_model.lang.system import TICK_MS, System
-from spec_model.rover import systems
+import rovercheck.checker.compare
+from rovercheck.checker.commands.check.run import results
+from rovercheck.checker.compare.recorded import COUNTEREXAMPLES, KeptSuite, encoded, kept
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.io.files import replaced
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Unknown
+from rovercheck.properties.catalogue import catalogue, expected
+from rovercheck.spec_model.abstraction import Board, boards
+from rovercheck.spec_model.abstraction.board import computed, whole
+from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.system import TICK_MS, System
+from rovercheck.spec_model.rover import systems
 
 Found = tuple[str, str, Trace]
 """A property, the system of its run, and the run."""
@@ -66,7 +66,7 @@ def counterexamples() -> Iterator[Found]:
             yield result.property.id, result.system, verdict.because
 
 
-KEPT = Path(checker.compare.__file__).parent / COUNTEREXAMPLES
+KEPT = Path(rovercheck.checker.compare.__file__).parent / COUNTEREXAMPLES
 
 
 def main(place: Path = KEPT) -> None:

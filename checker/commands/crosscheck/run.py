@@ -5,22 +5,22 @@ from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 
-from checker.adapters import start
-from checker.adapters.implementation import ImplementationError
-from checker.commands.crosscheck.text import CrosscheckReport, report, row, shown
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import counted, err, out, write
-from checker.commands.shared.progress import ProgressLine
-from checker.commands.shared.variant import Variant, pick_variant
-from checker.commands.shared.wrapping import whole
-from checker.compare import Allowance, CompareResult, cross_check, effort
-from checker.compare.reproduce import file_name, pytest_file
-from checker.compare.result import ALLOWED, RANDOM
-from checker.compare.search import CompareSearch
-from checker.compare.varied import varied
-from checker.io.printable import json_text
-from spec_model.abstraction import Board
-from spec_model.lang.errors import did_you_mean
+from rovercheck.checker.adapters import start
+from rovercheck.checker.adapters.implementation import ImplementationError
+from rovercheck.checker.commands.crosscheck.text import CrosscheckReport, report, row, shown
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import counted, err, out, write
+from rovercheck.checker.commands.shared.progress import ProgressLine
+from rovercheck.checker.commands.shared.variant import Variant, pick_variant
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.compare import Allowance, CompareResult, cross_check, effort
+from rovercheck.checker.compare.reproduce import file_name, pytest_file
+from rovercheck.checker.compare.result import ALLOWED, RANDOM
+from rovercheck.checker.compare.search import CompareSearch
+from rovercheck.checker.compare.varied import varied
+from rovercheck.checker.io.printable import json_text
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.errors import did_you_mean
 
 SCHEMA = 1
 OURS: Mapping[str, str] = {

@@ -5,17 +5,17 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from shlex import quote
 
-from checker.commands.shared.output import counted, text_width
-from checker.commands.shared.wrapping import filled, whole
-from checker.compare.beside import StepMismatch, SteppedCharts, author_of
-from checker.compare.coverage import taken
-from checker.compare.reproduce import stimulus_of
-from checker.compare.result import CompareResult, CompareStage, Failure
-from checker.compare.smaller import columns
-from checker.compare.stimulus import SILENT, Change, Every
-from checker.compare.strategy import ENVIRONMENTS
-from spec_model.abstraction import BoardSignal, Value
-from spec_model.lang.system import TICK_MS
+from rovercheck.checker.commands.shared.output import counted, text_width
+from rovercheck.checker.commands.shared.wrapping import filled, whole
+from rovercheck.checker.compare.beside import StepMismatch, SteppedCharts, author_of
+from rovercheck.checker.compare.coverage import taken
+from rovercheck.checker.compare.reproduce import stimulus_of
+from rovercheck.checker.compare.result import CompareResult, CompareStage, Failure
+from rovercheck.checker.compare.smaller import columns
+from rovercheck.checker.compare.stimulus import SILENT, Change, Every
+from rovercheck.checker.compare.strategy import ENVIRONMENTS
+from rovercheck.spec_model.abstraction import BoardSignal, Value
+from rovercheck.spec_model.lang.system import TICK_MS
 
 BEFORE = 3
 """Steps before that of the mismatch of which the arrows are told."""

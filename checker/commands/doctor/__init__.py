@@ -2,7 +2,7 @@
 
 import click
 
-from checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.codes import Exit
 
 EXAMPLES = """\b
 Examples:
@@ -19,6 +19,6 @@ def doctor(as_json: bool, quiet: bool) -> Exit:
 
     Exit code 1 if something required is missing or does not work.
     """
-    from checker.commands.doctor.run import doctor as run
+    from rovercheck.checker.commands.doctor.run import doctor as run
 
     return run(as_json, quiet)

@@ -15,18 +15,18 @@ from time import monotonic
 from rich.table import Table
 from rich.text import Text
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.output import counted, out
-from checker.commands.shared.tables import laid
-from checker.io.printable import json_text
-from checker.process.faults import Fault, listening
-from properties.forms import Property, always
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Block
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import flag, ite, var
-from spec_model.lang.system import System, in_order
-from spec_model.lang.words import minimum
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.output import counted, out
+from rovercheck.checker.commands.shared.tables import laid
+from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.process.faults import Fault, listening
+from rovercheck.properties.forms import Property, always
+from rovercheck.spec_model.lang.action import assign
+from rovercheck.spec_model.lang.chart import Block
+from rovercheck.spec_model.lang.domain import integer
+from rovercheck.spec_model.lang.expr import flag, ite, var
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.lang.words import minimum
 
 TRIAL_DEPTH = 20
 """How many ticks of its question an engine without a proof must have seen."""
@@ -139,7 +139,7 @@ def _program(names: str, adds: str) -> DoctorFinding:
 
 
 def _machine() -> Iterator[DoctorFinding]:
-    from checker.verify.searches import cores
+    from rovercheck.checker.verify.searches import cores
 
     yield DoctorFinding(
         "machine", "processors", str(cores()), True, True, "searches at a time, unless --jobs says"
@@ -161,7 +161,7 @@ def memory(table: Path = Path("/proc/meminfo")) -> tuple[int, int]:
 
 
 def _cache() -> DoctorFinding:
-    from checker import cache
+    from rovercheck.checker import cache
 
     adds = f"compiled searches; ${cache.VARIABLE} says where, and deleting them is always safe"
     try:
@@ -178,7 +178,7 @@ def _cache() -> DoctorFinding:
 
 def _wrong_with_the_cache(place: Path, secret: Path) -> str:
     """Why the cache is not used, as far as that is seen without making anything; empty if it is."""
-    from checker import cache
+    from rovercheck.checker import cache
 
     try:
         if place.exists():
@@ -196,7 +196,7 @@ def _wrong_with_the_cache(place: Path, secret: Path) -> str:
 
 def _trials() -> Iterator[DoctorFinding]:
     """The smallest questions there are, put to every engine."""
-    from checker.engines import engines
+    from rovercheck.checker.engines import engines
 
     for name in engines():
         yield _trial(f"engine {name}", partial(tried, name))
@@ -218,9 +218,9 @@ def _trial(name: str, work: Callable[[], str]) -> DoctorFinding:
 
 def tried(engine: str) -> str:
     """What is wrong with the answers of an engine to two questions with known answers; empty if nothing."""
-    from checker.engines import Limits, engines, quiet
-    from checker.results.verdict import Proved, Unknown
-    from checker.verify.decide import Task, decide
+    from rovercheck.checker.engines import Limits, engines, quiet
+    from rovercheck.checker.results.verdict import Proved, Unknown
+    from rovercheck.checker.verify.decide import Task, decide
 
     system = toy()
     task = Task(system, properties())

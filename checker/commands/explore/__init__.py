@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import VariantOptions, modelling, quietly, varying
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import VariantOptions, modelling, quietly, varying
 
 EXAMPLES = """\b
 Examples:
@@ -33,6 +33,6 @@ def explore(name: str | None, traced: str | None, script: Path | None, charts: V
     Commands come from the terminal, a file or standard input; docs/explore.md shows a session.
     Exit code 4 at the first bad command of a script.
     """
-    from checker.commands.explore.run import explore as run
+    from rovercheck.checker.commands.explore.run import explore as run
 
     return run(name, charts.variant(), traced, script)

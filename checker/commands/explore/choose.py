@@ -1,8 +1,8 @@
 """The commands of ``rovercheck explore`` that choose inputs and frozen values."""
 
-from checker.commands.explore.explorer import Commands, Explorer
-from checker.commands.explore.words import pairs, split
-from checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.commands.explore.explorer import Commands, Explorer
+from rovercheck.checker.commands.explore.words import pairs, split
+from rovercheck.checker.explore.by_hand.written import RefusedInput
 
 
 def _set(explorer: Explorer, rest: str) -> None:

@@ -4,11 +4,11 @@ from collections.abc import Callable
 
 from rich.console import Console
 
-from checker.commands.explore.text import changes
-from checker.commands.shared.output import counted
-from checker.commands.shared.variant import Variant
-from checker.commands.shared.wrapping import filled
-from checker.explore.by_hand.session import Ran, Session
+from rovercheck.checker.commands.explore.text import changes
+from rovercheck.checker.commands.shared.output import counted
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.commands.shared.wrapping import filled
+from rovercheck.checker.explore.by_hand.session import Ran, Session
 
 
 class Explorer:

@@ -2,17 +2,17 @@
 
 from pathlib import Path
 
-from checker.commands.explore.explorer import Commands, Explorer
-from checker.commands.explore.text import show
-from checker.commands.explore.words import split
-from checker.commands.shared.output import write
-from checker.commands.shared.select import pick
-from checker.commands.shared.variant import Variant
-from checker.commands.shared.wrapping import whole
-from checker.explore.by_hand.session import Session
-from checker.explore.by_hand.written import RefusedInput
-from checker.results.trace import Trace
-from properties.forms import Property
+from rovercheck.checker.commands.explore.explorer import Commands, Explorer
+from rovercheck.checker.commands.explore.text import show
+from rovercheck.checker.commands.explore.words import split
+from rovercheck.checker.commands.shared.output import write
+from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.explore.by_hand.session import Session
+from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.results.trace import Trace
+from rovercheck.properties.forms import Property
 
 
 def _trace(explorer: Explorer, rest: str) -> None:
@@ -35,9 +35,9 @@ def _trace(explorer: Explorer, rest: str) -> None:
 
 def _decided(prop: Property, variant: Variant) -> Trace:
     """The run that the verdict on a property rests on.  Raises ``RefusedInput`` if there is none."""
-    from checker.commands.check.run import evidence, results
-    from checker.engines import AUTO, Limits
-    from checker.results.verdict import Unknown
+    from rovercheck.checker.commands.check.run import evidence, results
+    from rovercheck.checker.engines import AUTO, Limits
+    from rovercheck.checker.results.verdict import Unknown
 
     [result] = results([prop], variant.systems(), AUTO, Limits())
     if isinstance(result.verdict, Unknown) or not isinstance(result.verdict.because, Trace):
@@ -56,8 +56,8 @@ def _save(explorer: Explorer, rest: str) -> None:
         write(session.script(), target)
         explorer.say(f"{whole(target)} holds the commands that make this run again.")
         return
-    from checker.commands.trace.formats import exit_written
-    from checker.render import renderers
+    from rovercheck.checker.commands.trace.formats import exit_written
+    from rovercheck.checker.render import renderers
 
     known = renderers("trace")
     exits = {e.SUFFIX: name for name, e in reversed(known.items())} | {".html": "html", ".svg": "svg"}

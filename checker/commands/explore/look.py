@@ -6,19 +6,19 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from checker.commands.explore.explorer import Commands, Explorer
-from checker.commands.explore.text import listed, show, timers, where
-from checker.commands.explore.words import split
-from checker.commands.shared.tables import beside, laid
-from checker.explore.by_hand.session import Session
-from checker.explore.by_hand.simulation import Tested
-from checker.explore.by_hand.written import RefusedInput, variable
-from checker.results.trace import Trace
-from spec_model.lang.chart import Chart, Transition
-from spec_model.lang.errors import did_you_mean
-from spec_model.lang.expr import Temporal
-from spec_model.lang.label import text
-from spec_model.lang.walk import nodes, variables
+from rovercheck.checker.commands.explore.explorer import Commands, Explorer
+from rovercheck.checker.commands.explore.text import listed, show, timers, where
+from rovercheck.checker.commands.explore.words import split
+from rovercheck.checker.commands.shared.tables import beside, laid
+from rovercheck.checker.explore.by_hand.session import Session
+from rovercheck.checker.explore.by_hand.simulation import Tested
+from rovercheck.checker.explore.by_hand.written import RefusedInput, variable
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.chart import Chart, Transition
+from rovercheck.spec_model.lang.errors import did_you_mean
+from rovercheck.spec_model.lang.expr import Temporal
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.lang.walk import nodes, variables
 
 # --- why arrows were not taken -------------------------------------------------------------------------
 

@@ -1,11 +1,11 @@
 """The commands of ``rovercheck explore`` that move: on, back, and on to where something happens."""
 
-from checker.commands.explore.explorer import Commands, Explorer
-from checker.commands.explore.text import changes, show
-from checker.commands.explore.words import count
-from checker.explore.by_hand.session import MOST_TICKS
-from checker.explore.by_hand.written import RefusedInput
-from spec_model.lang.expr import Expr
+from rovercheck.checker.commands.explore.explorer import Commands, Explorer
+from rovercheck.checker.commands.explore.text import changes, show
+from rovercheck.checker.commands.explore.words import count
+from rovercheck.checker.explore.by_hand.session import MOST_TICKS
+from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.spec_model.lang.expr import Expr
 
 
 def _step(explorer: Explorer, rest: str) -> None:

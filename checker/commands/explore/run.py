@@ -13,23 +13,23 @@ from typing import NoReturn
 from rich.table import Table
 from rich.text import Text
 
-from checker.commands.explore import choose as exploring_choosing
-from checker.commands.explore import keep as exploring_keeping
-from checker.commands.explore import look as exploring_looking
-from checker.commands.explore import move as exploring_moving
-from checker.commands.explore.explorer import Commands, Explorer
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import out
-from checker.commands.shared.select import pick
-from checker.commands.shared.tables import laid
-from checker.commands.shared.variant import Variant
-from checker.commands.shared.wrapping import filled, whole
-from checker.explore.by_hand.session import Session
-from checker.explore.by_hand.written import RefusedInput
-from spec_model.lang.chart import Chart
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.system import System, in_order
-from spec_model.rover import charts_of
+from rovercheck.checker.commands.explore import choose as exploring_choosing
+from rovercheck.checker.commands.explore import keep as exploring_keeping
+from rovercheck.checker.commands.explore import look as exploring_looking
+from rovercheck.checker.commands.explore import move as exploring_moving
+from rovercheck.checker.commands.explore.explorer import Commands, Explorer
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import out
+from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.commands.shared.tables import laid
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.commands.shared.wrapping import filled, whole
+from rovercheck.checker.explore.by_hand.session import Session
+from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.system import System, in_order
+from rovercheck.spec_model.rover import charts_of
 
 # --- all commands of rovercheck explore, by name or its beginning, with a sentence of help each --------
 

@@ -7,15 +7,24 @@ from rich.console import Console
 from rich.table import Table
 from rich.text import Text
 
-from checker.commands.shared.tables import laid
-from checker.explore.by_hand.session import Session
-from checker.explore.by_hand.simulation import HandSimulation
-from checker.render.limits import timer
-from checker.render.story import TIMER, Quiet, StoryChange, StoryEvent, of_model, rows, start_of, value
-from checker.results.trace import Arrow, Trace
-from checker.verify.runs.replay import arrow_of
-from spec_model.lang.chart import Chart, Path
-from spec_model.lang.evaluate import evaluate
+from rovercheck.checker.commands.shared.tables import laid
+from rovercheck.checker.explore.by_hand.session import Session
+from rovercheck.checker.explore.by_hand.simulation import HandSimulation
+from rovercheck.checker.render.limits import timer
+from rovercheck.checker.render.story import (
+    TIMER,
+    Quiet,
+    StoryChange,
+    StoryEvent,
+    of_model,
+    rows,
+    start_of,
+    value,
+)
+from rovercheck.checker.results.trace import Arrow, Trace
+from rovercheck.checker.verify.runs.replay import arrow_of
+from rovercheck.spec_model.lang.chart import Chart, Path
+from rovercheck.spec_model.lang.evaluate import evaluate
 
 MOST = 24
 """Outputs up to which all are shown unasked."""

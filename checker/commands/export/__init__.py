@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import VariantOptions, modelling, quietly, varying, writing
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import VariantOptions, modelling, quietly, varying, writing
 
 
 @click.command(short_help="Write properties for other model checkers.")
@@ -28,6 +28,6 @@ def export(
     ids: tuple[str, ...], about: tuple[str, ...], format: str, charts: VariantOptions, output: Path | None
 ) -> Exit:
     """Write properties for other model checkers: a file, or a folder of them."""
-    from checker.commands.export.run import export as run
+    from rovercheck.checker.commands.export.run import export as run
 
     return run(ids, about, format, charts.variant(), output)

@@ -4,17 +4,17 @@ import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import err, write, wrote
-from checker.commands.shared.select import pick, pick_properties
-from checker.commands.shared.variant import Variant
-from checker.commands.shared.wording import formally
-from checker.commands.shared.wrapping import whole
-from checker.export import Exporter, exporters, problem
-from properties.forms import Property
-from spec_model.lang.errors import ModelError
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import err, write, wrote
+from rovercheck.checker.commands.shared.select import pick, pick_properties
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.commands.shared.wording import formally
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.export import Exporter, exporters, problem
+from rovercheck.properties.forms import Property
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System
 
 
 def export(

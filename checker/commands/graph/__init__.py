@@ -5,8 +5,8 @@ from pathlib import Path
 
 import click
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import (
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import (
     GIB,
     SECONDS,
     VariantOptions,
@@ -80,9 +80,9 @@ def graph(
 
     Of a system alone, say which projections there are and how large they would be.
     """
-    from checker.commands.graph.run import View
-    from checker.commands.graph.run import graph as run
-    from checker.engines import Limits
+    from rovercheck.checker.commands.graph.run import View
+    from rovercheck.checker.commands.graph.run import graph as run
+    from rovercheck.checker.engines import Limits
 
     limits = Limits(options.depth, options.timeout, int(options.memory * (1 << 30)))
     view = View(options.project, options.trace, options.bad, options.most, options.summary, limits)

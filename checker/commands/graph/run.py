@@ -5,30 +5,30 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from shlex import quote
 
-from checker.commands.check.run import evidence, results
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import err, out, text_width, wrapped, write, wrote
-from checker.commands.shared.progress import Watch
-from checker.commands.shared.select import pick
-from checker.commands.shared.variant import Variant
-from checker.commands.shared.wrapping import whole
-from checker.engines import AUTO, Limits
-from checker.explore.graphs.making import Made, made
-from checker.explore.graphs.suggesting import Offer, Suggestions, among, suggestions
-from checker.model import names_of
-from checker.render import Renderer, renderers
-from checker.render.stategraph.findings import told
-from checker.results.graph import MOST_NODES, StateGraph, drawable, with_trace
-from checker.results.trace import Trace
-from checker.results.verdict import Unknown
-from properties.forms import Property, Reachable, Unbounded
-from properties.reduce import reduce
-from spec_model.lang.chart import Chart
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.expr import Var
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System, TransitionSystem
-from spec_model.rover import charts_of
+from rovercheck.checker.commands.check.run import evidence, results
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import err, out, text_width, wrapped, write, wrote
+from rovercheck.checker.commands.shared.progress import Watch
+from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.explore.graphs.making import Made, made
+from rovercheck.checker.explore.graphs.suggesting import Offer, Suggestions, among, suggestions
+from rovercheck.checker.model import names_of
+from rovercheck.checker.render import Renderer, renderers
+from rovercheck.checker.render.stategraph.findings import told
+from rovercheck.checker.results.graph import MOST_NODES, StateGraph, drawable, with_trace
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Unknown
+from rovercheck.properties.forms import Property, Reachable, Unbounded
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System, TransitionSystem
+from rovercheck.spec_model.rover import charts_of
 
 # --- how to project ------------------------------------------------------------------------------------
 

@@ -4,10 +4,10 @@ from importlib.resources import files
 from pathlib import Path
 from shlex import quote
 
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import err, write
-from checker.commands.shared.wrapping import whole
-from checker.model import shown
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import err, write
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.model import shown
 
 WRITTEN = {
     "heater.py": Path("heater.py"),
@@ -29,7 +29,7 @@ def init(folder: Path) -> Exit:
             f"Already there: {', '.join(map(whole, there))}. Nothing is overwritten; name another folder."
         )
     _make(folder)
-    source = files("checker.model").joinpath("start")
+    source = files("rovercheck.checker.model").joinpath("start")
     for name, place in WRITTEN.items():
         _make((folder / place).parent)
         write(source.joinpath(name).read_bytes(), folder / place)

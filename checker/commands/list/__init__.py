@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import modelling
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import modelling
 
 LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs", "assumptions", "engines")
 
@@ -18,6 +18,6 @@ LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs
 @modelling
 def list_(what: str, ids: tuple[str, ...], english: bool, as_json: bool, model: Path | None) -> Exit:
     """List WHAT: properties, systems, charts, requirements, readings, repairs, assumptions or engines."""
-    from checker.commands.list.run import listing
+    from rovercheck.checker.commands.list.run import listing
 
     return listing(what, ids, english, model, as_json)

@@ -2,14 +2,14 @@
 
 from collections.abc import Callable, Mapping, Sequence
 
-from checker.commands.shared.wording import formally
-from checker.engines import ALL, AUTO, engines
-from checker.model import Model
-from properties.forms import Property
-from spec_model.lang.chart import Chart
-from spec_model.lang.system import System
-from spec_model.readings import readings
-from spec_model.repairs import proposals
+from rovercheck.checker.commands.shared.wording import formally
+from rovercheck.checker.engines import ALL, AUTO, engines
+from rovercheck.checker.model import Model
+from rovercheck.properties.forms import Property
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.readings import readings
+from rovercheck.spec_model.repairs import proposals
 
 Item = Mapping[str, object]
 SCHEMA = 1

@@ -4,16 +4,16 @@ from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import out
-from checker.commands.shared.tables import listed
-from checker.commands.shared.wrapping import filled
-from checker.engines import ALL, AUTO, engines
-from checker.io.printable import json_text
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import out
+from rovercheck.checker.commands.shared.tables import listed
+from rovercheck.checker.commands.shared.wrapping import filled
+from rovercheck.checker.engines import ALL, AUTO, engines
+from rovercheck.checker.io.printable import json_text
 
 if TYPE_CHECKING:  # each list reads only what is in it
-    from checker.model import Model
-    from properties.forms import Property
+    from rovercheck.checker.model import Model
+    from rovercheck.properties.forms import Property
 
 
 def list_properties(chosen: Iterable["Property"], model: "Model") -> None:
@@ -53,7 +53,7 @@ def list_requirements(model: "Model") -> None:
 
 def list_readings() -> None:
     """Every reading: the sentence, the choices (the default marked), what tells them apart."""
-    from spec_model.readings import readings
+    from rovercheck.spec_model.readings import readings
 
     about = ""
     for one in readings().values():
@@ -76,7 +76,7 @@ def _hanging(text: str, indent: int = 5) -> None:
 
 
 def list_repairs() -> None:
-    from spec_model.repairs import proposals
+    from rovercheck.spec_model.repairs import proposals
 
     listed(
         ("name", "repairs", "what changes"),
@@ -137,7 +137,7 @@ def listing(
     model = None if what in OTHERS else _model(path)
     chosen = _chosen(ids, model) if model and what == "properties" else []
     if as_json:
-        from checker.commands.list.document import document
+        from rovercheck.checker.commands.list.document import document
 
         print(json_text(document(what, chosen, model), indent=1))
     elif model is None:
@@ -145,7 +145,7 @@ def listing(
     elif what in LISTS:
         LISTS[what](model)
     elif english:
-        from checker.commands.shared.wording import in_english
+        from rovercheck.checker.commands.shared.wording import in_english
 
         in_english(chosen, model)
     else:
@@ -155,15 +155,15 @@ def listing(
 
 def _model(path: Path | None) -> "Model":
     if path is None:
-        from checker.model.rover import rover
+        from rovercheck.checker.model.rover import rover
 
         return rover()
-    from checker.model.load import load
+    from rovercheck.checker.model.load import load
 
     return load(path)
 
 
 def _chosen(ids: Sequence[str], model: "Model") -> Sequence["Property"]:
-    from checker.commands.shared.select import pick_properties
+    from rovercheck.checker.commands.shared.select import pick_properties
 
     return pick_properties(ids, (), model.stated(), full=True)

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import click
 
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.options import GIB, SECONDS, gathered, modelling, quietly
-from checker.engines import LOADED, Limits
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.options import GIB, SECONDS, gathered, modelling, quietly
+from rovercheck.checker.engines import LOADED, Limits
 
 
 @dataclass(frozen=True)
@@ -75,17 +75,17 @@ def mutate(
 
     Whatever none of them notices is proved to change nothing, or shown with a run that it changes.
     """
-    from checker.process.isolate import prepared
+    from rovercheck.checker.process.isolate import prepared
 
     with prepared(*LOADED):
-        from checker.commands.mutate.run import mutate as run
-        from checker.commands.shared.variant import pick_variant
+        from rovercheck.checker.commands.mutate.run import mutate as run
+        from rovercheck.checker.commands.shared.variant import pick_variant
 
         limits = Limits(None, timeout, int(memory * 2**30))
         if record_kills and options.record_mutants:
             raise UsageError("--record-kills and --record-mutants keep different runs; write one of them.")
         if record_kills:
-            from checker.commands.mutate.kills import record_kills as recorded
+            from rovercheck.checker.commands.mutate.kills import record_kills as recorded
 
             return recorded(pick_variant((), None, (), model).model, limits, options.jobs, options.about)
         return run(pick_variant((), None, (), model).model, options, limits, as_json)

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass, field
 
-from checker.commands.shared.codes import Exit
-from checker.mutate.judging import Fate, Judged
-from checker.mutate.mutants import Mutant
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.mutate.judging import Fate, Judged
+from rovercheck.checker.mutate.mutants import Mutant
 
 One = tuple[str, Mutant, Judged]
 """The system in which a part was made faulty, the mutant, and its fate."""

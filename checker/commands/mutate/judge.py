@@ -4,21 +4,21 @@ from collections.abc import Collection, Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 
-from checker.commands.check.run import results
-from checker.commands.mutate.found import MutationResults
-from checker.commands.shared.output import err
-from checker.commands.shared.progress import Watch
-from checker.engines import AUTO, Limits
-from checker.model import Model
-from checker.model.kept_invariants import Recorded, invariants_of
-from checker.model.kept_runs import KILLS, MUTANTS, PREMISES, KeptRun, file_of, read
-from checker.mutate.asked import as_it_is
-from checker.mutate.judging import DOMAINS, NOT_SEARCHED, REFUSED, Fate, Judged
-from checker.mutate.mutants import Mutant
-from checker.mutate.planning import Plan, Planned, rounds
-from checker.mutate.running import MutantJudged, MutantProgress, fates
-from checker.results.verdict import Run
-from properties.forms import Property, Reachable, Unbounded
+from rovercheck.checker.commands.check.run import results
+from rovercheck.checker.commands.mutate.found import MutationResults
+from rovercheck.checker.commands.shared.output import err
+from rovercheck.checker.commands.shared.progress import Watch
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.model import Model
+from rovercheck.checker.model.kept_invariants import Recorded, invariants_of
+from rovercheck.checker.model.kept_runs import KILLS, MUTANTS, PREMISES, KeptRun, file_of, read
+from rovercheck.checker.mutate.asked import as_it_is
+from rovercheck.checker.mutate.judging import DOMAINS, NOT_SEARCHED, REFUSED, Fate, Judged
+from rovercheck.checker.mutate.mutants import Mutant
+from rovercheck.checker.mutate.planning import Plan, Planned, rounds
+from rovercheck.checker.mutate.running import MutantJudged, MutantProgress, fates
+from rovercheck.checker.results.verdict import Run
+from rovercheck.properties.forms import Property, Reachable, Unbounded
 
 UNKILLED = (Fate.SURVIVOR, Fate.NOTICED, Fate.UNKNOWN)
 """What a mutant may be in its own system that properties of other systems may still kill."""

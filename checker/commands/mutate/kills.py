@@ -3,21 +3,21 @@
 from collections.abc import Collection, Generator, Mapping
 from contextlib import closing
 
-from checker.commands.check.further import asks_for_fault
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.output import counted, err, out, wrapped, write
-from checker.commands.shared.progress import ProgressLine
-from checker.commands.shared.select import pick
-from checker.engines import Limits
-from checker.model import Model
-from checker.model.kept_runs import KILLS, KeptRun, file_of, read, text
-from checker.mutate.killing import Kill, kills, still
-from checker.process.isolate import Send
-from checker.process.pool import Order, Pool
-from checker.results.verdict import Run
-from checker.verify.searches import SLACK, cores
-from properties.forms import Property
-from spec_model.lang.system import System
+from rovercheck.checker.commands.check.further import asks_for_fault
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.output import counted, err, out, wrapped, write
+from rovercheck.checker.commands.shared.progress import ProgressLine
+from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.model import Model
+from rovercheck.checker.model.kept_runs import KILLS, KeptRun, file_of, read, text
+from rovercheck.checker.mutate.killing import Kill, kills, still
+from rovercheck.checker.process.isolate import Send
+from rovercheck.checker.process.pool import Order, Pool
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.verify.searches import SLACK, cores
+from rovercheck.properties.forms import Property
+from rovercheck.spec_model.lang.system import System
 
 SHOWN = 40
 """Properties that are named, of those for which no fault was found."""

@@ -4,26 +4,26 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
 
-from checker.commands.check.premises import recordable
-from checker.commands.mutate import MutateOptions
-from checker.commands.mutate.document import document
-from checker.commands.mutate.found import MutationResults, One
-from checker.commands.mutate.judge import judge
-from checker.commands.mutate.text import report
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import counted, err, out, wrapped, write
-from checker.commands.shared.select import pick
-from checker.commands.shared.tables import listed
-from checker.engines import Limits
-from checker.io.printable import json_text
-from checker.model import Model
-from checker.model.kept_runs import MUTANTS, KeptRun, file_of, read, text
-from checker.mutate.asked import as_it_is
-from checker.mutate.judging import Fate
-from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.planning import homes
-from spec_model.lang.chart import parts
-from spec_model.lang.system import System
+from rovercheck.checker.commands.check.premises import recordable
+from rovercheck.checker.commands.mutate import MutateOptions
+from rovercheck.checker.commands.mutate.document import document
+from rovercheck.checker.commands.mutate.found import MutationResults, One
+from rovercheck.checker.commands.mutate.judge import judge
+from rovercheck.checker.commands.mutate.text import report
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import counted, err, out, wrapped, write
+from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.commands.shared.tables import listed
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.model import Model
+from rovercheck.checker.model.kept_runs import MUTANTS, KeptRun, file_of, read, text
+from rovercheck.checker.mutate.asked import as_it_is
+from rovercheck.checker.mutate.judging import Fate
+from rovercheck.checker.mutate.mutants import Mutant, mutants
+from rovercheck.checker.mutate.planning import homes
+from rovercheck.spec_model.lang.chart import parts
+from rovercheck.spec_model.lang.system import System
 
 # --- which properties constrain each arrow, action, wire and initial value -----------------------------
 

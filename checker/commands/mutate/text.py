@@ -3,11 +3,11 @@
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
-from checker.commands.mutate.found import MutationResults, One
-from checker.commands.shared.output import counted
-from checker.mutate.judging import Fate
-from checker.mutate.observing import MutantDifference
-from checker.results.trace import counted_ticks
+from rovercheck.checker.commands.mutate.found import MutationResults, One
+from rovercheck.checker.commands.shared.output import counted
+from rovercheck.checker.mutate.judging import Fate
+from rovercheck.checker.mutate.observing import MutantDifference
+from rovercheck.checker.results.trace import counted_ticks
 
 Line = tuple[str, int]
 """A line, and the blanks in front of what is wrapped."""

@@ -7,8 +7,8 @@ from shlex import join
 import click
 from click.core import ParameterSource
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import (
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import (
     GIB,
     SearchOptions,
     VariantOptions,
@@ -18,7 +18,7 @@ from checker.commands.shared.options import (
     searching,
     varying,
 )
-from checker.engines import LOADED
+from rovercheck.checker.engines import LOADED
 
 FILE = "FILE"
 """What stands for the file in the command that the page shows."""
@@ -83,12 +83,12 @@ def report(
     context: click.Context, options: PageOptions, output: Path, charts: VariantOptions, search: SearchOptions
 ) -> Exit:
     """Check properties and write one HTML page for reviewers, which needs no network."""
-    from checker.process.isolate import prepared
+    from rovercheck.checker.process.isolate import prepared
 
     with prepared(*LOADED):
-        from checker.commands.report.run import ReportOptions
-        from checker.commands.report.run import report as run
-        from checker.commands.shared.select import pick_engine, pick_properties
+        from rovercheck.checker.commands.report.run import ReportOptions
+        from rovercheck.checker.commands.report.run import report as run
+        from rovercheck.checker.commands.shared.select import pick_engine, pick_properties
 
         variant = charts.variant()
         properties = pick_properties(

@@ -4,13 +4,13 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 
-from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
-from checker.commands.check.further import noticing
-from checker.commands.check.premises import PremiseCase
-from checker.commands.check.run import Compared, evidence, recorded
-from checker.commands.shared.wording import formally
-from checker.model import Model
-from checker.render.review.model import (
+from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
+from rovercheck.checker.commands.check.further import noticing
+from rovercheck.checker.commands.check.premises import PremiseCase
+from rovercheck.checker.commands.check.run import Compared, evidence, recorded
+from rovercheck.checker.commands.shared.wording import formally
+from rovercheck.checker.model import Model
+from rovercheck.checker.render.review.model import (
     About,
     Ambiguity,
     Checked,
@@ -22,17 +22,17 @@ from checker.render.review.model import (
     ReviewOrigin,
     Seen,
 )
-from checker.results.trace import Trace
-from checker.results.verdict import Exhausted, Unknown
-from properties.coverage import RequirementCoverage, matrix
-from properties.english import HOW_TO_READ
-from properties.forms import Form, Property, formulas
-from spec_model.lang.chart import Chart
-from spec_model.lang.expr import Expr, Named
-from spec_model.lang.label import text
-from spec_model.lang.system import System
-from spec_model.lang.walk import nodes
-from spec_model.rover import charts_of
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Exhausted, Unknown
+from rovercheck.properties.coverage import RequirementCoverage, matrix
+from rovercheck.properties.english import HOW_TO_READ
+from rovercheck.properties.forms import Form, Property, formulas
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.expr import Expr, Named
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.walk import nodes
+from rovercheck.spec_model.rover import charts_of
 
 SAME_CAUSE = re.compile(r"As ([\w-]*\d[\w-]*)\b")
 """How a reason on record begins that is the reason of another finding."""

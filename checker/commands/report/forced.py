@@ -3,13 +3,13 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from checker.commands.check.run import Compared
-from checker.commands.shared.output import err
-from checker.commands.shared.progress import Watch
-from checker.explain.explained import explained
-from checker.results.trace import Trace
-from checker.results.verdict import Violated
-from spec_model.lang.system import System
+from rovercheck.checker.commands.check.run import Compared
+from rovercheck.checker.commands.shared.output import err
+from rovercheck.checker.commands.shared.progress import Watch
+from rovercheck.checker.explain.explained import explained
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Violated
+from rovercheck.spec_model.lang.system import System
 
 
 def with_reasons(found: Sequence[Compared], systems: Mapping[str, System]) -> list[Compared]:

@@ -4,23 +4,23 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import partial
 
-from checker.commands.check.run import Compared
-from checker.commands.shared.output import counted, err
-from checker.commands.shared.progress import Watch
-from checker.engines import Limits, Progress
-from checker.explore.graphs.explored import Explored
-from checker.explore.graphs.making import seen
-from checker.explore.graphs.projecting import projection
-from checker.explore.graphs.search import Exploration, explore
-from checker.render.review.model import Seen
-from checker.results.graph import StateGraph, with_trace
-from checker.results.trace import Trace
-from checker.results.verdict import Violated
-from properties.forms import Property, Reachable, Unbounded
-from properties.reduce import reduce
-from spec_model.lang.errors import ModelError
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System
+from rovercheck.checker.commands.check.run import Compared
+from rovercheck.checker.commands.shared.output import counted, err
+from rovercheck.checker.commands.shared.progress import Watch
+from rovercheck.checker.engines import Limits, Progress
+from rovercheck.checker.explore.graphs.explored import Explored
+from rovercheck.checker.explore.graphs.making import seen
+from rovercheck.checker.explore.graphs.projecting import projection
+from rovercheck.checker.explore.graphs.search import Exploration, explore
+from rovercheck.checker.render.review.model import Seen
+from rovercheck.checker.results.graph import StateGraph, with_trace
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Violated
+from rovercheck.properties.forms import Property, Reachable, Unbounded
+from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System
 
 LIMITS = Limits(seconds=60.0, memory=128 << 20)
 """Memory is counted, so that the page is the same everywhere; time ends what nobody would wait for."""

@@ -2,24 +2,24 @@
 
 from collections.abc import Iterator, Sequence
 
-from checker.commands.check.run import Compared, evidence, results
-from checker.commands.report.data import Extras
-from checker.commands.reports.repairs import LIMITS, Proof
-from checker.commands.shared.variant import Variant
-from checker.engines import AUTO
-from checker.model.kept_invariants import invariants_of_rover
-from checker.render.drawing.changes import changes
-from checker.render.review.model import Ambiguity, Covered, Edit, Remedy
-from checker.system.instrument.goals import GoalKind
-from checker.system.instrument.watch import watched
-from checker.testgen import kept_text
-from checker.testgen.keep import kept_of
-from checker.verify.result import Result
-from properties.catalogue import expected, read_by
-from spec_model.abstraction import boards
-from spec_model.lang.chart import Chart
-from spec_model.readings import Reading, readings
-from spec_model.repairs import Repair, repairs
+from rovercheck.checker.commands.check.run import Compared, evidence, results
+from rovercheck.checker.commands.report.data import Extras
+from rovercheck.checker.commands.reports.repairs import LIMITS, Proof
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.engines import AUTO
+from rovercheck.checker.model.kept_invariants import invariants_of_rover
+from rovercheck.checker.render.drawing.changes import changes
+from rovercheck.checker.render.review.model import Ambiguity, Covered, Edit, Remedy
+from rovercheck.checker.system.instrument.goals import GoalKind
+from rovercheck.checker.system.instrument.watch import watched
+from rovercheck.checker.testgen import kept_text
+from rovercheck.checker.testgen.keep import kept_of
+from rovercheck.checker.verify.result import Result
+from rovercheck.properties.catalogue import expected, read_by
+from rovercheck.spec_model.abstraction import boards
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.readings import Reading, readings
+from rovercheck.spec_model.repairs import Repair, repairs
 
 
 def extras(variant: Variant, found: Sequence[Compared], with_repairs: bool) -> Extras:

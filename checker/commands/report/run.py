@@ -8,26 +8,26 @@ from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
 from pathlib import Path
 
-from checker.certify.file import Unwritable
-from checker.commands.check.findings import Guide
-from checker.commands.check.premises import LONG, PremiseCase, cases
-from checker.commands.check.run import Compared, results, summary, worst
-from checker.commands.report.data import Extras, concerned, reviewed
-from checker.commands.report.forced import with_reasons
-from checker.commands.report.graphs import state_graphs
-from checker.commands.report.rover import extras
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import counted, err, out, write
-from checker.commands.shared.variant import Variant
-from checker.commands.shared.wrapping import whole
-from checker.engines import AUTO, Limits
-from checker.model import Model
-from checker.model.kept_invariants import invariants_of
-from checker.model.kept_runs import file_of, read
-from checker.render.review import render
-from checker.render.review.model import ReviewOrigin
-from checker.verify.certificates import Certifying
-from properties.forms import Property
+from rovercheck.checker.certify.file import Unwritable
+from rovercheck.checker.commands.check.findings import Guide
+from rovercheck.checker.commands.check.premises import LONG, PremiseCase, cases
+from rovercheck.checker.commands.check.run import Compared, results, summary, worst
+from rovercheck.checker.commands.report.data import Extras, concerned, reviewed
+from rovercheck.checker.commands.report.forced import with_reasons
+from rovercheck.checker.commands.report.graphs import state_graphs
+from rovercheck.checker.commands.report.rover import extras
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import counted, err, out, write
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.model import Model
+from rovercheck.checker.model.kept_invariants import invariants_of
+from rovercheck.checker.model.kept_runs import file_of, read
+from rovercheck.checker.render.review import render
+from rovercheck.checker.render.review.model import ReviewOrigin
+from rovercheck.checker.verify.certificates import Certifying
+from rovercheck.properties.forms import Property
 
 PACKAGES = ("rovercheck", "z3-solver", "bitwuzla", "llvmlite", "python-sat", "oxidd", "numpy", "networkx")
 """The tool, its solvers, and what else a verdict may rest on."""

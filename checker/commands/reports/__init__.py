@@ -2,8 +2,8 @@
 
 from pathlib import Path
 import click
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import quietly, writing
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import quietly, writing
 
 
 
@@ -13,6 +13,6 @@ from checker.commands.shared.options import quietly, writing
 @quietly
 def reports(stale: bool, output: Path | None) -> Exit:
     """Write the evidence: verdict table, diagrams, a page per counterexample."""
-    from checker.commands.reports.run import reports as run
+    from rovercheck.checker.commands.reports.run import reports as run
 
     return run(output or Path("reports"), stale)

@@ -3,19 +3,19 @@
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from checker.commands.check.chains import check
-from checker.commands.check.run import Compared
-from properties.catalogue import catalogue, expected, promises
-from properties.forms import Property
-from properties.promises.promise import Chain, Promise
-from spec_model.composition.fine_systems import CONTRACTS, NO_LOSS, WIRES
-from spec_model.lang.expr import TRUE
-from spec_model.lang.label import text
-from spec_model.repairs import repairs
-from spec_model.rover import systems
+from rovercheck.checker.commands.check.chains import check
+from rovercheck.checker.commands.check.run import Compared
+from rovercheck.properties.catalogue import catalogue, expected, promises
+from rovercheck.properties.forms import Property
+from rovercheck.properties.promises.promise import Chain, Promise
+from rovercheck.spec_model.composition.fine_systems import CONTRACTS, NO_LOSS, WIRES
+from rovercheck.spec_model.lang.expr import TRUE
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.repairs import repairs
+from rovercheck.spec_model.rover import systems
 
 if TYPE_CHECKING:
-    from checker.commands.reports.repairs import Proof
+    from rovercheck.checker.commands.reports.repairs import Proof
 
 INTRODUCTION = (
     "What the document promises, each from what is measured to what is commanded. The statements speak of a "

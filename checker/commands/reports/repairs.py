@@ -5,18 +5,18 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from html import escape
 
-from checker.commands.check.run import Compared, evidence, results
-from checker.commands.shared.variant import Variant
-from checker.engines import AUTO, Limits, Timers
-from checker.model.kept_invariants import invariants_of_rover
-from checker.render import renderers
-from checker.render.drawing.changes import changes
-from checker.verify.result import Result
-from properties.catalogue import Expected, catalogue
-from spec_model.lang.chart import Block, Chart, parts
-from spec_model.lang.system import System
-from spec_model.repairs import Repair, repairs
-from spec_model.rover import systems
+from rovercheck.checker.commands.check.run import Compared, evidence, results
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.engines import AUTO, Limits, Timers
+from rovercheck.checker.model.kept_invariants import invariants_of_rover
+from rovercheck.checker.render import renderers
+from rovercheck.checker.render.drawing.changes import changes
+from rovercheck.checker.verify.result import Result
+from rovercheck.properties.catalogue import Expected, catalogue
+from rovercheck.spec_model.lang.chart import Block, Chart, parts
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.repairs import Repair, repairs
+from rovercheck.spec_model.rover import systems
 
 LIMITS = Limits(timers=Timers.FREE)
 """Timers that run out at will prove most repairs with far fewer valuations."""

@@ -6,29 +6,29 @@ from dataclasses import replace
 from html import escape
 from pathlib import Path
 
-from checker.commands.check.run import Compared, evidence, results
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.check.findings import totals
-from checker.commands.shared.output import err, out, write
-from checker.commands.reports.promises import page as promises_page
-from checker.commands.reports.repairs import Proof, proofs, repair_pages, sections
-from checker.commands.requirements.run import page as matrix_page
-from checker.commands.report.forced import with_reasons
-from checker.commands.shared.wording import formally
-from checker.commands.shared.wrapping import whole
-from checker.engines import AUTO, Limits
-from checker.explain.explained import unexplained
-from checker.model.kept_invariants import invariants_of_rover
-from checker.render import renderers
-from checker.render.trace_markdown import reasons_told
-from checker.results.trace import Trace
-from checker.results.verdict import Unknown
-from properties.catalogue import catalogue, expected
-from properties.english import HOW_TO_READ
-from properties.forms import Property
-from properties.requirements import requirements
-from spec_model.lang.system import TICK_MS
-from spec_model.rover import charts, systems
+from rovercheck.checker.commands.check.run import Compared, evidence, results
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.check.findings import totals
+from rovercheck.checker.commands.shared.output import err, out, write
+from rovercheck.checker.commands.reports.promises import page as promises_page
+from rovercheck.checker.commands.reports.repairs import Proof, proofs, repair_pages, sections
+from rovercheck.checker.commands.requirements.run import page as matrix_page
+from rovercheck.checker.commands.report.forced import with_reasons
+from rovercheck.checker.commands.shared.wording import formally
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.explain.explained import unexplained
+from rovercheck.checker.model.kept_invariants import invariants_of_rover
+from rovercheck.checker.render import renderers
+from rovercheck.checker.render.trace_markdown import reasons_told
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Unknown
+from rovercheck.properties.catalogue import catalogue, expected
+from rovercheck.properties.english import HOW_TO_READ
+from rovercheck.properties.forms import Property
+from rovercheck.properties.requirements import requirements
+from rovercheck.spec_model.lang.system import TICK_MS
+from rovercheck.spec_model.rover import charts, systems
 
 Pages = dict[str, str]
 """What a report holds: relative path and text of each file."""

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import modelling, quietly
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import modelling, quietly
 
 
 @click.command(short_help="Show which properties cover each requirement.")
@@ -15,6 +15,6 @@ from checker.commands.shared.options import modelling, quietly
 @quietly
 def requirements(decide: bool, as_json: bool, model: Path | None) -> Exit:
     """Show which properties cover each requirement; exit code 1 if none does and no reason is given."""
-    from checker.commands.requirements.run import requirements as run
+    from rovercheck.checker.commands.requirements.run import requirements as run
 
     return run(decide, as_json, model)

@@ -3,18 +3,18 @@
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
-from checker.commands.check.further import noticing
-from checker.commands.check.run import Compared, results, worst
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.output import out
-from checker.commands.shared.tables import listed
-from checker.engines import AUTO, Limits
-from checker.io.printable import json_text
-from checker.model.kept_invariants import invariants_of
-from checker.model.load import load
-from checker.model.rover import rover
-from properties.coverage import RequirementCoverage, matrix
-from properties.forms import Property, Reachable
+from rovercheck.checker.commands.check.further import noticing
+from rovercheck.checker.commands.check.run import Compared, results, worst
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.output import out
+from rovercheck.checker.commands.shared.tables import listed
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.model.kept_invariants import invariants_of
+from rovercheck.checker.model.load import load
+from rovercheck.checker.model.rover import rover
+from rovercheck.properties.coverage import RequirementCoverage, matrix
+from rovercheck.properties.forms import Property, Reachable
 
 SCHEMA = 1
 ON_RECORD = "Verdicts are those on record in the baseline; --check decides them now."

@@ -9,10 +9,10 @@ import click
 from click.shell_completion import CompletionItem
 from click.types import StringParamType
 
-from spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.errors import ModelError
 
 if TYPE_CHECKING:
-    from spec_model.lang.system import System
+    from rovercheck.spec_model.lang.system import System
 
 Completing = Callable[[click.Context, click.Parameter, str], list[CompletionItem]]
 
@@ -32,10 +32,10 @@ def _offering(names: Callable[[click.Context], Iterable[str]]) -> Completing:
 def _properties(context: click.Context) -> Iterable[str]:
     own: Path | None = context.params.get("model")
     if own is None:
-        from checker.model.rover import rover
+        from rovercheck.checker.model.rover import rover
 
         return rover({}).stated()
-    from checker.model.load import load
+    from rovercheck.checker.model.load import load
 
     return load(own).stated()
 
@@ -43,16 +43,16 @@ def _properties(context: click.Context) -> Iterable[str]:
 def _systems(context: click.Context) -> "Mapping[str, System]":
     own: Path | None = context.params.get("model")
     if own is None:
-        from spec_model.rover import systems
+        from rovercheck.spec_model.rover import systems
 
         return systems()
-    from checker.model.load import load
+    from rovercheck.checker.model.load import load
 
     return load(own).systems
 
 
 def _drawn(context: click.Context) -> Iterable[str]:
-    from spec_model.rover import charts_of
+    from rovercheck.spec_model.rover import charts_of
 
     known = _systems(context)
     return dict.fromkeys([*charts_of(known), *known])
@@ -62,7 +62,7 @@ def _formats(kind: str) -> Callable[[click.Context], Iterable[str]]:
     """The formats of a kind, which are named as their files are: none of them is imported."""
 
     def names(_: click.Context) -> Iterable[str]:
-        import checker.render as folder
+        import rovercheck.checker.render as folder
 
         found = (e.name for e in pkgutil.iter_modules(folder.__path__))
         return sorted(n.removeprefix(f"{kind}_") for n in found if n.startswith(f"{kind}_"))
@@ -71,19 +71,19 @@ def _formats(kind: str) -> Callable[[click.Context], Iterable[str]]:
 
 
 def _engines(_: click.Context) -> Iterable[str]:
-    import checker.engines as folder
+    import rovercheck.checker.engines as folder
 
     return ["auto", *sorted(e.name for e in pkgutil.iter_modules(folder.__path__))]
 
 
 def _repairs(_: click.Context) -> Iterable[str]:
-    from spec_model.repairs import proposals
+    from rovercheck.spec_model.repairs import proposals
 
     return proposals()
 
 
 def _readings(_: click.Context) -> Iterable[str]:
-    from spec_model.readings import readings
+    from rovercheck.spec_model.readings import readings
 
     return [f"{id}={choice}" for id, one in readings().items() for choice in one.choices]
 

@@ -8,13 +8,13 @@ from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from checker.commands.shared.codes import UsageError
-from checker.commands.shared.output import write
-from checker.commands.shared.wrapping import whole
-from checker.results.verdict import Reached, Run
-from checker.verify.decide import Disagreement
-from checker.verify.portfolio.disagreement import Statement
-from properties.catalogue import catalogue
+from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.commands.shared.output import write
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.results.verdict import Reached, Run
+from rovercheck.checker.verify.decide import Disagreement
+from rovercheck.checker.verify.portfolio.disagreement import Statement
+from rovercheck.properties.catalogue import catalogue
 
 SCHEMA = "rovercheck/disagreement/1"
 SOLVERS = ("rovercheck", "z3-solver", "llvmlite", "numpy", "python-sat", "oxidd", "bitwuzla", "cvc5")

@@ -2,9 +2,9 @@
 
 from errno import EDQUOT, EFBIG, ENOSPC
 
-from checker.commands.shared.codes import Exit, UsageError
-from checker.process.faults import Fault, place
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.process.faults import Fault, place
+from rovercheck.spec_model.lang.errors import ModelError
 
 ROOM = "Make room for it, or write elsewhere, and run the command again."
 MEMORY = "Out of memory. Check fewer properties at once, or one --system."
@@ -19,8 +19,8 @@ def told(error: Exception) -> str:
             return f"The operating system refuses: {error}. {ROOM}"
         case MemoryError():
             return MEMORY
-    from checker.verify.portfolio import Disagreement
-    from checker.verify.runs.replay import ReplayError
+    from rovercheck.checker.verify.portfolio import Disagreement
+    from rovercheck.checker.verify.runs.replay import ReplayError
 
     match error:
         case ReplayError():
@@ -44,7 +44,7 @@ def code_of(error: BaseException) -> Exit:
             return Exit.INCONCLUSIVE if no_room(error) else Exit.USAGE
         case OSError() | MemoryError():
             return Exit.INCONCLUSIVE
-    from checker.certify.file import Unwritable
+    from rovercheck.checker.certify.file import Unwritable
 
     return Exit.USAGE if isinstance(error, Unwritable) else Exit.INTERNAL
 

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.silence import silence
-from checker.engines import AUTO, Limits, Timers
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.silence import silence
+from rovercheck.checker.engines import AUTO, Limits, Timers
 
 if TYPE_CHECKING:
-    from checker.commands.shared.variant import Variant
+    from rovercheck.checker.commands.shared.variant import Variant
 
 
 class Amount(click.FloatRange):
@@ -41,7 +41,7 @@ class VariantOptions:
 
     def variant(self) -> "Variant":
         """The charts so meant.  Raises ``UsageError`` or ``ModelError``."""
-        from checker.commands.shared.variant import pick_variant
+        from rovercheck.checker.commands.shared.variant import pick_variant
 
         return pick_variant(self.chosen, self.repair, self.dropped, self.model)
 

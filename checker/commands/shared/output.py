@@ -8,11 +8,11 @@ from typing import Any
 
 from rich.console import Console, ConsoleDimensions
 
-from checker.commands.shared.codes import UsageError
-from checker.commands.shared.silence import silent
-from checker.commands.shared.wrapping import fitted, plain, whole
-from checker.io.console import UnmarkedConsole
-from checker.io.files import replaced
+from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.commands.shared.silence import silent
+from rovercheck.checker.commands.shared.wrapping import fitted, plain, whole
+from rovercheck.checker.io.console import UnmarkedConsole
+from rovercheck.checker.io.files import replaced
 
 
 class _Console(UnmarkedConsole):

@@ -9,8 +9,8 @@ from rich.live import Live
 from rich.spinner import Spinner
 from rich.text import Text
 
-from checker.commands.shared.output import err, movable, out, share_a_terminal
-from checker.commands.shared.silence import silent
+from rovercheck.checker.commands.shared.output import err, movable, out, share_a_terminal
+from rovercheck.checker.commands.shared.silence import silent
 
 PAUSE = 10.0
 """Seconds between two lines in a log."""

@@ -4,12 +4,12 @@ from collections.abc import Iterable, Mapping, Sequence
 from shlex import join
 from typing import TypeVar
 
-from checker.commands.shared.codes import UsageError
-from checker.engines import ALL, AUTO, engines
-from properties.forms import Property
-from spec_model.lang.errors import did_you_mean
-from spec_model.lang.system import System
-from spec_model.rover import systems
+from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.engines import ALL, AUTO, engines
+from rovercheck.properties.forms import Property
+from rovercheck.spec_model.lang.errors import did_you_mean
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.rover import systems
 
 Thing = TypeVar("Thing")
 

@@ -8,9 +8,9 @@ from rich.style import StyleType
 from rich.table import Table
 from rich.text import Text
 
-from checker.commands.shared.output import at_terminal, out
-from checker.commands.shared.wrapping import filled
-from checker.render.hanging import hanging
+from rovercheck.checker.commands.shared.output import at_terminal, out
+from rovercheck.checker.commands.shared.wrapping import filled
+from rovercheck.checker.render.hanging import hanging
 
 GAP = "  "
 NARROWEST = 24

@@ -9,22 +9,22 @@ from pathlib import Path
 from shlex import quote
 from typing import TYPE_CHECKING
 
-from checker.commands.shared.codes import UsageError
-from checker.commands.shared.output import err
-from checker.commands.shared.select import pick
-from checker.model import Model, names_of
-from checker.model.load import load
-from checker.model.rover import rover
-from properties.catalogue import Expected, read_by
-from properties.forms import Property, formulas
-from spec_model.lang.system import Assumption, System
-from spec_model.lang.walk import variables
-from spec_model.readings import ANY, fixed, readings
-from spec_model.repairs import Repair, proposals, repaired, touches
-from spec_model.rover import systems
+from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.commands.shared.output import err
+from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.model import Model, names_of
+from rovercheck.checker.model.load import load
+from rovercheck.checker.model.rover import rover
+from rovercheck.properties.catalogue import Expected, read_by
+from rovercheck.properties.forms import Property, formulas
+from rovercheck.spec_model.lang.system import Assumption, System
+from rovercheck.spec_model.lang.walk import variables
+from rovercheck.spec_model.readings import ANY, fixed, readings
+from rovercheck.spec_model.repairs import Repair, proposals, repaired, touches
+from rovercheck.spec_model.rover import systems
 
 if TYPE_CHECKING:
-    from checker.verify.certificates import Certifying
+    from rovercheck.checker.verify.certificates import Certifying
 
 
 @dataclass(frozen=True)
@@ -114,7 +114,7 @@ class Variant:
 
     def certifying(self, folder: Path | None, again: bool) -> "Certifying":
         """What to do with the proofs, with a note of how the charts are changed."""
-        from checker.verify.certificates import Certifying
+        from rovercheck.checker.verify.certificates import Certifying
 
         repair = self.repair.name if self.repair else ""
         return Certifying(folder, again, dict(self.choices), repair, tuple(sorted(self.without)))

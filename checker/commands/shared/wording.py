@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 
-from checker.commands.shared.output import out, text_width
-from checker.commands.shared.wrapping import filled
-from checker.model import Model
-from properties.english import HOW_TO_READ, definitions, sentence
-from properties.forms import Property
-from spec_model.lang.system import System
-from spec_model.rover import systems
+from rovercheck.checker.commands.shared.output import out, text_width
+from rovercheck.checker.commands.shared.wrapping import filled
+from rovercheck.checker.model import Model
+from rovercheck.properties.english import HOW_TO_READ, definitions, sentence
+from rovercheck.properties.forms import Property
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.rover import systems
 
 
 def in_english(properties: Sequence[Property], model: Model) -> None:

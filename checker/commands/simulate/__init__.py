@@ -4,8 +4,8 @@ from pathlib import Path
 
 import click
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import quietly, writing
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import quietly, writing
 
 
 @click.command(short_help="Run both boards in a scenario, and draw the run.")
@@ -16,6 +16,6 @@ from checker.commands.shared.options import quietly, writing
 @quietly
 def simulate(scenario: Path, log: Path | None, no_plot: bool, output: Path | None) -> Exit:
     """Run both boards in the scenario of a TOML file; exit code 1 if it goes other than expected."""
-    from checker.commands.simulate.run import simulate as run
+    from rovercheck.checker.commands.simulate.run import simulate as run
 
     return run(scenario, output, log, not no_plot)

@@ -8,23 +8,33 @@ from itertools import pairwise
 from math import nan
 from pathlib import Path
 
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import counted, err, out, write
-from checker.commands.shared.progress import ProgressLine
-from checker.commands.shared.silence import silent
-from checker.commands.shared.wrapping import whole
-from checker.commands.simulate.story import heading, story, traffic, verdicts
-from checker.io.files import replaced
-from checker.render.lanes import Band, ChartLane, Curve, LaneLimit, LaneRow, LaneRows, Lanes, Mark, Tone
-from checker.render.run_plot import NEEDED, SUFFIXES, PlotError, available, draw
-from supervisor import bench
-from supervisor.bench import Outcome, Record, Scenario, ScenarioError, judge, loads
-from supervisor.bench.columns import Scalar, inputs1, inputs2, outputs1, outputs2
-from supervisor.bench.conditions import WHEELS
-from supervisor.bench.judge import history
-from supervisor.bench.record import Driver, Side
-from supervisor.bench.signals import SIGNALS, name_of
-from supervisor.types import Level, SafetyState, SupervisorCommand
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import counted, err, out, write
+from rovercheck.checker.commands.shared.progress import ProgressLine
+from rovercheck.checker.commands.shared.silence import silent
+from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.commands.simulate.story import heading, story, traffic, verdicts
+from rovercheck.checker.io.files import replaced
+from rovercheck.checker.render.lanes import (
+    Band,
+    ChartLane,
+    Curve,
+    LaneLimit,
+    LaneRow,
+    LaneRows,
+    Lanes,
+    Mark,
+    Tone,
+)
+from rovercheck.checker.render.run_plot import NEEDED, SUFFIXES, PlotError, available, draw
+from rovercheck.supervisor import bench
+from rovercheck.supervisor.bench import Outcome, Record, Scenario, ScenarioError, judge, loads
+from rovercheck.supervisor.bench.columns import Scalar, inputs1, inputs2, outputs1, outputs2
+from rovercheck.supervisor.bench.conditions import WHEELS
+from rovercheck.supervisor.bench.judge import history
+from rovercheck.supervisor.bench.record import Driver, Side
+from rovercheck.supervisor.bench.signals import SIGNALS, name_of
+from rovercheck.supervisor.types import Level, SafetyState, SupervisorCommand
 
 # --- A simulated run in the terms of pictures ----------------------------------------------------------
 

@@ -4,12 +4,12 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 
-from checker.commands.shared.output import text_width
-from checker.commands.shared.wrapping import filled
-from supervisor.bench import Outcome, Record, Scenario
-from supervisor.bench.changes import Change, changes
-from supervisor.bench.record import Traffic
-from supervisor.bench.signals import name_of
+from rovercheck.checker.commands.shared.output import text_width
+from rovercheck.checker.commands.shared.wrapping import filled
+from rovercheck.supervisor.bench import Outcome, Record, Scenario
+from rovercheck.supervisor.bench.changes import Change, changes
+from rovercheck.supervisor.bench.record import Traffic
+from rovercheck.supervisor.bench.signals import name_of
 
 INDENT = 21
 LONGEST_CYCLE = 6

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import click
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import SECONDS, gathered, quietly
-from checker.engines import LOADED
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import SECONDS, gathered, quietly
+from rovercheck.checker.engines import LOADED
 
 
 @dataclass(frozen=True)
@@ -88,13 +88,13 @@ def testgen(options: GenerationOptions, as_json: bool, output: Path) -> Exit:
     Exit code 0 if every goal is reached by a test or proved out of reach, 2 if some are not known to be
     either.  Ctrl-C writes what was found so far.
     """
-    from checker.process.isolate import prepared
+    from rovercheck.checker.process.isolate import prepared
 
     with prepared(*LOADED):
-        from checker.commands.testgen.run import CoveringRequest
-        from checker.commands.testgen.run import testgen as run
-        from checker.system.instrument.goals import GoalKind
-        from checker.testgen.coverage import GenerationEffort
+        from rovercheck.checker.commands.testgen.run import CoveringRequest
+        from rovercheck.checker.commands.testgen.run import testgen as run
+        from rovercheck.checker.system.instrument.goals import GoalKind
+        from rovercheck.checker.testgen.coverage import GenerationEffort
 
         wanted = tuple(map(GoalKind, options.kinds)) or (
             tuple(GoalKind) if options.keep else (GoalKind.ARROWS,)

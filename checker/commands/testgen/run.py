@@ -5,21 +5,21 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from time import monotonic
 
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import counted, out, write
-from checker.commands.shared.progress import ProgressLine
-from checker.commands.shared.wrapping import filled, whole
-from checker.io.printable import json_text
-from checker.system.instrument.goals import CoverGoal, GoalKind
-from checker.system.instrument.watch import watched
-from checker.testgen import kept_text
-from checker.testgen.coverage import GenerationEffort, GoalCoverage, cover
-from checker.testgen.fingerprint import fingerprint
-from checker.testgen.generate import Aim, aims, files, only
-from checker.testgen.keep import KeptTests, kept_of, written
-from spec_model.abstraction import Board
-from spec_model.lang.errors import ModelError
-from spec_model.rover import systems
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import counted, out, write
+from rovercheck.checker.commands.shared.progress import ProgressLine
+from rovercheck.checker.commands.shared.wrapping import filled, whole
+from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind
+from rovercheck.checker.system.instrument.watch import watched
+from rovercheck.checker.testgen import kept_text
+from rovercheck.checker.testgen.coverage import GenerationEffort, GoalCoverage, cover
+from rovercheck.checker.testgen.fingerprint import fingerprint
+from rovercheck.checker.testgen.generate import Aim, aims, files, only
+from rovercheck.checker.testgen.keep import KeptTests, kept_of, written
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.rover import systems
 
 SCHEMA = 1
 SHOWN = 10

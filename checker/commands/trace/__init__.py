@@ -5,8 +5,8 @@ from pathlib import Path
 
 import click
 
-from checker.commands.shared.codes import Exit
-from checker.commands.shared.options import (
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import (
     SearchOptions,
     VariantOptions,
     gathered,
@@ -81,11 +81,11 @@ def trace(options: TraceOptions, charts: VariantOptions, search: SearchOptions) 
       rovercheck trace --state Relay.B2_actuating
       rovercheck trace --arrow 'Relay: B1_actuating -> B2_actuating'
     """
-    from checker.commands.shared.select import pick_engine
-    from checker.commands.trace.examples import asked
-    from checker.commands.trace.explain import Explaining
-    from checker.commands.trace.run import Showing
-    from checker.commands.trace.run import trace as run
+    from rovercheck.checker.commands.shared.select import pick_engine
+    from rovercheck.checker.commands.trace.examples import asked
+    from rovercheck.checker.commands.trace.explain import Explaining
+    from rovercheck.checker.commands.trace.run import Showing
+    from rovercheck.checker.commands.trace.run import trace as run
 
     variant = charts.variant()
     wanted = asked(variant, options.id, options.state, options.arrow, options.system)

@@ -3,17 +3,17 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from checker.commands.crosscheck.record import in_steps_of
-from checker.compare.beside import SteppedCharts
-from checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSignal, Value
-from checker.results.trace import Tick, Trace
-from checker.testgen.formats.pytest_files import OURS
-from checker.testgen.scripts import CLOCK
-from spec_model.abstraction import Board, BoardSignal, boards
-from spec_model.lang.chart import parts
-from spec_model.lang.domain import Bool, Num
-from spec_model.lang.errors import ModelError
-from spec_model.lang.system import TICK_MS, System
+from rovercheck.checker.commands.crosscheck.record import in_steps_of
+from rovercheck.checker.compare.beside import SteppedCharts
+from rovercheck.checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSignal, Value
+from rovercheck.checker.results.trace import Tick, Trace
+from rovercheck.checker.testgen.formats.pytest_files import OURS
+from rovercheck.checker.testgen.scripts import CLOCK
+from rovercheck.spec_model.abstraction import Board, BoardSignal, boards
+from rovercheck.spec_model.lang.chart import parts
+from rovercheck.spec_model.lang.domain import Bool, Num
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import TICK_MS, System
 
 ASK = "The run can be looked at in any other format."
 

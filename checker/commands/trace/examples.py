@@ -5,22 +5,22 @@ from dataclasses import dataclass, replace
 from shlex import quote
 from typing import TYPE_CHECKING
 
-from checker.commands.shared.codes import UsageError
-from checker.commands.shared.select import pick
-from checker.commands.shared.variant import Variant
-from checker.results.trace import Trace
-from checker.results.verdict import Run
-from checker.system.lowered import lowered
-from checker.verify.runs.replay import followed
-from checker.verify.tasks import Task
-from properties.catalogue import Expected
-from properties.forms import Property, reachable
-from spec_model.lang.chart import Chart
-from spec_model.lang.errors import did_you_mean
-from spec_model.lang.system import System
+from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.runs.replay import followed
+from rovercheck.checker.verify.tasks import Task
+from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.forms import Property, reachable
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.errors import did_you_mean
+from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:  # with all that tests cover
-    from checker.system.instrument.goals import CoverGoal, Watched
+    from rovercheck.checker.system.instrument.goals import CoverGoal, Watched
 
 COVERS = ("an example was asked for",)
 
@@ -116,8 +116,8 @@ def of_arrow(wanted: str, systems: Mapping[str, System], system: str | None) -> 
     if not (colon and arrow):
         raise UsageError(f"{wanted!r} names no arrow; write 'CHART: A -> B', as traces show it.")
     on = _system(name, systems, system)
-    from checker.system.instrument.goals import GoalKind
-    from checker.system.instrument.watch import watched
+    from rovercheck.checker.system.instrument.goals import GoalKind
+    from rovercheck.checker.system.instrument.watch import watched
 
     looked = watched(on, (GoalKind.ARROWS,))
     goal = _arrow(name, _plainly(arrow), looked.goals)

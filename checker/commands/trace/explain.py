@@ -4,11 +4,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from time import process_time
 
-from checker.commands.shared.output import err
-from checker.commands.shared.progress import Watch
-from checker.results.trace import Trace
-from properties.forms import Property
-from spec_model.lang.system import System
+from rovercheck.checker.commands.shared.output import err
+from rovercheck.checker.commands.shared.progress import Watch
+from rovercheck.checker.results.trace import Trace
+from rovercheck.properties.forms import Property
+from rovercheck.spec_model.lang.system import System
 
 SECONDS = 10.0
 """Of computing, for an explanation that was not asked for: however busy the machine, it is the same."""
@@ -34,8 +34,11 @@ class Explaining:
         """The trace with what forces its end, or as it is, with a word on why, after Ctrl-C too."""
         if not self.wanted:
             return trace
-        from checker.explain.explained import explained, unexplained  # by solvers, loaded for this alone
-        from checker.explain.unrolled import OutOfTime
+        from rovercheck.checker.explain.explained import (  # by solvers, loaded for this alone
+            explained,
+            unexplained,
+        )
+        from rovercheck.checker.explain.unrolled import OutOfTime
 
         if why := unexplained(trace):
             err.print(f"What forces it is not looked for: {why}.", markup=False)

@@ -6,10 +6,10 @@ from inspect import signature
 from pathlib import Path
 from typing import Any
 
-from checker.commands.shared.output import text_width, write
-from checker.render import Renderer, named
-from checker.results.trace import Trace
-from spec_model.lang.system import System
+from rovercheck.checker.commands.shared.output import text_width, write
+from rovercheck.checker.render import Renderer, named
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.system import System
 
 
 def exit_written(
@@ -26,7 +26,7 @@ def exit_written(
     that format under the same name.  Raises ``ModelError`` for a run that the format cannot show.
     """
     if getattr(renderer, "CONCRETE", False):
-        from checker.commands.trace.board_steps import concrete
+        from rovercheck.checker.commands.trace.board_steps import concrete
 
         trace = concrete(trace, systems[trace.system])
     render = fitted(renderer, output)

@@ -6,26 +6,26 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from checker.commands.check.run import evidence, results
-from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.output import err, out, possible, text_width, write, wrote
-from checker.commands.shared.progress import Watch
-from checker.commands.shared.select import pick
-from checker.commands.shared.wrapping import filled
-from checker.commands.trace.examples import TraceRequest
-from checker.commands.trace.explain import Explaining
-from checker.commands.trace.formats import exit_written, fitted
-from checker.engines import Limits
-from checker.render import Renderer, named, renderers
-from checker.render.reasons import in_reason
-from checker.render.trace_markdown import SPECIAL
-from checker.results.trace import Trace
-from checker.results.verdict import Unknown
-from properties.forms import Property, Unbounded
-from spec_model.lang.system import System
+from rovercheck.checker.commands.check.run import evidence, results
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import err, out, possible, text_width, write, wrote
+from rovercheck.checker.commands.shared.progress import Watch
+from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.commands.shared.wrapping import filled
+from rovercheck.checker.commands.trace.examples import TraceRequest
+from rovercheck.checker.commands.trace.explain import Explaining
+from rovercheck.checker.commands.trace.formats import exit_written, fitted
+from rovercheck.checker.engines import Limits
+from rovercheck.checker.render import Renderer, named, renderers
+from rovercheck.checker.render.reasons import in_reason
+from rovercheck.checker.render.trace_markdown import SPECIAL
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Unknown
+from rovercheck.properties.forms import Property, Unbounded
+from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from checker.explain.others import NoMore
+    from rovercheck.checker.explain.others import NoMore
 
 FOR_READERS = ("table", "markdown")
 SECONDS = 30.0
@@ -146,8 +146,8 @@ def _several(
     wanted: TraceRequest, first: Trace, engine: str, limits: Limits, showing: Showing
 ) -> Iterator[str]:
     """The text of several runs, each with what makes it different."""
-    from checker.explain.others import NoMore, Others
-    from checker.explain.unlike import Unlike
+    from rovercheck.checker.explain.others import NoMore, Others
+    from rovercheck.checker.explain.unlike import Unlike
 
     prop, system = wanted.property, wanted.systems[first.system]
     limits = limits if limits.seconds is not None else replace(limits, seconds=SECONDS)

@@ -2,11 +2,11 @@
 
 from collections.abc import Callable, Mapping, Sequence
 
-from checker.encode.bits.aig import FALSE, TRUE, Aig, Literal, bits_of
-from checker.system.intervals import Interval, interval, postorder
-from spec_model.lang.domain import Bool, Domain
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
+from rovercheck.checker.encode.bits.aig import FALSE, TRUE, Aig, Literal, bits_of
+from rovercheck.checker.system.intervals import Interval, interval, postorder
+from rovercheck.spec_model.lang.domain import Bool, Domain
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
 
 # --- numbers as lists of literals, least significant first, the last one being the sign (two's complement)
 

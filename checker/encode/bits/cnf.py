@@ -7,7 +7,7 @@ exclusive ors are recognised, so that there are fewer variables than nodes.
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 
-from checker.encode.bits.aig import Aig, Literal
+from rovercheck.checker.encode.bits.aig import Aig, Literal
 
 Clause = list[int]
 

@@ -7,9 +7,9 @@ bits that they depend on, they can stand for them: fewer variables, and simpler 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from checker.encode.bits.aig import Literal
-from checker.encode.bits.model import Bit, Circuit
-from spec_model.lang.expr import flag
+from rovercheck.checker.encode.bits.aig import Literal
+from rovercheck.checker.encode.bits.model import Bit, Circuit
+from rovercheck.spec_model.lang.expr import flag
 
 
 @dataclass(frozen=True)

@@ -8,14 +8,14 @@ inputs at time ``t`` (the first is 0) speaks of tick ``t + 1``.
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.encode.bits.aig import Aig, Literal, bits_of
-from checker.encode.bits.blast import Blaster, Value, as_word, bits_needed
-from checker.encode.cone import Slice, as_written, cone, folded, straying
-from checker.encode.symbolic import SymbolicTransition, transition
-from checker.results.verdict import Run
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.checker.encode.bits.aig import Aig, Literal, bits_of
+from rovercheck.checker.encode.bits.blast import Blaster, Value, as_word, bits_needed
+from rovercheck.checker.encode.cone import Slice, as_written, cone, folded, straying
+from rovercheck.checker.encode.symbolic import SymbolicTransition, transition
+from rovercheck.checker.results.verdict import Run
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 
 
 @dataclass(frozen=True)

@@ -7,8 +7,8 @@ is best for every circuit, so there are several to try.  The bits of a variable 
 from collections.abc import Iterable, Iterator, Sequence
 from statistics import fmean
 
-from checker.encode.bits.aig import Literal
-from checker.encode.bits.model import Bit, Circuit
+from rovercheck.checker.encode.bits.aig import Literal
+from rovercheck.checker.encode.bits.model import Bit, Circuit
 
 ROUNDS = 200
 """Rounds after which an order that still changes is taken as it is."""

@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Mapping, Sequence
 from types import MappingProxyType
 
-from checker.encode.bits.aig import Literal
-from checker.encode.bits.model import Bit, Circuit
+from rovercheck.checker.encode.bits.aig import Literal
+from rovercheck.checker.encode.bits.model import Bit, Circuit
 
 Values = dict[str, list[int]]
 """The value of each input, by name, one for each run."""

@@ -10,15 +10,15 @@ import numpy as np
 from llvmlite import ir
 from numpy.typing import NDArray
 
-from checker import cache
-from checker.encode.native.expressions import TooWide
-from checker.encode.native.jit import NativeLibrary, OptimisationLevel, object_code
-from checker.encode.native.layout import Field, Layout, OutsideDomain, layout
-from checker.encode.native.quiet import Shift, moved_on, shifts
-from checker.encode.native.retrace import LEAVE_DOMAIN, REACH_TARGET, UNREAD, add_retrace
-from checker.encode.native.search import BATCH, NativeTask, Status, add_search
-from checker.encode.native.successors import Ended, add_successors
-from checker.encode.native.table import CONTEXT, StateTable
+from rovercheck.checker import cache
+from rovercheck.checker.encode.native.expressions import TooWide
+from rovercheck.checker.encode.native.jit import NativeLibrary, OptimisationLevel, object_code
+from rovercheck.checker.encode.native.layout import Field, Layout, OutsideDomain, layout
+from rovercheck.checker.encode.native.quiet import Shift, moved_on, shifts
+from rovercheck.checker.encode.native.retrace import LEAVE_DOMAIN, REACH_TARGET, UNREAD, add_retrace
+from rovercheck.checker.encode.native.search import BATCH, NativeTask, Status, add_search
+from rovercheck.checker.encode.native.successors import Ended, add_successors
+from rovercheck.checker.encode.native.table import CONTEXT, StateTable
 
 Words = NDArray[np.uint64]
 Numbers = NDArray[np.uint32]

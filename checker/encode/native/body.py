@@ -13,11 +13,20 @@ from typing import Any
 
 from llvmlite import ir
 
-from checker.encode.native.expressions import INT, Expressions, Slot, kind
-from checker.encode.path_statements import Branch, Choose, Complete, Each, Fork, PathProgram, Require, Span
-from checker.system.intervals import Interval
-from spec_model.lang.action import Assign
-from spec_model.lang.expr import Var
+from rovercheck.checker.encode.native.expressions import INT, Expressions, Slot, kind
+from rovercheck.checker.encode.path_statements import (
+    Branch,
+    Choose,
+    Complete,
+    Each,
+    Fork,
+    PathProgram,
+    Require,
+    Span,
+)
+from rovercheck.checker.system.intervals import Interval
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.expr import Var
 
 _NUMBER = ir.IntType(32)
 SHOWN = 100

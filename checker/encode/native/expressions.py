@@ -10,10 +10,10 @@ from typing import Any
 
 from llvmlite import ir
 
-from checker.system.intervals import TRUTH, Interval, transfer
-from spec_model.lang.domain import Bool
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.checker.system.intervals import TRUTH, Interval, transfer
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 
 BIT = ir.IntType(1)
 INT = ir.IntType(64)

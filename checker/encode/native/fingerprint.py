@@ -13,13 +13,13 @@ from time import time
 
 import numpy as np
 
-from checker.encode.native.jit import processor
-from checker.encode.native.layout import Layout
-from checker.encode.native.quiet import Shift
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import Domain, Sort
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.native.jit import processor
+from rovercheck.checker.encode.native.layout import Layout
+from rovercheck.checker.encode.native.quiet import Shift
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import Domain, Sort
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 _ROOT = Path(__file__).parents[3]
 _LOADED = time()

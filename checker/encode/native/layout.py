@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import gcd
 
-from checker.encode.values import Values, ends, whole
-from checker.system.intervals import Interval
-from spec_model.lang.expr import Var
+from rovercheck.checker.encode.values import Values, ends, whole
+from rovercheck.checker.system.intervals import Interval
+from rovercheck.spec_model.lang.expr import Var
 
 NOTHING: Mapping[str, Values] = {}
 WORD_BITS = 63

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from checker.encode.counting import Counter
-from checker.encode.native.expressions import BIT, INT
-from checker.encode.native.layout import Layout
+from rovercheck.checker.encode.counting import Counter
+from rovercheck.checker.encode.native.expressions import BIT, INT
+from rovercheck.checker.encode.native.layout import Layout
 
 NOTHING = -1
 """A word that no valuation packs to."""

@@ -2,12 +2,12 @@
 
 from typing import Any
 
-from checker.encode.native.body import Body
-from checker.encode.native.expressions import BIT, INT
-from checker.encode.native.search import NativeTask, begin, outside, packed
-from checker.encode.native.table import WORDS, StateTable, function
-from checker.encode.path_statements import saved
-from checker.encode.paths import read_flag
+from rovercheck.checker.encode.native.body import Body
+from rovercheck.checker.encode.native.expressions import BIT, INT
+from rovercheck.checker.encode.native.search import NativeTask, begin, outside, packed
+from rovercheck.checker.encode.native.table import WORDS, StateTable, function
+from rovercheck.checker.encode.path_statements import saved
+from rovercheck.checker.encode.paths import read_flag
 
 UNREAD = -(1 << 63)
 """Stands for the value of an input that the path does not read."""

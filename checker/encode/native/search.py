@@ -6,18 +6,26 @@ from enum import IntEnum
 from functools import cached_property
 from typing import Any
 
-from checker.encode.native.body import Body
-from checker.encode.native.expressions import BIT, INT, Slot
-from checker.encode.native.fingerprint import fingerprint
-from checker.encode.native.layout import Field, Layout
-from checker.encode.native.quiet import Shift, emit_moved_on
-from checker.encode.native.table import CONTEXT, NUMBER, NUMBERS, WORDS, StateTable, context, function
-from checker.encode.path_statements import Complete, PathProgram, assigned, choices, saved
-from checker.encode.paths import path_program, staged_program
-from checker.system.intervals import Interval
-from checker.system.partition import Partition, partitions
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.native.body import Body
+from rovercheck.checker.encode.native.expressions import BIT, INT, Slot
+from rovercheck.checker.encode.native.fingerprint import fingerprint
+from rovercheck.checker.encode.native.layout import Field, Layout
+from rovercheck.checker.encode.native.quiet import Shift, emit_moved_on
+from rovercheck.checker.encode.native.table import (
+    CONTEXT,
+    NUMBER,
+    NUMBERS,
+    WORDS,
+    StateTable,
+    context,
+    function,
+)
+from rovercheck.checker.encode.path_statements import Complete, PathProgram, assigned, choices, saved
+from rovercheck.checker.encode.paths import path_program, staged_program
+from rovercheck.checker.system.intervals import Interval
+from rovercheck.checker.system.partition import Partition, partitions
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 BATCH = 2048
 """Successors kept before they are stored together."""

@@ -3,11 +3,11 @@
 from enum import IntEnum
 from typing import Any
 
-from checker.encode.native.body import Body
-from checker.encode.native.expressions import INT
-from checker.encode.native.search import NativeTask, begin, outside, packed
-from checker.encode.native.table import WORDS, StateTable, function
-from checker.encode.path_statements import saved
+from rovercheck.checker.encode.native.body import Body
+from rovercheck.checker.encode.native.expressions import INT
+from rovercheck.checker.encode.native.search import NativeTask, begin, outside, packed
+from rovercheck.checker.encode.native.table import WORDS, StateTable, function
+from rovercheck.checker.encode.path_statements import saved
 
 MOST_PATHS = 1 << 25
 """Ways through one tick beyond which its valuation is given up: the code could not be interrupted."""

@@ -14,7 +14,7 @@ from typing import Any
 
 from llvmlite import ir
 
-from checker.encode.native.expressions import BIT, INT
+from rovercheck.checker.encode.native.expressions import BIT, INT
 
 NUMBER = ir.IntType(32)
 WORDS = INT.as_pointer()

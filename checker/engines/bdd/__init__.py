@@ -9,15 +9,15 @@ from dataclasses import dataclass, field, replace
 from time import monotonic
 from typing import TYPE_CHECKING
 
-from checker.engines import Limits, Progress
-from checker.engines.bdd.events import BddBound, BddClosed, BddFound, BddStuck, Event
-from checker.process.isolate import Send, Stopped, messages
-from checker.results.trace import counted_ticks
-from checker.results.verdict import Answer, Open, Reached, Unreachable
+from rovercheck.checker.engines import Limits, Progress
+from rovercheck.checker.engines.bdd.events import BddBound, BddClosed, BddFound, BddStuck, Event
+from rovercheck.checker.process.isolate import Send, Stopped, messages
+from rovercheck.checker.results.trace import counted_ticks
+from rovercheck.checker.results.verdict import Answer, Open, Reached, Unreachable
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
-    from spec_model.lang.expr import Var
-    from spec_model.lang.system import TransitionSystem
+    from rovercheck.spec_model.lang.expr import Var
+    from rovercheck.spec_model.lang.system import TransitionSystem
 
 NAME = "bdd"
 SUMMARY = "all reachable valuations as binary decision diagrams (OxiDD); proofs and shortest runs"
@@ -80,7 +80,7 @@ def _work(
     send: Send, system: "TransitionSystem", names: tuple[str, ...], most: int | None, nodes: int
 ) -> None:
     """In the child: send the events of the search."""
-    from checker.engines.bdd.search import search
+    from rovercheck.checker.engines.bdd.search import search
 
     for event in search(system, names, most, nodes):
         send(event)

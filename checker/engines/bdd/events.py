@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Union
 
-from checker.results.verdict import Exhausted, Run
+from rovercheck.checker.results.verdict import Exhausted, Run
 
 
 @dataclass(frozen=True)

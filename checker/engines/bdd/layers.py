@@ -3,9 +3,9 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from checker.encode.bits import Circuit, Literal
-from checker.engines.bdd.relation import relation
-from checker.engines.bdd.space import Function, Space
+from rovercheck.checker.encode.bits import Circuit, Literal
+from rovercheck.checker.engines.bdd.relation import relation
+from rovercheck.checker.engines.bdd.space import Function, Space
 
 
 @dataclass(frozen=True)

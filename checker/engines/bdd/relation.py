@@ -9,7 +9,7 @@ FSM synthesis and verification*, IWLS 1995).
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from checker.engines.bdd.space import Function, Space, product, support
+from rovercheck.checker.engines.bdd.space import Function, Space, product, support
 
 CLUSTER = 5000
 """Nodes up to which neighbours are multiplied."""

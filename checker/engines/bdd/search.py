@@ -6,22 +6,22 @@ from dataclasses import dataclass, replace
 
 from oxidd.util import DDMemoryError
 
-from checker.encode.bits import Circuit, Literal
-from checker.encode.bits.blast import bits_needed
-from checker.encode.bits.inputs import input_cut
-from checker.encode.bits.model import cut
-from checker.encode.bits.order import orders
-from checker.encode.cone import as_written, cone, constants, folded
-from checker.encode.gather import gathered
-from checker.encode.symbolic import transition
-from checker.engines.bdd.events import BddBound, BddClosed, BddFound, BddStuck, Event
-from checker.engines.bdd.layers import LayerHit, Layers
-from checker.engines.bdd.space import Function, NodeStore, Overdrawn, Space, meets
-from checker.results.diagram import ALL, NONE, Diagram, DiagramNode
-from checker.results.verdict import Exhausted, Run
-from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.bits import Circuit, Literal
+from rovercheck.checker.encode.bits.blast import bits_needed
+from rovercheck.checker.encode.bits.inputs import input_cut
+from rovercheck.checker.encode.bits.model import cut
+from rovercheck.checker.encode.bits.order import orders
+from rovercheck.checker.encode.cone import as_written, cone, constants, folded
+from rovercheck.checker.encode.gather import gathered
+from rovercheck.checker.encode.symbolic import transition
+from rovercheck.checker.engines.bdd.events import BddBound, BddClosed, BddFound, BddStuck, Event
+from rovercheck.checker.engines.bdd.layers import LayerHit, Layers
+from rovercheck.checker.engines.bdd.space import Function, NodeStore, Overdrawn, Space, meets
+from rovercheck.checker.results.diagram import ALL, NONE, Diagram, DiagramNode
+from rovercheck.checker.results.verdict import Exhausted, Run
+from rovercheck.spec_model.lang.evaluate import admissible, step
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 # --- shortest runs, rebuilt backwards through the rings ------------------------------------------------
 

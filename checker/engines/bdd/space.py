@@ -10,8 +10,8 @@ from oxidd.bcdd import BCDDFunction as Function
 from oxidd.bcdd import BCDDManager, BCDDSubstitution
 from oxidd.util import BooleanOperator, DDMemoryError
 
-from checker.encode.bits import FALSE, Bit, Circuit, Literal
-from checker.encode.bits.inputs import InputCut
+from rovercheck.checker.encode.bits import FALSE, Bit, Circuit, Literal
+from rovercheck.checker.encode.bits.inputs import InputCut
 
 _CACHED = 1 << 20
 """Entries of the cache at most: it is zeroed at once, which should not take longer than a small search."""

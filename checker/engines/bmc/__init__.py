@@ -8,15 +8,15 @@ from contextlib import closing
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from checker.engines import Limits, Progress
-from checker.engines.bmc.events import BmcBound, BmcFound, BmcUndefined, Event
-from checker.process.isolate import Send, Stopped, messages
-from checker.results.trace import counted_ticks
-from checker.results.verdict import Answer, Open, Reached
+from rovercheck.checker.engines import Limits, Progress
+from rovercheck.checker.engines.bmc.events import BmcBound, BmcFound, BmcUndefined, Event
+from rovercheck.checker.process.isolate import Send, Stopped, messages
+from rovercheck.checker.results.trace import counted_ticks
+from rovercheck.checker.results.verdict import Answer, Open, Reached
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
-    from spec_model.lang.expr import Var
-    from spec_model.lang.system import TransitionSystem
+    from rovercheck.spec_model.lang.expr import Var
+    from rovercheck.spec_model.lang.system import TransitionSystem
 
 NAME = "bmc"
 SUMMARY = "shortest runs by unrolling the step over bit-vectors (Z3); a bounded search, never a proof"
@@ -73,7 +73,7 @@ def _line(deep: Mapping[str, int], found: Mapping[str, Answer]) -> str:
 
 def _work(send: Send, system: "TransitionSystem", goals: tuple[str, ...], depth: int) -> None:
     """In the child: Z3 is loaded here only."""
-    from checker.engines.bmc.search import search
+    from rovercheck.checker.engines.bmc.search import search
 
     for event in search(system, goals, depth):
         send(event)

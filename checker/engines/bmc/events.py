@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Union
 
-from checker.results.verdict import Run
+from rovercheck.checker.results.verdict import Run
 
 
 @dataclass(frozen=True)

@@ -9,14 +9,14 @@ from collections.abc import Iterator, Mapping, Sequence
 
 import z3
 
-from checker.encode.bitvector import Term
-from checker.encode.cone import as_written, by_cone, cone, folded, straying
-from checker.encode.symbolic import SymbolicTransition, transition
-from checker.encode.unrolling import Outside, Unrolling, model_of, satisfiable, steps_taken
-from checker.engines.bmc.events import BmcBound, BmcFound, BmcUndefined, Event
-from spec_model.lang.expr import Expr
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.checker.encode.bitvector import Term
+from rovercheck.checker.encode.cone import as_written, by_cone, cone, folded, straying
+from rovercheck.checker.encode.symbolic import SymbolicTransition, transition
+from rovercheck.checker.encode.unrolling import Outside, Unrolling, model_of, satisfiable, steps_taken
+from rovercheck.checker.engines.bmc.events import BmcBound, BmcFound, BmcUndefined, Event
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 
 ALONE = 16
 """Ticks that are searched one by one: short runs are found before blocks are worth while."""

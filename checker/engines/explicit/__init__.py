@@ -7,12 +7,12 @@ shortest run.  It stops when every goal is reached or nothing new appears.
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING
 
-from checker.engines import Limits, Progress
-from checker.results.verdict import Answer
+from rovercheck.checker.engines import Limits, Progress
+from rovercheck.checker.results.verdict import Answer
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
-    from spec_model.lang.expr import Var
-    from spec_model.lang.system import TransitionSystem
+    from rovercheck.spec_model.lang.expr import Var
+    from rovercheck.spec_model.lang.system import TransitionSystem
 
 NAME = "explicit"
 SUMMARY = "breadth-first search of all reachable valuations, compiled to native code"
@@ -26,6 +26,6 @@ def check(
     Raises ``OutsideDomain`` when a tick gives a variable of the valuation a value outside its domain, and
     ``ModelError`` for a goal that no tick leads to: one that is no variable of the system.
     """
-    from checker.engines.explicit.answers import answers  # with numpy and LLVM
+    from rovercheck.checker.engines.explicit.answers import answers  # with numpy and LLVM
 
     return answers(system, goals, limits, progress)

@@ -11,13 +11,20 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.encode.counting import counters
-from checker.encode.native import Field, NativeSearch, NativeSuccessors, NativeTask, moved_on, shifts
-from checker.encode.native.quiet import NOTHING
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expiry import free_timers
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System, TransitionSystem
+from rovercheck.checker.encode.counting import counters
+from rovercheck.checker.encode.native import (
+    Field,
+    NativeSearch,
+    NativeSuccessors,
+    NativeTask,
+    moved_on,
+    shifts,
+)
+from rovercheck.checker.encode.native.quiet import NOTHING
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expiry import free_timers
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 MOST_ASKED = 1 << 15
 """Valuations looked up for one estimate."""

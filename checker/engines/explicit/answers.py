@@ -7,22 +7,22 @@ from itertools import product
 from math import prod
 from time import monotonic
 
-from checker.encode.counting import counters
-from checker.encode.gather import bits, gathered
-from checker.encode.native import Field, Layout, NativeSearch, NativeTask, TooWide, layout, shifts
-from checker.encode.native.layout import WORD_BITS
-from checker.encode.values import possible, values
-from checker.engines import Limits, Progress, Stage, Timers
-from checker.engines.explicit.levels import ExplicitFound, LevelSearch, Spent
-from checker.engines.explicit.lines import LineSearch
-from checker.engines.explicit.runs import Runs
-from checker.results.closed import BitPlace, ClosedSet, union
-from checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
-from checker.system.slice import sliced
-from spec_model.lang.domain import Enum
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.counting import counters
+from rovercheck.checker.encode.gather import bits, gathered
+from rovercheck.checker.encode.native import Field, Layout, NativeSearch, NativeTask, TooWide, layout, shifts
+from rovercheck.checker.encode.native.layout import WORD_BITS
+from rovercheck.checker.encode.values import possible, values
+from rovercheck.checker.engines import Limits, Progress, Stage, Timers
+from rovercheck.checker.engines.explicit.levels import ExplicitFound, LevelSearch, Spent
+from rovercheck.checker.engines.explicit.lines import LineSearch
+from rovercheck.checker.engines.explicit.runs import Runs
+from rovercheck.checker.results.closed import BitPlace, ClosedSet, union
+from rovercheck.checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
+from rovercheck.checker.system.slice import sliced
+from rovercheck.spec_model.lang.domain import Enum
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 # --- A search case by case -----------------------------------------------------------------------------
 

@@ -12,12 +12,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.encode.native import CONTEXT, NativeSearch, NativeTask, Status
-from checker.engines import Limits, Progress, Timers
-from checker.engines.explicit.advice import Advisor, Multiplier
-from checker.engines.explicit.parents import Unary
-from checker.engines.explicit.store import StateStore
-from checker.results.trace import counted_ticks
+from rovercheck.checker.encode.native import CONTEXT, NativeSearch, NativeTask, Status
+from rovercheck.checker.engines import Limits, Progress, Timers
+from rovercheck.checker.engines.explicit.advice import Advisor, Multiplier
+from rovercheck.checker.engines.explicit.parents import Unary
+from rovercheck.checker.engines.explicit.store import StateStore
+from rovercheck.checker.results.trace import counted_ticks
 
 QUICK_TRANSITIONS = 1 << 22
 """Transitions tried before the code is compiled again to run fast: most searches end before.

@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.encode.native import NativeSearch
-from checker.engines import Limits, Progress
-from checker.engines.explicit.levels import NOTHING, LevelSearch, Spent
+from rovercheck.checker.encode.native import NativeSearch
+from rovercheck.checker.engines import Limits, Progress
+from rovercheck.checker.engines.explicit.levels import NOTHING, LevelSearch, Spent
 
 
 class LineSearch(LevelSearch):

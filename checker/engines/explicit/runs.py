@@ -10,7 +10,7 @@ from itertools import pairwise, product
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.encode.native import (
+from rovercheck.checker.encode.native import (
     LEAVE_DOMAIN,
     REACH_TARGET,
     NativeRetrace,
@@ -18,14 +18,14 @@ from checker.encode.native import (
     OutsideDomain,
     moved_on,
 )
-from checker.engines.explicit.levels import ExplicitFound
-from checker.results.verdict import Run
-from checker.system.partition import Partition, partition
-from checker.system.slice import assumption_groups
-from spec_model.lang.evaluate import evaluate, step
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.checker.engines.explicit.levels import ExplicitFound
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.partition import Partition, partition
+from rovercheck.checker.system.slice import assumption_groups
+from rovercheck.spec_model.lang.evaluate import evaluate, step
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 
 Packed = tuple[int, ...]
 """The words of a valuation."""

@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.encode.native import BATCH, NativeSearch
-from checker.engines.explicit.parents import Unary
+from rovercheck.checker.encode.native import BATCH, NativeSearch
+from rovercheck.checker.engines.explicit.parents import Unary
 
 _LOAD = 0.75
 _FULLEST = 0.95

@@ -10,8 +10,8 @@ from contextlib import closing
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from checker.engines import Limits, Progress
-from checker.engines.kinduction.events import (
+from rovercheck.checker.engines import Limits, Progress
+from rovercheck.checker.engines.kinduction.events import (
     Event,
     InductionBound,
     InductionClosed,
@@ -19,12 +19,12 @@ from checker.engines.kinduction.events import (
     InductionProgress,
     InductionStuck,
 )
-from checker.process.isolate import Send, Stopped, messages
-from checker.results.verdict import Answer, Open, Reached, Unreachable
+from rovercheck.checker.process.isolate import Send, Stopped, messages
+from rovercheck.checker.results.verdict import Answer, Open, Reached, Unreachable
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
-    from spec_model.lang.expr import Expr, Var
-    from spec_model.lang.system import TransitionSystem
+    from rovercheck.spec_model.lang.expr import Expr, Var
+    from rovercheck.spec_model.lang.system import TransitionSystem
 
 NAME = "kinduction"
 SUMMARY = "proofs by k-induction with invariants that are found by simulation and Houdini (Z3)"
@@ -108,7 +108,7 @@ def _work(
     candidates: "tuple[Expr, ...] | None",
 ) -> None:
     """In the child: Z3 is loaded here only."""
-    from checker.engines.kinduction.search import search, with_given
+    from rovercheck.checker.engines.kinduction.search import search, with_given
 
     events = search(system, goals, depth) if candidates is None else with_given(system, goals, candidates)
     for event in events:

@@ -11,14 +11,14 @@ from functools import cached_property
 import numpy as np
 import z3
 
-from checker.encode.bitvector import Encoder, Term
-from checker.encode.invariants import TemplateCube
-from checker.encode.simulate import Columns, Simulator, Vectorised
-from checker.encode.unrolling import Unrolling, literal, satisfiable
-from checker.engines.kinduction.ticks import Scope, TickReading, Ticks
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Expr
-from spec_model.lang.walk import variables
+from rovercheck.checker.encode.bitvector import Encoder, Term
+from rovercheck.checker.encode.invariants import TemplateCube
+from rovercheck.checker.encode.simulate import Columns, Simulator, Vectorised
+from rovercheck.checker.encode.unrolling import Unrolling, literal, satisfiable
+from rovercheck.checker.engines.kinduction.ticks import Scope, TickReading, Ticks
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.walk import variables
 
 PATIENCE = 60_000_000
 """Steps of Z3 that one query may take, tens of seconds."""

@@ -8,11 +8,11 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from checker.encode.invariants import Candidates, TemplateCube, TemplatePool
-from checker.encode.simulate import Trail
-from checker.engines.kinduction.houdini import Consecution, initially, unbroken
-from checker.engines.kinduction.ticks import Scope
-from spec_model.lang.expr import Expr
+from rovercheck.checker.encode.invariants import Candidates, TemplateCube, TemplatePool
+from rovercheck.checker.encode.simulate import Trail
+from rovercheck.checker.engines.kinduction.houdini import Consecution, initially, unbroken
+from rovercheck.checker.engines.kinduction.ticks import Scope
+from rovercheck.spec_model.lang.expr import Expr
 
 EVERY = 8
 """Of the ticks of the random runs, one in so many is a sample that suggests candidates."""

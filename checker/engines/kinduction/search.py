@@ -9,12 +9,12 @@ from dataclasses import dataclass, replace
 
 import z3
 
-from checker.encode.cone import as_written, by_cone, cone, constants, folded, straying, with_values
-from checker.encode.invariants import TemplateCube
-from checker.encode.simulate import Simulator, Trail
-from checker.encode.symbolic import transition
-from checker.encode.unrolling import Outside, Unrolling, literal, satisfiable
-from checker.engines.kinduction.events import (
+from rovercheck.checker.encode.cone import as_written, by_cone, cone, constants, folded, straying, with_values
+from rovercheck.checker.encode.invariants import TemplateCube
+from rovercheck.checker.encode.simulate import Simulator, Trail
+from rovercheck.checker.encode.symbolic import transition
+from rovercheck.checker.encode.unrolling import Outside, Unrolling, literal, satisfiable
+from rovercheck.checker.engines.kinduction.events import (
     Event,
     InductionBound,
     InductionClosed,
@@ -22,12 +22,12 @@ from checker.engines.kinduction.events import (
     InductionProgress,
     InductionStuck,
 )
-from checker.engines.kinduction.houdini import Consecution, of_given
-from checker.engines.kinduction.hunt import InvariantHunt
-from checker.engines.kinduction.ticks import GaveUp, Scope, Ticks, excluded
-from checker.results.verdict import Inductive, Run
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.engines.kinduction.houdini import Consecution, of_given
+from rovercheck.checker.engines.kinduction.hunt import InvariantHunt
+from rovercheck.checker.engines.kinduction.ticks import GaveUp, Scope, Ticks, excluded
+from rovercheck.checker.results.verdict import Inductive, Run
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 # --- k-induction ---------------------------------------------------------------------------------------
 

@@ -5,11 +5,11 @@ from dataclasses import dataclass
 
 import z3
 
-from checker.encode.bitvector import Encoder, Term, value
-from checker.encode.cone import Slice
-from checker.encode.invariants import TemplateCube
-from checker.encode.unrolling import Unrolling
-from spec_model.lang.expr import Expr
+from rovercheck.checker.encode.bitvector import Encoder, Term, value
+from rovercheck.checker.encode.cone import Slice
+from rovercheck.checker.encode.invariants import TemplateCube
+from rovercheck.checker.encode.unrolling import Unrolling
+from rovercheck.spec_model.lang.expr import Expr
 
 
 class GaveUp(Exception):

@@ -11,15 +11,15 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from checker.engines import Engine, Limits, Progress, engines
-from checker.process.isolate import Stopped
-from checker.results.trace import counted_ticks
-from checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
+from rovercheck.checker.engines import Engine, Limits, Progress, engines
+from rovercheck.checker.process.isolate import Stopped
+from rovercheck.checker.results.trace import counted_ticks
+from rovercheck.checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
-    from checker.engines.localisation.orders import Orders
-    from spec_model.lang.expr import Var
-    from spec_model.lang.system import TransitionSystem
+    from rovercheck.checker.engines.localisation.orders import Orders
+    from rovercheck.spec_model.lang.expr import Var
+    from rovercheck.spec_model.lang.system import TransitionSystem
 
 NAME = "localisation"
 SUMMARY = "proofs on the few variables that a goal rests on, all others free; other engines do the proving"
@@ -37,7 +37,7 @@ def check(
     system: "TransitionSystem", goals: Sequence["Var"], limits: Limits, progress: Progress
 ) -> Mapping[str, Answer]:
     """``Unreachable`` with an inductive invariant, ``Reached`` by a run, or ``Open`` with the reason."""
-    from checker.engines.localisation.orders import Orders
+    from rovercheck.checker.engines.localisation.orders import Orders
 
     own, deadline = replace(system, source=None), limits.deadline()
     found: dict[str, Answer] = {}
@@ -65,8 +65,8 @@ def _decided(
     system: "TransitionSystem", goal: "Var", limits: Limits, orders: "Orders", told: _Told
 ) -> Answer:
     """Refine until a proof of the system with cuts or a run of the system itself is found."""
-    from checker.engines.localisation.bounded import BoundedHit
-    from checker.engines.localisation.cuts import with_cuts
+    from rovercheck.checker.engines.localisation.bounded import BoundedHit
+    from rovercheck.checker.engines.localisation.cuts import with_cuts
 
     depth, kept, asked, deadline = FIRST, frozenset[str](), False, limits.deadline()
     while True:

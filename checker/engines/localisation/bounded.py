@@ -8,15 +8,15 @@ Automatic Abstraction without Counterexamples, TACAS 2003).
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from checker.encode.bitvector import Term
-from checker.encode.cone import as_written, cone, folded, straying
-from checker.encode.symbolic import SymbolicTransition, transition
-from checker.encode.unrolling import Outside, Unrolling, literal, satisfiable
-from checker.engines.localisation.cuts import with_switches
-from checker.process.isolate import Send
-from checker.results.verdict import Run
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.bitvector import Term
+from rovercheck.checker.encode.cone import as_written, cone, folded, straying
+from rovercheck.checker.encode.symbolic import SymbolicTransition, transition
+from rovercheck.checker.encode.unrolling import Outside, Unrolling, literal, satisfiable
+from rovercheck.checker.engines.localisation.cuts import with_switches
+from rovercheck.checker.process.isolate import Send
+from rovercheck.checker.results.verdict import Run
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 
 @dataclass(frozen=True)

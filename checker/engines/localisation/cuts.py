@@ -7,9 +7,9 @@ are free.  What computes a cut variable no longer matters, and slicing takes it 
 from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import replace
 
-from spec_model.lang.action import Action, Assign, If, assign
-from spec_model.lang.expr import Expr, Var, flag, ite
-from spec_model.lang.system import Program, Statement, TransitionSystem
+from rovercheck.spec_model.lang.action import Action, Assign, If, assign
+from rovercheck.spec_model.lang.expr import Expr, Var, flag, ite
+from rovercheck.spec_model.lang.system import Program, Statement, TransitionSystem
 
 Names = frozenset[str]
 

@@ -5,9 +5,9 @@ from time import monotonic
 from types import TracebackType
 from typing import Self
 
-from checker.engines.localisation.bounded import BoundedEngine, BoundedHit, Core
-from checker.process.isolate import Child, End, Stopped
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.engines.localisation.bounded import BoundedEngine, BoundedHit, Core
+from rovercheck.checker.process.isolate import Child, End, Stopped
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 
 class Orders:

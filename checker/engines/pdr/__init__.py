@@ -8,15 +8,15 @@ from contextlib import closing
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from checker.engines import Limits, Progress
-from checker.engines.pdr.events import Decided, Event, PdrBound, PdrUndefined
-from checker.process.isolate import Send, Stopped, messages
-from checker.results.trace import counted_ticks
-from checker.results.verdict import Answer, Open
+from rovercheck.checker.engines import Limits, Progress
+from rovercheck.checker.engines.pdr.events import Decided, Event, PdrBound, PdrUndefined
+from rovercheck.checker.process.isolate import Send, Stopped, messages
+from rovercheck.checker.results.trace import counted_ticks
+from rovercheck.checker.results.verdict import Answer, Open
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
-    from spec_model.lang.expr import Var
-    from spec_model.lang.system import TransitionSystem
+    from rovercheck.spec_model.lang.expr import Var
+    from rovercheck.spec_model.lang.system import TransitionSystem
 
 NAME = "pdr"
 SUMMARY = "proofs by inductive invariants over bits, and runs, not always the shortest (IC3 over MiniSat)"
@@ -85,7 +85,7 @@ class _State:
 
 def _work(send: Send, system: "TransitionSystem", goals: tuple[str, ...], depth: int | None) -> None:
     """In the child: the solver is loaded here only."""
-    from checker.engines.pdr.groups import decisions
+    from rovercheck.checker.engines.pdr.groups import decisions
 
     for event in decisions(system, goals, depth):
         send(event)

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 
 from pysat.solvers import Minisat22
 
-from checker.engines.pdr.machine import PdrMachine
+from rovercheck.checker.engines.pdr.machine import PdrMachine
 
 GARBAGE = 3000
 """Temporary clauses after which a solver is better built anew."""

@@ -6,10 +6,10 @@ valuation reachable within ``i`` ticks.  Frame ``i`` consists of the lemmas at l
 
 from collections.abc import Iterator
 
-from checker.engines.pdr.cones import Cones
-from checker.engines.pdr.cubes import Cube, cube
-from checker.engines.pdr.lemmas import ALWAYS, Lemma, LemmaStep
-from checker.engines.pdr.machine import PdrMachine
+from rovercheck.checker.engines.pdr.cones import Cones
+from rovercheck.checker.engines.pdr.cubes import Cube, cube
+from rovercheck.checker.engines.pdr.lemmas import ALWAYS, Lemma, LemmaStep
+from rovercheck.checker.engines.pdr.machine import PdrMachine
 
 # --- the initial valuations ----------------------------------------------------------------------------
 

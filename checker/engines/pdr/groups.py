@@ -5,24 +5,24 @@ from typing import Protocol
 
 from pysat.solvers import Minisat22
 
-from checker.encode.bits import Bit, Circuit, Literal
-from checker.encode.bits.blast import bits_needed
-from checker.encode.bits.cnf import Cnf
-from checker.encode.bits.model import cut
-from checker.encode.cone import as_written, by_cone, cone, constants, folded, straying
-from checker.encode.symbolic import SymbolicTransition, transition
-from checker.engines.pdr.cubes import Cube
-from checker.engines.pdr.events import Decided, Event, PdrBound, PdrUndefined
-from checker.engines.pdr.machine import LEAVES, machine
-from checker.engines.pdr.search import BoundedDepth, Excluded, PdrSearch, Traced
-from checker.engines.pdr.seeds import LARGE, Seed, mined, proved
-from checker.engines.pdr.support import needed
-from checker.results.verdict import Inductive, Reached, Run, Unreachable
-from spec_model.lang.domain import Bool, Num
-from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var, any_of
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.bits import Bit, Circuit, Literal
+from rovercheck.checker.encode.bits.blast import bits_needed
+from rovercheck.checker.encode.bits.cnf import Cnf
+from rovercheck.checker.encode.bits.model import cut
+from rovercheck.checker.encode.cone import as_written, by_cone, cone, constants, folded, straying
+from rovercheck.checker.encode.symbolic import SymbolicTransition, transition
+from rovercheck.checker.engines.pdr.cubes import Cube
+from rovercheck.checker.engines.pdr.events import Decided, Event, PdrBound, PdrUndefined
+from rovercheck.checker.engines.pdr.machine import LEAVES, machine
+from rovercheck.checker.engines.pdr.search import BoundedDepth, Excluded, PdrSearch, Traced
+from rovercheck.checker.engines.pdr.seeds import LARGE, Seed, mined, proved
+from rovercheck.checker.engines.pdr.support import needed
+from rovercheck.checker.results.verdict import Inductive, Reached, Run, Unreachable
+from rovercheck.spec_model.lang.domain import Bool, Num
+from rovercheck.spec_model.lang.evaluate import admissible, step
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var, any_of
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 # --- traces of a circuit as runs of the system, and their replay by the reference semantics ------------
 

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from checker.engines.pdr.cubes import Cube
+from rovercheck.checker.engines.pdr.cubes import Cube
 
 ALWAYS = 1 << 30
 """The level of lemmas that hold in every reachable valuation."""

@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.encode.bits import TRUE, Aig, Circuit, Literal
-from checker.encode.bits.cnf import Clause, Cnf
+from rovercheck.checker.encode.bits import TRUE, Aig, Circuit, Literal
+from rovercheck.checker.encode.bits.cnf import Clause, Cnf
 
 LEAVES = ""
 """The name of the goal that some variable leaves its domain; no variable has this name."""

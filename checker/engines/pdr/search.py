@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from heapq import heappop, heappush
 from itertools import count
 
-from checker.engines.pdr.cones import Cones
-from checker.engines.pdr.cubes import Cube, cube
-from checker.engines.pdr.frames import Frames
-from checker.engines.pdr.lemmas import ALWAYS, Lemma, LemmaStep
-from checker.engines.pdr.machine import PdrMachine
+from rovercheck.checker.engines.pdr.cones import Cones
+from rovercheck.checker.engines.pdr.cubes import Cube, cube
+from rovercheck.checker.engines.pdr.frames import Frames
+from rovercheck.checker.engines.pdr.lemmas import ALWAYS, Lemma, LemmaStep
+from rovercheck.checker.engines.pdr.machine import PdrMachine
 
 # --- lifting -------------------------------------------------------------------------------------------
 

@@ -11,14 +11,14 @@ from dataclasses import dataclass
 import numpy as np
 from pysat.solvers import Minisat22
 
-from checker.encode.bits import Blaster, Circuit, Literal
-from checker.encode.bits.blast import Value, as_word
-from checker.encode.bits.cnf import Cnf
-from checker.encode.cone import Slice
-from checker.encode.invariants import Candidates
-from checker.encode.simulate import Simulator, Vectorised
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.walk import variables
+from rovercheck.checker.encode.bits import Blaster, Circuit, Literal
+from rovercheck.checker.encode.bits.blast import Value, as_word
+from rovercheck.checker.encode.bits.cnf import Cnf
+from rovercheck.checker.encode.cone import Slice
+from rovercheck.checker.encode.invariants import Candidates
+from rovercheck.checker.encode.simulate import Simulator, Vectorised
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.walk import variables
 
 LANES, TICKS, EVERY = 64, 200, 8
 """Random runs, their length, and which of their ticks are samples."""

@@ -4,10 +4,10 @@ from collections.abc import Iterable, Sequence
 
 from pysat.solvers import Minisat22
 
-from checker.encode.bits import Circuit
-from checker.encode.bits.cnf import Clause, Cnf
-from checker.engines.pdr.cubes import Cube
-from checker.engines.pdr.seeds import Seed
+from rovercheck.checker.encode.bits import Circuit
+from rovercheck.checker.encode.bits.cnf import Clause, Cnf
+from rovercheck.checker.engines.pdr.cubes import Cube
+from rovercheck.checker.engines.pdr.seeds import Seed
 
 
 def needed(

@@ -10,14 +10,14 @@ from time import monotonic
 
 import numpy as np
 
-from checker.encode.cone import Slice, as_written, by_cone, cone, folded, straying
-from checker.encode.simulate import HOLD, Simulator
-from checker.encode.symbolic import transition
-from checker.engines import Limits, Progress
-from checker.results.verdict import Answer, Open, Reached, Run
-from checker.system.intervals import postorder
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.cone import Slice, as_written, by_cone, cone, folded, straying
+from rovercheck.checker.encode.simulate import HOLD, Simulator
+from rovercheck.checker.encode.symbolic import transition
+from rovercheck.checker.engines import Limits, Progress
+from rovercheck.checker.results.verdict import Answer, Open, Reached, Run
+from rovercheck.checker.system.intervals import postorder
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 RUNS = 256
 """Runs of a batch."""
@@ -118,7 +118,7 @@ def _runs(system: TransitionSystem, batch: Batch, hits: Mapping[str, tuple[int, 
     """The runs to the goals, which are simulated once more to take down their inputs."""
     if not hits:
         return {}
-    from checker.encode.unrolling import Outside  # Z3, which is needed for this alone
+    from rovercheck.checker.encode.unrolling import Outside  # Z3, which is needed for this alone
 
     outside = Outside(system, batch.part)
     last = max(tick for tick, _ in hits.values())

@@ -4,12 +4,12 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
 
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import TRUE, Apply, Expr, Named, Var
-from spec_model.lang.label import text
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import TRUE, Apply, Expr, Named, Var
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 
 KEPT = 0.75
 """The probability that an input drawn at random keeps its value: timers need quiet to run out."""

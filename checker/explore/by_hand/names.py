@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from spec_model.lang.chart import Chart
-from spec_model.lang.domain import Bool, Num
-from spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.domain import Bool, Num
+from rovercheck.spec_model.lang.expr import Var
 
 
 @dataclass(frozen=True)

@@ -4,14 +4,14 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from random import Random
 
-from checker.explore.by_hand.admitted import KEPT, assumed, broken, drawn
-from checker.explore.by_hand.condition import condition
-from checker.explore.by_hand.names import Names
-from checker.explore.by_hand.simulation import HandSimulation
-from checker.explore.by_hand.written import RefusedInput, value, variable
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Expr
-from spec_model.lang.system import System
+from rovercheck.checker.explore.by_hand.admitted import KEPT, assumed, broken, drawn
+from rovercheck.checker.explore.by_hand.condition import condition
+from rovercheck.checker.explore.by_hand.names import Names
+from rovercheck.checker.explore.by_hand.simulation import HandSimulation
+from rovercheck.checker.explore.by_hand.written import RefusedInput, value, variable
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.system import System
 
 MOST_TICKS = 20_000
 """Ticks that one command executes at most; it says so when it stops there."""

@@ -3,17 +3,17 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from checker.explore.by_hand.admitted import broken, conjuncts
-from checker.explore.by_hand.written import RefusedInput, outside
-from checker.results.trace import Tick, Trace
-from checker.verify.runs.replay import ReplayError, arrow_of, ends
-from spec_model.lang.chart import Path, Transition
-from spec_model.lang.evaluate import step
-from spec_model.lang.expr import Expr
-from spec_model.lang.interpret import Fired, Interpreter
-from spec_model.lang.interpret.run import Testing, ValueOf
-from spec_model.lang.lower import lower
-from spec_model.lang.system import System
+from rovercheck.checker.explore.by_hand.admitted import broken, conjuncts
+from rovercheck.checker.explore.by_hand.written import RefusedInput, outside
+from rovercheck.checker.results.trace import Tick, Trace
+from rovercheck.checker.verify.runs.replay import ReplayError, arrow_of, ends
+from rovercheck.spec_model.lang.chart import Path, Transition
+from rovercheck.spec_model.lang.evaluate import step
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.interpret import Fired, Interpreter
+from rovercheck.spec_model.lang.interpret.run import Testing, ValueOf
+from rovercheck.spec_model.lang.lower import lower
+from rovercheck.spec_model.lang.system import System
 
 
 @dataclass(frozen=True)

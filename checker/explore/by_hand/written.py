@@ -2,9 +2,9 @@
 
 from collections.abc import Mapping
 
-from spec_model.lang.domain import Bool, Enum
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.domain import Bool, Enum
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.expr import Var
 
 
 class RefusedInput(Exception):

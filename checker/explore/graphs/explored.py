@@ -7,9 +7,9 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.explore.graphs.numbering import Numbers
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.expr import Var
+from rovercheck.checker.explore.graphs.numbering import Numbers
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.expr import Var
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,17 +5,17 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import islice
 
-from checker.engines import Limits, Progress, quiet
-from checker.explore.graphs.projecting import project
-from checker.explore.graphs.search import Exploration, checks_of, explore
-from checker.results.graph import GraphWay, StateGraph
-from checker.results.trace import Trace
-from checker.system.partition import Partition
-from checker.system.slice import sliced
-from checker.verify.reachable import ticks
-from checker.verify.runs.replay import ends, followed
-from spec_model.lang.lower.ranges import checked
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.engines import Limits, Progress, quiet
+from rovercheck.checker.explore.graphs.projecting import project
+from rovercheck.checker.explore.graphs.search import Exploration, checks_of, explore
+from rovercheck.checker.results.graph import GraphWay, StateGraph
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.system.partition import Partition
+from rovercheck.checker.system.slice import sliced
+from rovercheck.checker.verify.reachable import ticks
+from rovercheck.checker.verify.runs.replay import ends, followed
+from rovercheck.spec_model.lang.lower.ranges import checked
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 # --- the inputs of a tick that are worth telling -------------------------------------------------------
 

@@ -10,11 +10,11 @@ from itertools import combinations
 
 import numpy as np
 
-from checker.explore.graphs.explored import Explored
-from checker.explore.graphs.numbering import Numbers, numbered
-from checker.results.graph import GraphEdge, GraphNode, StateGraph
-from spec_model.lang.domain import Enum
-from spec_model.lang.expr import Var
+from rovercheck.checker.explore.graphs.explored import Explored
+from rovercheck.checker.explore.graphs.numbering import Numbers, numbered
+from rovercheck.checker.results.graph import GraphEdge, GraphNode, StateGraph
+from rovercheck.spec_model.lang.domain import Enum
+from rovercheck.spec_model.lang.expr import Var
 
 Inputs = Callable[[int, int], Mapping[str, int]]
 """Inputs with which a tick leads from one valuation to another."""

@@ -12,7 +12,7 @@ from time import monotonic
 
 import numpy as np
 
-from checker.encode.native import (
+from rovercheck.checker.encode.native import (
     REACH_TARGET,
     Ended,
     NativeSuccessors,
@@ -21,20 +21,20 @@ from checker.encode.native import (
     TooWide,
     layout,
 )
-from checker.encode.native import Words as Packed
-from checker.engines import Limits, Progress
-from checker.engines.explicit.levels import ExplicitFound, initial_valuations
-from checker.engines.explicit.runs import Runs
-from checker.explore.graphs.explored import Explored
-from checker.explore.graphs.numbering import Numbers, numbered
-from checker.results.verdict import Run
-from checker.system.slice import sliced
-from checker.verify.runs.domains import leaves, stray
-from spec_model.lang.action import Assign, each_action
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.expr import Var
-from spec_model.lang.lower.ranges import checked
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.encode.native import Words as Packed
+from rovercheck.checker.engines import Limits, Progress
+from rovercheck.checker.engines.explicit.levels import ExplicitFound, initial_valuations
+from rovercheck.checker.engines.explicit.runs import Runs
+from rovercheck.checker.explore.graphs.explored import Explored
+from rovercheck.checker.explore.graphs.numbering import Numbers, numbered
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.slice import sliced
+from rovercheck.checker.verify.runs.domains import leaves, stray
+from rovercheck.spec_model.lang.action import Assign, each_action
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.lower.ranges import checked
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 AT_ONCE = 1 << 12
 """Valuations expanded in one call."""

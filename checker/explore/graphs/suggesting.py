@@ -4,12 +4,12 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations
 
-from checker.engines import Limits, Progress, quiet
-from checker.explore.graphs.explored import Explored
-from checker.explore.graphs.projecting import exact_with, projection
-from checker.explore.graphs.search import explore
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.engines import Limits, Progress, quiet
+from rovercheck.checker.explore.graphs.explored import Explored
+from rovercheck.checker.explore.graphs.projecting import exact_with, projection
+from rovercheck.checker.explore.graphs.search import explore
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 SMALL = 16
 """Values of a variable that is offered for a projection."""

@@ -1,12 +1,21 @@
 """A heater that runs for at most ten seconds at a time, and what must be true of it."""
 
-from properties.forms import always, holds_for, responds
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
-from spec_model.lang.domain import integer
-from spec_model.lang.expr import flag, implies, var
-from spec_model.lang.time import sec
-from spec_model.lang.words import after, previous
+from rovercheck import (
+    Chart,
+    State,
+    after,
+    always,
+    assign,
+    flag,
+    holds_for,
+    implies,
+    integer,
+    previous,
+    responds,
+    sec,
+    to,
+    var,
+)
 
 temperature = var("temperature", integer(-20, 40, "°C"))
 door_open = flag("door_open")

@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from textwrap import wrap
 
-from checker.render import trace_table
-from checker.render.waves import outcome
-from checker.results.trace import Trace
-from spec_model.lang.place import Place
+from rovercheck.checker.render import trace_table
+from rovercheck.checker.render.waves import outcome
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.place import Place
 
 
 class FindingLevel(StrEnum):

@@ -6,7 +6,7 @@ Workflow commands are lines that the runner finds in the log of a step.
 from collections.abc import Iterator
 from hashlib import sha256
 
-from checker.render.ci import CiFinding, CiReport, FindingLevel, counts, explained
+from rovercheck.checker.render.ci import CiFinding, CiReport, FindingLevel, counts, explained
 
 MOST = 10
 """Annotations of a kind that GitHub keeps of a step."""

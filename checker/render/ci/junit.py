@@ -8,7 +8,7 @@ from itertools import groupby
 from junitparser import Error, Failure, JUnitXml, Skipped, TestCase, TestSuite
 from junitparser.junitparser import FinalResult
 
-from checker.render.ci import CiFinding, CiReport, FindingLevel, counts, explained
+from rovercheck.checker.render.ci import CiFinding, CiReport, FindingLevel, counts, explained
 
 FIRST = "rovercheck"
 _CONTROL = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")

@@ -12,10 +12,19 @@ from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-from checker.render.ci import CiFinding, CiReport, FindingLevel
-from checker.render.story import Quiet, Repeats, StoryChange, StoryEvent, ending, false_parts, rows, start_of
-from checker.results.trace import Trace
-from spec_model.lang.place import Place
+from rovercheck.checker.render.ci import CiFinding, CiReport, FindingLevel
+from rovercheck.checker.render.story import (
+    Quiet,
+    Repeats,
+    StoryChange,
+    StoryEvent,
+    ending,
+    false_parts,
+    rows,
+    start_of,
+)
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.place import Place
 
 # --- A trace as a code flow of SARIF -------------------------------------------------------------------
 

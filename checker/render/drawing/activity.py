@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping
 
-from checker.results.trace import Arrow
-from spec_model.lang.chart import NOWHERE, Chart, Path
+from rovercheck.checker.results.trace import Arrow
+from rovercheck.spec_model.lang.chart import NOWHERE, Chart, Path
 
 Active = frozenset[Path]
 """The paths of the active states, those around them included."""

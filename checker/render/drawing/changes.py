@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from checker.render.drawing.scheme import ChartArrow, action_lines, arrows, label
-from spec_model.lang.chart import Block, Chart
+from rovercheck.checker.render.drawing.scheme import ChartArrow, action_lines, arrows, label
+from rovercheck.spec_model.lang.chart import Block, Chart
 
 
 @dataclass(frozen=True)

@@ -5,10 +5,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from checker.render.drawing.graph import Edge
-from checker.render.drawing.scheme import ChartArrow, label_parts
-from checker.render.drawing.text import block, wrap
-from spec_model.lang.chart import Path
+from rovercheck.checker.render.drawing.graph import Edge
+from rovercheck.checker.render.drawing.scheme import ChartArrow, label_parts
+from rovercheck.checker.render.drawing.text import block, wrap
+from rovercheck.spec_model.lang.chart import Path
 
 DOT = "*"
 """The member of a level that stands for the dot of its default transition."""

@@ -3,9 +3,9 @@
 from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
-from checker.render.drawing.scheme import ChartArrow, label
-from checker.results.trace import Arrow
-from spec_model.lang.chart import Chart, Path
+from rovercheck.checker.render.drawing.scheme import ChartArrow, label
+from rovercheck.checker.results.trace import Arrow
+from rovercheck.spec_model.lang.chart import Chart, Path
 
 
 @dataclass(frozen=True)

@@ -9,10 +9,10 @@ from bisect import bisect_right, insort
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 
-from checker.render.drawing.graph import Chain, DrawnNode, Edge, Item, PlacedNode, Point
-from checker.render.drawing.placing import LEFT, RIGHT, Port, heights, room
-from checker.render.drawing.ranking import chains, ranks
-from checker.render.drawing.routing import MARGIN, TRACK, Jog, channel, tracks
+from rovercheck.checker.render.drawing.graph import Chain, DrawnNode, Edge, Item, PlacedNode, Point
+from rovercheck.checker.render.drawing.placing import LEFT, RIGHT, Port, heights, room
+from rovercheck.checker.render.drawing.ranking import chains, ranks
+from rovercheck.checker.render.drawing.routing import MARGIN, TRACK, Jog, channel, tracks
 
 # --- second step of a layered layout -------------------------------------------------------------------
 

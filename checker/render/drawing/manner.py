@@ -3,11 +3,11 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 
-from checker.render.drawing.cuts import Cut, CutWay, cuts
-from checker.render.drawing.picture import DrawnPicture
-from checker.render.drawing.ranking import backward
-from checker.render.drawing.scheme import ChartArrow
-from spec_model.lang.chart import Chart, Path
+from rovercheck.checker.render.drawing.cuts import Cut, CutWay, cuts
+from rovercheck.checker.render.drawing.picture import DrawnPicture
+from rovercheck.checker.render.drawing.ranking import backward
+from rovercheck.checker.render.drawing.scheme import ChartArrow
+from rovercheck.spec_model.lang.chart import Chart, Path
 
 
 @dataclass(frozen=True)

@@ -11,18 +11,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
 
-from checker.render.drawing.cuts import DOT, Cut, CutWay, Sides, cuts, edges, meetings, padded
-from checker.render.drawing.graph import DrawnNode, Edge, PlacedNode
-from checker.render.drawing.layered import layered
-from checker.render.drawing.manner import MANNERS, Sheet, ways
-from checker.render.drawing.packing import PackedSpan, cost, extent, packed
-from checker.render.drawing.picture import Box, DrawnPicture, PicturePiece, Spot
-from checker.render.drawing.placing import EDGE, PITCH
-from checker.render.drawing.scheme import action_lines, arrows, execution_order
-from checker.render.drawing.text import LINE, block, width, wrap
-from checker.render.drawing.turning import from_top
-from spec_model.lang.chart import Chart, Path
-from spec_model.lang.errors import ModelError
+from rovercheck.checker.render.drawing.cuts import DOT, Cut, CutWay, Sides, cuts, edges, meetings, padded
+from rovercheck.checker.render.drawing.graph import DrawnNode, Edge, PlacedNode
+from rovercheck.checker.render.drawing.layered import layered
+from rovercheck.checker.render.drawing.manner import MANNERS, Sheet, ways
+from rovercheck.checker.render.drawing.packing import PackedSpan, cost, extent, packed
+from rovercheck.checker.render.drawing.picture import Box, DrawnPicture, PicturePiece, Spot
+from rovercheck.checker.render.drawing.placing import EDGE, PITCH
+from rovercheck.checker.render.drawing.scheme import action_lines, arrows, execution_order
+from rovercheck.checker.render.drawing.text import LINE, block, width, wrap
+from rovercheck.checker.render.drawing.turning import from_top
+from rovercheck.spec_model.lang.chart import Chart, Path
+from rovercheck.spec_model.lang.errors import ModelError
 
 # --- one level of a chart ------------------------------------------------------------------------------
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from checker.render.drawing.graph import Point
+from rovercheck.checker.render.drawing.graph import Point
 
 SHAPE = 0.9
 """The width to height ratio aimed at: pages are scrolled downwards, and wide pictures shrunk to fit."""

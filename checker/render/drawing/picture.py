@@ -3,9 +3,9 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
-from checker.render.drawing.graph import Point
-from checker.render.drawing.scheme import ChartArrow
-from spec_model.lang.chart import Path
+from rovercheck.checker.render.drawing.graph import Point
+from rovercheck.checker.render.drawing.scheme import ChartArrow
+from rovercheck.spec_model.lang.chart import Path
 
 
 @dataclass(frozen=True)

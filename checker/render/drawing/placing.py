@@ -3,8 +3,8 @@
 import itertools
 from collections.abc import Mapping, Sequence
 
-from checker.render.drawing.graph import Chain, DrawnNode, Item
-from checker.render.drawing.solve import Bound, least_stretch
+from rovercheck.checker.render.drawing.graph import Chain, DrawnNode, Item
+from rovercheck.checker.render.drawing.solve import Bound, least_stretch
 
 PITCH = 18
 """Least distance between two lines that meet one side of a node, in pixels."""

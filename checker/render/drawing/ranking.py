@@ -2,8 +2,8 @@
 
 from collections.abc import Collection, Mapping, Sequence
 
-from checker.render.drawing.graph import Chain, DrawnNode, Edge, Item
-from checker.render.drawing.solve import Bound, least_stretch
+from rovercheck.checker.render.drawing.graph import Chain, DrawnNode, Edge, Item
+from rovercheck.checker.render.drawing.solve import Bound, least_stretch
 
 
 def backward(

@@ -3,12 +3,12 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
-from spec_model.lang.action import Action, If
-from spec_model.lang.chart import Chart, Path, State, Transition
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Named
-from spec_model.lang.label import text
-from spec_model.lang.walk import nodes
+from rovercheck.spec_model.lang.action import Action, If
+from rovercheck.spec_model.lang.chart import Chart, Path, State, Transition
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Named
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.lang.walk import nodes
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Sequence
 from xml.sax.saxutils import escape, quoteattr
 
-from checker.render.drawing.graph import Point
-from checker.render.drawing.text import LINE, SIZE
+from rovercheck.checker.render.drawing.graph import Point
+from rovercheck.checker.render.drawing.text import LINE, SIZE
 
 FONT = "'DejaVu Sans', Verdana, Helvetica, Arial, sans-serif"
 

@@ -6,8 +6,8 @@ Mirrored is what has x and y exchanged: a box of 200 by 40 pixels takes part as 
 from collections.abc import Sequence
 from dataclasses import replace
 
-from checker.render.drawing.graph import DrawnNode, Edge, PlacedNode, Point
-from checker.render.drawing.layered import layered
+from rovercheck.checker.render.drawing.graph import DrawnNode, Edge, PlacedNode, Point
+from rovercheck.checker.render.drawing.layered import layered
 
 
 def from_top(

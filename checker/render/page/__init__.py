@@ -21,7 +21,7 @@ from markupsafe import Markup
 def templates(folder: str) -> Environment:
     """The templates of a package beside this one, every value escaped, no name left undefined."""
     return Environment(
-        loader=PackageLoader("checker.render", folder),
+        loader=PackageLoader("rovercheck.checker.render", folder),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

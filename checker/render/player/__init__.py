@@ -7,14 +7,14 @@ from typing import Any
 
 from markupsafe import Markup
 
-from checker.render.drawing.highlight import segments
-from checker.render.drawing.scheme import arrows
-from checker.render.page import Part, data, templates
-from checker.render.player.steps import PlayerStep, Script, States, script, shown_charts
-from checker.render.statechart_svg import LEGEND, STYLE, inline, size
-from checker.render.story import StoryEvent, ending, false_parts, heading, start_of, value
-from checker.results.trace import Arrow, Trace
-from spec_model.lang.chart import Chart
+from rovercheck.checker.render.drawing.highlight import segments
+from rovercheck.checker.render.drawing.scheme import arrows
+from rovercheck.checker.render.page import Part, data, templates
+from rovercheck.checker.render.player.steps import PlayerStep, Script, States, script, shown_charts
+from rovercheck.checker.render.statechart_svg import LEGEND, STYLE, inline, size
+from rovercheck.checker.render.story import StoryEvent, ending, false_parts, heading, start_of, value
+from rovercheck.checker.results.trace import Arrow, Trace
+from rovercheck.spec_model.lang.chart import Chart
 
 TEMPLATES = templates("player")
 

@@ -3,10 +3,10 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.render.drawing.activity import Active, active, followed
-from checker.render.story import Quiet, Repeats, StoryEvent, rows
-from checker.results.trace import Arrow, Trace
-from spec_model.lang.chart import Chart
+from rovercheck.checker.render.drawing.activity import Active, active, followed
+from rovercheck.checker.render.story import Quiet, Repeats, StoryEvent, rows
+from rovercheck.checker.results.trace import Arrow, Trace
+from rovercheck.spec_model.lang.chart import Chart
 
 States = Mapping[str, Active]
 """The active states of each chart, by its name."""

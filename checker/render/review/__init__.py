@@ -13,17 +13,17 @@ from urllib.parse import quote
 
 from markupsafe import Markup
 
-from checker.render import renderers
-from checker.render.page import Part, page, templates
-from checker.render.review import traces
-from checker.render.review.model import PROVED, Checked, Review, Seen
-from checker.render.review.packed import Packed
-from checker.render.statechart_svg import size
-from checker.render.stategraph.fragment import part as stategraph
-from checker.render.stategraph.fragment import shows, trust
-from checker.render.story import ending, false_parts, heading
-from checker.results.trace import Trace
-from spec_model.lang.chart import Chart
+from rovercheck.checker.render import renderers
+from rovercheck.checker.render.page import Part, page, templates
+from rovercheck.checker.render.review import traces
+from rovercheck.checker.render.review.model import PROVED, Checked, Review, Seen
+from rovercheck.checker.render.review.packed import Packed
+from rovercheck.checker.render.statechart_svg import size
+from rovercheck.checker.render.stategraph.fragment import part as stategraph
+from rovercheck.checker.render.stategraph.fragment import shows, trust
+from rovercheck.checker.render.story import ending, false_parts, heading
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.chart import Chart
 
 TEMPLATES = templates("review")
 SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}

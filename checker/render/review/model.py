@@ -7,9 +7,9 @@ it of that.  Whatever is empty is left out of the page, or said to be missing.
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from checker.results.graph import StateGraph
-from checker.results.trace import Trace
-from spec_model.lang.chart import Chart
+from rovercheck.checker.results.graph import StateGraph
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.chart import Chart
 
 PROVED, VIOLATED, UNKNOWN = "proved", "violated", "unknown"
 

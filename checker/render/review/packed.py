@@ -8,7 +8,7 @@ from itertools import zip_longest
 
 from markupsafe import Markup
 
-from checker.render.page import Part, data
+from rovercheck.checker.render.page import Part, data
 
 KIND = "packed"
 """The class of the block that holds them; ``review.js`` unpacks what it names."""

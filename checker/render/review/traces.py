@@ -4,10 +4,10 @@ import pickle
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
-from checker.render import player, timeline
-from checker.render.page import Part
-from checker.results.trace import Trace
-from spec_model.lang.chart import Chart
+from rovercheck.checker.render import player, timeline
+from rovercheck.checker.render.page import Part
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.chart import Chart
 
 
 def shared(runs: Mapping[str, Trace], charts: Iterable[Chart] = ()) -> dict[str, Trace]:

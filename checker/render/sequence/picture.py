@@ -5,14 +5,20 @@ from dataclasses import dataclass
 from itertools import groupby
 from xml.sax.saxutils import escape
 
-from checker.render.drawing.svg import document, tag, text
-from checker.render.drawing.svg import lines as paragraph
-from checker.render.drawing.text import LINE, SIZE, width, wrap
-from checker.render.durations import duration
-from checker.render.sequence.steps import Message, MessageSequence, Pause, SequenceNote, SequenceStep
-from checker.render.story import Repeats, ending, false_parts, heading
-from checker.render.timeline import forced_by
-from checker.results.trace import Trace
+from rovercheck.checker.render.drawing.svg import document, tag, text
+from rovercheck.checker.render.drawing.svg import lines as paragraph
+from rovercheck.checker.render.drawing.text import LINE, SIZE, width, wrap
+from rovercheck.checker.render.durations import duration
+from rovercheck.checker.render.sequence.steps import (
+    Message,
+    MessageSequence,
+    Pause,
+    SequenceNote,
+    SequenceStep,
+)
+from rovercheck.checker.render.story import Repeats, ending, false_parts, heading
+from rovercheck.checker.render.timeline import forced_by
+from rovercheck.checker.results.trace import Trace
 
 LEFT, MARGIN = 84, 16
 """Pixels left of the first lifeline's column, for the time, and at the edges."""

@@ -3,11 +3,11 @@
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from checker.render.sequence.flow import ENVIRONMENT, SequenceFlow, flow
-from checker.render.story import Quiet, Repeats, Row, StoryChange, StoryEvent, rows, start_of
-from checker.results.trace import Arrow, Trace
-from spec_model.lang.errors import ModelError
-from spec_model.lang.walk import variables
+from rovercheck.checker.render.sequence.flow import ENVIRONMENT, SequenceFlow, flow
+from rovercheck.checker.render.story import Quiet, Repeats, Row, StoryChange, StoryEvent, rows, start_of
+from rovercheck.checker.results.trace import Arrow, Trace
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.walk import variables
 
 MOST = 7
 """Lifelines beyond which sensors have none of their own."""

@@ -3,8 +3,8 @@
 from collections.abc import Iterator
 from textwrap import fill
 
-from checker.render.stategraph.words import behind, named, several
-from checker.results.graph import StateGraph
+from rovercheck.checker.render.stategraph.words import behind, named, several
+from rovercheck.checker.results.graph import StateGraph
 
 Finding = tuple[str, str]
 """A heading and a sentence."""

@@ -6,15 +6,19 @@ from typing import Any
 
 from markupsafe import Markup
 
-from checker.render import story
-from checker.render.page import Part, data, templates
-from checker.render.stategraph.findings import findings
-from checker.render.stategraph.picture import LABELLED, drawn
-from checker.render.stategraph.words import LEGEND, named, values
-from checker.results.graph import GraphNode, GraphWay, StateGraph
+from rovercheck.checker.render import story
+from rovercheck.checker.render.page import Part, data, templates
+from rovercheck.checker.render.stategraph.findings import findings
+from rovercheck.checker.render.stategraph.picture import LABELLED, drawn
+from rovercheck.checker.render.stategraph.words import LEGEND, named, values
+from rovercheck.checker.results.graph import GraphNode, GraphWay, StateGraph
 
 TEMPLATES = templates("stategraph")
-PANZOOM = files("checker.render").joinpath("vendor", "panzoom", "panzoom.min.js").read_text(encoding="utf-8")
+PANZOOM = (
+    files("rovercheck.checker.render")
+    .joinpath("vendor", "panzoom", "panzoom.min.js")
+    .read_text(encoding="utf-8")
+)
 MOST_ROWS = 120
 """Rows of a run that are shown; the page says how many it leaves out."""
 

@@ -5,14 +5,14 @@ from dataclasses import dataclass
 from itertools import pairwise
 from math import ceil, hypot
 
-from checker.render.drawing import svg
-from checker.render.drawing.cuts import padded
-from checker.render.drawing.graph import DrawnNode, Edge, PlacedNode, Point
-from checker.render.drawing.layered import layered
-from checker.render.drawing.ranking import backward
-from checker.render.drawing.text import LINE, block, wrap
-from checker.render.stategraph.words import behind, brief, example, short, ticks
-from checker.results.graph import GraphEdge, GraphNode, StateGraph
+from rovercheck.checker.render.drawing import svg
+from rovercheck.checker.render.drawing.cuts import padded
+from rovercheck.checker.render.drawing.graph import DrawnNode, Edge, PlacedNode, Point
+from rovercheck.checker.render.drawing.layered import layered
+from rovercheck.checker.render.drawing.ranking import backward
+from rovercheck.checker.render.drawing.text import LINE, block, wrap
+from rovercheck.checker.render.stategraph.words import behind, brief, example, short, ticks
+from rovercheck.checker.results.graph import GraphEdge, GraphNode, StateGraph
 
 # --- A quick layout for graphs that are long or dense --------------------------------------------------
 

@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 from itertools import groupby
 
-from checker.results.graph import GraphEdge, GraphNode, StateGraph
-from spec_model.lang.chart import NOWHERE
+from rovercheck.checker.results.graph import GraphEdge, GraphNode, StateGraph
+from rovercheck.spec_model.lang.chart import NOWHERE
 
 LEGEND = (
     "×n: n valuations behind a node, or n pairs of valuations behind an edge; "

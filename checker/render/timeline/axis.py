@@ -3,8 +3,8 @@
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from checker.render.drawing.text import width
-from checker.render.timeline.model import Timeline
+from rovercheck.checker.render.drawing.text import width
+from rovercheck.checker.render.timeline.model import Timeline
 
 WIDTH = 960
 """Pixels of the lanes, unless there are too many ticks."""

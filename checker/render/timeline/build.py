@@ -4,21 +4,30 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from itertools import groupby
 
-from checker.render.lanes import Tone
-from checker.render.reasons import forced, reasons
-from checker.render.story import TIMER, Quiet, ending, false_parts, heading, of_model, rows, value
-from checker.render.timeline.limits import Limits, thresholds, time_limits
-from checker.render.timeline.model import Lane, LaneGroup, LaneKind, Limit, Need, Shot, Timeline, TimelineRun
-from checker.render.timeline.runs import Values, runs, stretches
-from checker.results.trace import Trace
-from spec_model.lang.action import expressions
-from spec_model.lang.chart import NOWHERE, Block
-from spec_model.lang.chart import parts as components
-from spec_model.lang.domain import Enum, Num, show
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Expr, Named, Temporal
-from spec_model.lang.label import text
-from spec_model.lang.walk import nodes, variables
+from rovercheck.checker.render.lanes import Tone
+from rovercheck.checker.render.reasons import forced, reasons
+from rovercheck.checker.render.story import TIMER, Quiet, ending, false_parts, heading, of_model, rows, value
+from rovercheck.checker.render.timeline.limits import Limits, thresholds, time_limits
+from rovercheck.checker.render.timeline.model import (
+    Lane,
+    LaneGroup,
+    LaneKind,
+    Limit,
+    Need,
+    Shot,
+    Timeline,
+    TimelineRun,
+)
+from rovercheck.checker.render.timeline.runs import Values, runs, stretches
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.action import expressions
+from rovercheck.spec_model.lang.chart import NOWHERE, Block
+from rovercheck.spec_model.lang.chart import parts as components
+from rovercheck.spec_model.lang.domain import Enum, Num, show
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Expr, Named, Temporal
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.lang.walk import nodes, variables
 
 # --- the lanes of a property ---------------------------------------------------------------------------
 

@@ -4,11 +4,11 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from checker.render.drawing.svg import tag, text
-from checker.render.drawing.text import LINE, SIZE, width, wrap
-from checker.render.timeline.axis import Axis, labelled
-from checker.render.timeline.model import Lane, LaneGroup, LaneKind, Timeline
-from checker.render.timeline.shapes import HEIGHT, shapes
+from rovercheck.checker.render.drawing.svg import tag, text
+from rovercheck.checker.render.drawing.text import LINE, SIZE, width, wrap
+from rovercheck.checker.render.timeline.axis import Axis, labelled
+from rovercheck.checker.render.timeline.model import Lane, LaneGroup, LaneKind, Timeline
+from rovercheck.checker.render.timeline.shapes import HEIGHT, shapes
 
 NAMES = 190
 """Pixels for the name of a lane."""

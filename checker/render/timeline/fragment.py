@@ -5,15 +5,15 @@ from typing import Any
 
 from markupsafe import Markup, escape
 
-from checker.render.page import Part, data, templates
-from checker.render.timeline.axis import Axis, fit
-from checker.render.timeline.build import timeline
-from checker.render.timeline.drawing import HEAD, place, plot
-from checker.render.timeline.model import Lane, Timeline
-from checker.render.timeline.picture import RIGHT, scale, signs
-from checker.render.timeline.shapes import reach
-from checker.render.timeline.style import THEMED, sheet
-from checker.results.trace import Trace
+from rovercheck.checker.render.page import Part, data, templates
+from rovercheck.checker.render.timeline.axis import Axis, fit
+from rovercheck.checker.render.timeline.build import timeline
+from rovercheck.checker.render.timeline.drawing import HEAD, place, plot
+from rovercheck.checker.render.timeline.model import Lane, Timeline
+from rovercheck.checker.render.timeline.picture import RIGHT, scale, signs
+from rovercheck.checker.render.timeline.shapes import reach
+from rovercheck.checker.render.timeline.style import THEMED, sheet
+from rovercheck.checker.results.trace import Trace
 
 TEMPLATES = templates("timeline")
 PAPER = 690

@@ -3,16 +3,16 @@
 from collections.abc import Iterable, Iterator, Mapping
 from fractions import Fraction
 
-from checker.render.limits import timer
-from checker.render.timeline.model import Limit
-from checker.results.trace import Trace
-from spec_model.lang.chart import Chart, Path
-from spec_model.lang.domain import Num, show
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Apply, Const, Expr, Temporal, Var, When
-from spec_model.lang.lower.timers import ChartTimers
-from spec_model.lang.operators import COMPARISONS, Op
-from spec_model.lang.walk import nodes, plain
+from rovercheck.checker.render.limits import timer
+from rovercheck.checker.render.timeline.model import Limit
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.chart import Chart, Path
+from rovercheck.spec_model.lang.domain import Num, show
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Temporal, Var, When
+from rovercheck.spec_model.lang.lower.timers import ChartTimers
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.spec_model.lang.walk import nodes, plain
 
 Limits = Mapping[str, tuple[Limit, ...]]
 

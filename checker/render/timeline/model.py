@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from fractions import Fraction
 
-from checker.render.lanes import Tone
+from rovercheck.checker.render.lanes import Tone
 
 
 class LaneKind(StrEnum):

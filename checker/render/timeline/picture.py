@@ -2,14 +2,14 @@
 
 from collections.abc import Iterator
 
-from checker.render.drawing.svg import document, lines, tag, text
-from checker.render.drawing.text import LINE, width, wrap
-from checker.render.lanes import Tone
-from checker.render.timeline.axis import SMALL, fit, shortened
-from checker.render.timeline.drawing import PlacedLane, TimelineRow, place, plot
-from checker.render.timeline.model import Lane, LaneKind, Timeline
-from checker.render.timeline.shapes import hatch, reach, visible
-from checker.render.timeline.style import MEANINGS, PRINTED, sheet
+from rovercheck.checker.render.drawing.svg import document, lines, tag, text
+from rovercheck.checker.render.drawing.text import LINE, width, wrap
+from rovercheck.checker.render.lanes import Tone
+from rovercheck.checker.render.timeline.axis import SMALL, fit, shortened
+from rovercheck.checker.render.timeline.drawing import PlacedLane, TimelineRow, place, plot
+from rovercheck.checker.render.timeline.model import Lane, LaneKind, Timeline
+from rovercheck.checker.render.timeline.shapes import hatch, reach, visible
+from rovercheck.checker.render.timeline.style import MEANINGS, PRINTED, sheet
 
 LEFT = 240
 """Pixels left of the lanes."""

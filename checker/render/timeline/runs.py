@@ -3,13 +3,13 @@
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 
-from checker.render.lanes import Tone
-from checker.render.limits import timer
-from checker.render.story import value
-from checker.render.timeline.model import LaneKind, TimelineRun
-from checker.render.timeline.tones import tone
-from checker.results.trace import Trace
-from spec_model.lang.domain import Num
+from rovercheck.checker.render.lanes import Tone
+from rovercheck.checker.render.limits import timer
+from rovercheck.checker.render.story import value
+from rovercheck.checker.render.timeline.model import LaneKind, TimelineRun
+from rovercheck.checker.render.timeline.tones import tone
+from rovercheck.checker.results.trace import Trace
+from rovercheck.spec_model.lang.domain import Num
 
 STEADY = 3
 """Ticks in a row with the same difference are one ramp."""

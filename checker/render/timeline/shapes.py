@@ -4,11 +4,11 @@ from collections.abc import Callable, Iterator
 from fractions import Fraction
 from xml.sax.saxutils import escape
 
-from checker.render.drawing.svg import tag, text
-from checker.render.drawing.text import width
-from checker.render.lanes import Tone
-from checker.render.timeline.axis import SMALL, Axis
-from checker.render.timeline.model import Lane, LaneKind, Limit, TimelineRun
+from rovercheck.checker.render.drawing.svg import tag, text
+from rovercheck.checker.render.drawing.text import width
+from rovercheck.checker.render.lanes import Tone
+from rovercheck.checker.render.timeline.axis import SMALL, Axis
+from rovercheck.checker.render.timeline.model import Lane, LaneKind, Limit, TimelineRun
 
 HEIGHT = {LaneKind.BAND: 20, LaneKind.TRUTH: 20, LaneKind.LINE: 62, LaneKind.RAMP: 40}
 STAIR = 5.0

@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping
 
-from checker.render.lanes import Tone
-from checker.render.run_style import FILL, HATCH, INK
+from rovercheck.checker.render.lanes import Tone
+from rovercheck.checker.render.run_style import FILL, HATCH, INK
 
 PAINTED = ("ok", "degraded", "critical", "idle", "first", "action")
 PRINTED: Mapping[str, str] = {

@@ -5,11 +5,11 @@ from itertools import groupby
 
 from markupsafe import Markup
 
-from checker.render.page import Part
-from checker.render.reasons import forced, reasons
-from checker.render.story import UNTOLD, rows, standstill, start_of, start_values
-from checker.render.timeline.fragment import TEMPLATES, own
-from checker.results.trace import Trace
+from rovercheck.checker.render.page import Part
+from rovercheck.checker.render.reasons import forced, reasons
+from rovercheck.checker.render.story import UNTOLD, rows, standstill, start_of, start_values
+from rovercheck.checker.render.timeline.fragment import TEMPLATES, own
+from rovercheck.checker.results.trace import Trace
 
 
 def told(trace: Trace, *, everything: bool = False) -> Part:

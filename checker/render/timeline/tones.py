@@ -2,7 +2,7 @@
 
 import re
 
-from checker.render.lanes import Tone
+from rovercheck.checker.render.lanes import Tone
 
 WORDS = re.compile(r"[A-Z]+(?![a-z])|[A-Z]?[a-z]+|\d+")
 CRITICAL = {"critical", "crit", "estop", "emergency", "fail", "failed", "failure", "fault", "lost", "error"}

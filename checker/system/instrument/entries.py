@@ -4,9 +4,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from spec_model.lang.chart import Chart, Path, Transition
-from spec_model.lang.interpret.fired import path_label
-from spec_model.lang.wellformed.places import common_composite
+from rovercheck.spec_model.lang.chart import Chart, Path, Transition
+from rovercheck.spec_model.lang.interpret.fired import path_label
+from rovercheck.spec_model.lang.wellformed.places import common_composite
 
 
 @dataclass(frozen=True)

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from enum import StrEnum
 
-from spec_model.lang.expr import Var
-from spec_model.lang.system import System
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import System
 
 
 class GoalKind(StrEnum):

@@ -10,18 +10,27 @@ from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
 
-from checker.system.instrument.entries import ArrowGroup, Arrows, Segment
-from checker.system.instrument.goals import CoverGoal, GoalKind, Watched
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, Path, State, Transition
-from spec_model.lang.domain import Bool, Num, boolean, integer
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Temporal, Var, When
-from spec_model.lang.label import text
-from spec_model.lang.operators import COMPARISONS, Op
-from spec_model.lang.system import System
-from spec_model.lang.time import ticks
-from spec_model.lang.walk import children, nodes, structure, variables
+from rovercheck.checker.system.instrument.entries import ArrowGroup, Arrows, Segment
+from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind, Watched
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.chart import (
+    Block,
+    Chart,
+    Component,
+    Enabled,
+    Junction,
+    Path,
+    State,
+    Transition,
+)
+from rovercheck.spec_model.lang.domain import Bool, Num, boolean, integer
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Temporal, Var, When
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.time import ticks
+from rovercheck.spec_model.lang.walk import children, nodes, structure, variables
 
 # --- the comparisons and timers that a formula consists of, and when each is at a boundary -------------
 

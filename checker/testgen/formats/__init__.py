@@ -2,10 +2,10 @@
 
 from collections.abc import Callable, Mapping, Sequence
 
-from checker.testgen.formats import csv_files, pytest_files
-from checker.testgen.formats.c_files import c_files
-from checker.testgen.formats.expected import ExpectedTest
-from spec_model.abstraction import Board
+from rovercheck.checker.testgen.formats import csv_files, pytest_files
+from rovercheck.checker.testgen.formats.c_files import c_files
+from rovercheck.checker.testgen.formats.expected import ExpectedTest
+from rovercheck.spec_model.abstraction import Board
 
 Write = Callable[[Board, Sequence[ExpectedTest]], Mapping[str, str]]
 """The files, by name, that tests of a board become."""

@@ -2,11 +2,11 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from checker.testgen.formats.expected import ExpectedRow, ExpectedTest, rows
-from checker.testgen.scripts import CLOCK
-from spec_model.abstraction import Board, BoardSignal, Value
-from spec_model.lang.domain import Bool, Num
-from spec_model.lang.system import TICK_MS
+from rovercheck.checker.testgen.formats.expected import ExpectedRow, ExpectedTest, rows
+from rovercheck.checker.testgen.scripts import CLOCK
+from rovercheck.spec_model.abstraction import Board, BoardSignal, Value
+from rovercheck.spec_model.lang.domain import Bool, Num
+from rovercheck.spec_model.lang.system import TICK_MS
 
 
 def c_files(board: Board, tests: Sequence[ExpectedTest]) -> Mapping[str, str]:

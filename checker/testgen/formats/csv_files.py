@@ -4,10 +4,10 @@ import csv
 from collections.abc import Iterator, Mapping, Sequence
 from io import StringIO
 
-from checker.io.files import csv_cell
-from checker.testgen.formats.expected import ExpectedTest
-from checker.testgen.scripts import CLOCK
-from spec_model.abstraction import Board, Value
+from rovercheck.checker.io.files import csv_cell
+from rovercheck.checker.testgen.formats.expected import ExpectedTest
+from rovercheck.checker.testgen.scripts import CLOCK
+from rovercheck.spec_model.abstraction import Board, Value
 
 TIME = "time_ms"
 GOALS = "goals.csv"

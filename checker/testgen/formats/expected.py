@@ -3,9 +3,9 @@
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.testgen.scripts import Moment, Script, steps
-from spec_model.abstraction import Board, Value
-from spec_model.lang.interpret import Interpreter
+from rovercheck.checker.testgen.scripts import Moment, Script, steps
+from rovercheck.spec_model.abstraction import Board, Value
+from rovercheck.spec_model.lang.interpret import Interpreter
 
 
 @dataclass(frozen=True)

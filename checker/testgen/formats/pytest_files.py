@@ -2,8 +2,8 @@
 
 from collections.abc import Mapping, Sequence
 
-from checker.testgen.formats.expected import ExpectedRow, ExpectedTest, rows
-from spec_model.abstraction import Board
+from rovercheck.checker.testgen.formats.expected import ExpectedRow, ExpectedTest, rows
+from rovercheck.spec_model.abstraction import Board
 
 OURS = {"board1": "python:supervisor.board1:Board1", "board2": "python:supervisor.board2.board:Board2"}
 """The implementation that is run unless another is named."""
@@ -17,9 +17,9 @@ import pytest
 from rovercheck import own
 
 with own():  # whatever else bears the names
-    from checker.adapters import start
-    from checker.testgen.scripts import steps, unfolded
-    from spec_model.abstraction import boards
+    from rovercheck.checker.adapters import start
+    from rovercheck.checker.testgen.scripts import steps, unfolded
+    from rovercheck.spec_model.abstraction import boards
 
     BOARD = boards()["{board}"]
 OURS = "{ours}"

@@ -8,12 +8,12 @@ the loop true in every tick in between.  A run for which that condition fails en
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from properties.reduce import Goal
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import Bool, boolean, integer
-from spec_model.lang.expr import Apply, Const, Expr, Var, all_of, implies
-from spec_model.lang.operators import Op
-from spec_model.lang.system import Statement, TransitionSystem
+from rovercheck.properties.reduce import Goal
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import Bool, boolean, integer
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var, all_of, implies
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import Statement, TransitionSystem
 
 BEFORE, INSIDE, FAILED = range(3)
 

@@ -2,15 +2,15 @@
 
 from dataclasses import dataclass, replace
 
-from checker.results.trace import Trace
-from checker.results.verdict import Run
-from checker.system.slice import sliced
-from checker.verify.liveness.lasso import Lasso, lasso
-from checker.verify.runs.calm import calmed
-from checker.verify.runs.replay import ReplayError, replay
-from properties.reduce import Goal, Question
-from spec_model.lang.expr import Var
-from spec_model.lang.walk import variables
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.slice import sliced
+from rovercheck.checker.verify.liveness.lasso import Lasso, lasso
+from rovercheck.checker.verify.runs.calm import calmed
+from rovercheck.checker.verify.runs.replay import ReplayError, replay
+from rovercheck.properties.reduce import Goal, Question
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.walk import variables
 
 
 @dataclass(frozen=True)

@@ -11,16 +11,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from random import Random
 
-from checker.encode.bits import Circuit, circuit
-from checker.encode.bits.simulate import BitSimulation, Values
-from checker.engines import Progress
-from checker.results.verdict import Reached, Run
-from checker.system.partition import conjuncts, partitions
-from checker.verify.liveness.loops import LoopHunt
-from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.checker.encode.bits import Circuit, circuit
+from rovercheck.checker.encode.bits.simulate import BitSimulation, Values
+from rovercheck.checker.engines import Progress
+from rovercheck.checker.results.verdict import Reached, Run
+from rovercheck.checker.system.partition import conjuncts, partitions
+from rovercheck.checker.verify.liveness.loops import LoopHunt
+from rovercheck.spec_model.lang.evaluate import admissible, step
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 
 RUNS = 256
 """Runs of a batch."""

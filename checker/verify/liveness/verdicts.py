@@ -7,11 +7,11 @@ broken by a valuation from which there is no way back (``checker.verify.liveness
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 
-from checker.engines import Progress
-from checker.process.faults import attempted
-from checker.results.graph import Values
-from checker.results.trace import counted_ticks
-from checker.results.verdict import (
+from rovercheck.checker.engines import Progress
+from rovercheck.checker.process.faults import attempted
+from rovercheck.checker.results.graph import Values
+from rovercheck.checker.results.trace import counted_ticks
+from rovercheck.checker.results.verdict import (
     Answer,
     Exhausted,
     Open,
@@ -22,24 +22,24 @@ from checker.results.verdict import (
     Verdict,
     Violated,
 )
-from checker.system.lowered import lowered
-from checker.system.slice import check_way_back, sliced
-from checker.verify.liveness.loops import LoopHunt, hunt, looped
-from checker.verify.liveness.settling import settled
-from checker.verify.portfolio.question import Hint, PortfolioQuestion
-from checker.verify.portfolio.shape import VAST, shape
-from checker.verify.reachable import ReachableSearch, TooLarge
-from checker.verify.result import Ask, Result, check_domains
-from checker.verify.runs.calm import calmed
-from checker.verify.runs.replay import replay
-from checker.verify.runs.reproduce import only_there
-from properties.forms import Form, HoldsAfter, LeadsTo, Property, Recoverable, Responds, Settles
-from properties.reduce import Goal, Question, reduce
-from spec_model.lang.action import Assign
-from spec_model.lang.domain import boolean
-from spec_model.lang.expr import Const, Var, all_of
-from spec_model.lang.system import System, TransitionSystem
-from spec_model.lang.time import Span
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.slice import check_way_back, sliced
+from rovercheck.checker.verify.liveness.loops import LoopHunt, hunt, looped
+from rovercheck.checker.verify.liveness.settling import settled
+from rovercheck.checker.verify.portfolio.question import Hint, PortfolioQuestion
+from rovercheck.checker.verify.portfolio.shape import VAST, shape
+from rovercheck.checker.verify.reachable import ReachableSearch, TooLarge
+from rovercheck.checker.verify.result import Ask, Result, check_domains
+from rovercheck.checker.verify.runs.calm import calmed
+from rovercheck.checker.verify.runs.replay import replay
+from rovercheck.checker.verify.runs.reproduce import only_there
+from rovercheck.properties.forms import Form, HoldsAfter, LeadsTo, Property, Recoverable, Responds, Settles
+from rovercheck.properties.reduce import Goal, Question, reduce
+from rovercheck.spec_model.lang.action import Assign
+from rovercheck.spec_model.lang.domain import boolean
+from rovercheck.spec_model.lang.expr import Const, Var, all_of
+from rovercheck.spec_model.lang.system import System, TransitionSystem
+from rovercheck.spec_model.lang.time import Span
 
 # --- the way back --------------------------------------------------------------------------------------
 

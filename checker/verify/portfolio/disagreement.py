@@ -3,10 +3,10 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from checker.results.verdict import Answer, Open, Reached, Unreachable
-from checker.verify.portfolio.question import in_words, light
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.results.verdict import Answer, Open, Reached, Unreachable
+from rovercheck.checker.verify.portfolio.question import in_words, light
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 
 @dataclass(frozen=True)
@@ -62,6 +62,6 @@ def said(system: TransitionSystem, goal: Var, each: Iterable[tuple[Answer, str]]
 
 def _replays(system: TransitionSystem, goal: Var, answer: Answer) -> bool | None:
     """Whether the run of an answer reaches the goal by the reference semantics."""
-    from checker.verify.runs.calm import transferred
+    from rovercheck.checker.verify.runs.calm import transferred
 
     return transferred(answer.run, system, goal) is not None if isinstance(answer, Reached) else None

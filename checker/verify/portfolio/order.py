@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
-from checker.engines import Limits
+from rovercheck.checker.engines import Limits
 
 
 @dataclass(frozen=True)

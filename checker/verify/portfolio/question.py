@@ -4,11 +4,11 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
 
-from checker.engines import Progress, quiet
-from checker.results.trace import counted_ticks
-from checker.results.verdict import Answer, Evidence, Exhausted, Open, Reached, Unreachable
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.engines import Progress, quiet
+from rovercheck.checker.results.trace import counted_ticks
+from rovercheck.checker.results.verdict import Answer, Evidence, Exhausted, Open, Reached, Unreachable
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 Found = Mapping[str, tuple[Answer, str]]
 """An answer for each goal, and the name of the engine that gave it."""

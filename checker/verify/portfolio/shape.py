@@ -3,11 +3,11 @@
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
-from checker.system.slice import sliced
-from checker.verify.portfolio.question import Hint, PortfolioQuestion
-from spec_model.lang.chart import Chart, Path
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.system.slice import sliced
+from rovercheck.checker.verify.portfolio.question import Hint, PortfolioQuestion
+from rovercheck.spec_model.lang.chart import Chart, Path
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 WIDE, VAST = 200, 800
 """Bits of a valuation, of what the goals depend on: up to the first, enumerating valuations is worth much

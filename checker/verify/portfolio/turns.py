@@ -6,16 +6,22 @@ from functools import reduce
 from itertools import combinations
 from time import monotonic
 
-from checker.engines import ALL, AUTO, Engine, Limits, Progress, Prover, Stage, engines
-from checker.process.faults import Failed, attempted
-from checker.results.verdict import Answer, Open, Reached, Run, Unreachable
-from checker.verify.portfolio.disagreement import contradict, said
-from checker.verify.portfolio.order import CHECKS, ORDERS, RECORDED, SOON, Turn
-from checker.verify.portfolio.question import Callbacks, Found, PortfolioQuestion, conclusive, stays
-from checker.verify.portfolio.shape import shape
-from checker.verify.runs.domains import stray
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.engines import ALL, AUTO, Engine, Limits, Progress, Prover, Stage, engines
+from rovercheck.checker.process.faults import Failed, attempted
+from rovercheck.checker.results.verdict import Answer, Open, Reached, Run, Unreachable
+from rovercheck.checker.verify.portfolio.disagreement import contradict, said
+from rovercheck.checker.verify.portfolio.order import CHECKS, ORDERS, RECORDED, SOON, Turn
+from rovercheck.checker.verify.portfolio.question import (
+    Callbacks,
+    Found,
+    PortfolioQuestion,
+    conclusive,
+    stays,
+)
+from rovercheck.checker.verify.portfolio.shape import shape
+from rovercheck.checker.verify.runs.domains import stray
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 # --- engines in turn -----------------------------------------------------------------------------------
 

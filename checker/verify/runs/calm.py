@@ -7,14 +7,14 @@ reference semantics; the budget counts ticks, not seconds, so that the result is
 
 from collections.abc import Iterator, Mapping
 
-from checker.results.verdict import Run
-from checker.system.slice import sliced
-from checker.verify.runs.domains import stayed, stray
-from spec_model.lang.evaluate import admissible, evaluate, step
-from spec_model.lang.evaluate import run as execute
-from spec_model.lang.expr import Var
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.slice import sliced
+from rovercheck.checker.verify.runs.domains import stayed, stray
+from rovercheck.spec_model.lang.evaluate import admissible, evaluate, step
+from rovercheck.spec_model.lang.evaluate import run as execute
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 
 BUDGET = 40_000
 """Ticks that may be re-run for one trace."""

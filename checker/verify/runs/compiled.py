@@ -7,13 +7,13 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
-from checker.system.intervals import postorder
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.domain import Domain
-from spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from spec_model.lang.operators import Op
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import children, nodes
+from rovercheck.checker.system.intervals import postorder
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.domain import Domain
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import children, nodes
 
 DEEPEST = 60
 """Operators that are nested in one line; Python reads some two hundred parentheses."""

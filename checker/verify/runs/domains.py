@@ -7,16 +7,16 @@ the variable keeps its old value and a check is raised.  What a run does after t
 from collections.abc import Mapping, MutableMapping
 from dataclasses import dataclass
 
-from checker.results.verdict import Run
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.chart import parts
-from spec_model.lang.domain import Num
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Var
-from spec_model.lang.lower.ranges import broken, protected
-from spec_model.lang.place import Place
-from spec_model.lang.system import TransitionSystem
+from rovercheck.checker.results.verdict import Run
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.chart import parts
+from rovercheck.spec_model.lang.domain import Num
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.lower.ranges import broken, protected
+from rovercheck.spec_model.lang.place import Place
+from rovercheck.spec_model.lang.system import TransitionSystem
 
 
 class LeavesDomain(ModelError):

@@ -2,14 +2,14 @@
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
-from checker.results.trace import Trace
-from checker.results.verdict import Proved, Run, Verdict, Violated
-from checker.system.lowered import lowered
-from checker.verify.runs.domains import stayed
-from properties.forms import Property, Unbounded
-from properties.reduce import Question, reduce
-from spec_model.lang.evaluate import admissible, step
-from spec_model.lang.system import System
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Proved, Run, Verdict, Violated
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.runs.domains import stayed
+from rovercheck.properties.forms import Property, Unbounded
+from rovercheck.properties.reduce import Question, reduce
+from rovercheck.spec_model.lang.evaluate import admissible, step
+from rovercheck.spec_model.lang.system import System
 
 
 def run_of(verdict: Verdict) -> Run | None:
@@ -62,7 +62,10 @@ def confirm(system: System, prop: Property, run: Run) -> None:
 
 def _first(question: Question) -> Callable[[Run], dict[str, int]]:
     """What says of a run the properties whose goals it reaches, and after how many ticks."""
-    from checker.verify.runs.compiled import CompiledStep, TooDeep  # not before there is a run to go through
+    from rovercheck.checker.verify.runs.compiled import (  # not before there is a run to go through
+        CompiledStep,
+        TooDeep,
+    )
 
     try:
         compiled = CompiledStep(question.system, [goal.var for goal in question.goals])

@@ -7,17 +7,17 @@ trace that both produce is evidence about the charts.
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import accumulate
 
-from checker.results.trace import Arrow, Tick, Trace
-from checker.results.verdict import Run
-from checker.system.slice import sliced
-from checker.verify.runs.domains import leaves, stayed, stray
-from properties.reduce import Goal
-from spec_model.lang.chart import Chart, Path
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import admissible, evaluate, step
-from spec_model.lang.interpret import Fired, Interpreter
-from spec_model.lang.system import TransitionSystem
-from spec_model.lang.walk import variables
+from rovercheck.checker.results.trace import Arrow, Tick, Trace
+from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.system.slice import sliced
+from rovercheck.checker.verify.runs.domains import leaves, stayed, stray
+from rovercheck.properties.reduce import Goal
+from rovercheck.spec_model.lang.chart import Chart, Path
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import admissible, evaluate, step
+from rovercheck.spec_model.lang.interpret import Fired, Interpreter
+from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.walk import variables
 
 
 class ReplayError(Exception):

@@ -3,15 +3,15 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from checker.results.trace import counted_ticks
-from checker.results.verdict import Reached, Unknown
-from checker.system.lowered import lowered
-from checker.verify.portfolio.question import Hint, PortfolioQuestion
-from checker.verify.portfolio.shape import shape
-from checker.verify.result import Ask, Result, check_domains, result
-from checker.verify.runs.calm import calmed, transferred
-from properties.reduce import Goal, Question, reduce
-from spec_model.lang.system import System
+from rovercheck.checker.results.trace import counted_ticks
+from rovercheck.checker.results.verdict import Reached, Unknown
+from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.verify.portfolio.question import Hint, PortfolioQuestion
+from rovercheck.checker.verify.portfolio.shape import shape
+from rovercheck.checker.verify.result import Ask, Result, check_domains, result
+from rovercheck.checker.verify.runs.calm import calmed, transferred
+from rovercheck.properties.reduce import Goal, Question, reduce
+from rovercheck.spec_model.lang.system import System
 
 Runs = Mapping[str, tuple[Reached, str]]
 """The goals that were reached, with the engine that did."""

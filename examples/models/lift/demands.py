@@ -3,9 +3,7 @@
 from door import door
 from signals import blocked, gap, locked, motor, moving
 
-from properties.forms import always, holds_for, never, recoverable
-from spec_model.lang.expr import implies
-from spec_model.lang.time import ticks
+from rovercheck import always, holds_for, implies, never, recoverable, ticks
 
 LIFT_1 = never(
     "LIFT-1",

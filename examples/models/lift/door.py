@@ -2,10 +2,7 @@
 
 from signals import WIDE, at_floor, blocked, call, close_button, gap, locked, motor, moving
 
-from spec_model.lang.action import assign, when
-from spec_model.lang.chart import Block, Chart, State, to
-from spec_model.lang.time import sec
-from spec_model.lang.words import after, maximum, minimum
+from rovercheck import Block, Chart, State, after, assign, maximum, minimum, sec, to, when
 
 leaves = Block(
     "Leaves",

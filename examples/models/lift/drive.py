@@ -2,8 +2,7 @@
 
 from signals import at_floor, locked, moving, ride
 
-from spec_model.lang.action import assign
-from spec_model.lang.chart import Chart, State, to
+from rovercheck import Chart, State, assign, to
 
 drive = Chart(
     "Drive",

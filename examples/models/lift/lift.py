@@ -3,6 +3,6 @@
 from door import door, leaves
 from drive import drive
 
-from spec_model.lang.system import in_order
+from rovercheck import in_order
 
 lift = in_order("lift", leaves, door, drive, text="The door of a lift and its drive, with free inputs.")

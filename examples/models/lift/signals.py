@@ -1,7 +1,6 @@
 """Signals of the lift: what the cabin and its door sense, and what they are told to do."""
 
-from spec_model.lang.domain import enumeration, integer
-from spec_model.lang.expr import flag, var
+from rovercheck import enumeration, flag, integer, var
 
 call = flag("call", "somebody wants the door open")
 ride = flag("ride", "somebody has chosen another floor")

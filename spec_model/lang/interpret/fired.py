@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from spec_model.lang.action import Action
-from spec_model.lang.chart import Path, Transition
-from spec_model.lang.label import text
-from spec_model.lang.place import Place
+from rovercheck.spec_model.lang.action import Action
+from rovercheck.spec_model.lang.chart import Path, Transition
+from rovercheck.spec_model.lang.label import text
+from rovercheck.spec_model.lang.place import Place
 
 
 @dataclass(frozen=True)

@@ -4,13 +4,13 @@ from collections.abc import Callable, MutableMapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from spec_model.lang.action import Action, Assign, If, Send
-from spec_model.lang.chart import NOWHERE, Chart, Path, State, Transition
-from spec_model.lang.domain import Bool, Enum, Num
-from spec_model.lang.errors import ModelError
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.interpret.fired import Fired, path_label
-from spec_model.lang.interpret.words import InterpretedWords
+from rovercheck.spec_model.lang.action import Action, Assign, If, Send
+from rovercheck.spec_model.lang.chart import NOWHERE, Chart, Path, State, Transition
+from rovercheck.spec_model.lang.domain import Bool, Enum, Num
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.interpret.fired import Fired, path_label
+from rovercheck.spec_model.lang.interpret.words import InterpretedWords
 
 Values = MutableMapping[str, int]
 Admits = Callable[[Var, int], bool]

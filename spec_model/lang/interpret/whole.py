@@ -2,16 +2,16 @@
 
 from collections.abc import Mapping, Sequence
 
-from spec_model.lang.action import Action, Assign, If
-from spec_model.lang.chart import Block, Chart, Component, Enabled
-from spec_model.lang.domain import Bool, Enum
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import Var
-from spec_model.lang.interpret.fired import Fired
-from spec_model.lang.interpret.run import Admits, ChartRun, Testing, contains, store, within
-from spec_model.lang.system import System
-from spec_model.lang.wellformed import check_system
+from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
+from rovercheck.spec_model.lang.domain import Bool, Enum
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import Var
+from rovercheck.spec_model.lang.interpret.fired import Fired
+from rovercheck.spec_model.lang.interpret.run import Admits, ChartRun, Testing, contains, store, within
+from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.wellformed import check_system
 
 
 class Interpreter:

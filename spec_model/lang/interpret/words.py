@@ -6,11 +6,11 @@ Nothing saturates here: counts are plain numbers, kept per source state and per 
 from collections.abc import Mapping
 from dataclasses import dataclass
 
-from spec_model.lang.chart import Chart, Path
-from spec_model.lang.errors import ModelError
-from spec_model.lang.evaluate import evaluate
-from spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, Temporal, Var, When
-from spec_model.lang.walk import nodes
+from rovercheck.spec_model.lang.chart import Chart, Path
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.evaluate import evaluate
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Expr, Named, Temporal, Var, When
+from rovercheck.spec_model.lang.walk import nodes
 
 
 @dataclass

@@ -3,14 +3,14 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
-from spec_model.lang.action import Action, Assign, If, Send
-from spec_model.lang.chart import NOWHERE, Chart, Path, Transition
-from spec_model.lang.domain import Bool, boolean
-from spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var, any_of
-from spec_model.lang.lower.ranges import guarded
-from spec_model.lang.lower.timers import ChartTimers
-from spec_model.lang.operators import Op
-from spec_model.lang.system import Statement
+from rovercheck.spec_model.lang.action import Action, Assign, If, Send
+from rovercheck.spec_model.lang.chart import NOWHERE, Chart, Path, Transition
+from rovercheck.spec_model.lang.domain import Bool, boolean
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var, any_of
+from rovercheck.spec_model.lang.lower.ranges import guarded
+from rovercheck.spec_model.lang.lower.timers import ChartTimers
+from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.system import Statement
 
 Statements = list[Statement]
 

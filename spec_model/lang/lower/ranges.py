@@ -2,13 +2,13 @@
 
 from itertools import product
 
-from spec_model.lang.action import Assign, If
-from spec_model.lang.domain import Bool, Domain, boolean
-from spec_model.lang.evaluate import operate
-from spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Var, all_of, any_of
-from spec_model.lang.operators import COMPARISONS, Op
-from spec_model.lang.system import Statement
-from spec_model.lang.walk import plain
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.domain import Bool, Domain, boolean
+from rovercheck.spec_model.lang.evaluate import operate
+from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Var, all_of, any_of
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.spec_model.lang.system import Statement
+from rovercheck.spec_model.lang.walk import plain
 
 _FEW = 4096
 

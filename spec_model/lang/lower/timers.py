@@ -9,13 +9,13 @@ tick, and in each later one what has elapsed.
 from collections.abc import Iterator
 from functools import cached_property
 
-from spec_model.lang.action import Assign, If
-from spec_model.lang.chart import Chart, Path, Transition
-from spec_model.lang.domain import boolean, integer
-from spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When, ite
-from spec_model.lang.system import Statement
-from spec_model.lang.walk import nodes, structure
-from spec_model.lang.words import minimum
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.chart import Chart, Path, Transition
+from rovercheck.spec_model.lang.domain import boolean, integer
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When, ite
+from rovercheck.spec_model.lang.system import Statement
+from rovercheck.spec_model.lang.walk import nodes, structure
+from rovercheck.spec_model.lang.words import minimum
 
 
 class ChartTimers:

@@ -2,13 +2,13 @@
 
 from collections.abc import Sequence
 
-from spec_model.lang.action import Assign, If, each_action
-from spec_model.lang.chart import Block, Chart, Component, Enabled
-from spec_model.lang.expr import FALSE, Var
-from spec_model.lang.lower.flow import ChartFlow
-from spec_model.lang.lower.ranges import check_of, guarded
-from spec_model.lang.system import Program, Statement, System, TransitionSystem
-from spec_model.lang.wellformed import check_system
+from rovercheck.spec_model.lang.action import Assign, If, each_action
+from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
+from rovercheck.spec_model.lang.expr import FALSE, Var
+from rovercheck.spec_model.lang.lower.flow import ChartFlow
+from rovercheck.spec_model.lang.lower.ranges import check_of, guarded
+from rovercheck.spec_model.lang.system import Program, Statement, System, TransitionSystem
+from rovercheck.spec_model.lang.wellformed import check_system
 
 
 def lower(system: System) -> TransitionSystem:

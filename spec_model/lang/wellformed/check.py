@@ -3,16 +3,16 @@
 from collections.abc import Iterator
 from weakref import WeakValueDictionary
 
-from spec_model.lang.chart import Chart, parts
-from spec_model.lang.domain import Bool, fixed
-from spec_model.lang.errors import ModelError, with_article
-from spec_model.lang.expr import Expr
-from spec_model.lang.system import TICK_MS, System, enabled_in
-from spec_model.lang.wellformed.data import chart_data_faults, system_data_faults
-from spec_model.lang.wellformed.paths import path_faults
-from spec_model.lang.wellformed.sends import send_faults
-from spec_model.lang.wellformed.tree import junction_cycle_faults, target_faults, tree_faults
-from spec_model.lang.wellformed.words import block_word_faults, no_words, word_faults
+from rovercheck.spec_model.lang.chart import Chart, parts
+from rovercheck.spec_model.lang.domain import Bool, fixed
+from rovercheck.spec_model.lang.errors import ModelError, with_article
+from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.system import TICK_MS, System, enabled_in
+from rovercheck.spec_model.lang.wellformed.data import chart_data_faults, system_data_faults
+from rovercheck.spec_model.lang.wellformed.paths import path_faults
+from rovercheck.spec_model.lang.wellformed.sends import send_faults
+from rovercheck.spec_model.lang.wellformed.tree import junction_cycle_faults, target_faults, tree_faults
+from rovercheck.spec_model.lang.wellformed.words import block_word_faults, no_words, word_faults
 
 
 def check_chart(chart: Chart, tick_ms: int = TICK_MS) -> None:

@@ -2,14 +2,14 @@
 
 from collections.abc import Iterator, Sequence
 
-from spec_model.lang.action import Action, Assign, each_action, expressions, reads, writes
-from spec_model.lang.chart import Chart, Path, parts
-from spec_model.lang.domain import Enum
-from spec_model.lang.errors import ModelError, did_you_mean
-from spec_model.lang.expr import Expr, Var
-from spec_model.lang.system import System, enabled_in
-from spec_model.lang.walk import nodes, variables
-from spec_model.lang.wellformed.places import legs, name_of, places
+from rovercheck.spec_model.lang.action import Action, Assign, each_action, expressions, reads, writes
+from rovercheck.spec_model.lang.chart import Chart, Path, parts
+from rovercheck.spec_model.lang.domain import Enum
+from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
+from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.system import System, enabled_in
+from rovercheck.spec_model.lang.walk import nodes, variables
+from rovercheck.spec_model.lang.wellformed.places import legs, name_of, places
 
 
 def chart_data_faults(chart: Chart) -> Iterator[str]:

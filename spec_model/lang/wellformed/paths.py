@@ -2,8 +2,8 @@
 
 from collections.abc import Iterator, Sequence
 
-from spec_model.lang.chart import Chart, Path, Transition
-from spec_model.lang.wellformed.places import Leg, common_composite, legs, name_of, parallel_name
+from rovercheck.spec_model.lang.chart import Chart, Path, Transition
+from rovercheck.spec_model.lang.wellformed.places import Leg, common_composite, legs, name_of, parallel_name
 
 
 def path_faults(chart: Chart) -> Iterator[str]:

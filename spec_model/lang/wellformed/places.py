@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from enum import StrEnum
 from functools import lru_cache
 
-from spec_model.lang.action import Action, each_action
-from spec_model.lang.action import If as Conditional
-from spec_model.lang.chart import Chart, Path, Transition
-from spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.action import Action, each_action
+from rovercheck.spec_model.lang.action import If as Conditional
+from rovercheck.spec_model.lang.chart import Chart, Path, Transition
+from rovercheck.spec_model.lang.expr import Expr
 
 
 def name_of(path: Path) -> str:

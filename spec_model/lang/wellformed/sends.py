@@ -3,10 +3,17 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from spec_model.lang.action import Send, each_action
-from spec_model.lang.chart import Chart, Path
-from spec_model.lang.errors import ModelError
-from spec_model.lang.wellformed.places import ActionPlace, Leg, common_composite, legs, name_of, places
+from rovercheck.spec_model.lang.action import Send, each_action
+from rovercheck.spec_model.lang.chart import Chart, Path
+from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.wellformed.places import (
+    ActionPlace,
+    Leg,
+    common_composite,
+    legs,
+    name_of,
+    places,
+)
 
 
 @dataclass(frozen=True)

@@ -3,9 +3,9 @@
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
-from spec_model.lang.chart import NOWHERE, Chart, Path, State, Transition
-from spec_model.lang.errors import did_you_mean
-from spec_model.lang.wellformed.places import arrow_names, name_of, parallel_name
+from rovercheck.spec_model.lang.chart import NOWHERE, Chart, Path, State, Transition
+from rovercheck.spec_model.lang.errors import did_you_mean
+from rovercheck.spec_model.lang.wellformed.places import arrow_names, name_of, parallel_name
 
 
 def tree_faults(chart: Chart) -> Iterator[str]:

@@ -2,13 +2,13 @@
 
 from collections.abc import Iterator
 
-from spec_model.lang.action import Send, each_action, expressions
-from spec_model.lang.chart import Block, Chart
-from spec_model.lang.domain import Bool
-from spec_model.lang.errors import ModelError, with_article
-from spec_model.lang.expr import Expr, Temporal, When
-from spec_model.lang.walk import nodes, variables
-from spec_model.lang.wellformed.places import ActionPlace, conditions, legs, places
+from rovercheck.spec_model.lang.action import Send, each_action, expressions
+from rovercheck.spec_model.lang.chart import Block, Chart
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.errors import ModelError, with_article
+from rovercheck.spec_model.lang.expr import Expr, Temporal, When
+from rovercheck.spec_model.lang.walk import nodes, variables
+from rovercheck.spec_model.lang.wellformed.places import ActionPlace, conditions, legs, places
 
 _OF_A_STATE = (When.AFTER, When.DURATION)
 _OF_PROPERTIES = (When.PREVIOUS, When.ONCE)

@@ -1,5 +1,5 @@
 """Obstacles while Board 1 is healthy: stop before a near one, turn toward where a moving one came from."""
 
-from supervisor.board2.obstacles.chart import Obstacles
+from rovercheck.supervisor.board2.obstacles.chart import Obstacles
 
 __all__ = ["Obstacles"]

@@ -2,12 +2,12 @@
 
 from dataclasses import dataclass, field
 
-from supervisor.board2.decision import Decision
-from supervisor.board2.distances import Distances
-from supervisor.board2.obstacles.decisions import Decisions
-from supervisor.board2.obstacles.events import Event
-from supervisor.board2.obstacles.sonars import NearObstacle, SonarField
-from supervisor.board2.obstacles.timers import Detected, PairTimer, pair_timers
+from rovercheck.supervisor.board2.decision import Decision
+from rovercheck.supervisor.board2.distances import Distances
+from rovercheck.supervisor.board2.obstacles.decisions import Decisions
+from rovercheck.supervisor.board2.obstacles.events import Event
+from rovercheck.supervisor.board2.obstacles.sonars import NearObstacle, SonarField
+from rovercheck.supervisor.board2.obstacles.timers import Detected, PairTimer, pair_timers
 
 
 def _sonar_fields() -> tuple[SonarField, SonarField, SonarField]:

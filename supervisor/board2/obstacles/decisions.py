@@ -4,10 +4,10 @@ from dataclasses import dataclass, field
 from math import isfinite
 from types import MappingProxyType
 
-from supervisor.board2.decision import Decision
-from supervisor.board2.obstacles.events import Event
-from supervisor.motion import angle_error
-from supervisor.timing import After, steps
+from rovercheck.supervisor.board2.decision import Decision
+from rovercheck.supervisor.board2.obstacles.events import Event
+from rovercheck.supervisor.motion import angle_error
+from rovercheck.supervisor.timing import After, steps
 
 TURN_DEG = 45
 STRAIGHT_S = 0.5

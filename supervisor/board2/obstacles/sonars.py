@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from supervisor.board2.distances import STOP_CM, Distances, close_range, within
-from supervisor.board2.obstacles.events import Event, Send
+from rovercheck.supervisor.board2.distances import STOP_CM, Distances, close_range, within
+from rovercheck.supervisor.board2.obstacles.events import Event, Send
 
 
 @dataclass

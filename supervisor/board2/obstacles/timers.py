@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass, field
 
-from supervisor.board2.obstacles.events import Event, Send
-from supervisor.timing import After, steps
+from rovercheck.supervisor.board2.obstacles.events import Event, Send
+from rovercheck.supervisor.timing import After, steps
 
 WINDOW_S = 3
 Detected = tuple[bool, bool, bool]
