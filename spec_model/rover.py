@@ -9,7 +9,7 @@ from types import MappingProxyType
 
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.system import System, charts_of
 from rovercheck.spec_model.readings import fixed, left_open, modelled_only, readings
 
 AS_READ: Mapping[str, str] = MappingProxyType({})
@@ -125,12 +125,3 @@ def merged(found: Iterable[System]) -> dict[str, System]:
 def charts(choices: Mapping[str, str] = AS_READ) -> dict[str, Chart]:
     """Every chart by name, as drawn under chosen readings."""
     return charts_of(systems(choices))
-
-
-def charts_of(by_name: Mapping[str, System]) -> dict[str, Chart]:
-    """The charts of systems by name: of charts with one name in several systems, the first listed."""
-    found: dict[str, Chart] = {}
-    for system in by_name.values():
-        for chart in system.charts:
-            found.setdefault(chart.name, chart)
-    return found

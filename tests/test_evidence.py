@@ -11,20 +11,22 @@ import pytest
 
 from rovercheck.checker.commands.check.findings import Guide, about_cases, about_faults, read_on
 from rovercheck.checker.commands.check.further import Further, noticing
-from rovercheck.checker.commands.check.premises import cases
-from rovercheck.checker.commands.check.run import Compared, line, results, summary
+from rovercheck.checker.commands.check.premises import PATIENCE, cases, patient
+from rovercheck.checker.commands.check.run import line, summary
 from rovercheck.checker.commands.reports.run import differences, pages
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.shared.wrapping import plain
-from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.model.kept_invariants import invariants_of_rover
 from rovercheck.checker.model.kept_runs import file_of, read
 from rovercheck.checker.model.rover import rover
+from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.spec_model.rover import systems
 
 ROOT = Path(__file__).parent.parent
 REPORTS = ROOT / "reports"
+SEARCH = SearchSettings(invariants=invariants_of_rover())
 
 
 @pytest.mark.long
@@ -34,9 +36,9 @@ def test_verdicts_are_as_on_record_and_the_committed_reports_show_them(
 ) -> None:
     # One test, so that the properties are decided once however many processes run the suite.
     affordable = [prop for prop in catalogue().values() if not prop.costly]
-    found = results(affordable, systems(), AUTO, Limits(), invariants=invariants_of_rover())
-    decided = [Compared(r, expected(r.property.id)) for r in found]
-    told = cases(decided, systems(), read(file_of(rover())), AUTO, Limits())
+    found = results(affordable, systems(), SEARCH)
+    decided = [CheckedProperty(r, expected(r.property.id)) for r in found]
+    told = cases(decided, systems(), patient(SEARCH, PATIENCE), read(file_of(rover())))
     further = Further(noticing=noticing(rover()))
     verdicts = [
         replace(c, case=told.get(c.result.property.id), noticed=further.noticed(c), strict=True)

@@ -9,13 +9,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from shlex import quote
 
-from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property
 from rovercheck.properties.requirements import Requirement
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError
-from rovercheck.spec_model.lang.system import System
-from rovercheck.spec_model.rover import charts_of
+from rovercheck.spec_model.lang.system import System, charts_of
 
 EXAMPLE = "`rovercheck init FOLDER` writes an example."
 

@@ -13,14 +13,14 @@ from rovercheck.checker.model.kept_runs import INVARIANTS, ROVER, contents, file
 from rovercheck.checker.results.verdict import Inductive
 from rovercheck.checker.system.formula_json import Tree, size, written
 
-Recorded = Mapping[str, tuple[Tree, ...]]
+Invariants = Mapping[str, tuple[Tree, ...]]
 """By the id of a property the conjuncts of its proof, as ``checker.system.formula_json`` writes formulas."""
 
 MOST_NODES = 100_000
 """Operators, variables and numbers of the formulas of one proof that is kept."""
 
 
-def read(file: Path) -> Recorded:
+def read(file: Path) -> Invariants:
     """The invariants in a file, none if there is no file.
 
     Raises ``ModelError`` for a file that holds something else.
@@ -28,17 +28,17 @@ def read(file: Path) -> Recorded:
     return contents(file, INVARIANTS, INVARIANTS, _invariants)
 
 
-def invariants_of(model: Model) -> Recorded:
+def invariants_of(model: Model) -> Invariants:
     """The invariants on record for a model.  Raises ``ModelError`` as ``read`` does."""
     return read(file_of(model, INVARIANTS))
 
 
-def invariants_of_rover() -> Recorded:
+def invariants_of_rover() -> Invariants:
     """The invariants on record for the rover.  Raises ``ModelError`` as ``read`` does."""
     return read(ROVER / f"{INVARIANTS}.json")
 
 
-def text(recorded: Recorded) -> str:
+def text(recorded: Invariants) -> str:
     """The invariants as JSON, those of a property a line."""
     return lines(INVARIANTS, INVARIANTS, {id: list(trees) for id, trees in recorded.items()})
 

@@ -10,7 +10,7 @@ from typing import Any
 
 from rovercheck.checker.io.toml_lines import line_of
 from rovercheck.checker.model import shown
-from rovercheck.properties.catalogue import Expected, on_record
+from rovercheck.properties.expected import Expected, on_record
 from rovercheck.properties.forms import Property
 from rovercheck.properties.requirements import Requirement
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean

@@ -6,13 +6,15 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from rovercheck.checker.commands.check.run import Compared, evidence, recorded, results
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.failure import alarm, told
 from rovercheck.checker.commands.shared.select import pick_engine
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.process.faults import Fault, listening
+from rovercheck.checker.render.verdict_text import evidence, recorded
+from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings
 
 if TYPE_CHECKING:
     from rovercheck.checker.pytest_plugin.item import PropertyItem
@@ -36,7 +38,7 @@ class Decider:
     limits: Limits
     jobs: int | None = None
     apart: bool = False
-    _found: dict[Key, Compared | NoVerdict] = field(default_factory=dict)
+    _found: dict[Key, CheckedProperty | NoVerdict] = field(default_factory=dict)
 
     @staticmethod
     def of(config: pytest.Config) -> "Decider":
@@ -55,7 +57,7 @@ class Decider:
         apart = worker and not getattr(config.option, "loadgroup", False)  # xdist's own word for it
         return Decider(engine, Limits(depth, seconds), 1 if worker else None, apart)
 
-    def compared(self, item: "PropertyItem") -> Compared:
+    def compared(self, item: "PropertyItem") -> CheckedProperty:
         """The verdict of an item beside the one on record.  Raises ``NoVerdict``."""
         key = _key(item)
         if key not in self._found:
@@ -71,12 +73,11 @@ class Decider:
         faults: list[Fault] = []
         try:
             with listening(faults.append):
-                asked = self.engine, self.limits, self.jobs
-                known = invariants_of(model)
-                found = results(properties, model.systems, *asked, quiet=True, invariants=known)
+                search = SearchSettings(self.engine, self.limits, self.jobs, invariants_of(model))
+                found = results(properties, model.systems, search, quiet=True)
                 for one in found:  # no progress line: with `pytest -s` the line is one of pytest's
                     item = left.pop(one.property.id)
-                    self._found[_key(item)] = Compared(one, model.expected(item.prop.id))
+                    self._found[_key(item)] = CheckedProperty(one, model.expected(item.prop.id))
         except Exception as error:
             self._found |= {_key(item): NoVerdict(told(error)) for item in left.values()}
         if faults:

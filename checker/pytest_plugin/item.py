@@ -7,26 +7,27 @@ from typing import Any
 import pytest
 
 from rovercheck.checker.commands.check.ci import finding
-from rovercheck.checker.commands.check.run import Compared, evidence, recorded
 from rovercheck.checker.commands.shared.failure import told
 from rovercheck.checker.commands.trace.explain import Explaining
 from rovercheck.checker.model import Model
 from rovercheck.checker.pytest_plugin.deciding import Decider, NoVerdict
 from rovercheck.checker.render.ci import explained
+from rovercheck.checker.render.verdict_text import evidence, recorded
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
+from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.properties.forms import Property
 
 # --- what the report of a property says ----------------------------------------------------------------
 
 
-def on_record(compared: Compared) -> str:
+def on_record(compared: CheckedProperty) -> str:
     """One line on a verdict that is no proof and was expected."""
     prop, because = compared.result.property, compared.expected.because
     return f"{prop.id} is {compared.verdict.word}, as on record: {because}"
 
 
-def shown(compared: Compared, model: Model) -> str:
+def shown(compared: CheckedProperty, model: Model) -> str:
     """A verdict that is not the one on record, with what forces it as far as that is found."""
     try:
         return _why(_with_reasons(compared, model), model)
@@ -35,7 +36,7 @@ def shown(compared: Compared, model: Model) -> str:
         return f"{id} is {compared.word}, on record is {expected}\n{told(error)}"
 
 
-def _with_reasons(compared: Compared, model: Model) -> Compared:
+def _with_reasons(compared: CheckedProperty, model: Model) -> CheckedProperty:
     """A counterexample with what forces it, as far as that is found in the time that ``trace`` takes for it.
 
     Raises ``ReplayError`` if a run with the same needed inputs ends otherwise.
@@ -47,7 +48,7 @@ def _with_reasons(compared: Compared, model: Model) -> Compared:
     return replace(compared, result=replace(result, verdict=replace(result.verdict, because=trace)))
 
 
-def _why(compared: Compared, model: Model) -> str:
+def _why(compared: CheckedProperty, model: Model) -> str:
     """A verdict that is not the one on record: what it rests on, and what to do."""
     found = finding(compared, model.systems, model.options)
     lines = [found.headline, explained(found)]
@@ -98,7 +99,7 @@ class PropertyItem(pytest.Item):
         return *where, f"{self.prop.id} of {self.prop.on}"
 
 
-def _properties(compared: Compared) -> list[tuple[str, str]]:
+def _properties(compared: CheckedProperty) -> list[tuple[str, str]]:
     """What a JUnit file says of the property."""
     prop, verdict = compared.result.property, compared.verdict
     said = {

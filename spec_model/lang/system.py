@@ -141,6 +141,15 @@ class System:
         return {name: v for name, v in found.items() if name not in hidden}
 
 
+def charts_of(by_name: Mapping[str, System]) -> dict[str, Chart]:
+    """The charts of systems by name: of charts with one name in several systems, the first listed."""
+    found: dict[str, Chart] = {}
+    for system in by_name.values():
+        for chart in system.charts:
+            found.setdefault(chart.name, chart)
+    return found
+
+
 def enabled_in(components: Sequence[Component]) -> Iterator[Enabled]:
     """The enabled subsystems, nested ones too."""
     for component in components:

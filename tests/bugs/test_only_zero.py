@@ -2,9 +2,9 @@
 
 import pytest
 
-from rovercheck.checker.commands.check.run import results
-from rovercheck.checker.engines import Limits
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.results.verdict import Proved
+from rovercheck.checker.verify.checked import SearchSettings
 from rovercheck.properties.forms import always, never
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block
@@ -23,5 +23,5 @@ PROPERTIES = (
 
 @pytest.mark.parametrize("engine", ["bdd", "pdr", "kinduction", "explicit"])
 def test_a_variable_of_one_value_is_decided(engine: str) -> None:
-    found = list(results(PROPERTIES, {SYSTEM.name: SYSTEM}, engine, Limits()))
+    found = list(results(PROPERTIES, {SYSTEM.name: SYSTEM}, SearchSettings(engine)))
     assert [type(result.verdict) for result in found] == [Proved, Proved]

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 import pytest
 
-from rovercheck.checker.commands.check.run import length
 from rovercheck.checker.engines import Limits, Timers, quiet
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Proved, Violated
+from rovercheck.checker.verify.checked import length
 from rovercheck.checker.verify.decide import Task, decide
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.forms import Never, Property, Reachable

@@ -8,11 +8,12 @@ import pytest
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.check import standing
 from rovercheck.checker.commands.check.further import Further
-from rovercheck.checker.commands.check.run import Compared, check, results
+from rovercheck.checker.commands.check.run import CheckOutput, CheckRequest, check
 from rovercheck.checker.commands.check.standing import Chains
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.variant import Variant
-from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.commands.shared.verdicts import results
+from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.properties.catalogue import promises
 from rovercheck.properties.promises.promise import Promise
 from rovercheck.spec_model.repairs import repairs
@@ -66,8 +67,8 @@ def test_a_reading_asks_again_what_it_makes_another_sentence() -> None:
 def test_a_link_that_a_repair_breaks_breaks_its_chain() -> None:
     variant = Variant({}, repairs()["safety-critical-first"])
     prop = variant.properties()["PSY-10m"]
-    [found] = results([prop], variant.systems(), AUTO, Limits())
-    told = Chains(variant).standings([Compared(found, variant.expected(prop.id), variant.name)])
+    [found] = results([prop], variant.systems())
+    told = Chains(variant).standings([CheckedProperty(found, variant.expected(prop.id), variant.name)])
     [stop] = [one for one in told if one.chain.across == "PSY-10e"]
     assert stop.holds is False and stop.text == "STOP over PSY-10e does not hold: PSY-10m is violated."
 
@@ -80,7 +81,8 @@ def test_what_becomes_of_chains_is_told_after_the_verdicts(capsys: pytest.Captur
     for as_json in (False, True):
         capsys.readouterr()
         prop = chains.variant.properties()["PB1-12"]
-        assert check([prop], systems(), AUTO, Limits(), as_json, further=further) == Exit.AS_EXPECTED
+        request = CheckRequest([prop], systems(), further=further)
+        assert check(request, CheckOutput(as_json)) == Exit.AS_EXPECTED
         said = capsys.readouterr().out
         if as_json:
             assert json.loads(said)["chains"][0] == {

@@ -13,13 +13,14 @@ from rovercheck.checker.certify.outcome import Rejected
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.check import run as checking
 from rovercheck.checker.commands.check.ci import finding, level
-from rovercheck.checker.commands.check.run import Compared
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.render.ci import FindingLevel
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
+from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.result import Result
-from rovercheck.properties.catalogue import Expected, catalogue, expected
+from rovercheck.properties.catalogue import catalogue, expected
+from rovercheck.properties.expected import Expected
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.rover import systems
 from tests.render.exits_zoo import told
@@ -158,12 +159,12 @@ def test_levels_are_those_of_the_exit_codes() -> None:
     rejected = replace(one, certificate=Rejected("step", "no"))
     violated = result("PB1-11", Violated(trace(), "bmc"))
     levels = [
-        level(Compared(one, Expected())),
-        level(Compared(rejected, Expected())),
-        level(Compared(violated, Expected("violated", 8))),
-        level(Compared(violated, Expected("violated", 9))),
-        level(Compared(result("PB1-11", OPEN), Expected())),
-        level(Compared(violated, Expected(), "with a repair")),
+        level(CheckedProperty(one, Expected())),
+        level(CheckedProperty(rejected, Expected())),
+        level(CheckedProperty(violated, Expected("violated", 8))),
+        level(CheckedProperty(violated, Expected("violated", 9))),
+        level(CheckedProperty(result("PB1-11", OPEN), Expected())),
+        level(CheckedProperty(violated, Expected(), "with a repair")),
     ]
     assert levels == [
         FindingLevel.PASSED,
@@ -176,7 +177,9 @@ def test_levels_are_those_of_the_exit_codes() -> None:
 
 
 def test_a_finding_of_changed_charts_says_so() -> None:
-    compared = Compared(result("PB1-11", Violated(trace(), "bmc")), expected("PB1-11"), "with repair X")
+    compared = CheckedProperty(
+        result("PB1-11", Violated(trace(), "bmc")), expected("PB1-11"), "with repair X"
+    )
     found = finding(compared, systems(), "--repair X")
     assert found.headline == "PB1-11 is violated with repair X; as specified it is proved"
     assert found.shown_with == "rovercheck trace PB1-11 --repair X"

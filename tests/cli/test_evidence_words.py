@@ -2,10 +2,10 @@
 
 import pytest
 
-from rovercheck.checker.commands.check.run import evidence, in_short, recorded
+from rovercheck.checker.render.verdict_text import evidence, in_short, recorded
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.checker.verify.result import Result
-from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, never, reachable
 from rovercheck.spec_model.lang.expr import flag
 

@@ -10,14 +10,14 @@ import pytest
 from rovercheck.checker.cli import app, run
 from rovercheck.checker.commands.check import findings
 from rovercheck.checker.commands.check.findings import SHOWN, Guide, gravest, listed, program, read_on, totals
-from rovercheck.checker.commands.check.run import Compared
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.wrapping import plain
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
+from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.result import Result
-from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, Reachable, always, reachable
 from rovercheck.properties.requirements import PROMISES, requirements
 from rovercheck.spec_model.lang.expr import flag
@@ -43,15 +43,17 @@ def run_of(ticks: int) -> Trace:
     return told(long_trace(ticks - 3))
 
 
-def on(prop: Property, verdict: Verdict, in_part: bool = False) -> Compared:
-    return Compared(Result(prop, verdict, "toy", in_part), Expected(verdict.word))
+def on(prop: Property, verdict: Verdict, in_part: bool = False) -> CheckedProperty:
+    return CheckedProperty(Result(prop, verdict, "toy", in_part), Expected(verdict.word))
 
 
-def broken(id: str, *covers: str, ticks: int = 8, system: str = "toy") -> Compared:
-    return Compared(Result(demand(id, *covers), Violated(run_of(ticks), "bmc"), system), Expected("violated"))
+def broken(id: str, *covers: str, ticks: int = 8, system: str = "toy") -> CheckedProperty:
+    return CheckedProperty(
+        Result(demand(id, *covers), Violated(run_of(ticks), "bmc"), system), Expected("violated")
+    )
 
 
-def ids(found: Sequence[Compared]) -> list[str]:
+def ids(found: Sequence[CheckedProperty]) -> list[str]:
     return [one.result.property.id for one in found]
 
 
@@ -71,7 +73,7 @@ REACHED = on(situation("S-1"), Proved(run_of(5), "bmc"))
          "2 demands: 1 in part, 1 unknown; 1 situation: unknown."),
     ],
 )  # fmt: skip
-def test_demands_and_situations_are_counted_apart(found: list[Compared], said: str) -> None:
+def test_demands_and_situations_are_counted_apart(found: list[CheckedProperty], said: str) -> None:
     assert totals(found) == said
 
 

@@ -8,8 +8,9 @@ from typing import Any
 import pytest
 
 from rovercheck.checker.cli import run
-from rovercheck.checker.commands.check.run import results
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.verdicts import results
+from rovercheck.checker.verify.checked import PremiseCase
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.forms import Property
 from tests.cli.test_report import EMPTY
@@ -48,7 +49,7 @@ def test_what_is_not_known_is_no_pass_with_strict(hall: Path, capsys: pytest.Cap
     from rovercheck.checker.commands.check import premises
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(premises, "cases", lambda *_, **__: {"FULL": premises.PremiseCase(None, "not known")})
+        patch.setattr(premises, "cases", lambda *_, **__: {"FULL": PremiseCase(None, "not known")})
         assert checked(hall) == Exit.AS_EXPECTED
         assert checked(hall, "--strict") == Exit.INCONCLUSIVE
     assert "not known whether the case occurs that is spoken of: FULL." in capsys.readouterr().out

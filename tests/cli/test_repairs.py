@@ -5,12 +5,11 @@ from pathlib import Path
 import pytest
 
 from rovercheck.checker.cli import run
-from rovercheck.checker.commands.check.run import results
 from rovercheck.checker.commands.reports.promises import page
 from rovercheck.checker.commands.reports.repairs import Proof, repair_pages, sections
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.variant import Variant
-from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.properties.catalogue import expected, promises
 from rovercheck.spec_model.repairs import repairs
 
@@ -61,7 +60,7 @@ def test_the_page_of_promises_says_what_holds_with_each_repair() -> None:
     """Decided now, or as on record, which ``check --repair NAME`` decides again."""
     repair = repairs()["relay-without-delay"]
     variant = Variant(repair.readings, repair)
-    decided = results([variant.properties()["PB1-15"]], variant.systems(), AUTO, Limits())
+    decided = results([variant.properties()["PB1-15"]], variant.systems())
     text = page([], [Proof(repair, tuple(decided))])
     rows = [row.split(" | ") for row in text.splitlines() if row.startswith("| [")]
     told = {(row[0].partition("]")[0][3:], row[1]): row[2] for row in rows}

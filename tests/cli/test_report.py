@@ -7,7 +7,6 @@ import pytest
 
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.check.premises import told
-from rovercheck.checker.commands.check.run import Compared
 from rovercheck.checker.commands.report import command
 from rovercheck.checker.commands.report import graphs as reviewing_graphs
 from rovercheck.checker.commands.report import report as verb
@@ -20,6 +19,7 @@ from rovercheck.checker.engines import Limits
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.render.review.model import Seen
 from rovercheck.checker.results.verdict import Unknown, Violated
+from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.spec_model.rover import systems
@@ -231,7 +231,7 @@ def on_relay(limits: Limits) -> tuple[list[Seen], dict[str, str]]:
     both = [systems()["relay"], systems()["board1"]]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(reviewing_graphs, "LIMITS", limits)
-        graphs, undrawn = state_graphs([Compared(finding, expected("PB1-15"))], both, " --x")
+        graphs, undrawn = state_graphs([CheckedProperty(finding, expected("PB1-15"))], both, " --x")
     return list(graphs), dict(undrawn)
 
 

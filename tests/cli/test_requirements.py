@@ -8,7 +8,6 @@ from pathlib import Path
 import pytest
 
 from rovercheck.checker.cli import run
-from rovercheck.checker.commands.check.run import Compared, results
 from rovercheck.checker.commands.report.forced import with_reasons
 from rovercheck.checker.commands.reports.run import NOT_ASKED, differences, pages_of_verdicts
 from rovercheck.checker.commands.requirements.run import (
@@ -21,8 +20,9 @@ from rovercheck.checker.commands.requirements.run import (
     words,
 )
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.model.rover import rover
+from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.properties.coverage import RequirementCoverage, matrix
 from rovercheck.properties.forms import Property, always, reachable
@@ -170,12 +170,12 @@ def test_a_reason_says_which_kind_it_is_and_names_what_exists(id: str) -> None:
 
 
 @pytest.fixture(scope="module")
-def found() -> list[Compared]:
+def found() -> list[CheckedProperty]:
     some = [catalogue()[id] for id in ("PB1-11", "PB2-12-first", "REACH-WHEEL-DEG")]
-    return [Compared(r, expected(r.property.id)) for r in results(some, systems(), AUTO, Limits())]
+    return [CheckedProperty(r, expected(r.property.id)) for r in results(some, systems())]
 
 
-def test_the_page_links_a_violation_to_its_finding(found: list[Compared]) -> None:
+def test_the_page_links_a_violation_to_its_finding(found: list[CheckedProperty]) -> None:
     rows = {line.split(" | ")[0].strip("| "): line for line in page(found).splitlines() if " | " in line}
     assert rows["B2-OBS-04"].endswith("| violated | [PB2-12-first](findings/PB2-12-first.md) |")
     assert rows["B1-REL-02"].endswith("| proved | PB1-11 |")
@@ -184,7 +184,7 @@ def test_the_page_links_a_violation_to_its_finding(found: list[Compared]) -> Non
     assert words(found)["PB2-12-first"] == "violated"
 
 
-def test_the_reports_say_what_is_checked(found: list[Compared]) -> None:
+def test_the_reports_say_what_is_checked(found: list[CheckedProperty]) -> None:
     made = pages_of_verdicts(found)
     said = "Formally: In every step in which “nearest &lt;= 300” holds, B2DecDegraded is 6."
     meant = "“nearest &lt;= 300” means: d1 is at most 300 cm or d2 is at most 300 cm or d3 is at most 300 cm."
@@ -194,7 +194,7 @@ def test_the_reports_say_what_is_checked(found: list[Compared]) -> None:
 
 
 def test_a_finding_says_what_forces_it_and_that_is_not_looked_for_again(
-    found: list[Compared], tmp_path: Path
+    found: list[CheckedProperty], tmp_path: Path
 ) -> None:
     name, without = "findings/PB2-12-first.md", pages_of_verdicts(found)
     made = pages_of_verdicts(with_reasons(found, systems()))

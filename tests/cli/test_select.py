@@ -7,7 +7,8 @@ import pytest
 
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
-from rovercheck.checker.commands.shared.select import again, pick_properties
+from rovercheck.checker.commands.shared.options import SelectionOptions
+from rovercheck.checker.commands.shared.select import pick_properties
 from rovercheck.properties.catalogue import catalogue
 
 
@@ -26,7 +27,7 @@ def test_a_system_that_is_not_there_is_refused_among_others() -> None:
 
 
 def test_the_command_shown_again_has_every_system() -> None:
-    assert again(("A",), ("relay", "b c"), True) == "A --system relay --system 'b c' --full"
+    assert SelectionOptions(("A",), ("relay", "b c"), True).again == "A --system relay --system 'b c' --full"
 
 
 def test_check_and_export_take_several_systems(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

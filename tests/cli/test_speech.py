@@ -12,13 +12,12 @@ from jsonschema import Draft202012Validator
 
 from rovercheck import checker
 from rovercheck.checker.cli import run
-from rovercheck.checker.commands.check.run import check
+from rovercheck.checker.commands.check.run import CheckOutput, CheckRequest, check
 from rovercheck.checker.commands.doctor.run import memory
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.commands.shared.variant import Variant
-from rovercheck.checker.engines import AUTO, Limits
-from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.expected import Expected
 from rovercheck.spec_model.rover import systems
 from tests.cli.terminal import Terminal
 
@@ -80,7 +79,7 @@ def test_quiet_says_nothing_where_all_is_as_expected(capsys: pytest.CaptureFixtu
 def test_quiet_says_what_is_not_as_expected(capsys: pytest.CaptureFixture[str]) -> None:
     known, by_name = Variant({}).properties(), systems()
     asked = [known["PB1-11"], known["PB1-15"]]
-    code = check(asked, by_name, AUTO, Limits(), False, expect=lambda _: Expected(), quiet=True)
+    code = check(CheckRequest(asked, by_name, expected=lambda _: Expected()), CheckOutput(quiet=True))
     seen = capsys.readouterr().out
     assert code is Exit.CHANGED
     assert "PB1-15" in seen and "violated" in seen and "PB1-11" not in seen

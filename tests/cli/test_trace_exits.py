@@ -19,12 +19,11 @@ from jsonschema import validate
 from markdown_it import MarkdownIt
 
 from rovercheck.checker.cli import run
-from rovercheck.checker.commands.check.run import results
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.trace.board_steps import concrete
 from rovercheck.checker.commands.trace.formats import exit_written
 from rovercheck.checker.commands.trace.run import Showing
-from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.render import renderers, trace_itf, trace_json
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
@@ -82,7 +81,7 @@ class Stuck:
 @cache
 def pb1_15() -> Trace:
     """Board 2 has the actuation although all is well, in the eighth tick."""
-    [result] = results([catalogue()["PB1-15"]], systems(), AUTO, Limits())
+    [result] = results([catalogue()["PB1-15"]], systems())
     assert isinstance(result.verdict, Violated) and isinstance(result.verdict.because, Trace)
     return result.verdict.because
 

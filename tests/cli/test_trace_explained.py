@@ -12,7 +12,7 @@ from rovercheck.checker.commands.trace.explain import Explaining
 from rovercheck.checker.commands.trace.run import Showing, trace
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.results.trace import Trace
-from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, reachable
 from rovercheck.spec_model.rover import systems
 from tests.explain.test_others import BOTH, ENDS, SYSTEM, first, left

@@ -20,7 +20,7 @@ from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Reached, Run, Unknown, Violated
 from rovercheck.checker.system.lowered import lowered
 from rovercheck.checker.verify.result import Result, result
-from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, reachable
 from rovercheck.properties.reduce import reduce
 from rovercheck.spec_model.lang.system import System

@@ -5,10 +5,9 @@ from collections.abc import Mapping
 import pytest
 
 from rovercheck.checker.adapters.python_calls import Instance
-from rovercheck.checker.commands.check.run import results
 from rovercheck.checker.commands.crosscheck.record import in_steps_of
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.compare.beside import differs, rerun
-from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
 from rovercheck.properties.catalogue import catalogue, expected
@@ -38,7 +37,7 @@ def test_every_violation_by_jitter_is_replayed() -> None:
 
 
 def run_of(id: str) -> Trace:
-    (result,) = results([catalogue()[id]], systems(), AUTO, Limits())
+    (result,) = results([catalogue()[id]], systems())
     assert isinstance(result.verdict, Violated)
     assert isinstance(result.verdict.because, Trace)
     return result.verdict.because

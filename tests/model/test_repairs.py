@@ -2,10 +2,11 @@
 
 import pytest
 
-from rovercheck.checker.commands.check.run import results
 from rovercheck.checker.commands.shared.variant import Variant
-from rovercheck.checker.engines import AUTO, Limits, Timers
+from rovercheck.checker.commands.shared.verdicts import results
+from rovercheck.checker.engines import Limits, Timers
 from rovercheck.checker.render.drawing.changes import changes
+from rovercheck.checker.verify.checked import SearchSettings
 from rovercheck.properties.catalogue import baseline, catalogue, expected
 from rovercheck.spec_model.lang.chart import Chart, parts, to
 from rovercheck.spec_model.lang.edit import also, begin
@@ -73,7 +74,7 @@ def test_a_reading_taken_as_a_repair_changes_the_rover(repair: Repair) -> None:
 def test_what_a_repair_promises_is_proved(name: str) -> None:
     changed = variant(repairs()[name])
     wanted = [prop for id in repairs()[name].fixes if not (prop := changed.properties()[id]).costly]
-    found = results(wanted, changed.systems(), AUTO, Limits(timers=Timers.FREE))
+    found = results(wanted, changed.systems(), SearchSettings(limits=Limits(timers=Timers.FREE)))
     assert {r.property.id: r.verdict.word for r in found} == {p.id: "proved" for p in wanted}
 
 

@@ -9,7 +9,7 @@ import pytest
 from rovercheck.checker.cli import run
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.load import load
-from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.expected import Expected
 from rovercheck.spec_model.lang.errors import ModelError
 from tests.model_files.files import BASELINE, HEATER, START, but
 

@@ -4,9 +4,9 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache
 
-from rovercheck.checker.commands.check.run import length
 from rovercheck.checker.engines import Limits, quiet
 from rovercheck.checker.results.verdict import Verdict
+from rovercheck.checker.verify.checked import length
 from rovercheck.checker.verify.decide import Task, decide
 from rovercheck.properties.catalogue import catalogue
 from rovercheck.spec_model.lang.action import Action, Assign, If

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from rovercheck.checker.commands.check import run as check
+from rovercheck.checker.commands.shared import verdicts
 from rovercheck.checker.commands.trace.explain import Explaining
 from rovercheck.checker.process.faults import Fault, tell
 from rovercheck.checker.pytest_plugin import deciding
@@ -181,7 +181,7 @@ def test_an_error_is_one_message(
 def test_an_engine_that_fails_is_told_with_the_verdict_of_another(
     project: pytest.Pytester, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    real = check.results
+    real = verdicts.results
 
     def results(*args: Any, **options: Any) -> Iterator[Result]:
         tell(Fault("pdr", "Heater", "AssertionError: of ours"))

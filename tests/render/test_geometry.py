@@ -12,7 +12,8 @@ from rovercheck.checker.render.drawing.graph import Point
 from rovercheck.checker.render.drawing.nested import picture
 from rovercheck.checker.render.drawing.picture import Box, DrawnPicture, PicturePiece
 from rovercheck.checker.render.drawing.text import LINE, SIZE, block, width, wrap
-from rovercheck.spec_model.rover import charts_of, systems
+from rovercheck.spec_model.lang.system import charts_of
+from rovercheck.spec_model.rover import systems
 from tests.render.zoo import CHARTS
 
 SVG = "{http://www.w3.org/2000/svg}"

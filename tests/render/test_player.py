@@ -19,8 +19,8 @@ from rovercheck.checker.results.trace import Arrow, Needed, Tick, Trace
 from rovercheck.spec_model.lang.action import assign, send
 from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
 from rovercheck.spec_model.lang.interpret import Fired, Interpreter
-from rovercheck.spec_model.lang.system import System
-from rovercheck.spec_model.rover import charts_of, systems
+from rovercheck.spec_model.lang.system import System, charts_of
+from rovercheck.spec_model.rover import systems
 from tests.render.conformance import Suite
 from tests.render.exits_zoo import TRACES, lasso
 from tests.render.zoo import CHARTS, alarm, level, relay

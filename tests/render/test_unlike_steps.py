@@ -6,9 +6,8 @@ from io import StringIO
 
 import pytest
 
-from rovercheck.checker.commands.check.run import results
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.trace.board_steps import concrete
-from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.render import trace_csv, trace_json, trace_svg, trace_table, trace_vcd
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
@@ -20,7 +19,7 @@ from rovercheck.spec_model.rover import systems
 @cache
 def run() -> Trace:
     """Four steps, after which the reception of Board 2 is degraded without a loss."""
-    (result,) = results([catalogue()["PB2-60m"]], systems(), AUTO, Limits())
+    (result,) = results([catalogue()["PB2-60m"]], systems())
     assert isinstance(result.verdict, Violated)
     assert isinstance(result.verdict.because, Trace)
     return result.verdict.because

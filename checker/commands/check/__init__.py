@@ -10,28 +10,29 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.options import (
     GIB,
     SearchOptions,
+    SelectionOptions,
     VariantOptions,
     gathered,
     modelling,
     searching,
+    selecting,
     varying,
 )
-from rovercheck.checker.engines import ALL, AUTO, LOADED, Limits
+from rovercheck.checker.engines import ALL, AUTO, LOADED
 
 if TYPE_CHECKING:
     from rovercheck.checker.commands.check.further import Further
     from rovercheck.checker.commands.check.premises import PremiseSearch
+    from rovercheck.checker.commands.check.run import Deliver
     from rovercheck.checker.commands.check.standing import Chains
     from rovercheck.checker.commands.shared.variant import Variant
+    from rovercheck.checker.verify.checked import SearchSettings
 
 
 @dataclass(frozen=True)
 class CheckOptions:
-    """Which properties are asked for, how strictly, and where the verdicts go."""
+    """How strictly properties are checked, and where the verdicts go."""
 
-    ids: tuple[str, ...]
-    about: tuple[str, ...]
-    full: bool
     strict: bool
     no_premises: bool
     record_premises: bool
@@ -47,13 +48,15 @@ class CheckOptions:
     sarif: Path | None
     annotations: str | None
 
+    def possible(self) -> None:
+        """Raises ``UsageError`` for options that exclude each other."""
+        if self.no_premises and (self.strict or self.record_premises):
+            other = "--strict" if self.strict else "--record-premises"
+            raise UsageError(f"--no-premises leaves out what {other} asks for; write one of them.")
+
 
 @click.command(short_help="Check properties, and compare with the verdicts on record.")
-@click.argument("ids", nargs=-1, metavar="[ID]...")
-@click.option(
-    "--system", "about", multiple=True, metavar="NAME", help="Only properties about this system, or these."
-)
-@click.option("--full", is_flag=True, help="Also the properties that take long.")
+@selecting
 @click.option(
     "--strict",
     is_flag=True,
@@ -113,94 +116,83 @@ class CheckOptions:
 @varying
 @searching
 @gathered(CheckOptions, "options")
-def check(options: CheckOptions, charts: VariantOptions, search: SearchOptions) -> Exit:
+def check(
+    selection: SelectionOptions, options: CheckOptions, charts: VariantOptions, search: SearchOptions
+) -> Exit:
     """Check properties and compare the verdicts with the baseline."""
     from rovercheck.checker.process.isolate import prepared
 
     with prepared(*LOADED):
-        from rovercheck.checker.commands.check.certificates import writable
         from rovercheck.checker.commands.check.findings import Guide, causes
+        from rovercheck.checker.commands.check.run import CheckOutput, CheckRequest
         from rovercheck.checker.commands.check.run import check as run
-        from rovercheck.checker.commands.check.run import undelivered
-        from rovercheck.checker.commands.shared.select import again, pick_engine, pick_properties
-        from rovercheck.checker.model.kept_invariants import invariants_of
 
         variant = charts.variant()
-        properties = pick_properties(
-            options.ids, options.about, variant.properties(), options.full, variant.unchanged()
-        )
-        if variant.name and not options.ids:
-            properties = list(filter(variant.concerns(), properties))
-        every = not options.ids and not options.about
-        chains = _chains(variant) if every and (options.full or variant.name) else None
+        properties = selection.properties(variant)
+        chains = _chains(variant) if selection.whole and (selection.full or variant.name) else None
         if chains is not None:
-            properties = list(
-                {p.id: p for p in (*properties, *variant.promised(), *chains.links.values())}.values()
-            )
+            more = *properties, *variant.promised(), *chains.links.values()
+            properties = list({p.id: p for p in more}.values())
         if variant.name:
             properties = variant.askable(properties)
-        if options.no_premises and (options.strict or options.record_premises):
-            other = "--strict" if options.strict else "--record-premises"
-            raise UsageError(f"--no-premises leaves out what {other} asks for; write one of them.")
-        limits = search.limits(options.memory)
-        asked = _asked(pick_engine(search.engine), options.all_engines)
-        if options.certificates:
-            writable(options.certificates)
-        certifying = (
-            variant.certifying(options.certificates, options.certify)
-            if options.certify or options.certificates
-            else None
-        )
-        systems = variant.systems()
-        deliver = undelivered
-        if options.junit or options.sarif or options.annotations:
-            from rovercheck.checker.commands.check.ci import Reports
-
-            charted = _again(variant.model.options, charts.chosen, charts.repair, charts.dropped)
-            reports = Reports(
-                systems,
-                options.junit,
-                options.sarif,
-                options.annotations or "",
-                variant.name,
-                charted,
-                options.as_json,
-            )
-            reports.possible()
-            deliver = reports.write
-        further = _further(
-            variant,
-            None
-            if options.no_premises
-            else _premises(variant, asked, limits, options.jobs, options.quiet, options.record_premises),
-            chains,
-        )
-        if options.record_invariants:
-            from rovercheck.checker.commands.check.invariants import Recording
-
-            further = replace(further, keep=Recording(variant.model, variant.name))
+        options.possible()
+        settings = _settings(search, options, variant)
+        guide = Guide(variant.options, selection.again, variant.model.by_gravity, causes(variant))
+        deliver = _delivering(options, variant, charts)
+        further = _further(options, variant, settings, chains)
         return run(
-            properties,
-            systems,
-            asked,
-            limits,
-            options.as_json,
-            variant.name,
-            variant.expected,
-            options.jobs,
-            certifying,
-            Guide(
-                variant.options,
-                again(options.ids, options.about, options.full),
-                variant.model.by_gravity,
-                causes(variant),
+            CheckRequest(
+                properties,
+                variant.systems(),
+                settings,
+                variant.name,
+                variant.expected,
+                further,
+                options.strict,
             ),
-            deliver,
-            options.quiet,
-            further,
-            options.strict,
-            invariants_of(variant.model),
+            CheckOutput(options.as_json, options.quiet, guide, deliver),
         )
+
+
+def _settings(search: SearchOptions, options: CheckOptions, variant: "Variant") -> "SearchSettings":
+    """How the properties are decided, and what is done with proofs.
+
+    Raises ``UsageError`` for an engine that there is not, or a folder that cannot be written.
+    """
+    from rovercheck.checker.commands.check.certificates import writable
+    from rovercheck.checker.commands.shared.select import pick_engine
+    from rovercheck.checker.model.kept_invariants import invariants_of
+    from rovercheck.checker.verify.checked import SearchSettings
+
+    limits = search.limits(options.memory)
+    engine = _asked(pick_engine(search.engine), options.all_engines)
+    if options.certificates:
+        writable(options.certificates)
+    wanted = options.certify or options.certificates
+    certifying = variant.certifying(options.certificates, options.certify) if wanted else None
+    return SearchSettings(engine, limits, options.jobs, invariants_of(variant.model), certifying)
+
+
+def _delivering(options: CheckOptions, variant: "Variant", charts: VariantOptions) -> "Deliver":
+    """Writes the reports that are asked for.  Raises ``UsageError`` where one cannot be written."""
+    from rovercheck.checker.commands.check.run import undelivered
+
+    if not (options.junit or options.sarif or options.annotations):
+        return undelivered
+    from rovercheck.checker.commands.check.ci import Reports
+
+    charted = _again(variant.model.options, charts.chosen, charts.repair, charts.dropped)
+    reports = Reports(
+        variant.systems(),
+        options.junit,
+        options.sarif,
+        options.annotations or "",
+        variant.name,
+        charted,
+        options.as_json,
+    )
+    reports.possible()
+    return reports.write
 
 
 def _chains(variant: "Variant") -> "Chains | None":
@@ -212,27 +204,32 @@ def _chains(variant: "Variant") -> "Chains | None":
     return Chains(variant)
 
 
-def _further(variant: "Variant", premises: "PremiseSearch | None", chains: "Chains | None") -> "Further":
+def _further(
+    options: CheckOptions, variant: "Variant", search: "SearchSettings", chains: "Chains | None"
+) -> "Further":
     """What is asked of the verdicts; faults are kept of the charts as they are."""
     from rovercheck.checker.commands.check.further import Further, noticing
 
     further = Further(noticing=None if variant.name else noticing(variant.model))
-    if premises is not None:
+    if not options.no_premises:
+        premises = _premises(options, variant, search)
         further = replace(further, heard=premises.heard, cases=premises)
+    if options.record_invariants:
+        from rovercheck.checker.commands.check.invariants import Recording
+
+        further = replace(further, keep=Recording(variant.model, variant.name))
     return further if chains is None else replace(further, chains=chains.standings)
 
 
-def _premises(
-    variant: "Variant", engine: str, limits: Limits, jobs: int | None, quiet: bool, keep: bool
-) -> "PremiseSearch":
+def _premises(options: CheckOptions, variant: "Variant", search: "SearchSettings") -> "PremiseSearch":
     """Asks whether the cases occur that proofs speak of, and keeps the runs if wanted."""
     from rovercheck.checker.commands.check.premises import PremiseSearch, recordable
     from rovercheck.checker.model.kept_runs import file_of, read
 
-    model = variant.model
+    model, keep = variant.model, options.record_premises
     if keep:
         recordable(model, variant.name)
-    return PremiseSearch(model, variant.systems(), read(file_of(model)), engine, limits, jobs, quiet, keep)
+    return PremiseSearch(model, variant.systems(), read(file_of(model)), search, options.quiet, keep)
 
 
 def _again(options: str, chosen: tuple[str, ...], repair: str | None, dropped: tuple[str, ...]) -> str:

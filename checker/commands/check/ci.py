@@ -8,7 +8,6 @@ from pathlib import Path
 from secrets import token_hex
 
 from rovercheck.checker.certify.outcome import Rejected
-from rovercheck.checker.commands.check.run import Compared, evidence, length, recorded
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import possible, write
 from rovercheck.checker.commands.shared.wording import formally
@@ -17,8 +16,10 @@ from rovercheck.checker.render.ci import CiFinding, CiReport, FindingLevel
 from rovercheck.checker.render.ci.github import annotations, summary
 from rovercheck.checker.render.ci.junit import junit
 from rovercheck.checker.render.ci.sarif import sarif
+from rovercheck.checker.render.verdict_text import evidence, recorded
 from rovercheck.checker.results.trace import Trace, counted_ticks
 from rovercheck.checker.results.verdict import Exhausted, Unknown, Violated
+from rovercheck.checker.verify.checked import CheckedProperty, length
 from rovercheck.properties.forms import Reachable
 from rovercheck.spec_model.lang.system import System
 
@@ -58,7 +59,7 @@ class Reports:
         if self._in_log:
             print(f"::stop-commands::{self._token}", flush=True)
 
-    def write(self, found: Sequence[Compared], wanted: int, ended: str = "") -> None:
+    def write(self, found: Sequence[CheckedProperty], wanted: int, ended: str = "") -> None:
         """Write all of them.  Raises ``UsageError`` for a place that cannot be written."""
         findings = tuple(finding(c, self.systems, self.options) for c in found)
         report = CiReport(findings, wanted, self.variant, ended)
@@ -86,7 +87,7 @@ def _summarised(report: CiReport) -> None:
             raise UsageError(f"Cannot write {whole(file)}: {error.strerror}. Unset {SUMMARY}.") from error
 
 
-def finding(compared: Compared, systems: Mapping[str, System], options: str = "") -> CiFinding:
+def finding(compared: CheckedProperty, systems: Mapping[str, System], options: str = "") -> CiFinding:
     """A verdict as every report shows it."""
     prop, verdict = compared.result.property, compared.verdict
     because = verdict.reason if isinstance(verdict, Unknown) else verdict.because
@@ -111,12 +112,12 @@ def finding(compared: Compared, systems: Mapping[str, System], options: str = ""
     )
 
 
-def _rejected(compared: Compared) -> str:
+def _rejected(compared: CheckedProperty) -> str:
     found = compared.result.certificate
     return f"{found.obligation}: {found.shown}" if isinstance(found, Rejected) else ""
 
 
-def level(compared: Compared) -> FindingLevel:
+def level(compared: CheckedProperty) -> FindingLevel:
     """How the verdict counts: as the exit code has it."""
     if isinstance(compared.result.certificate, Rejected):
         return FindingLevel.REJECTED
@@ -132,7 +133,7 @@ def level(compared: Compared) -> FindingLevel:
     return FindingLevel.FAILED
 
 
-def _details(compared: Compared) -> dict[str, str]:
+def _details(compared: CheckedProperty) -> dict[str, str]:
     """Engine, states and bound."""
     verdict, found = compared.verdict, {"engine": compared.verdict.engine}
     if isinstance(verdict, Unknown):

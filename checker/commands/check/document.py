@@ -4,8 +4,9 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.check.certificates import outcome
-from rovercheck.checker.commands.check.run import Compared, evidence, length, worst
 from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.render.verdict_text import evidence
+from rovercheck.checker.verify.checked import CheckedProperty, length, worst
 
 if TYPE_CHECKING:
     from rovercheck.checker.commands.check.standing import Standing
@@ -16,7 +17,7 @@ CASE = {True: "occurs", False: "never", None: "unknown"}
 
 
 def document(
-    found: Sequence[Compared],
+    found: Sequence[CheckedProperty],
     ended: Exit | None = None,
     faulty: bool = False,
     chains: Sequence["Standing"] = (),
@@ -44,7 +45,7 @@ def document(
     }
 
 
-def _row(compared: Compared) -> dict[str, object]:
+def _row(compared: CheckedProperty) -> dict[str, object]:
     prop, verdict = compared.result.property, compared.verdict
     return {
         "id": prop.id,

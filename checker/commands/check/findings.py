@@ -16,9 +16,9 @@ from rovercheck.properties.forms import Property, Reachable
 from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from rovercheck.checker.commands.check.run import Compared
     from rovercheck.checker.commands.check.standing import Standing
     from rovercheck.checker.commands.shared.variant import Variant
+    from rovercheck.checker.verify.checked import CheckedProperty
 
 REPORTS = Path("reports/README.md")
 
@@ -67,7 +67,7 @@ def causes(variant: "Variant") -> str:
     return str(REPORTS) if there else ""
 
 
-def totals(found: Sequence["Compared"]) -> str:
+def totals(found: Sequence["CheckedProperty"]) -> str:
     """``337 demands: 244 proved, 93 violated; 156 situations: all reached.``"""
     kinds = [(one, isinstance(one.result.property.form, Reachable)) for one in found]
     demands = [_word(one) for one, situation in kinds if not situation]
@@ -83,7 +83,7 @@ def totals(found: Sequence["Compared"]) -> str:
     return "; ".join(parts) + "."
 
 
-def _word(one: "Compared") -> str:
+def _word(one: "CheckedProperty") -> str:
     return "in part" if one.result.in_part else one.verdict.word
 
 
@@ -94,7 +94,7 @@ def _shares(words: Sequence[str], called: Mapping[str, str]) -> str:
     return ", ".join(f"{counts[word]} {said}" for word, said in called.items() if word in counts)
 
 
-def about_cases(found: Sequence["Compared"]) -> Iterator[str]:
+def about_cases(found: Sequence["CheckedProperty"]) -> Iterator[str]:
     """Which proofs speak of a case that never occurs, or of which it is not known."""
     told = [(one.result.property, one.case.occurs) for one in found if one.case is not None]
     empty = [prop for prop, occurs in told if occurs is False]
@@ -109,7 +109,7 @@ def about_cases(found: Sequence["Compared"]) -> Iterator[str]:
         yield f"Proved, not known whether the case occurs that is spoken of: {', '.join(unknown)}."
 
 
-def about_faults(found: Sequence["Compared"]) -> Iterator[str]:
+def about_faults(found: Sequence["CheckedProperty"]) -> Iterator[str]:
     """Which proofs notice no fault that is known."""
     idle = sorted(one.result.property.id for one in found if one.idle)
     noticing = sum(one.noticed is True for one in found)
@@ -129,7 +129,7 @@ def about_chains(told: Sequence["Standing"]) -> Iterator[str]:
         yield from (f"  {one.text}" for one in told if not one.holds)
 
 
-def read_on(found: Sequence["Compared"], systems: Mapping[str, System], guide: Guide) -> Iterator[str]:
+def read_on(found: Sequence["CheckedProperty"], systems: Mapping[str, System], guide: Guide) -> Iterator[str]:
     """The gravest findings that are not explained already, and where all are; nothing if there is none."""
     known = gravest([one for one in found if one.as_expected or one.variant], systems, guide.gravest)
     number = sum(one.verdict.word == "violated" for one in found)
@@ -141,7 +141,7 @@ def read_on(found: Sequence["Compared"], systems: Mapping[str, System], guide: G
         yield from _commands(known, number, guide)
 
 
-def listed(ordered: Sequence["Compared"]) -> Iterator[str]:
+def listed(ordered: Sequence["CheckedProperty"]) -> Iterator[str]:
     """The first findings, each in a line."""
     if len(ordered) > SHOWN:
         yield f"Violated, the gravest first, one for each requirement ({SHOWN} of {len(ordered)}):"
@@ -153,7 +153,7 @@ def listed(ordered: Sequence["Compared"]) -> Iterator[str]:
         yield f"  {prop.id}, {one.result.system}: {out_of_reach}{prop.text}"
 
 
-def _commands(known: Sequence["Compared"], number: int, guide: Guide) -> Iterator[str]:
+def _commands(known: Sequence["CheckedProperty"], number: int, guide: Guide) -> Iterator[str]:
     """What to type, or to read, to see more of so many findings."""
     if runs := [one.result.property.id for one in known if one.length is not None]:
         yield f"Tick by tick: {guide.command('trace', runs[0])}"
@@ -164,8 +164,8 @@ def _commands(known: Sequence["Compared"], number: int, guide: Guide) -> Iterato
 
 
 def gravest(
-    found: Sequence["Compared"], systems: Mapping[str, System], order: Sequence[str]
-) -> list["Compared"]:
+    found: Sequence["CheckedProperty"], systems: Mapping[str, System], order: Sequence[str]
+) -> list["CheckedProperty"]:
     """What is violated: for each requirement the gravest finding, in the order of the requirements, then for
     each the next, and so on.
 
@@ -183,7 +183,7 @@ def gravest(
     return [one for _, one in sorted(keyed, key=lambda pair: pair[0])]
 
 
-def _within(one: "Compared", systems: Mapping[str, System]) -> tuple[bool, int, int, str]:
+def _within(one: "CheckedProperty", systems: Mapping[str, System]) -> tuple[bool, int, int, str]:
     """What is graver of two findings about one requirement."""
     prop: Property = one.result.property
     charts = len(systems[one.result.system].charts) if one.result.system in systems else 0

@@ -10,24 +10,23 @@ from rovercheck.checker.results.verdict import Proved
 from rovercheck.properties.forms import Property, Reachable, Unbounded
 
 if TYPE_CHECKING:
-    from rovercheck.checker.commands.check.premises import PremiseCase
-    from rovercheck.checker.commands.check.run import Compared
     from rovercheck.checker.commands.check.standing import Standing
+    from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase
 
 
-def _unheard(_: "Compared") -> None:
+def _unheard(_: "CheckedProperty") -> None:
     """Nothing is asked while others are searched for."""
 
 
-def _no_cases(_: Sequence["Compared"]) -> Mapping[str, "PremiseCase"]:
+def _no_cases(_: Sequence["CheckedProperty"]) -> Mapping[str, "PremiseCase"]:
     return {}
 
 
-def _nothing_kept(_: Sequence["Compared"]) -> None:
+def _nothing_kept(_: Sequence["CheckedProperty"]) -> None:
     """No proof is put on record."""
 
 
-def _no_chains(_: Sequence["Compared"]) -> Sequence["Standing"]:
+def _no_chains(_: Sequence["CheckedProperty"]) -> Sequence["Standing"]:
     return ()
 
 
@@ -41,13 +40,13 @@ class Further:
     record.
     """
 
-    heard: Callable[["Compared"], None] = _unheard
-    cases: Callable[[Sequence["Compared"]], Mapping[str, "PremiseCase"]] = _no_cases
-    chains: Callable[[Sequence["Compared"]], Sequence["Standing"]] = _no_chains
+    heard: Callable[["CheckedProperty"], None] = _unheard
+    cases: Callable[[Sequence["CheckedProperty"]], Mapping[str, "PremiseCase"]] = _no_cases
+    chains: Callable[[Sequence["CheckedProperty"]], Sequence["Standing"]] = _no_chains
     noticing: Collection[str] | None = None
-    keep: Callable[[Sequence["Compared"]], None] = _nothing_kept
+    keep: Callable[[Sequence["CheckedProperty"]], None] = _nothing_kept
 
-    def noticed(self, one: "Compared") -> bool | None:
+    def noticed(self, one: "CheckedProperty") -> bool | None:
         """Whether a fault is known that a proof notices; None of what no fault is looked for."""
         prop = one.result.property
         if self.noticing is None or not isinstance(one.verdict, Proved) or not asks_for_fault(prop):

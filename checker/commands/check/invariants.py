@@ -4,12 +4,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from rovercheck.checker.commands.check.premises import recordable
-from rovercheck.checker.commands.check.run import Compared
 from rovercheck.checker.commands.shared.output import counted, err, wrapped, write
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_invariants import MOST_NODES, invariants_of, row, text
 from rovercheck.checker.model.kept_runs import INVARIANTS, file_of
 from rovercheck.checker.results.verdict import Inductive, Unknown
+from rovercheck.checker.verify.checked import CheckedProperty
 
 
 @dataclass(frozen=True)
@@ -25,7 +25,7 @@ class Recording:
     def __post_init__(self) -> None:
         recordable(self.model, self.variant, INVARIANTS)
 
-    def __call__(self, found: Sequence[Compared]) -> None:
+    def __call__(self, found: Sequence[CheckedProperty]) -> None:
         """Keep them.  Raises ``UsageError`` where the file cannot be written."""
         asked = {one.result.property.id for one in found}
         before = invariants_of(self.model)

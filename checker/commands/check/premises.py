@@ -4,15 +4,16 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from rovercheck.checker.commands.check.run import Compared, evidence, results
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.output import write
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.shared.wrapping import whole
-from rovercheck.checker.engines import Limits
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_runs import INVARIANTS, PREMISES, KeptRun, file_of, read, text
+from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.trace import counted_ticks
 from rovercheck.checker.results.verdict import Proved, Unknown
+from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase, SearchSettings
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.runs.known import reached, run_of
 from rovercheck.properties.forms import Property
@@ -26,40 +27,32 @@ LONG = 60.0
 UNDECIDED = re.compile(r"(not reproduced on [\w.]+): .*", re.DOTALL)
 
 
-@dataclass(frozen=True)
-class PremiseCase:
-    """Whether the case occurs of which a proof speaks (None: not known), and what shows it, in words."""
-
-    occurs: bool | None
-    said: str
-    kept: KeptRun | None = None
-
-
 def cases(
-    found: Sequence[Compared],
+    found: Sequence[CheckedProperty],
     systems: Mapping[str, System],
+    search: SearchSettings,
     known: Mapping[str, KeptRun],
-    engine: str,
-    limits: Limits,
-    jobs: int | None = None,
     quiet: bool = False,
-    patience: float = PATIENCE,
     shown: Mapping[str, PremiseCase] | None = None,
 ) -> dict[str, PremiseCase]:
     """For each proof that speaks of a case, by id, whether it occurs on its system.
 
     A ``known`` run is gone through again on the charts as they are now, unless that was done and it is among
-    those ``shown``; only where it does not show the case any more a run is searched for, ``patience`` seconds
-    long at most.
+    those ``shown``; only where it does not show the case any more a run is searched for.
     """
     wanted, before = _wanted(found), shown or {}
     found_out = {id: before[id] for id in wanted if id in before}
     found_out |= _again({id: case for id, case in wanted.items() if id not in before}, known, systems)
     left = [case for id, case in wanted.items() if id not in found_out]
-    brief = replace(limits, seconds=min(patience, limits.seconds or patience))
-    for one in _searched(left, systems, engine, brief, jobs, quiet):
+    for one in _searched(left, systems, search, quiet):
         found_out[one.property.id] = told(one, systems)
     return found_out
+
+
+def patient(search: SearchSettings, seconds: float) -> SearchSettings:
+    """The same for cases: so many seconds for each at most, and nothing is certified."""
+    limits = replace(search.limits, seconds=min(seconds, search.limits.seconds or seconds))
+    return SearchSettings(search.engine, limits, search.jobs)
 
 
 @dataclass
@@ -72,21 +65,19 @@ class PremiseSearch:
     model: Model
     systems: Mapping[str, System]
     known: Mapping[str, KeptRun]
-    engine: str
-    limits: Limits
-    jobs: int | None
+    search: SearchSettings
     quiet: bool
     keep: bool
     _shown: dict[str, PremiseCase] = field(default_factory=dict)
 
-    def heard(self, one: Compared) -> None:
+    def heard(self, one: CheckedProperty) -> None:
         """Go through the run on record of a proof that speaks of a case."""
         self._shown |= _again(_wanted([one]), self.known, self.systems)
 
-    def __call__(self, found: Sequence[Compared]) -> Mapping[str, PremiseCase]:
+    def __call__(self, found: Sequence[CheckedProperty]) -> Mapping[str, PremiseCase]:
         """For each proof that speaks of a case, by id, whether it occurs on its system."""
-        asked = self.systems, self.known, self.engine, self.limits, self.jobs, self.quiet
-        told = cases(found, *asked, LONG if self.keep else PATIENCE, self._shown)
+        search = patient(self.search, LONG if self.keep else PATIENCE)
+        told = cases(found, self.systems, search, self.known, self.quiet, self._shown)
         if self.keep:
             record(told, self.model)
         return told
@@ -115,7 +106,7 @@ def recordable(model: Model, variant: str, kind: str = PREMISES) -> None:
         raise UsageError(f"Cannot write {whole(file)}: it is no file in a folder that exists.")
 
 
-def _wanted(found: Sequence[Compared]) -> dict[str, Property]:
+def _wanted(found: Sequence[CheckedProperty]) -> dict[str, Property]:
     """The cases that proofs speak of, by id."""
     proved = (c.result.property for c in found if isinstance(c.verdict, Proved))
     return {prop.id: case for prop in proved if (case := premise(prop)) is not None}
@@ -135,24 +126,19 @@ def _again(
 
 
 def _searched(
-    asked: Sequence[Property],
-    systems: Mapping[str, System],
-    engine: str,
-    limits: Limits,
-    jobs: int | None,
-    quiet: bool,
+    asked: Sequence[Property], systems: Mapping[str, System], search: SearchSettings, quiet: bool
 ) -> Iterator[Result]:
     """What came of searching for cases; where none is found on the rover, on the system that was searched."""
     free = {name: replace(system, over=False, concrete="") for name, system in systems.items()}
     first = {name: system if system.concrete else free[name] for name, system in systems.items()}
     again = list[Property]()
-    for one in results(asked, first, engine, limits, jobs, quiet=quiet) if asked else ():
+    for one in results(asked, first, search, quiet) if asked else ():
         if not isinstance(one.verdict, Proved) and first[one.property.on].over:
             again.append(one.property)
         else:
             yield one
     if again:
-        yield from results(again, free, engine, limits, jobs, quiet=quiet)
+        yield from results(again, free, search, quiet)
 
 
 def told(one: Result, systems: Mapping[str, System]) -> PremiseCase:
@@ -173,4 +159,4 @@ def _occurs(ticks: int, system: System) -> str:
     return f"it occurs: after {counted_ticks(ticks)} of {system.name}{more}"
 
 
-__all__ = ["LONG", "PATIENCE", "PremiseCase", "PremiseSearch", "cases", "record", "recordable", "told"]
+__all__ = ["LONG", "PATIENCE", "PremiseSearch", "cases", "record", "recordable", "told"]

@@ -1,11 +1,10 @@
 """``rovercheck check``: verdicts against the baseline."""
 
-from collections.abc import Callable, Generator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Protocol
+from typing import Protocol
 
-from rovercheck.checker.certify.outcome import Rejected
 from rovercheck.checker.commands.check.certificates import certificates, certified
 from rovercheck.checker.commands.check.findings import (
     ALONE,
@@ -20,248 +19,154 @@ from rovercheck.checker.commands.check.further import NOTHING_FURTHER, Further
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.failure import alarm, code_of, told
 from rovercheck.checker.commands.shared.output import err, out, wrapped
-from rovercheck.checker.commands.shared.progress import Watch
+from rovercheck.checker.commands.shared.verdicts import BY_DEFAULT, results
 from rovercheck.checker.commands.shared.wrapping import plain
-from rovercheck.checker.engines import Limits
 from rovercheck.checker.io.printable import json_text
-from rovercheck.checker.model.kept_invariants import Recorded
 from rovercheck.checker.process.faults import Fault, heard, listening, tell
-from rovercheck.checker.render.story import repeating
-from rovercheck.checker.results.trace import Trace, counted_ticks
-from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
-from rovercheck.checker.system.formula_json import Tree
-from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.searches import Over, SearchDoing, Warned, searches
-from rovercheck.checker.verify.tasks import Task, tasks
-from rovercheck.properties.catalogue import Expected, expected
-from rovercheck.properties.forms import Property, Reachable
+from rovercheck.checker.render.verdict_text import in_short, recorded
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Violated
+from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings, worst
+from rovercheck.properties.catalogue import expected
+from rovercheck.properties.expected import Expected
+from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.system import System
 
-if TYPE_CHECKING:
-    from rovercheck.checker.commands.check.premises import PremiseCase
-    from rovercheck.checker.verify.certificates import Certifying
-
-NONE_RECORDED: Recorded = {}
 EVIDENCE = 33
 """The column in which the evidence of a verdict begins."""
 SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
 
 
-@dataclass(frozen=True)
-class Compared:
-    """A result beside the verdict on record; ``variant`` says how the charts differ from those specified.
-
-    ``case``: whether the case occurs that a proof speaks of, ``noticed``: whether a fault is known that it
-    notices, each if that was asked.  With ``strict``, a proof of a case that never occurs is not enough, nor
-    one that notices no known fault.
-    """
-
-    result: Result
-    expected: Expected
-    variant: str = ""
-    case: "PremiseCase | None" = None
-    noticed: bool | None = None
-    strict: bool = False
-
-    @property
-    def verdict(self) -> Verdict:
-        return self.result.verdict
-
-    @property
-    def word(self) -> str:
-        """The verdict for people; ``proved in part`` where only some of the runs were searched."""
-        said = f"{self.verdict.word} in part" if self.result.in_part else self.verdict.word
-        return f"{said}, of nothing" if self.empty else said
-
-    @property
-    def empty(self) -> bool:
-        """Whether it is a proof of a case that never occurs."""
-        return self.case is not None and self.case.occurs is False
-
-    @property
-    def idle(self) -> bool:
-        """Whether it is a proof that notices no known fault, and the baseline does not say why."""
-        return self.noticed is False and not self.expected.no_fault
-
-    @property
-    def as_expected(self) -> bool:
-        """Same verdict, and for a counterexample on record the same length."""
-        if self.verdict.word != self.expected.verdict:
-            return False
-        depth = None if self.variant else self.expected.depth
-        return depth is None or not isinstance(self.verdict, Violated) or length(self.verdict) == depth
-
-    @property
-    def length(self) -> int | None:
-        """The number of ticks of the run that the verdict rests on, if it rests on one."""
-        return length(self.verdict)
-
-    @property
-    def code(self) -> Exit:
-        if isinstance(self.result.certificate, Rejected):
-            return Exit.INTERNAL
-        if self.strict and self.case is not None and not self.case.occurs:
-            return Exit.CHANGED if self.empty else Exit.INCONCLUSIVE
-        if self.strict and self.idle and not self.variant:
-            return Exit.INCONCLUSIVE
-        if self.as_expected or (self.variant and isinstance(self.verdict, Proved)):
-            return Exit.AS_EXPECTED
-        return Exit.INCONCLUSIVE if isinstance(self.verdict, Unknown) else Exit.CHANGED
-
-
-def length(verdict: Verdict) -> int | None:
-    """The number of ticks of the trace a verdict rests on, if it rests on one."""
-    because = None if isinstance(verdict, Unknown) else verdict.because
-    return len(because) if isinstance(because, Trace) else None
-
-
-def results(
-    properties: Sequence[Property],
-    systems: Mapping[str, System],
-    engine: str,
-    limits: Limits,
-    jobs: int | None = None,
-    certifying: "Certifying | None" = None,
-    quiet: bool = False,
-    invariants: Recorded = NONE_RECORDED,
-) -> Generator[Result, None, None]:
-    """Decide the properties, several searches at a time; results come as they are found.
-
-    With ``quiet``, nothing is said meanwhile.  The ``invariants`` on record are tried first.
-
-    On Ctrl-C the searches under way are ended and ``KeyboardInterrupt`` is raised.
-    """
-    # The largest first, so that no long search is left for the end; those of one system together.
-    asked = (replace(task, recorded=_on_record(task, invariants)) for task in tasks(properties, systems))
-    todo = sorted(asked, key=lambda t: (-t.size, t.system.name, t.title))
-    heard = searches(todo, systems, engine, limits, jobs, certifying)
-    with Watch(err, len(todo), quiet) as watch, closing(heard):
-        for one in heard:
-            match one:
-                case SearchDoing(task, line):
-                    watch.say(task.title, line)
-                case Over(task):
-                    watch.finished(task.title)
-                case Warned(text):
-                    err.print(text, markup=False)
-                case Result():
-                    system = systems.get(one.system, systems[one.property.on])
-                    yield replace(one, in_part=_in_part(one, system), limited_to=_limited_to(one, system))
-
-
-def _on_record(task: Task, invariants: Recorded) -> tuple[Tree, ...] | None:
-    """The conjuncts of all proofs on record of the properties of a task; None if there is none."""
-    known = [invariants[p.id] for p in task.properties if p.id in invariants]
-    return tuple(tree for trees in known for tree in trees) if known else None
-
-
-def _in_part(result: Result, system: System) -> bool:
-    """Whether a search of too few runs was exhausted; a run found in it is a run of the rover."""
-    verdict = result.verdict
-    return system.under and not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace)
-
-
-def _limited_to(result: Result, system: System) -> str:
-    """What is said of the system beside a proof; a run is one of the rover whatever was left out."""
-    verdict = result.verdict
-    rests_on_all = not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace)
-    return system.limited_to if rests_on_all else ""
-
-
 class Deliver(Protocol):
     """Takes what was decided, how many properties were asked for, and the error that ended it early."""
 
-    def __call__(self, found: Sequence[Compared], wanted: int, ended: str = "") -> None: ...
+    def __call__(self, found: Sequence[CheckedProperty], wanted: int, ended: str = "") -> None: ...
 
 
-def undelivered(found: Sequence[Compared], wanted: int, ended: str = "") -> None:
+def undelivered(found: Sequence[CheckedProperty], wanted: int, ended: str = "") -> None:
     """No report beside what is printed."""
 
 
-def check(
-    properties: Sequence[Property],
-    systems: Mapping[str, System],
-    engine: str,
-    limits: Limits,
-    as_json: bool,
-    variant: str = "",
-    expect: Callable[[str], Expected] = expected,
-    jobs: int | None = None,
-    certifying: "Certifying | None" = None,
-    guide: Guide = ALONE,
-    deliver: Deliver = undelivered,
-    quiet: bool = False,
-    further: Further = NOTHING_FURTHER,
-    strict: bool = False,
-    invariants: Recorded = NONE_RECORDED,
-) -> Exit:
-    """Print every verdict with its evidence and what the baseline says of it.
+@dataclass(frozen=True)
+class CheckRequest:
+    """What is decided: properties of systems by name, and the verdict that each is expected to have.
 
-    ``guide`` is what helps to read on.  ``deliver`` is called once at the end, however that comes.  With
-    ``quiet``, only what is not as expected is printed.  What is asked ``further`` is asked of all that was
-    found; ``strict`` makes a proof an error that speaks of a case that never occurs, or notices no fault.
+    ``variant`` says how the charts differ from those specified.  What is asked ``further`` is asked of all
+    that was found; with ``strict`` a proof is an error that speaks of a case that never occurs, or notices no
+    fault.
     """
-    if not properties:
+
+    properties: Sequence[Property]
+    systems: Mapping[str, System]
+    search: SearchSettings = BY_DEFAULT
+    variant: str = ""
+    expected: Callable[[str], Expected] = expected
+    further: Further = NOTHING_FURTHER
+    strict: bool = False
+
+    def checked(self, found: Sequence[CheckedProperty]) -> list[CheckedProperty]:
+        """The same with what was asked further."""
+        cases = self.further.cases(found)
+        return [
+            replace(
+                c,
+                case=cases.get(c.result.property.id),
+                noticed=self.further.noticed(c),
+                strict=self.strict,
+            )
+            for c in found
+        ]
+
+
+@dataclass(frozen=True)
+class CheckOutput:
+    """How verdicts are told: with ``quiet`` only what is not as expected is printed.
+
+    ``guide`` is what helps to read on.  ``deliver`` is called once at the end, however that comes.
+    """
+
+    as_json: bool = False
+    quiet: bool = False
+    guide: Guide = ALONE
+    deliver: Deliver = undelivered
+
+    def each(self, one: CheckedProperty) -> None:
+        """Print a verdict as soon as it is there."""
+        if not self.as_json and not (self.quiet and one.code is Exit.AS_EXPECTED):
+            out.print(wrapped(line(one), EVIDENCE), markup=False)
+
+
+PRINTED = CheckOutput()
+
+
+def check(request: CheckRequest, output: CheckOutput = PRINTED) -> Exit:
+    """Print every verdict with its evidence and what the baseline says of it."""
+    wanted = len(request.properties)
+    if not wanted:
         err.print("Nothing to check: the selection holds no property.")
-        deliver([], 0)
+        output.deliver([], 0)
         return Exit.NOTHING
-    found: list[Compared] = []
+    found: list[CheckedProperty] = []
     faults: list[Fault] = []
     try:
         with (
             listening(faults.append),
-            closing(
-                results(properties, systems, engine, limits, jobs, certifying, quiet, invariants)
-            ) as coming,
+            closing(results(request.properties, request.systems, request.search, output.quiet)) as coming,
         ):
             for result in coming:
-                found.append(Compared(result, expect(result.property.id), variant))
-                if not as_json and not (quiet and found[-1].code is Exit.AS_EXPECTED):
-                    out.print(wrapped(line(found[-1]), EVIDENCE), markup=False)
-                further.heard(found[-1])
-        further.keep(found)
-        cases, chains = further.cases(found), further.chains(found)
-        found = [
-            replace(c, case=cases.get(c.result.property.id), noticed=further.noticed(c), strict=strict)
-            for c in found
-        ]
+                found.append(CheckedProperty(result, request.expected(result.property.id), request.variant))
+                output.each(found[-1])
+                request.further.heard(found[-1])
+        request.further.keep(found)
+        found, chains = request.checked(found), request.further.chains(found)
     except BaseException as error:
-        if as_json:
-            from rovercheck.checker.commands.check.document import document
-
-            gravest = bool(faults) and not isinstance(error, KeyboardInterrupt)
-            print(json_text(document(found, code_of(error), gravest), ascii=True))
-        alarms = _alarmed(faults)
-        deliver(found, len(properties), " ".join(filter(None, (_why(error), alarms))))
-        from rovercheck.checker.certify.file import Unwritable
-
-        if isinstance(error, Unwritable):
-            raise UsageError(str(error)) from error
-        if not isinstance(error, KeyboardInterrupt):
-            raise
-        err.print(f"Interrupted: {len(found)} of {len(properties)} properties decided.")
-        return Exit.INTERRUPTED
-    if as_json:
+        return _ended(error, found, faults, wanted, output)
+    if output.as_json:
         from rovercheck.checker.commands.check.document import document
 
         print(json_text(document(found, chains=chains, faulty=bool(faults)), ascii=True))
-    elif not quiet:
+    elif not output.quiet:
         out.print()
-        summary(found, guide)
-        said = (
-            *about_cases(found),
-            *about_faults(found),
-            *about_chains(chains),
-            *read_on(found, systems, guide),
-        )
-        for text in said:
-            out.print(wrapped(text, 4), markup=False)
-    elif strict:
+        summary(found, output.guide)
+        about = *about_cases(found), *about_faults(found), *about_chains(chains)
+        _say(*about, *read_on(found, request.systems, output.guide))
+    elif request.strict:
         wrong = [c for c in found if c.code is not Exit.AS_EXPECTED]
-        for text in (*about_cases(wrong), *about_faults(wrong)):
-            out.print(wrapped(text, 4), markup=False)
-    deliver(found, len(properties), _alarmed(faults))
+        _say(*about_cases(wrong), *about_faults(wrong))
+    output.deliver(found, wanted, _alarmed(faults))
     return Exit.INTERNAL if faults else worst(found)
+
+
+def _ended(
+    error: BaseException,
+    found: Sequence[CheckedProperty],
+    faults: Sequence[Fault],
+    wanted: int,
+    output: CheckOutput,
+) -> Exit:
+    """What was decided when an error or Ctrl-C ended the check is delivered all the same.
+
+    Raises the error again, unless it is Ctrl-C; as ``UsageError`` where no certificate can be written.
+    """
+    if output.as_json:
+        from rovercheck.checker.commands.check.document import document
+
+        gravest = bool(faults) and not isinstance(error, KeyboardInterrupt)
+        print(json_text(document(found, code_of(error), gravest), ascii=True))
+    output.deliver(found, wanted, " ".join(filter(None, (_why(error), _alarmed(faults)))))
+    from rovercheck.checker.certify.file import Unwritable
+
+    if isinstance(error, Unwritable):
+        raise UsageError(str(error)) from error
+    if not isinstance(error, KeyboardInterrupt):
+        raise error
+    err.print(f"Interrupted: {len(found)} of {wanted} properties decided.")
+    return Exit.INTERRUPTED
+
+
+def _say(*texts: str) -> None:
+    for text in texts:
+        out.print(wrapped(text, 4), markup=False)
 
 
 def _alarmed(faults: Sequence[Fault]) -> str:
@@ -281,16 +186,7 @@ def _why(error: BaseException) -> str:
     return plain(str(error)) if code_of(error) is Exit.USAGE else told(error)
 
 
-def worst(found: Sequence[Compared]) -> Exit:
-    """A bug of ours outweighs a change, and that an inconclusive search."""
-    codes = {c.code for c in found}
-    for code in (Exit.INTERNAL, Exit.CHANGED, Exit.INCONCLUSIVE):
-        if code in codes:
-            return code
-    return Exit.AS_EXPECTED
-
-
-def line(compared: Compared) -> str:
+def line(compared: CheckedProperty) -> str:
     """One verdict in one line of 80 columns: sign, id, verdict, evidence."""
     verdict = compared.verdict
     sign = "≈" if compared.result.in_part else SIGNS[verdict.word]
@@ -302,64 +198,12 @@ def line(compared: Compared) -> str:
     return text + f"\n    {_other(compared)} is {recorded(compared.expected)}"
 
 
-def _other(compared: Compared) -> str:
+def _other(compared: CheckedProperty) -> str:
     """What the verdict is compared with, in front of the verdict on record."""
     return f"{compared.variant}; as specified it" if compared.variant else "CHANGED: on record"
 
 
-def in_short(result: Result) -> str:
-    """The evidence in half a line."""
-    verdict, system = result.verdict, result.system
-    match verdict:
-        case Unknown(reason, depth):
-            return f"after {counted_ticks(depth)} of {system}: {reason}"
-        case Proved((Exhausted() | Inductive()) as evidence_, _, claim):
-            return _joined(f"{evidence_.how} of {system}", claim, result.limited_to)
-        case Violated((Exhausted() | Inductive()) as evidence_):
-            return _joined(f"never: {evidence_.how} of {system}", result.limited_to)
-        case Proved(Trace() as trace):
-            return f"reached in {ticks(trace)} of {system}"
-        case Violated(Trace() as trace):
-            return f"{ticks(trace)} of {system}"
-    raise AssertionError(verdict)
-
-
-def _joined(*said: str) -> str:
-    return ", ".join(filter(None, said))
-
-
-def recorded(entry: Expected) -> str:
-    depth = f" after {counted_ticks(entry.depth)}" if entry.depth is not None else ""
-    return f"{entry.verdict}{depth}"
-
-
-def evidence(result: Result) -> str:
-    """What the verdict rests on, in a few words."""
-    verdict = result.verdict
-    match verdict:
-        case Unknown(reason, depth, engine):
-            none = "no run to it" if isinstance(result.property.form, Reachable) else "no counterexample"
-            return f"{engine} on {result.system}, {none} within {counted_ticks(depth)}: {reason}"
-        case Proved((Exhausted() | Inductive()) as shown, engine, claim):
-            whole = f"{engine}: {shown.how} of {result.system}"
-            whole += f", depth {shown.depth}" if isinstance(shown, Exhausted) else ""
-            return _joined(whole, claim, result.limited_to)
-        case Violated((Exhausted() | Inductive()) as shown, engine):
-            return _joined(f"{engine}: in none of {shown.how} of {result.system}", result.limited_to)
-        case Proved(Trace() as trace, engine):
-            return f"{engine}: witness of {ticks(trace)} on {result.system}"
-        case Violated(Trace() as trace, engine):
-            return f"{engine}: counterexample of {ticks(trace)} on {result.system}"
-    raise AssertionError(verdict)
-
-
-def ticks(trace: Trace) -> str:
-    """``155 ticks = 3.1 s``, and how many of them repeat for ever."""
-    seconds = trace.ms(len(trace)) / 1000
-    return f"{counted_ticks(len(trace))} = {seconds:g} s{repeating(trace)}"
-
-
-def summary(found: Sequence[Compared], guide: Guide) -> None:
+def summary(found: Sequence[CheckedProperty], guide: Guide) -> None:
     """Counts, and for each change what to do next."""
     changed = [c for c in found if not c.as_expected]
     out.print(totals(found), markup=False)
@@ -377,7 +221,7 @@ def summary(found: Sequence[Compared], guide: Guide) -> None:
         _explain(compared, guide)
 
 
-def _explain(compared: Compared, guide: Guide) -> None:
+def _explain(compared: CheckedProperty, guide: Guide) -> None:
     prop, verdict = compared.result.property, compared.verdict
     out.print(f"\n{prop.id} is {verdict.word}, on record is {recorded(compared.expected)}.", markup=False)
     out.print(f"  {prop.text}", markup=False)
@@ -386,6 +230,3 @@ def _explain(compared: Compared, guide: Guide) -> None:
         for arrow in fired[-3:]:
             out.print(f"  fired: {arrow}", markup=False)
         out.print(f"  See it whole: {guide.command('trace', prop.id)}", markup=False)
-
-
-__all__ = ["Compared", "check", "evidence", "length", "results", "ticks"]

@@ -16,7 +16,7 @@ from rovercheck.properties.promises.promise import Chain, Promise
 from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 if TYPE_CHECKING:
-    from rovercheck.checker.commands.check.run import Compared
+    from rovercheck.checker.verify.checked import CheckedProperty
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ class Chains:
             links = [p for p in concerned if not same(_slice(before, specified[p.id]), _slice(after, p))]
         return {p.id: p for p in links}
 
-    def standings(self, found: Sequence["Compared"]) -> list[Standing]:
+    def standings(self, found: Sequence["CheckedProperty"]) -> list[Standing]:
         """What becomes of each chain, from the verdicts that were found and else those on record."""
         known = {id: "unknown" for id in self.links} | {c.result.property.id: c.verdict.word for c in found}
         told = list[Standing]()

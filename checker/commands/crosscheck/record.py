@@ -10,9 +10,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
 import rovercheck.checker.compare
-from rovercheck.checker.commands.check.run import results
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.compare.recorded import COUNTEREXAMPLES, KeptSuite, encoded, kept
-from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.io.files import replaced
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
@@ -60,7 +59,7 @@ def in_steps_of(board: Board, system: System, at: Mapping[str, int]) -> dict[str
 def counterexamples() -> Iterator[Found]:
     """The run of every property that is violated and quick to decide."""
     wanted = [p for p in catalogue().values() if not p.costly and expected(p.id).verdict == "violated"]
-    for result in results(wanted, systems(), AUTO, Limits()):
+    for result in results(wanted, systems()):
         verdict = result.verdict
         if not isinstance(verdict, Unknown) and isinstance(verdict.because, Trace):
             yield result.property.id, result.system, verdict.because

@@ -35,11 +35,11 @@ def _trace(explorer: Explorer, rest: str) -> None:
 
 def _decided(prop: Property, variant: Variant) -> Trace:
     """The run that the verdict on a property rests on.  Raises ``RefusedInput`` if there is none."""
-    from rovercheck.checker.commands.check.run import evidence, results
-    from rovercheck.checker.engines import AUTO, Limits
+    from rovercheck.checker.commands.shared.verdicts import results
+    from rovercheck.checker.render.verdict_text import evidence
     from rovercheck.checker.results.verdict import Unknown
 
-    [result] = results([prop], variant.systems(), AUTO, Limits())
+    [result] = results([prop], variant.systems())
     if isinstance(result.verdict, Unknown) or not isinstance(result.verdict.because, Trace):
         raise RefusedInput(f"{prop.id} is {result.verdict.word} and has no run to load: {evidence(result)}")
     return result.verdict.because

@@ -28,8 +28,7 @@ from rovercheck.checker.explore.by_hand.session import Session
 from rovercheck.checker.explore.by_hand.written import RefusedInput
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
-from rovercheck.spec_model.lang.system import System, in_order
-from rovercheck.spec_model.rover import charts_of
+from rovercheck.spec_model.lang.system import System, charts_of, in_order
 
 # --- all commands of rovercheck explore, by name or its beginning, with a sentence of help each --------
 

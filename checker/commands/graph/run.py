@@ -5,19 +5,20 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from shlex import quote
 
-from rovercheck.checker.commands.check.run import evidence, results
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, out, text_width, wrapped, write, wrote
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.commands.shared.select import pick
 from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.shared.wrapping import whole
-from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.engines import Limits
 from rovercheck.checker.explore.graphs.making import Made, made
 from rovercheck.checker.explore.graphs.suggesting import Offer, Suggestions, among, suggestions
 from rovercheck.checker.model import names_of
 from rovercheck.checker.render import Renderer, renderers
 from rovercheck.checker.render.stategraph.findings import told
+from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.graph import MOST_NODES, StateGraph, drawable, with_trace
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
@@ -27,8 +28,7 @@ from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.lower import lower
-from rovercheck.spec_model.lang.system import System, TransitionSystem
-from rovercheck.spec_model.rover import charts_of
+from rovercheck.spec_model.lang.system import System, TransitionSystem, charts_of
 
 # --- how to project ------------------------------------------------------------------------------------
 
@@ -232,7 +232,7 @@ def _monitored(system: System, prop: Property | None) -> tuple[TransitionSystem,
 
 def _trace(prop: Property, systems: Mapping[str, System]) -> Trace | None:
     """The trace of the property; None if it is not known whether there is one.  Raises ``UsageError``."""
-    [result] = results([prop], systems, AUTO, Limits())
+    [result] = results([prop], systems)
     if isinstance(result.verdict, Unknown):
         err.print(f"{prop.id} is unknown: {evidence(result)}", markup=False)
         return None

@@ -4,13 +4,11 @@ from collections.abc import Collection, Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 
-from rovercheck.checker.commands.check.run import results
 from rovercheck.checker.commands.mutate.found import MutationResults
 from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.progress import Watch
-from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.model import Model
-from rovercheck.checker.model.kept_invariants import Recorded, invariants_of
 from rovercheck.checker.model.kept_runs import KILLS, MUTANTS, PREMISES, KeptRun, file_of, read
 from rovercheck.checker.mutate.asked import as_it_is
 from rovercheck.checker.mutate.judging import DOMAINS, NOT_SEARCHED, REFUSED, Fate, Judged
@@ -18,6 +16,7 @@ from rovercheck.checker.mutate.mutants import Mutant
 from rovercheck.checker.mutate.planning import Plan, Planned, rounds
 from rovercheck.checker.mutate.running import MutantJudged, MutantProgress, fates
 from rovercheck.checker.results.verdict import Run
+from rovercheck.checker.verify.checked import SearchSettings
 from rovercheck.properties.forms import Property, Reachable, Unbounded
 
 UNKILLED = (Fate.SURVIVOR, Fate.NOTICED, Fate.UNKNOWN)
@@ -31,8 +30,7 @@ def judge(
     model: Model,
     properties: Sequence[Property],
     todo: Sequence[tuple[str, Mutant]],
-    limits: Limits,
-    jobs: int | None,
+    search: SearchSettings,
     alone: bool,
     found: MutationResults,
 ) -> None:
@@ -44,7 +42,7 @@ def judge(
     recorded = {p.id: _on_record(model, p.id) for p in properties}
     known = [read(file_of(model, kind), kind) for kind in (PREMISES, KILLS, MUTANTS)]
     plan = Plan(model.systems, properties, recorded, on_record=_runs(known))
-    stages = _Stages(plan, at, limits, jobs, found, invariants_of(model))
+    stages = _Stages(plan, at, search, found)
     own = [p for p in properties if p.on in set(at.values())]
     stages.decide(own)
     found.undecided += [p.id for p in own if p.id not in plan.proved]
@@ -65,17 +63,15 @@ class _Stages:
 
     plan: Plan
     at: Mapping[str, str]
-    limits: Limits
-    jobs: int | None
+    search: SearchSettings
     found: MutationResults
-    invariants: Recorded
     _asked: set[str] = field(default_factory=set)
 
     def decide(self, asked: Sequence[Property]) -> None:
         """Let the plan know the verdicts on the originals, in which every run counts."""
         own = {name: as_it_is(self.plan.systems[name]) for name in {p.on for p in asked}}
         self._asked |= {p.id for p in asked}
-        for result in results(asked, own, AUTO, self.limits, self.jobs, invariants=self.invariants):
+        for result in results(asked, own, self.search):
             self.plan.learn(result)
 
     def by_runs(self, todo: Sequence[Mutant]) -> list[Mutant]:
@@ -177,7 +173,7 @@ class _Stages:
         with Watch(err, len(planned)) as watch:
             for some in rounds(planned):
                 known = [self.plan.with_runs(one, drawn) for one in some]
-                with closing(fates(known, self.limits, self.jobs, before, search)) as heard:
+                with closing(fates(known, self.search.limits, self.search.jobs, before, search)) as heard:
                     for one in heard:
                         match one:
                             case MutantProgress(mutant, line):

@@ -17,11 +17,13 @@ from rovercheck.checker.commands.shared.tables import listed
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model import Model
+from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.model.kept_runs import MUTANTS, KeptRun, file_of, read, text
 from rovercheck.checker.mutate.asked import as_it_is
 from rovercheck.checker.mutate.judging import Fate
 from rovercheck.checker.mutate.mutants import Mutant, mutants
 from rovercheck.checker.mutate.planning import homes
+from rovercheck.checker.verify.checked import SearchSettings
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.system import System
 
@@ -86,7 +88,8 @@ def mutate(model: Model, wanted: MutateOptions, limits: Limits, as_json: bool) -
     found.chosen = len(todo)
     code = Exit.INTERRUPTED
     try:
-        judge(model, properties, todo, limits, wanted.jobs, wanted.alone, found)
+        search = SearchSettings(limits=limits, jobs=wanted.jobs, invariants=invariants_of(model))
+        judge(model, properties, todo, search, wanted.alone, found)
         code = found.code
     except KeyboardInterrupt:
         err.print(f"Interrupted: {len(found.told)} of {found.chosen} mutants judged.")

@@ -1,6 +1,6 @@
 """The verb ``report``: one page with all verdicts and their evidence, for reviewers."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from shlex import join
 
@@ -11,11 +11,13 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.options import (
     GIB,
     SearchOptions,
+    SelectionOptions,
     VariantOptions,
     gathered,
     modelling,
     quietly,
     searching,
+    selecting,
     varying,
 )
 from rovercheck.checker.engines import LOADED
@@ -26,22 +28,23 @@ FILE = "FILE"
 
 @dataclass(frozen=True)
 class PageOptions:
-    """Which properties the page is about, and what it shows of them."""
+    """What the page shows of properties, and how they are decided.
 
-    ids: tuple[str, ...]
-    about: tuple[str, ...]
-    full: bool
-    certify: bool
-    no_repairs: bool
-    premises: bool
-    explain: bool
-    date: str
-    jobs: int | None
-    memory: float
+    ``command`` is the command line itself; ``date`` is shown as given.  ``some``: properties were selected.
+    """
+
+    certify: bool = False
+    no_repairs: bool = False
+    premises: bool = False
+    explain: bool = False
+    date: str = ""
+    jobs: int | None = None
+    memory: float = 8.0
+    command: str = ""
+    some: bool = False
 
 
 @click.command(short_help="Write one page with all verdicts, for reviewers.")
-@click.argument("ids", nargs=-1, metavar="[ID]...")
 @click.option(
     "--output",
     "-o",
@@ -50,10 +53,7 @@ class PageOptions:
     metavar=FILE,
     help="The HTML file to write.",
 )
-@click.option(
-    "--system", "about", multiple=True, metavar="NAME", help="Only properties about this system, or these."
-)
-@click.option("--full", is_flag=True, help="Also the properties that take long.")
+@selecting
 @click.option("--certify", is_flag=True, help="Check every proof again, without the engine that found it.")
 @click.option("--no-repairs", is_flag=True, help="Without deciding the proposed repairs.")
 @click.option("--premises", is_flag=True, help="Also whether the case occurs that each proof speaks of.")
@@ -80,41 +80,36 @@ class PageOptions:
 @click.pass_context
 @gathered(PageOptions, "options")
 def report(
-    context: click.Context, options: PageOptions, output: Path, charts: VariantOptions, search: SearchOptions
+    context: click.Context,
+    selection: SelectionOptions,
+    options: PageOptions,
+    output: Path,
+    charts: VariantOptions,
+    search: SearchOptions,
 ) -> Exit:
     """Check properties and write one HTML page for reviewers, which needs no network."""
     from rovercheck.checker.process.isolate import prepared
 
     with prepared(*LOADED):
-        from rovercheck.checker.commands.report.run import ReportOptions
         from rovercheck.checker.commands.report.run import report as run
-        from rovercheck.checker.commands.shared.select import pick_engine, pick_properties
+        from rovercheck.checker.commands.shared.select import pick_engine
+        from rovercheck.checker.model.kept_invariants import invariants_of
+        from rovercheck.checker.verify.checked import SearchSettings
 
         variant = charts.variant()
-        properties = pick_properties(
-            options.ids, options.about, variant.properties(), options.full, variant.unchanged()
-        )
-        if variant.name and not options.ids:
-            properties = list(filter(variant.concerns(), properties))
+        properties = selection.properties(variant)
         if variant.name:
             properties = variant.askable(properties)
-        whole = not (options.ids or options.about or variant.name)
-        return run(
-            variant,
-            properties,
-            ReportOptions(
-                command(context),
-                whole,
-                not options.no_repairs,
-                options.premises,
-                options.explain,
-                options.date,
-            ),
-            output,
+        settings = SearchSettings(
             pick_engine(search.engine),
             search.limits(options.memory),
             options.jobs,
+            invariants_of(variant.model),
             variant.certifying(None, True) if options.certify else None,
+        )
+        some = not selection.whole or bool(variant.name)
+        return run(
+            variant, properties, settings, replace(options, command=command(context), some=some), output
         )
 
 

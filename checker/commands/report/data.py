@@ -6,8 +6,6 @@ from dataclasses import dataclass, field, fields
 
 from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from rovercheck.checker.commands.check.further import noticing
-from rovercheck.checker.commands.check.premises import PremiseCase
-from rovercheck.checker.commands.check.run import Compared, evidence, recorded
 from rovercheck.checker.commands.shared.wording import formally
 from rovercheck.checker.model import Model
 from rovercheck.checker.render.review.model import (
@@ -22,17 +20,18 @@ from rovercheck.checker.render.review.model import (
     ReviewOrigin,
     Seen,
 )
+from rovercheck.checker.render.verdict_text import evidence, recorded
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Exhausted, Unknown
+from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase
 from rovercheck.properties.coverage import RequirementCoverage, matrix
 from rovercheck.properties.english import HOW_TO_READ
 from rovercheck.properties.forms import Form, Property, formulas
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.expr import Expr, Named
 from rovercheck.spec_model.lang.label import text
-from rovercheck.spec_model.lang.system import System
+from rovercheck.spec_model.lang.system import System, charts_of
 from rovercheck.spec_model.lang.walk import nodes
-from rovercheck.spec_model.rover import charts_of
 
 SAME_CAUSE = re.compile(r"As ([\w-]*\d[\w-]*)\b")
 """How a reason on record begins that is the reason of another finding."""
@@ -58,7 +57,7 @@ class Extras:
 
 
 def reviewed(
-    model: Model, found: Sequence[Compared], origin: ReviewOrigin, extras: Extras, whole: bool = True
+    model: Model, found: Sequence[CheckedProperty], origin: ReviewOrigin, extras: Extras, whole: bool = True
 ) -> Review:
     """All that the page shows.  ``whole``: no selection was made among the properties of the model."""
     shown = sorted(found, key=lambda c: (c.result.property.area, by_number(c.result.property.id)))
@@ -89,7 +88,7 @@ def reviewed(
     )
 
 
-def checked(compared: Compared, model: Model, extras: Extras) -> Checked:
+def checked(compared: CheckedProperty, model: Model, extras: Extras) -> Checked:
     """A property with its verdict."""
     prop, verdict, entry = compared.result.property, compared.verdict, compared.expected
     system = model.systems[prop.on]
@@ -230,7 +229,7 @@ def _demand(row: RequirementCoverage, state: str) -> Demand:
     return Demand(item.id, item.text, item.source, state, item.reason, ids, row.covered)
 
 
-def concerned(results: Iterable[Compared], model: Model) -> list[System]:
+def concerned(results: Iterable[CheckedProperty], model: Model) -> list[System]:
     """The systems that the verdicts are about, in the order of the model."""
     names = {c.result.property.on for c in results} | {c.result.system for c in results}
     with_runs = {model.systems[n].concrete for n in names if n in model.systems}

@@ -4,7 +4,6 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import partial
 
-from rovercheck.checker.commands.check.run import Compared
 from rovercheck.checker.commands.shared.output import counted, err
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.engines import Limits, Progress
@@ -16,6 +15,7 @@ from rovercheck.checker.render.review.model import Seen
 from rovercheck.checker.results.graph import StateGraph, with_trace
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
+from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.properties.forms import Property, Reachable, Unbounded
 from rovercheck.properties.reduce import reduce
 from rovercheck.spec_model.lang.errors import ModelError
@@ -34,7 +34,7 @@ Undrawn = tuple[str, str]
 
 
 def state_graphs(
-    found: Sequence[Compared], systems: Sequence[System], options: str
+    found: Sequence[CheckedProperty], systems: Sequence[System], options: str
 ) -> tuple[tuple[Seen, ...], tuple[Undrawn, ...]]:
     """A graph of each system with few charts and of its own findings, else one for all of the same charts.
 
@@ -68,7 +68,7 @@ def _charts(system: System) -> frozenset[str]:
 def _state_graph(
     system: System,
     asked: Sequence[Property],
-    found: Sequence[Compared],
+    found: Sequence[CheckedProperty],
     options: str,
     progress: Progress,
 ) -> Seen | str:
@@ -93,7 +93,7 @@ def _state_graph(
     return Seen(system.name, graph, marked, runs, f"rovercheck graph {system.name}{options}", unmarked)
 
 
-def _marked(compared: Compared, system: System) -> bool:
+def _marked(compared: CheckedProperty, system: System) -> bool:
     """Whether it is broken by single valuations of the system."""
     prop, word = compared.result.property, compared.verdict.word
     return prop.on == system.name and word == "violated" and not isinstance(prop.form, Reachable | Unbounded)
@@ -157,7 +157,7 @@ def _without_idle(explored: Explored, names: tuple[str, ...]) -> tuple[str, ...]
 
 
 def _paths(
-    graph: StateGraph, found: Sequence[Compared], system: System
+    graph: StateGraph, found: Sequence[CheckedProperty], system: System
 ) -> Iterator[tuple[str, tuple[int, ...]]]:
     """The counterexamples about the system that can be followed in the graph.
 

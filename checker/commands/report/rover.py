@@ -2,18 +2,18 @@
 
 from collections.abc import Iterator, Sequence
 
-from rovercheck.checker.commands.check.run import Compared, evidence, results
 from rovercheck.checker.commands.report.data import Extras
-from rovercheck.checker.commands.reports.repairs import LIMITS, Proof
+from rovercheck.checker.commands.reports.repairs import SEARCH, Proof
 from rovercheck.checker.commands.shared.variant import Variant
-from rovercheck.checker.engines import AUTO
-from rovercheck.checker.model.kept_invariants import invariants_of_rover
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.render.drawing.changes import changes
 from rovercheck.checker.render.review.model import Ambiguity, Covered, Edit, Remedy
+from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.system.instrument.goals import GoalKind
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen import kept_text
 from rovercheck.checker.testgen.keep import kept_of
+from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.catalogue import expected, read_by
 from rovercheck.spec_model.abstraction import boards
@@ -22,7 +22,7 @@ from rovercheck.spec_model.readings import Reading, readings
 from rovercheck.spec_model.repairs import Repair, repairs
 
 
-def extras(variant: Variant, found: Sequence[Compared], with_repairs: bool) -> Extras:
+def extras(variant: Variant, found: Sequence[CheckedProperty], with_repairs: bool) -> Extras:
     """All of it; repairs, which are decided now, only if wanted and for the charts as specified."""
     mended = tuple(remedies(found)) if with_repairs and not variant.name else ()
     taken = tuple(ambiguity(one, variant.choices.get(one.id, one.default)) for one in readings().values())
@@ -43,7 +43,7 @@ def _meaning(one: Reading, choice: str) -> str:
     return f"{one.choices[choice]} (not modelled: {why})".strip() if why else one.choices[choice]
 
 
-def remedies(found: Sequence[Compared]) -> Iterator[Remedy]:
+def remedies(found: Sequence[CheckedProperty]) -> Iterator[Remedy]:
     """The repairs of what was found violated, the properties that they repair decided now."""
     violated = {c.result.property.id for c in found if c.verdict.word == "violated"}
     for repair in repairs().values():
@@ -54,10 +54,7 @@ def remedies(found: Sequence[Compared]) -> Iterator[Remedy]:
 def _decided(repair: Repair, violated: set[str]) -> Iterator[Result]:
     variant = Variant(repair.readings, repair)
     wanted = [variant.properties()[id] for id in repair.fixes if id in violated]
-    by_id = {
-        r.property.id: r
-        for r in results(wanted, variant.systems(), AUTO, LIMITS, invariants=invariants_of_rover())
-    }
+    by_id = {r.property.id: r for r in results(wanted, variant.systems(), SEARCH)}
     yield from (by_id[prop.id] for prop in wanted)
 
 

@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from hashlib import sha256
 from importlib.metadata import PackageNotFoundError, version
 from importlib.util import find_spec
@@ -10,8 +10,9 @@ from pathlib import Path
 
 from rovercheck.checker.certify.file import Unwritable
 from rovercheck.checker.commands.check.findings import Guide
-from rovercheck.checker.commands.check.premises import LONG, PremiseCase, cases
-from rovercheck.checker.commands.check.run import Compared, results, summary, worst
+from rovercheck.checker.commands.check.premises import LONG, cases, patient
+from rovercheck.checker.commands.check.run import summary
+from rovercheck.checker.commands.report import PageOptions
 from rovercheck.checker.commands.report.data import Extras, concerned, reviewed
 from rovercheck.checker.commands.report.forced import with_reasons
 from rovercheck.checker.commands.report.graphs import state_graphs
@@ -19,14 +20,14 @@ from rovercheck.checker.commands.report.rover import extras
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, err, out, write
 from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.shared.wrapping import whole
-from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.engines import Limits
 from rovercheck.checker.model import Model
-from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.model.kept_runs import file_of, read
 from rovercheck.checker.render.review import render
 from rovercheck.checker.render.review.model import ReviewOrigin
-from rovercheck.checker.verify.certificates import Certifying
+from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase, SearchSettings, worst
 from rovercheck.properties.forms import Property
 
 PACKAGES = ("rovercheck", "z3-solver", "bitwuzla", "llvmlite", "python-sat", "oxidd", "numpy", "networkx")
@@ -40,31 +41,12 @@ MEANINGS = {
 }
 
 
-@dataclass(frozen=True)
-class ReportOptions:
-    """What the command line asks for.
-
-    ``command`` is the line itself; ``whole`` says that no selection was made, ``date`` is shown as given.
-    ``repairs`` and ``premises`` are decided too, and what forces a counterexample is looked for, if wanted.
-    """
-
-    command: str
-    whole: bool
-    repairs: bool = True
-    premises: bool = False
-    explain: bool = False
-    date: str = ""
-
-
 def report(
     variant: Variant,
     properties: Sequence[Property],
-    asked: ReportOptions,
+    search: SearchSettings,
+    options: PageOptions,
     output: Path,
-    engine: str = AUTO,
-    limits: Limits = NO_LIMITS,
-    jobs: int | None = None,
-    certifying: Certifying | None = None,
 ) -> Exit:
     """Decide the properties and write the page, all of it or nothing.
 
@@ -78,19 +60,15 @@ def report(
             f"Cannot write {whole(output)}: it is no file in a folder that exists. Choose another --output."
         )
     model = replace(variant.model, systems=variant.systems())
-    known = read(file_of(variant.model)) if asked.premises else {}
-    found: list[Compared] = []
+    known = read(file_of(variant.model)) if options.premises else {}
+    found: list[CheckedProperty] = []
     try:
-        for result in results(
-            properties, model.systems, engine, limits, jobs, certifying, invariants=invariants_of(model)
-        ):
-            found.append(Compared(result, variant.expected(result.property.id), variant.name))
-        if asked.explain:
+        for result in results(properties, model.systems, search):
+            found.append(CheckedProperty(result, variant.expected(result.property.id), variant.name))
+        if options.explain:
             found = with_reasons(found, model.systems)
-        told = (
-            cases(found, model.systems, known, engine, limits, jobs, patience=LONG) if asked.premises else {}
-        )
-        write(page(model, variant, found, asked, told), output)
+        told = cases(found, model.systems, patient(search, LONG), known) if options.premises else {}
+        write(page(model, variant, found, options, told), output)
     except Unwritable as error:
         raise UsageError(str(error)) from error
     except KeyboardInterrupt:
@@ -104,22 +82,24 @@ def report(
 def page(
     model: Model,
     variant: Variant,
-    found: Sequence[Compared],
-    asked: ReportOptions,
+    found: Sequence[CheckedProperty],
+    options: PageOptions,
     told: Mapping[str, PremiseCase] | None = None,
 ) -> str:
     """The page on verdicts that were found; ``told`` says of cases of proofs whether they occur, by id."""
-    own = extras(variant, found, asked.repairs) if model.path is None else Extras()
+    own = extras(variant, found, not options.no_repairs) if model.path is None else Extras()
     graphs, undrawn = state_graphs(found, concerned(found, model), model.options)
     own = replace(own, premises=told or {}, graphs=graphs, undrawn=undrawn)
-    return render(reviewed(model, found, origin(model, variant, worst(found), asked), own, asked.whole))
+    return render(
+        reviewed(model, found, origin(model, variant, worst(found), options), own, not options.some)
+    )
 
 
-def origin(model: Model, variant: Variant, code: Exit, asked: ReportOptions) -> ReviewOrigin:
+def origin(model: Model, variant: Variant, code: Exit, options: PageOptions) -> ReviewOrigin:
     """How the page is made; nothing about the machine or the time, unless the user gave a date."""
     meaning = MEANINGS[code].replace("on record", "expected") if variant.name else MEANINGS[code]
     return ReviewOrigin(
-        asked.command, int(code), meaning, tuple(versions()), digests(model), asked.date, variant.name
+        options.command, int(code), meaning, tuple(versions()), digests(model), options.date, variant.name
     )
 
 
@@ -142,7 +122,7 @@ def digests(model: Model) -> tuple[tuple[str, str], ...]:
 
 
 def _folder(package: str) -> Path:
-    found = find_spec(package)
+    found = find_spec(f"rovercheck.{package}")
     assert found is not None and found.submodule_search_locations
     return Path(next(iter(found.submodule_search_locations)))
 

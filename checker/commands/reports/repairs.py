@@ -1,24 +1,29 @@
 """The pages on proposed repairs: what each changes in the charts, and the proof that it repairs."""
 
+from rovercheck.checker.model.kept_invariants import invariants_of_rover
+from rovercheck.checker.verify.checked import SearchSettings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from html import escape
 
-from rovercheck.checker.commands.check.run import Compared, evidence, results
+from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.render.verdict_text import evidence
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.shared.variant import Variant
 from rovercheck.checker.engines import AUTO, Limits, Timers
 from rovercheck.checker.model.kept_invariants import invariants_of_rover
 from rovercheck.checker.render import renderers
 from rovercheck.checker.render.drawing.changes import changes
 from rovercheck.checker.verify.result import Result
-from rovercheck.properties.catalogue import Expected, catalogue
+from rovercheck.properties.catalogue import catalogue
+from rovercheck.properties.expected import Expected
 from rovercheck.spec_model.lang.chart import Block, Chart, parts
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.repairs import Repair, repairs
 from rovercheck.spec_model.rover import systems
 
-LIMITS = Limits(timers=Timers.FREE)
+SEARCH = SearchSettings(limits=Limits(timers=Timers.FREE), invariants=invariants_of_rover())
 """Timers that run out at will prove most repairs with far fewer valuations."""
 
 
@@ -70,7 +75,7 @@ def _decided(repair: Repair) -> Iterator[Result]:
     wanted = [prop for id in repair.fixes if not (prop := variant.properties()[id]).costly]
     found = {
         r.property.id: r
-        for r in results(wanted, variant.systems(), AUTO, LIMITS, invariants=invariants_of_rover())
+        for r in results(wanted, variant.systems(), SEARCH)
     }
     yield from (found[prop.id] for prop in wanted)
 
@@ -118,7 +123,7 @@ def _cell(text: str) -> str:
 def _verdicts(proof: Proof) -> list[str]:
     name, count = proof.repair.name, proof.others
     lines = [f"With {name}:", ""]
-    lines += [f"- {r.property.id}: {Compared(r, Expected()).word}, {evidence(r)}" for r in proof.results]
+    lines += [f"- {r.property.id}: {CheckedProperty(r, Expected()).word}, {evidence(r)}" for r in proof.results]
     lines += [
         f"- {id}: only in the full profile; `rovercheck check --repair {name} {id}` decides it"
         for id in _costly(proof.repair)

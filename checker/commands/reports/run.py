@@ -1,12 +1,15 @@
 """``rovercheck reports``: the evidence as files that change only when a verdict or a chart does."""
 
+from rovercheck.checker.verify.checked import SearchSettings
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from html import escape
 from pathlib import Path
 
-from rovercheck.checker.commands.check.run import Compared, evidence, results
+from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.render.verdict_text import evidence
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.check.findings import totals
 from rovercheck.checker.commands.shared.output import err, out, write
@@ -50,8 +53,8 @@ def reports(folder: Path, stale: bool) -> Exit:
     What forces the runs takes minutes to find: it is written, and not found again to see what is out of date.
     """
     affordable = [prop for prop in catalogue().values() if not prop.costly]
-    decided = results(affordable, systems(), AUTO, Limits(), invariants=invariants_of_rover())
-    found = [Compared(r, expected(r.property.id)) for r in decided]
+    decided = results(affordable, systems(), SearchSettings(invariants=invariants_of_rover()))
+    found = [CheckedProperty(r, expected(r.property.id)) for r in decided]
     made = pages(found if stale else with_reasons(found, systems()))
     different = list(differences(folder, made))
     if stale:
@@ -122,7 +125,7 @@ def _put(folder: Path, name: str, made: Pages) -> None:
     write(made[name], target)
 
 
-def pages(found: Sequence[Compared]) -> Pages:
+def pages(found: Sequence[CheckedProperty]) -> Pages:
     """Every file of the report, from the verdicts; the repairs are decided here."""
     proved = proofs()
     made = pages_of_verdicts(found, proved) | repair_pages(proved)
@@ -133,7 +136,7 @@ def pages(found: Sequence[Compared]) -> Pages:
     return made
 
 
-def pages_of_verdicts(found: Sequence[Compared], proved: Sequence[Proof] = ()) -> Pages:
+def pages_of_verdicts(found: Sequence[CheckedProperty], proved: Sequence[Proof] = ()) -> Pages:
     """The files on properties, requirements and systems, without the charts; ``proved``: the repairs."""
     ordered = sorted(found, key=lambda c: (c.result.property.area, c.result.property.id))
     made = {
@@ -149,7 +152,7 @@ def pages_of_verdicts(found: Sequence[Compared], proved: Sequence[Proof] = ()) -
     return made
 
 
-def _picture(compared: Compared) -> Pages:
+def _picture(compared: CheckedProperty) -> Pages:
     """The run over time, for what is violated by a run."""
     verdict = compared.verdict
     if isinstance(verdict, Unknown) or not isinstance(verdict.because, Trace):
@@ -162,11 +165,11 @@ def _text(content: str | bytes) -> str:
     return content if isinstance(content, str) else content.decode()
 
 
-def _page(compared: Compared) -> str:
+def _page(compared: CheckedProperty) -> str:
     return f"findings/{compared.result.property.id}.md"
 
 
-def _index(found: Sequence[Compared]) -> str:
+def _index(found: Sequence[CheckedProperty]) -> str:
     lines = ["# Verdicts", "", totals(found), ""]
     lines += [
         "- [Promises](promises.md)",
@@ -202,7 +205,7 @@ def _index(found: Sequence[Compared]) -> str:
     return HEADER + "\n".join(lines) + "\n"
 
 
-def _table(found: Sequence[Compared]) -> list[str]:
+def _table(found: Sequence[CheckedProperty]) -> list[str]:
     rows = [
         "| property | verdict | what it says | requirements | about | evidence |",
         "|---|---|---|---|---|---|",
@@ -237,7 +240,7 @@ def _cell(text: str) -> str:
     return text.replace("|", "\\|")
 
 
-def _finding(compared: Compared, proved: Sequence[Proof]) -> str:
+def _finding(compared: CheckedProperty, proved: Sequence[Proof]) -> str:
     prop, verdict = compared.result.property, compared.verdict
     assert not isinstance(verdict, Unknown)
     known = requirements()

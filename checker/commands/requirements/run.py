@@ -4,15 +4,15 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from rovercheck.checker.commands.check.further import noticing
-from rovercheck.checker.commands.check.run import Compared, results, worst
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.output import out
 from rovercheck.checker.commands.shared.tables import listed
-from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.model.load import load
 from rovercheck.checker.model.rover import rover
+from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings, worst
 from rovercheck.properties.coverage import RequirementCoverage, matrix
 from rovercheck.properties.forms import Property, Reachable
 
@@ -51,16 +51,16 @@ def requirements(decide: bool, as_json: bool, path: Path | None = None) -> Exit:
     if not decide:
         return show(rows, {id: model.expected(id).verdict for id in stated}, ON_RECORD, as_json)
     found = [
-        Compared(r, model.expected(r.property.id))
+        CheckedProperty(r, model.expected(r.property.id))
         for r in results(
-            list(stated.values()), model.systems, AUTO, Limits(), invariants=invariants_of(model)
+            list(stated.values()), model.systems, SearchSettings(invariants=invariants_of(model))
         )
     ]
     code = show(rows, words(found), DECIDED, as_json)
     return code if code != Exit.AS_EXPECTED else worst(found)
 
 
-def words(found: Sequence[Compared]) -> Verdicts:
+def words(found: Sequence[CheckedProperty]) -> Verdicts:
     return {c.result.property.id: c.verdict.word for c in found}
 
 
@@ -160,7 +160,7 @@ def _row(row: RequirementCoverage, verdicts: Verdicts) -> dict[str, object]:
 # --- the page of the reports ---------------------------------------------------------------------
 
 
-def page(found: Sequence[Compared]) -> str:
+def page(found: Sequence[CheckedProperty]) -> str:
     """The matrix in Markdown, from the verdicts found."""
     rows = matrix((c.result.property for c in found), noticing=noticing(rover()))
     verdicts = words(found)

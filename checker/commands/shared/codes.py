@@ -1,19 +1,10 @@
-"""The documented exit codes, and the errors that lead to them."""
+"""What leads to an exit code: the code itself, and the error of a command line without meaning."""
 
-from enum import IntEnum
-
-
-class Exit(IntEnum):
-    """Exit codes of ``rovercheck``."""
-
-    AS_EXPECTED = 0
-    CHANGED = 1
-    INCONCLUSIVE = 2
-    INTERNAL = 3
-    USAGE = 4
-    NOTHING = 5
-    INTERRUPTED = 130
+from rovercheck.checker.results.exit_code import Exit
 
 
 class UsageError(Exception):
     """Something the user wrote has no meaning here: exit code 4."""
+
+
+__all__ = ["Exit", "UsageError"]

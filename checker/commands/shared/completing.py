@@ -52,7 +52,7 @@ def _systems(context: click.Context) -> "Mapping[str, System]":
 
 
 def _drawn(context: click.Context) -> Iterable[str]:
-    from rovercheck.spec_model.rover import charts_of
+    from rovercheck.spec_model.lang.system import charts_of
 
     known = _systems(context)
     return dict.fromkeys([*charts_of(known), *known])

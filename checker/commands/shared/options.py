@@ -5,6 +5,7 @@ from dataclasses import dataclass, fields, replace
 from functools import wraps
 from math import isnan
 from pathlib import Path
+from shlex import join
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -15,6 +16,7 @@ from rovercheck.checker.engines import AUTO, Limits, Timers
 
 if TYPE_CHECKING:
     from rovercheck.checker.commands.shared.variant import Variant
+    from rovercheck.properties.forms import Property
 
 
 class Amount(click.FloatRange):
@@ -44,6 +46,36 @@ class VariantOptions:
         from rovercheck.checker.commands.shared.variant import pick_variant
 
         return pick_variant(self.chosen, self.repair, self.dropped, self.model)
+
+
+@dataclass(frozen=True)
+class SelectionOptions:
+    """Which properties are asked for: by id, about some systems, those that take long too."""
+
+    ids: tuple[str, ...] = ()
+    about: tuple[str, ...] = ()
+    full: bool = False
+
+    @property
+    def whole(self) -> bool:
+        """Whether nothing is selected."""
+        return not self.ids and not self.about
+
+    def properties(self, variant: "Variant") -> "list[Property]":
+        """The properties so chosen; with no id given, only those that the variant concerns.
+
+        Raises ``UsageError`` for a name that there is not.
+        """
+        from rovercheck.checker.commands.shared.select import pick_properties
+
+        found = pick_properties(self.ids, self.about, variant.properties(), self.full, variant.unchanged())
+        return list(filter(variant.concerns(), found)) if variant.name and not self.ids else found
+
+    @property
+    def again(self) -> str:
+        """The words that choose the same properties again."""
+        systems = (word for name in self.about for word in ("--system", name))
+        return join([*self.ids, *systems, *(("--full",) if self.full else ())])
 
 
 @dataclass(frozen=True)
@@ -80,6 +112,22 @@ def gathered(record: type[Any], name: str) -> Callable[[Verb], Verb]:
         return called
 
     return around
+
+
+def selecting(command: Callable[..., Exit]) -> Callable[..., Exit]:
+    """The argument and the options of a verb that decides some properties."""
+    return _with(
+        gathered(SelectionOptions, "selection")(command),
+        click.argument("ids", nargs=-1, metavar="[ID]..."),
+        click.option(
+            "--system",
+            "about",
+            multiple=True,
+            metavar="NAME",
+            help="Only properties about this system, or these.",
+        ),
+        click.option("--full", is_flag=True, help="Also the properties that take long."),
+    )
 
 
 def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:

@@ -101,11 +101,11 @@ class _OneLine:
 
 
 class Watch(ProgressLine):
-    """Shows how many searches are done, and what each search under way is doing."""
+    """Shows how many searches of a ``total`` are done, and what each search under way is doing."""
 
-    def __init__(self, console: Console, total: int, quiet: bool = False) -> None:
+    def __init__(self, console: Console, total: int = 0, quiet: bool = False) -> None:
         super().__init__(console, quiet)
-        self._total = total
+        self.total = total
         self._done = 0
         self._doing: dict[str, str] = {}
 
@@ -122,7 +122,7 @@ class Watch(ProgressLine):
 
     def line(self, width: int | None = None) -> str:
         """How many searches are done, and what the others do, each with its share of the width."""
-        head = f"{self._done}/{self._total} searches done"
+        head = f"{self._done}/{self.total} searches done"
         if width is None:
             return " | ".join([head, *(f"{task}: {doing}" for task, doing in self._doing.items())])
         room = (width - len(head)) // max(1, len(self._doing)) - len(" | ")

@@ -1,7 +1,6 @@
 """What a name on the command line means, with the nearest names when it means nothing."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from shlex import join
 from typing import TypeVar
 
 from rovercheck.checker.commands.shared.codes import UsageError
@@ -59,9 +58,3 @@ def _matching(id: str, known: Mapping[str, Property]) -> list[Property]:
 
 def _distinct(properties: Iterable[Property]) -> list[Property]:
     return list({p.id: p for p in properties}.values())
-
-
-def again(ids: Sequence[str], about: Sequence[str], full: bool) -> str:
-    """The words that choose the same properties again."""
-    systems = (word for name in about for word in ("--system", name))
-    return join([*ids, *systems, *(("--full",) if full else ())])

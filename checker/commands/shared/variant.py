@@ -15,7 +15,8 @@ from rovercheck.checker.commands.shared.select import pick
 from rovercheck.checker.model import Model, names_of
 from rovercheck.checker.model.load import load
 from rovercheck.checker.model.rover import rover
-from rovercheck.properties.catalogue import Expected, read_by
+from rovercheck.properties.catalogue import read_by
+from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, formulas
 from rovercheck.spec_model.lang.system import Assumption, System
 from rovercheck.spec_model.lang.walk import variables

@@ -13,7 +13,7 @@ from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.system.lowered import lowered
 from rovercheck.checker.verify.runs.replay import followed
 from rovercheck.checker.verify.tasks import Task
-from rovercheck.properties.catalogue import Expected
+from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, reachable
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import did_you_mean

@@ -6,11 +6,11 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from rovercheck.checker.commands.check.run import evidence, results
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, out, possible, text_width, write, wrote
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.shared.wrapping import filled
 from rovercheck.checker.commands.trace.examples import TraceRequest
 from rovercheck.checker.commands.trace.explain import Explaining
@@ -19,8 +19,10 @@ from rovercheck.checker.engines import Limits
 from rovercheck.checker.render import Renderer, named, renderers
 from rovercheck.checker.render.reasons import in_reason
 from rovercheck.checker.render.trace_markdown import SPECIAL
+from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
+from rovercheck.checker.verify.checked import SearchSettings
 from rovercheck.properties.forms import Property, Unbounded
 from rovercheck.spec_model.lang.system import System
 
@@ -92,7 +94,7 @@ def trace(
     """Decide a property and show its trace; say so when its verdict rests on none."""
     prop, systems = wanted.property, wanted.systems
     showing.check(prop)
-    [result] = results([prop], systems, engine, limits)
+    [result] = results([prop], systems, SearchSettings(engine, limits))
     verdict = result.verdict
     if isinstance(verdict, Unknown):
         err.print(f"{prop.id} is unknown: {evidence(result)}", markup=False)

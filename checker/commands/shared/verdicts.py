@@ -1,0 +1,40 @@
+"""Verdicts as they are found, with what is under way on the terminal meanwhile."""
+
+from collections.abc import Generator, Mapping, Sequence
+from contextlib import closing
+
+from rovercheck.checker.commands.shared.output import err
+from rovercheck.checker.commands.shared.progress import Watch
+from rovercheck.checker.verify.checked import Planned, SearchSettings, events
+from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.searches import Over, SearchDoing, Warned
+from rovercheck.properties.forms import Property
+from rovercheck.spec_model.lang.system import System
+
+BY_DEFAULT = SearchSettings()
+
+
+def results(
+    properties: Sequence[Property],
+    systems: Mapping[str, System],
+    search: SearchSettings = BY_DEFAULT,
+    quiet: bool = False,
+) -> Generator[Result, None, None]:
+    """Decide the properties, several searches at a time; results come as they are found.
+
+    With ``quiet``, nothing is said meanwhile.  On Ctrl-C the searches under way are ended and
+    ``KeyboardInterrupt`` is raised.
+    """
+    with closing(events(properties, systems, search)) as found, Watch(err, quiet=quiet) as watch:
+        for one in found:
+            match one:
+                case Planned(searches):
+                    watch.total = searches
+                case SearchDoing(task, line):
+                    watch.say(task.title, line)
+                case Over(task):
+                    watch.finished(task.title)
+                case Warned(text):
+                    err.print(text, markup=False)
+                case Result():
+                    yield one

@@ -1,0 +1,60 @@
+"""Verdicts in a line: what they rest on, and what is expected."""
+
+from rovercheck.checker.render.story import repeating
+from rovercheck.checker.results.trace import Trace, counted_ticks
+from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Violated
+from rovercheck.checker.verify.result import Result
+from rovercheck.properties.expected import Expected
+from rovercheck.properties.forms import Reachable
+
+
+def in_short(result: Result) -> str:
+    """The evidence in half a line."""
+    verdict, system = result.verdict, result.system
+    match verdict:
+        case Unknown(reason, depth):
+            return f"after {counted_ticks(depth)} of {system}: {reason}"
+        case Proved((Exhausted() | Inductive()) as evidence_, _, claim):
+            return _joined(f"{evidence_.how} of {system}", claim, result.limited_to)
+        case Violated((Exhausted() | Inductive()) as evidence_):
+            return _joined(f"never: {evidence_.how} of {system}", result.limited_to)
+        case Proved(Trace() as trace):
+            return f"reached in {ticks(trace)} of {system}"
+        case Violated(Trace() as trace):
+            return f"{ticks(trace)} of {system}"
+    raise AssertionError(verdict)
+
+
+def evidence(result: Result) -> str:
+    """What the verdict rests on, in a few words."""
+    verdict = result.verdict
+    match verdict:
+        case Unknown(reason, depth, engine):
+            none = "no run to it" if isinstance(result.property.form, Reachable) else "no counterexample"
+            return f"{engine} on {result.system}, {none} within {counted_ticks(depth)}: {reason}"
+        case Proved((Exhausted() | Inductive()) as shown, engine, claim):
+            whole = f"{engine}: {shown.how} of {result.system}"
+            whole += f", depth {shown.depth}" if isinstance(shown, Exhausted) else ""
+            return _joined(whole, claim, result.limited_to)
+        case Violated((Exhausted() | Inductive()) as shown, engine):
+            return _joined(f"{engine}: in none of {shown.how} of {result.system}", result.limited_to)
+        case Proved(Trace() as trace, engine):
+            return f"{engine}: witness of {ticks(trace)} on {result.system}"
+        case Violated(Trace() as trace, engine):
+            return f"{engine}: counterexample of {ticks(trace)} on {result.system}"
+    raise AssertionError(verdict)
+
+
+def ticks(trace: Trace) -> str:
+    """``155 ticks = 3.1 s``, and how many of them repeat for ever."""
+    seconds = trace.ms(len(trace)) / 1000
+    return f"{counted_ticks(len(trace))} = {seconds:g} s{repeating(trace)}"
+
+
+def recorded(entry: Expected) -> str:
+    depth = f" after {counted_ticks(entry.depth)}" if entry.depth is not None else ""
+    return f"{entry.verdict}{depth}"
+
+
+def _joined(*said: str) -> str:
+    return ", ".join(filter(None, said))
