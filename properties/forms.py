@@ -201,57 +201,68 @@ def _property(
 
 def always(id: str, text: str, *, that: Expr, covers: Sequence[str], on: On,
            from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    """``that`` is true in every tick."""
     return _property(id, text, Always(that), covers, on, from_tick, readings)
 
 
 def never(id: str, text: str, *, that: Expr, covers: Sequence[str], on: On,
           from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    """``that`` is true in no tick."""
     return _property(id, text, Never(that), covers, on, from_tick, readings)
 
 
 def responds(id: str, text: str, *, trigger: Expr, response: Expr, within: Span, covers: Sequence[str],
              on: On, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    """After ``trigger``, ``response`` comes within a time: see ``Responds``."""
     return _property(id, text, Responds(trigger, response, within), covers, on, from_tick, readings)
 
 
 def holds_after(id: str, text: str, *, premise: Expr, for_: Span, then: Expr, covers: Sequence[str],
                 on: On, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    """Where ``premise`` has been true for a time, ``then`` is true: see ``HoldsAfter``."""
     return _property(id, text, HoldsAfter(premise, for_, then), covers, on, from_tick, readings)
 
 
 def holds_for(id: str, text: str, *, start: Expr, that: Expr, for_: Span, covers: Sequence[str],
               on: On, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    """From ``start`` on, ``that`` is true for a time: see ``HoldsFor``."""
     return _property(id, text, HoldsFor(start, that, for_), covers, on, from_tick, readings)
 
 
 def leaves_only_if(id: str, text: str, *, leaving: Expr, only_if: Expr, covers: Sequence[str], on: On,
                    from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    """``leaving`` ends only in a tick with ``only_if``: see ``LeavesOnlyIf``."""
     return _property(id, text, LeavesOnlyIf(leaving, only_if), covers, on, from_tick, readings)
 
 
 def enters_only_if(id: str, text: str, *, entering: Expr, only_if: Expr, covers: Sequence[str], on: On,
                    from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    """``entering`` begins only in a tick with ``only_if``: see ``EntersOnlyIf``."""
     return _property(id, text, EntersOnlyIf(entering, only_if), covers, on, from_tick, readings)
 
 
 def precedes(id: str, text: str, *, first: Expr, then: Expr, covers: Sequence[str], on: On,
              from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    """``then`` is true only once ``first`` has been: see ``Precedes``."""
     return _property(id, text, Precedes(first, then), covers, on, from_tick, readings)
 
 
 def until(id: str, text: str, *, start: Expr, holds: Expr, release: Expr, covers: Sequence[str], on: On,
           from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    """From ``start`` on, ``holds`` is true until ``release``: see ``Until``."""
     return _property(id, text, Until(start, holds, release), covers, on, from_tick, readings)
 
 
 def reachable(id: str, text: str, *, that: Expr, covers: Sequence[str], on: On,
               from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    """Some run gets to ``that``."""
     return _property(id, text, Reachable(that), covers, on, from_tick, readings)
 
 
 def leads_to(id: str, text: str, *, trigger: Expr, response: Expr, covers: Sequence[str], on: On,
              bound: Span | None = None, fair: Sequence[Expr] = (),
              from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    """After ``trigger``, ``response`` comes some day: see ``LeadsTo``."""
     form = LeadsTo(trigger, response, bound, several(id, "fair", fair))
     return _property(id, text, form, covers, on, from_tick, readings)
 
@@ -259,6 +270,7 @@ def leads_to(id: str, text: str, *, trigger: Expr, response: Expr, covers: Seque
 def settles(id: str, text: str, *, premise: Expr, then: Expr, covers: Sequence[str], on: On,
             bound: Span | None = None, fair: Sequence[Expr] = (),
             readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    """If ``premise`` is true from some tick on, so is ``then``: see ``Settles``."""
     form = Settles(premise, then, bound, several(id, "fair", fair))
     return _property(id, text, form, covers, on, 1, readings)
 
@@ -266,6 +278,7 @@ def settles(id: str, text: str, *, premise: Expr, then: Expr, covers: Sequence[s
 def recoverable(id: str, text: str, *, to: Expr, covers: Sequence[str], on: On,
                 by: Expr | None = None, within: Span | None = None,
                 readings: Sequence[str] = ()) -> Property:  # fmt: skip
+    """From everywhere there is a way to ``to``: see ``Recoverable``."""
     if (by is None) != (within is None):
         raise ModelError(f"{id} gives only one of by= and within=; write both, or neither.")
     return _property(id, text, Recoverable(to, by, within), covers, on, 1, readings)

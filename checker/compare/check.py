@@ -21,8 +21,7 @@ from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.fixed import fixed
 from rovercheck.checker.compare.recorded import counterexamples, tests
 from rovercheck.checker.compare.result import ALLOWED, Allowance, CompareResult
-from rovercheck.checker.compare.search import CompareEffort, CompareSearch, Progress, Run, effort
-from rovercheck.checker.compare.smaller import BUDGET
+from rovercheck.checker.compare.search import CI, CompareEffort, CompareSearch, Progress, Run, effort
 from rovercheck.checker.compare.stimulus import Stimulus
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
 from rovercheck.checker.compare.varied import named
@@ -143,37 +142,24 @@ AS_READ: Mapping[str, str] = {}
 
 
 def cross_check(
-    board: str,
+    board: str | Board,
     implementation: Implementation,
-    profile: str = "ci",
+    effort: CompareEffort = CI,
     *,
-    examples: int | None = None,
-    seed: int | None = None,
-    stop_early: bool = False,
     folder: Path | None = None,
-    budget: int = BUDGET,
     allowance: Allowance = ALLOWED,
     progress: Progress = lambda search: None,
-    charts: Board | None = None,
 ) -> CompareResult:
-    """Compare an implementation of ``board1`` or ``board2`` with the charts.
+    """Compare an implementation with the charts of ``board1`` or ``board2``, or with changed ones.
 
-    ``profile`` is ``ci`` or ``nightly``; ``examples`` and ``seed`` replace what it says.  With ``stop_early``
-    the first mismatch ends the search, and is not made small.  ``folder`` holds further tests.
-    ``budget`` is how many steps may be spent on making one mismatch small, ``allowance`` says of how many.
-    ``charts`` is the board with changed charts; kept runs are inputs only, of which it is computed anew what
-    they require.
+    ``effort`` is how many runs are drawn, from which seed; ``folder`` holds further tests; ``allowance``
+    says what is spent on mismatches.  Of changed charts kept runs are inputs only: what they require is
+    computed anew.
     """
-    env = ENVIRONMENTS[board] if charts is None else replace(ENVIRONMENTS[board], board=charts)
-    search = CompareSearch(
-        env,
-        implementation,
-        effort(profile, examples, seed),
-        stop_early,
-        allowance,
-        budget=budget,
-        progress=progress,
-    )
+    env = ENVIRONMENTS[board if isinstance(board, str) else board.name]
+    if not isinstance(board, str):
+        env = replace(env, board=board)
+    search = CompareSearch(env, implementation, effort, allowance=allowance, progress=progress)
     return search.run(_known(env, folder))
 
 

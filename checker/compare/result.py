@@ -19,6 +19,8 @@ class Allowance:
     """Distinct mismatches, the shortest, that are made small and told in full; the others in a line each."""
     failures: int = 3
     """Runs that the implementation may fail to survive before no more are tried."""
+    budget: int = 30_000
+    """Steps that may be spent on making one mismatch small."""
 
 
 ALLOWED = Allowance()

@@ -20,13 +20,16 @@ from rovercheck.checker.compare.result import (
     CompareStage,
     Failure,
 )
-from rovercheck.checker.compare.smaller import BUDGET, Budget, smaller
+from rovercheck.checker.compare.smaller import Budget, smaller
 from rovercheck.checker.compare.stimulus import Stimulus
 from rovercheck.checker.compare.strategy import stimuli
 
 CI_SEED = 5
 NIGHTLY = 20
 """Nightly examples for each one in CI."""
+
+
+CI_EXAMPLES = 240
 
 
 @dataclass(frozen=True)
@@ -47,7 +50,8 @@ def effort(profile: str, examples: int | None = None, seed: int | None = None) -
     )
 
 
-CI_EXAMPLES = 240
+CI = effort("ci")
+
 
 Run = tuple[str, list[ComparedStep]]
 Progress = Callable[["CompareSearch"], None]
@@ -66,7 +70,6 @@ class CompareSearch:
     effort: CompareEffort
     stop_early: bool = False
     allowance: Allowance = ALLOWED
-    budget: int = BUDGET
     progress: Progress = lambda search: None
     record: Callable[[str, list[ComparedStep]], None] = lambda origin, steps: None
     coverage: ArrowCoverage = field(init=False)
@@ -138,7 +141,7 @@ class CompareSearch:
         for number, (key, mismatch) in enumerate(todo, 1):
             self.doing = f"making mismatch {number} of {len(todo)} small"
             self.progress(self)
-            self._small[key] = smaller(self.env, mismatch, self.implementation, Budget(self.budget))
+            self._small[key] = smaller(self.env, mismatch, self.implementation, Budget(self.allowance.budget))
 
     def _try_all(self, runs: Iterable[Run]) -> None:
         for origin, steps in runs:

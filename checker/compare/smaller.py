@@ -10,14 +10,12 @@ from dataclasses import dataclass
 from rovercheck.checker.adapters.implementation import Implementation, ImplementationError, Value, Values
 from rovercheck.checker.compare.beside import StepMismatch, compared, rerun
 from rovercheck.checker.compare.environment import Environment
+from rovercheck.checker.compare.result import ALLOWED
 from rovercheck.checker.compare.stimulus import NOW, SILENT, Change, Every, InputBlock, Stimulus, clocked
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.abstraction.stamps import CLOCK, since
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import TICK_MS
-
-BUDGET = 30_000
-"""Steps of the charts that may be spent on making one mismatch small."""
 
 Column = tuple[Value | None, ...]
 
@@ -123,7 +121,7 @@ def smaller(
     env: Environment, mismatch: StepMismatch, implementation: Implementation, budget: Budget | None = None
 ) -> StepMismatch:
     """A mismatch with the same key in a run that is as small as the budget allows to find."""
-    work = _Work(env, mismatch, implementation, budget or Budget(BUDGET))
+    work = _Work(env, mismatch, implementation, budget or Budget(ALLOWED.budget))
     before = None
     _fewer_steps(work, len(work.run) // 8)
     _calm_together(work)

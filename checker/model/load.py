@@ -4,7 +4,6 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
-from types import ModuleType
 
 from rovercheck.checker.model import EXAMPLE, Model, shown
 from rovercheck.checker.model.checks import (
@@ -37,9 +36,8 @@ def load(path: Path) -> Model:
     """
     files = files_of(path)
     neighbours, modules, faults = modules_of(files)
-    found = _Found(modules, faults)
-    found.take_systems()
-    found.take_properties()
+    found = _Found([(file, vars(module).values()) for file, module in modules], faults)
+    found.take_all()
     on_record, requirements = {}, dict[str, Requirement]()
     if found.whole:
         with _gathered(faults):
@@ -59,6 +57,23 @@ def load(path: Path) -> Model:
     return Model(found.systems, found.properties, on_record, requirements, path)
 
 
+def model(*things: Chart | System | Property) -> Model:
+    """The model that charts, systems and properties of a script or notebook make.
+
+    As in a file, a chart that is in no system becomes one; every verdict is expected to be "proved".
+    Raises ``ModelError`` for what has no meaning.
+    """
+    places = (thing.place for thing in things if isinstance(thing, Chart | System | Property))
+    path = next((Path(place.file) for place in places if place), Path("<script>"))
+    found = _Found([(path, things)], faults := list[str]())
+    found.take_all()
+    if faults:
+        raise ModelError("\n".join(dict.fromkeys(faults)))
+    check_portable((found.systems, found.properties), "__main__", path)
+    requirements, _ = register([], path / f"{REGISTER.lower()}.toml", found.properties.values())
+    return Model(found.systems, found.properties, {}, requirements, path)
+
+
 class _Found:
     """The things of a model, each once, and what is wrong with them.
 
@@ -67,15 +82,20 @@ class _Found:
     ``whole``: every file could be run, so that what is not there is nowhere.
     """
 
-    def __init__(self, modules: Iterable[tuple[Path, ModuleType]], faults: list[str]) -> None:
+    def __init__(self, files: Iterable[tuple[Path, Iterable[object]]], faults: list[str]) -> None:
         self.whole, self.faults = not faults, faults
         self.names, self.sound, self.ids = set[str](), set[str](), set[str]()
         self.systems: dict[str, System] = {}
         self.properties: dict[str, Property] = {}
         self._files: dict[int, tuple[object, Path]] = {}
-        for file, module in modules:
-            for thing in _things(vars(module).values()):
+        for file, values in files:
+            for thing in _things(values):
                 self._files.setdefault(id(thing), (thing, file))
+
+    def take_all(self) -> None:
+        """Look at everything that was found, systems first: properties are about them."""
+        self.take_systems()
+        self.take_properties()
 
     def take_systems(self) -> None:
         """Look at the systems, and make one of each chart that is in none of them."""
@@ -166,4 +186,4 @@ def _alone(chart: Chart) -> System:
     return replace(in_order(chart.name, chart, text=text), place=chart.place)
 
 
-__all__ = ["load"]
+__all__ = ["load", "model"]

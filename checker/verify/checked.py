@@ -43,7 +43,7 @@ class SearchSettings:
 
 
 @dataclass(frozen=True)
-class Planned:
+class SearchesPlanned:
     """How many searches there will be."""
 
     searches: int
@@ -138,7 +138,7 @@ def worst(found: Sequence[CheckedProperty]) -> Exit:
 
 def events(
     properties: Sequence[Property], systems: Mapping[str, System], search: SearchSettings
-) -> Generator[Planned | Heard, None, None]:
+) -> Generator[SearchesPlanned | Heard, None, None]:
     """Decide properties, several searches at a time: what these do, and results as they are found.
 
     Raises what ``searches`` raises.  Closing the generator ends all searches.
@@ -146,7 +146,7 @@ def events(
     # The largest first, so that no long search is left for the end; those of one system together.
     planned = (replace(t, recorded=_on_record(t, search.invariants)) for t in tasks(properties, systems))
     todo = sorted(planned, key=lambda t: (-t.size, t.system.name, t.title))
-    yield Planned(len(todo))
+    yield SearchesPlanned(len(todo))
     with closing(
         searches(todo, systems, search.engine, search.limits, search.jobs, search.certifying)
     ) as heard:

@@ -384,6 +384,7 @@ def any_of(*parts: Operand) -> Expr:
 
 
 def implies(premise: Operand, conclusion: Operand) -> Expr:
+    """Where the premise is true, the conclusion is."""
     return any_of(~as_boolean(premise, "implies"), conclusion)
 
 

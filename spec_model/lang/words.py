@@ -26,14 +26,17 @@ from rovercheck.spec_model.lang.time import Span
 
 
 def minimum(left: Operand, right: Operand) -> Expr:
+    """The smaller of two numbers of one unit."""
     return linear(Op.MIN, left, right)
 
 
 def maximum(left: Operand, right: Operand) -> Expr:
+    """The larger of two numbers of one unit."""
     return linear(Op.MAX, left, right)
 
 
 def absolute(value: Expr) -> Expr:
+    """A number without its sign."""
     return Apply(Op.ABS, (as_number(value, "absolute"),), value.sort)
 
 

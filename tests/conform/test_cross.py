@@ -2,6 +2,7 @@
 
 import importlib.util
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import islice
 from pathlib import Path
 
@@ -9,13 +10,13 @@ import pytest
 
 from rovercheck.checker.adapters import python
 from rovercheck.checker.adapters.implementation import Implementation, ImplementationError, Values
-from rovercheck.checker.compare import Allowance, StepMismatch, cross_check, effort, quick_check, replay
+from rovercheck.checker.compare import StepMismatch, cross_check, effort, quick_check, replay
 from rovercheck.checker.compare.beside import rerun
 from rovercheck.checker.compare.check import Remembered, recorded_suite
 from rovercheck.checker.compare.coverage import arrows
 from rovercheck.checker.compare.recorded import counterexamples
 from rovercheck.checker.compare.reproduce import file_name, pytest_file, stimulus_of
-from rovercheck.checker.compare.result import ALLOWED, FIXED, RANDOM
+from rovercheck.checker.compare.result import ALLOWED, FIXED, RANDOM, Allowance
 from rovercheck.checker.compare.search import CompareSearch, Run
 from rovercheck.checker.compare.smaller import Budget, smaller
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
@@ -92,17 +93,22 @@ def test_a_deep_mismatch_is_small_and_names_the_arrow() -> None:
 
 
 def test_a_mismatch_of_random_runs_alone_is_shrunk() -> None:
-    result = cross_check("board2", running("board2", f"{HERE}:SwappedSonars"), examples=10, budget=3000)
+    result = cross_check(
+        "board2",
+        running("board2", f"{HERE}:SwappedSonars"),
+        effort("ci", 10),
+        allowance=Allowance(budget=3000),
+    )
     assert result.mismatches and min(m.tick for m in result.mismatches) < 20
 
 
 def test_the_same_profile_tries_the_same() -> None:
     first, second = (
-        cross_check("board2", running("board2", OURS["board2"]), examples=4, seed=9) for _ in range(2)
+        cross_check("board2", running("board2", OURS["board2"]), effort("ci", 4, 9)) for _ in range(2)
     )
     assert first.coverage.steps == second.coverage.steps and first.coverage.taken == second.coverage.taken
     assert first.conforms and first.arrows[1] == len(arrows(first.board))
-    other = cross_check("board2", running("board2", OURS["board2"]), examples=4, seed=10)
+    other = cross_check("board2", running("board2", OURS["board2"]), effort("ci", 4, 10))
     assert other.coverage.steps != first.coverage.steps
 
 
@@ -118,13 +124,13 @@ class Silent:
 
 
 def test_an_implementation_without_outputs_is_inconclusive() -> None:
-    result = cross_check("board2", Silent(), examples=0)
+    result = cross_check("board2", Silent(), effort("ci", 0))
     assert not result.conclusive and not result.conforms and not result.mismatches
     assert len(result.uncompared) == len(boards()["board2"].outputs)
 
 
 def test_a_crash_is_a_finding_with_its_step_and_other_runs_go_on() -> None:
-    result = cross_check("board2", running("board2", f"{HERE}:Crashing"), examples=0)
+    result = cross_check("board2", running("board2", f"{HERE}:Crashing"), effort("ci", 0))
     assert result.failures and result.differs and not result.conforms
     first = result.failures[0]
     assert f"step {first.tick}:" in first.message and "nobody steers" in first.message
@@ -158,7 +164,7 @@ class Dying:
 
 
 def test_what_differs_before_a_crash_is_found_all_the_same() -> None:
-    result = cross_check("board1", Dying("board1", wrong=4), examples=0, budget=0)
+    result = cross_check("board1", Dying("board1", wrong=4), effort("ci", 0), allowance=Allowance(budget=0))
     assert len(result.failures) == ALLOWED.failures and {f.tick for f in result.failures} == {6}
     assert result.mismatches and {m.tick for m in result.mismatches} == {4}
 
@@ -169,8 +175,7 @@ def test_crashes_in_random_runs_alone_end_the_search() -> None:
             ENVIRONMENTS["board1"],
             Dying("board1"),
             effort("ci", 50),
-            allowance=Allowance(5, failures),
-            budget=0,
+            allowance=Allowance(5, failures, budget=0),
         )
         result = search.run()
         assert len(result.failures) == failures
@@ -224,7 +229,9 @@ def test_distinct_mismatches_are_all_told_apart_and_as_many_made_small_as_are_wa
         def close(self) -> None: ...
 
     allowance = Allowance(mismatches=wanted)
-    search = CompareSearch(ENVIRONMENTS["board2"], Wrong(), effort("ci", 0), allowance=allowance, budget=20)
+    search = CompareSearch(
+        ENVIRONMENTS["board2"], Wrong(), effort("ci", 0), allowance=replace(allowance, budget=20)
+    )
     result = search.run(islice(counterexamples(boards()["board2"]), 30))
     keys = {m.key for m in result.mismatches}
     assert len(keys) == len(result.mismatches) > 5
@@ -235,7 +242,9 @@ def test_distinct_mismatches_are_all_told_apart_and_as_many_made_small_as_are_wa
 def test_every_random_run_is_drawn_whatever_is_found() -> None:
     """The first new mismatch ended the random runs, and nothing said so."""
     result, right = (
-        CompareSearch(ENVIRONMENTS["board2"], running("board2", target), effort("ci", 15), budget=0).run()
+        CompareSearch(
+            ENVIRONMENTS["board2"], running("board2", target), effort("ci", 15), allowance=Allowance(budget=0)
+        ).run()
         for target in (f"{HERE}:SwappedSonars", OURS["board2"])
     )
     assert result.mismatches and right.conforms

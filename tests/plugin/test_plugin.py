@@ -244,7 +244,7 @@ def test_a_worker_decides_a_system_only_if_it_has_all_of_it(grouped: bool, apart
 
 
 def test_the_plugin_alone_loads_no_solver() -> None:
-    heavy = "rovercheck.checker rovercheck.api z3 llvmlite numpy bitwuzla oxidd pysat rich click"
+    heavy = "rovercheck.checker rovercheck.language z3 llvmlite numpy bitwuzla oxidd pysat rich click"
     code = f"import sys, rovercheck.pytest_plugin; print(*set('{heavy}'.split()) & set(sys.modules))"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == []

@@ -1,11 +1,22 @@
 """The verb ``conform``: logs checked against the properties and the charts."""
 
+from dataclasses import dataclass
 from pathlib import Path
 
 import click
 
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.options import VariantOptions, changing, quietly
+from rovercheck.checker.commands.shared.options import VariantOptions, changing, gathered, quietly
+
+
+@dataclass(frozen=True)
+class LogOptions:
+    """How a log is read, and how much is told of it."""
+
+    map_file: Path | None = None
+    system: str | None = None
+    as_json: bool = False
+    verbose: bool = False
 
 
 @click.command(short_help="Check logs recorded on a board.")
@@ -22,15 +33,9 @@ from rovercheck.checker.commands.shared.options import VariantOptions, changing,
 @click.option("--verbose", "-v", is_flag=True, help="Every property, also those that say nothing.")
 @changing
 @quietly
-def conform(
-    place: Path,
-    map_file: Path | None,
-    system: str | None,
-    as_json: bool,
-    verbose: bool,
-    charts: VariantOptions,
-) -> Exit:
+@gathered(LogOptions, "options")
+def conform(place: Path, options: LogOptions, charts: VariantOptions) -> Exit:
     """Check a log, or all logs of a folder: every property as a monitor, and as a run of the charts."""
     from rovercheck.checker.commands.conform.run import conform as run
 
-    return run(place, map_file, system, as_json, verbose, charts.chosen, charts.repair)
+    return run(place, options, charts.variant())

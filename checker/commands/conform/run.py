@@ -4,13 +4,14 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from rovercheck.checker.commands.conform import LogOptions
 from rovercheck.checker.commands.conform.document import as_json
 from rovercheck.checker.commands.conform.text import LogFault, Outcome, page, summary
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.failure import told
 from rovercheck.checker.commands.shared.output import err, out
 from rovercheck.checker.commands.shared.progress import ProgressLine
-from rovercheck.checker.commands.shared.variant import Variant, pick_variant
+from rovercheck.checker.commands.shared.variant import Variant
 from rovercheck.checker.compare.varied import varied
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.logs import Against, ColumnMap, LogError, LogResult, examine, read_map
@@ -24,19 +25,17 @@ GRAVEST = (Exit.INTERNAL, Exit.CHANGED, Exit.USAGE, Exit.INCONCLUSIVE)
 
 
 @dataclass(frozen=True)
-class ConformOptions:
-    """What the command line asks for; ``against``: the charts, with ``charts`` in words where changed."""
+class LogRequest:
+    """What is asked of logs; ``against``: the charts, with ``charts`` in words where changed."""
 
     how: ColumnMap
-    system: str
-    as_json: bool
-    verbose: bool
+    options: LogOptions
     charts: str = ""
     against: Against | None = None
 
     def examined(self, path: Path) -> LogResult:
         """What one log says.  Raises ``LogError``."""
-        return examine(path, self.how, self.system, self.against)
+        return examine(path, self.how, self.options.system or "", self.against)
 
     def outcome(self, path: Path) -> Outcome:
         """What one of many logs says, or why it says nothing, whatever that is: the others are judged."""
@@ -50,35 +49,26 @@ class ConformOptions:
             return LogFault(told(error))
 
 
-def conform(
-    place: Path,
-    map_file: Path | None,
-    system: str | None,
-    json_wanted: bool,
-    verbose: bool,
-    chosen: tuple[str, ...] = (),
-    repair: str | None = None,
-) -> Exit:
-    """Check one log or all logs of a folder, under chosen readings and with a repair.
+def conform(place: Path, options: LogOptions, variant: Variant) -> Exit:
+    """Check one log or all logs of a folder against the charts, changed or not.
 
     Raises ``UsageError`` for a map without meaning, and for a single log that cannot be read.
     """
-    variant = pick_variant(chosen, repair, ())
     against = _against(variant) if variant.name else None
-    asked = ConformOptions(_map(map_file), system or "", json_wanted, verbose, variant.name, against)
+    asked = LogRequest(_map(options.map_file), options, variant.name, against)
     return _folder(place, asked) if place.is_dir() else _log(place, asked)
 
 
-def _log(place: Path, asked: ConformOptions) -> Exit:
+def _log(place: Path, asked: LogRequest) -> Exit:
     try:
         found = asked.examined(place)
     except LogError as error:
         raise UsageError(f"{place}: {error}") from error
     code = _code_of(found)
-    if asked.as_json:
+    if asked.options.as_json:
         print(json_text({"schema": SCHEMA, "exit": code, **as_json(found, asked.charts)}))
     else:
-        out.print(page(found, asked.verbose, asked.charts), markup=False)
+        out.print(page(found, asked.options.verbose, asked.charts), markup=False)
     return code
 
 
@@ -98,7 +88,7 @@ def _map(file: Path | None) -> ColumnMap:
         raise UsageError(str(error)) from error
 
 
-def _folder(folder: Path, asked: ConformOptions) -> Exit:
+def _folder(folder: Path, asked: LogRequest) -> Exit:
     """Every log of a folder; one that cannot be read or judged leaves the others' results."""
     try:
         logs = sorted(p for p in folder.iterdir() if p.is_file() and p.name.lower().endswith(SUFFIXES))
@@ -113,7 +103,7 @@ def _folder(folder: Path, asked: ConformOptions) -> Exit:
             line.show(f"{number} of {len(logs)}: {log.name}")
             found[log.name] = asked.outcome(log)
     code = _code(list(found.values()))
-    if asked.as_json:
+    if asked.options.as_json:
         entries = [_entry(n, r, asked.charts) for n, r in found.items()]
         print(json_text({"schema": SCHEMA, "exit": code, "logs": entries}))
     else:

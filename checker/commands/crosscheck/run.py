@@ -110,15 +110,12 @@ def _checked(asked: CrosscheckOptions, board: Board, address: str, seed: int) ->
     try:
         with ProgressLine() as line:
             return cross_check(
-                board.name,
+                board if asked.variant.name else board.name,
                 implementation,
-                asked.profile,
-                examples=asked.examples,
-                seed=seed,
+                effort(asked.profile, asked.examples, seed),
                 folder=asked.tests,
                 allowance=asked.allowance,
                 progress=lambda search: line.show(_doing(board, search)),
-                charts=board if asked.variant.name else None,
             )
     finally:
         implementation.close()

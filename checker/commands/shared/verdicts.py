@@ -5,7 +5,7 @@ from contextlib import closing
 
 from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.progress import Watch
-from rovercheck.checker.verify.checked import Planned, SearchSettings, events
+from rovercheck.checker.verify.checked import SearchesPlanned, SearchSettings, events
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.searches import Over, SearchDoing, Warned
 from rovercheck.properties.forms import Property
@@ -28,7 +28,7 @@ def results(
     with closing(events(properties, systems, search)) as found, Watch(err, quiet=quiet) as watch:
         for one in found:
             match one:
-                case Planned(searches):
+                case SearchesPlanned(searches):
                     watch.total = searches
                 case SearchDoing(task, line):
                     watch.say(task.title, line)

@@ -141,15 +141,19 @@ def seen(
         exploration.explored,
         onto,
         _Shown(exploration, onto),
-        wanted=wanted,
+        wanted,
+    )
+    graph = replace(
+        graph,
         over=(
             *((f"{system.name} has more runs than the real system",) if source and source.over else ()),
             *_unchecked(exploration),
         ),
         under=(f"{system.name} has fewer runs than the real system",) if source and source.under else (),
         notes=_notes(system, onto, wanted),
+        looked_for=looked_for,
     )
-    return Made(exploration, replace(graph, looked_for=looked_for), wanted)
+    return Made(exploration, graph, wanted)
 
 
 def _unchecked(exploration: Exploration) -> tuple[str, ...]:

@@ -4,7 +4,7 @@ Whether it is exact is decided by counting: an edge is sure if as many valuation
 behind its source.
 """
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -65,11 +65,7 @@ def project(
     explored: Explored,
     onto: Sequence[str],
     show: Callable[[int, int], str],
-    *,
     wanted: Sequence[str] = (),
-    over: Iterable[str] = (),
-    under: Iterable[str] = (),
-    notes: Iterable[str] = (),
 ) -> StateGraph:
     """The graph on the variables named ``onto``.
 
@@ -89,10 +85,9 @@ def project(
     ]
     return StateGraph(
         title, tuple(onto), nodes, tuple(sorted(edges, key=lambda e: (e.source, e.target))), len(explored),
-        tuple(over), tuple(under), explored.stopped, int(explored.depths.max(initial=0)),
+        cut=explored.stopped, depth=int(explored.depths.max(initial=0)),
         bad=frozenset(n.number for n in nodes if n.wanted), never=_never(chosen, nodes),
         exact_with=exact_with(explored, onto) if found.mixes and not explored.stopped else (),
-        notes=tuple(notes),
     )  # fmt: skip
 
 

@@ -1,7 +1,7 @@
 """What a user's choice of engine makes of a question: its answers, each as soon as it counts."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 from functools import reduce
 from itertools import combinations
 from time import monotonic
@@ -55,37 +55,42 @@ def in_turn(question: PortfolioQuestion, limits: Limits, told: Callbacks) -> Ite
 
     Raises ``Disagreement`` when a turn contradicts what an earlier one left to be confirmed.
     """
-    known, deadline = engines(), limits.deadline()
-    found: Found = {}
-    turns: Sequence[Turn] = ORDERS[shape(question).kind]
+    known, turns = engines(), _Turns(question, limits, told, limits.deadline())
+    order: Sequence[Turn] = ORDERS[shape(question).kind]
     prover = known.get(RECORDED.engine)
     if question.candidates is not None and isinstance(prover, Prover):
-        recorded = RecordedInvariants(prover, question.candidates)
-        found = _turn(recorded, RECORDED, question, question.goals, found, limits, deadline, told)
-        turns = [turn for turn in turns if turn is not SOON]
-        yield found
-    for turn in turns:
-        goals = [g for g in question.open(found) if _worth(found.get(g.name))]
-        if not goals or (found and _over(question, found, limits, deadline)):
+        yield turns.take(RecordedInvariants(prover, question.candidates), RECORDED, question.goals)
+        order = [turn for turn in order if turn is not SOON]
+    for turn in order:
+        goals = [g for g in question.open(turns.found) if _worth(turns.found.get(g.name))]
+        if not goals or (turns.found and _over(question, turns.found, limits, turns.deadline)):
             break
         if turn.engine in known:
-            found = _turn(known[turn.engine], turn, question, goals, found, limits, deadline, told)
-            yield found
-    unsettled = question.unsettled(found)
-    if unsettled and _affordable(question, deadline) and CHECKS.engine in known:
-        yield _turn(known[CHECKS.engine], CHECKS, question, unsettled, found, limits, deadline, told)
+            yield turns.take(known[turn.engine], turn, goals)
+    unsettled = question.unsettled(turns.found)
+    if unsettled and _affordable(question, turns.deadline) and CHECKS.engine in known:
+        yield turns.take(known[CHECKS.engine], CHECKS, unsettled)
 
 
-def _turn(
-    engine: Engine, turn: Turn, question: PortfolioQuestion, goals: Sequence[Var], found: Found,
-    limits: Limits, deadline: float | None, told: Callbacks,
-) -> Found:  # fmt: skip
-    """What is found so far, with what an engine says of some goals in its turn."""
-    left = None if deadline is None else max(0.0, deadline - monotonic())
-    told.granted(left)
-    answers = asked(engine, question, turn.within(limits, left), told, goals)
-    told.granted(limits.seconds)  # for what is made of the answers
-    return {**found, **{g.name: _both(question, g, found.get(g.name), answers[g.name]) for g in goals}}
+@dataclass
+class _Turns:
+    """The turns of engines at one question, and what is found so far."""
+
+    question: PortfolioQuestion
+    limits: Limits
+    told: Callbacks
+    deadline: float | None
+    found: Found = field(default_factory=dict)
+
+    def take(self, engine: Engine, turn: Turn, goals: Sequence[Var]) -> Found:
+        """What is found so far, with what an engine says of some goals in its turn."""
+        left = None if self.deadline is None else max(0.0, self.deadline - monotonic())
+        self.told.granted(left)
+        answers = asked(engine, self.question, turn.within(self.limits, left), self.told, goals)
+        self.told.granted(self.limits.seconds)  # for what is made of the answers
+        now = {g.name: _both(self.question, g, self.found.get(g.name), answers[g.name]) for g in goals}
+        self.found = {**self.found, **now}
+        return self.found
 
 
 def _affordable(question: PortfolioQuestion, deadline: float | None) -> bool:

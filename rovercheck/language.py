@@ -1,8 +1,6 @@
-"""The public names: what a model file and a script of a user's import, from ``rovercheck`` itself.
+"""The words of charts and properties, which a model imports from ``rovercheck`` itself.
 
-    from rovercheck import Chart, State, after, always, assign, flag, sec, to
-
-Everything else of the package is internal and changes without notice.
+from rovercheck import Chart, State, after, always, assign, flag, sec, to
 """
 
 from rovercheck.properties.forms import (

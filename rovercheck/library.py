@@ -1,0 +1,234 @@
+"""rovercheck as a library: check a model, and look at what comes of it, in a script or a notebook.
+
+import rovercheck
+
+found = rovercheck.check("heater.py")
+assert found.as_expected
+rovercheck.trace("heater.py", "HEAT-3").write("heat-3.html")
+"""
+
+import html
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from time import process_time
+from typing import overload
+
+from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.commands.shared.output import write
+from rovercheck.checker.commands.shared.select import pick, pick_engine, pick_properties
+from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.explain.explained import explained, unexplained
+from rovercheck.checker.explain.unrolled import OutOfTime
+from rovercheck.checker.model import Model
+from rovercheck.checker.model.kept_invariants import invariants_of
+from rovercheck.checker.model.load import load, model
+from rovercheck.checker.model.rover import rover
+from rovercheck.checker.render import named, renderers
+from rovercheck.checker.render.verdict_text import evidence
+from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.verdict import Unknown
+from rovercheck.checker.verify.certificates import Certifying
+from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings, events
+from rovercheck.checker.verify.result import Result
+from rovercheck.properties.forms import Property
+from rovercheck.spec_model.lang.chart import Chart
+from rovercheck.spec_model.lang.errors import ModelError
+
+EXPLAINED_FOR = 10.0
+"""Seconds of computing for the cause of a violation; without it a run is shown all the same."""
+FRAME = 640
+"""Pixels of height that a run takes in a notebook."""
+
+
+class NoTrace(LookupError):
+    """A verdict rests on no run; the message says on what."""
+
+
+@dataclass(frozen=True)
+class View:
+    """A run or a chart to look at: as text, in a notebook, or in a file of any of its formats.
+
+    ``kind`` is ``trace`` or ``statechart``.
+    """
+
+    kind: str
+    thing: Trace | Chart
+
+    def text(self, format: str) -> str | bytes:
+        """The thing in a format.  Raises ``ModelError`` for an unknown one, or one that cannot show it."""
+        found = named(self.kind, format)
+        if found is None:
+            known = ", ".join(sorted(renderers(self.kind)))
+            raise ModelError(f"There is no {self.kind} format {format!r}; write one of {known}.")
+        return found.render(self.thing)
+
+    def write(self, path: str | Path) -> Path:
+        """Write a file in the format of its suffix, and return its path.  Raises ``ModelError``."""
+        place = Path(path)
+        known = {r.SUFFIX: name for name, r in reversed(renderers(self.kind).items())}
+        if place.suffix not in known:
+            raise ModelError(f"{place} has no suffix of a format; write one of {', '.join(sorted(known))}.")
+        try:
+            write(self.text(known[place.suffix]), place)
+        except UsageError as error:
+            raise ModelError(str(error)) from error
+        return place
+
+    def __str__(self) -> str:
+        return str(self.text("table")) if self.kind == "trace" else str(self.thing)
+
+    def _repr_html_(self) -> str:
+        if self.kind == "statechart":
+            return str(self.text("svg"))
+        page = html.escape(str(self.text("html")), quote=True)
+        return f'<iframe srcdoc="{page}" width="100%" height="{FRAME}" style="border:0"></iframe>'
+
+
+@dataclass(frozen=True)
+class Results(Sequence[CheckedProperty]):
+    """What a check found, in the order in which the properties are written."""
+
+    found: tuple[CheckedProperty, ...]
+
+    @property
+    def as_expected(self) -> bool:
+        """Whether every verdict is the one that is expected, "proved" unless a baseline says otherwise."""
+        return all(one.as_expected for one in self.found)
+
+    def __len__(self) -> int:
+        return len(self.found)
+
+    def __iter__(self) -> Iterator[CheckedProperty]:
+        return iter(self.found)
+
+    @overload
+    def __getitem__(self, key: int | str) -> CheckedProperty: ...
+    @overload
+    def __getitem__(self, key: slice) -> "Results": ...
+    def __getitem__(self, key: int | str | slice) -> "CheckedProperty | Results":
+        """A result by its number or by the id of its property.  Raises ``KeyError`` or ``IndexError``."""
+        if isinstance(key, slice):
+            return Results(self.found[key])
+        if isinstance(key, int):
+            return self.found[key]
+        by_id = {one.result.property.id: one for one in self.found}
+        return by_id[key]
+
+    def __str__(self) -> str:
+        return "\n".join(" ".join(row) for row in self._rows())
+
+    def _rows(self) -> Iterator[tuple[str, str, str]]:
+        for one in self.found:
+            note = "" if one.as_expected else f"; expected is {one.expected.verdict}"
+            yield one.result.property.id, one.word, f"({evidence(one.result)}{note})"
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<th>{title}</th>" for title in ("property", "verdict", "evidence"))
+        rows = ("".join(f"<td>{html.escape(cell)}</td>" for cell in row) for row in self._rows())
+        return f"<table><tr>{head}</tr>{''.join(f'<tr>{row}</tr>' for row in rows)}</table>"
+
+
+def check(
+    of: Model | str | Path,
+    *ids: str,
+    engine: str = AUTO,
+    depth: int | None = None,
+    seconds: float | None = None,
+    certify: bool = False,
+) -> Results:
+    """Decide the properties of a model, or those of the ids given.
+
+    ``of`` is a ``Model`` or the path of one; ``seconds`` and ``depth`` (ticks) limit each search, and what
+    they cut short is unknown, never proved.  ``certify``: every proof is checked again without the engine
+    that found it.  Properties that are marked as costly are decided when they are named.  Raises
+    ``ModelError`` for a model or a name without meaning.
+
+    >>> from rovercheck import Block, always, assign, check, flag, in_order, model
+    >>> lamp, on = flag("lamp"), flag("on")
+    >>> system = in_order("lamp", Block("Lamp", [assign(lamp, on)]))
+    >>> said = always("LAMP-1", "It shines when on.", that=lamp == on, covers=["R1"], on="lamp")
+    >>> check(model(system, said))["LAMP-1"].word
+    'proved'
+    """
+    model = _read(of)
+    properties = _chosen(model, ids)
+    certifying = Certifying(None, True, {}, "", ()) if certify else None
+    limits = Limits(depth, seconds)
+    search = SearchSettings(_engine(engine), limits, None, invariants_of(model), certifying)
+    found = {
+        one.property.id: CheckedProperty(one, model.expected(one.property.id))
+        for one in events(properties, model.systems, search)
+        if isinstance(one, Result)
+    }
+    return Results(tuple(found[prop.id] for prop in properties if prop.id in found))
+
+
+def trace(of: Model | str | Path, id: str, *, seconds: float | None = None) -> View:
+    """The counterexample of a property, or the witness of a situation, with the cause of its end.
+
+    Raises ``NoTrace`` where the verdict rests on no run, ``ModelError`` for what has no meaning.
+    """
+    model = _read(of)
+    prop = _one(id, model)
+    search = SearchSettings(limits=Limits(None, seconds))
+    [found] = (r for r in events([prop], model.systems, search) if isinstance(r, Result))
+    if isinstance(found.verdict, Unknown) or not isinstance(found.verdict.because, Trace):
+        raise NoTrace(f"{prop.id} is {found.verdict.word} and has no trace: {evidence(found)}.")
+    return View("trace", _explained(found.verdict.because, prop, model))
+
+
+def picture(chart: Chart) -> View:
+    """The picture of a chart: shown by a notebook, or written as SVG, HTML, DOT and others."""
+    return View("statechart", chart)
+
+
+def _explained(trace: Trace, prop: Property, model: Model) -> Trace:
+    start = process_time()
+    if unexplained(trace):
+        return trace
+    try:
+        return explained(
+            trace, prop, model.systems[trace.system], over=lambda: process_time() - start > EXPLAINED_FOR
+        )
+    except OutOfTime:
+        return trace
+
+
+def _read(of: Model | str | Path) -> Model:
+    return of if isinstance(of, Model) else load(Path(of))
+
+
+def _engine(name: str) -> str:
+    try:
+        return pick_engine(name)
+    except UsageError as error:
+        raise ModelError(str(error)) from error
+
+
+def _one(id: str, model: Model) -> Property:
+    try:
+        return pick("property", id, model.stated())
+    except UsageError as error:
+        raise ModelError(str(error)) from error
+
+
+def _chosen(model: Model, ids: Sequence[str]) -> list[Property]:
+    try:
+        return pick_properties(ids, (), model.stated(), among=model.systems)
+    except UsageError as error:
+        raise ModelError(str(error)) from error
+
+
+__all__ = [
+    "Model",
+    "NoTrace",
+    "Results",
+    "View",
+    "check",
+    "load",
+    "model",
+    "picture",
+    "rover",
+    "trace",
+]
