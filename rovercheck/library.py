@@ -8,8 +8,8 @@ rovercheck.trace("heater.py", "HEAT-3").write("heat-3.html")
 """
 
 import html
-from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
 from time import process_time
 from typing import overload
@@ -17,6 +17,7 @@ from typing import overload
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.output import write
 from rovercheck.checker.commands.shared.select import pick, pick_engine, pick_properties
+from rovercheck.checker.commands.trace.formats import exit_written
 from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.explain.explained import explained, unexplained
 from rovercheck.checker.explain.unrolled import OutOfTime
@@ -24,7 +25,7 @@ from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.model.load import load, model
 from rovercheck.checker.model.rover import rover
-from rovercheck.checker.render import named, renderers
+from rovercheck.checker.render import Renderer, renderers
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
@@ -34,9 +35,12 @@ from rovercheck.checker.verify.result import Result
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError
+from rovercheck.spec_model.lang.system import System
 
 EXPLAINED_FOR = 10.0
 """Seconds of computing for the cause of a violation; without it a run is shown all the same."""
+USUAL = ("html", "svg", "table")
+"""The formats that a suffix means which several have."""
 FRAME = 640
 """Pixels of height that a run takes in a notebook."""
 
@@ -47,41 +51,51 @@ class NoTrace(LookupError):
 
 @dataclass(frozen=True)
 class View:
-    """A run or a chart to look at: as text, in a notebook, or in a file of any of its formats.
+    """A run or a chart to look at: printed, shown by a notebook, or written in any of its formats.
 
-    ``kind`` is ``trace`` or ``statechart``.
+    ``kind`` is ``trace`` or ``statechart``; ``systems`` are those of the model, by name.
     """
 
     kind: str
     thing: Trace | Chart
+    systems: Mapping[str, System] = field(default_factory=dict, repr=False)
 
-    def text(self, format: str) -> str | bytes:
-        """The thing in a format.  Raises ``ModelError`` for an unknown one, or one that cannot show it."""
-        found = named(self.kind, format)
-        if found is None:
-            known = ", ".join(sorted(renderers(self.kind)))
-            raise ModelError(f"There is no {self.kind} format {format!r}; write one of {known}.")
-        return found.render(self.thing)
+    def write(self, path: str | Path, format: str | None = None) -> Path:
+        """Write a file, by default in the format of its suffix, and return its path.
 
-    def write(self, path: str | Path) -> Path:
-        """Write a file in the format of its suffix, and return its path.  Raises ``ModelError``."""
+        Raises ``ModelError`` for a format that there is not, or that cannot show it, and where nothing can be
+        written.
+        """
         place = Path(path)
-        known = {r.SUFFIX: name for name, r in reversed(renderers(self.kind).items())}
-        if place.suffix not in known:
-            raise ModelError(f"{place} has no suffix of a format; write one of {', '.join(sorted(known))}.")
         try:
-            write(self.text(known[place.suffix]), place)
+            if isinstance(self.thing, Trace):
+                exit_written(self._format(place, format), self.thing, self.systems, place)
+            else:
+                write(self._format(place, format).render(self.thing), place)
         except UsageError as error:
             raise ModelError(str(error)) from error
         return place
 
+    def _format(self, place: Path, format: str | None) -> Renderer:
+        known = renderers(self.kind)
+        if format is not None:
+            return pick(f"{self.kind} format", format, known)
+        fitting = [name for name, one in known.items() if place.name.endswith(one.SUFFIX)]
+        if not fitting:
+            suffixes = ", ".join(sorted({one.SUFFIX for one in known.values()}))
+            raise ModelError(f"{place} has no suffix of a format; write one of {suffixes}.")
+        return known[next((name for name in USUAL if name in fitting), fitting[0])]
+
+    def _text(self, format: str) -> str:
+        return str(renderers(self.kind)[format].render(self.thing))
+
     def __str__(self) -> str:
-        return str(self.text("table")) if self.kind == "trace" else str(self.thing)
+        return self._text("table") if self.kind == "trace" else str(self.thing)
 
     def _repr_html_(self) -> str:
         if self.kind == "statechart":
-            return str(self.text("svg"))
-        page = html.escape(str(self.text("html")), quote=True)
+            return self._text("svg")
+        page = html.escape(self._text("html"), quote=True)
         return f'<iframe srcdoc="{page}" width="100%" height="{FRAME}" style="border:0"></iframe>'
 
 
@@ -175,7 +189,7 @@ def trace(of: Model | str | Path, id: str, *, seconds: float | None = None) -> V
     [found] = (r for r in events([prop], model.systems, search) if isinstance(r, Result))
     if isinstance(found.verdict, Unknown) or not isinstance(found.verdict.because, Trace):
         raise NoTrace(f"{prop.id} is {found.verdict.word} and has no trace: {evidence(found)}.")
-    return View("trace", _explained(found.verdict.because, prop, model))
+    return View("trace", _explained(found.verdict.because, prop, model), model.systems)
 
 
 def picture(chart: Chart) -> View:

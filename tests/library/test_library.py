@@ -65,11 +65,12 @@ def test_a_run_is_looked_at(tmp_path: Path) -> None:
     run = rovercheck.trace(HEATER, "HEAT-3")
     assert "4 ticks of 20 ms" in str(run)
     assert run._repr_html_().startswith("<iframe srcdoc=")
-    assert len(json.loads(run.write(tmp_path / "run.json").read_text())["ticks"]) == 4
+    assert len(json.loads(run.write(tmp_path / "run.json").read_text())["states"]) == 4
     with pytest.raises(ModelError, match="no suffix of a format"):
         run.write(tmp_path / "run.docx")
-    with pytest.raises(ModelError, match="no trace format 'docx'"):
-        run.text("docx")
+    with pytest.raises(ModelError, match="No trace format 'docx'"):
+        run.write(tmp_path / "run.docx", "docx")
+    assert "<svg" in run.write(tmp_path / "run.txt", "svg").read_text()
 
 
 def test_what_is_proved_has_no_run() -> None:
