@@ -12,12 +12,13 @@ from rovercheck.checker.engines import engines
 from rovercheck.checker.engines.localisation import orders
 from rovercheck.checker.engines.simulation import batches
 from rovercheck.checker.process.isolate import End, Stopped
+from rovercheck.checker.search import runner
 from tests.certifying import inline
 
 LIMIT = "the time limit of 2.5 s is reached"
 
 
-def cut_off(monkeypatch: pytest.MonkeyPatch, engine: ModuleType, *events: object) -> None:
+def cut_off(monkeypatch: pytest.MonkeyPatch, *events: object) -> None:
     """Have the child of an engine send some events, say nothing for a while, and meet its time limit.
 
     Killing is what ``test_isolate`` tests.
@@ -28,7 +29,7 @@ def cut_off(monkeypatch: pytest.MonkeyPatch, engine: ModuleType, *events: object
         yield None
         raise Stopped(LIMIT)
 
-    monkeypatch.setattr(engine, "messages", messages)
+    monkeypatch.setattr(runner, "messages", messages)
 
 
 def here(work: Any, *args: Any, seconds: float | None, memory: int | None) -> Iterator[Any]:

@@ -13,10 +13,10 @@ from rovercheck.checker.encode.bits.inputs import input_cut
 from rovercheck.checker.encode.bits.order import orders
 from rovercheck.checker.engines import Limits, bdd, engines, quiet
 from rovercheck.checker.engines.bdd import search as kept
-from rovercheck.checker.engines.bdd.events import BddBound, BddClosed, BddFound, BddStuck
 from rovercheck.checker.engines.bdd.search import search
 from rovercheck.checker.results.diagram import Diagram
 from rovercheck.checker.results.verdict import Answer, Exhausted, Open, Reached, Run, Unreachable
+from rovercheck.checker.search import DepthSearched, GoalReached, GoalsExcluded, GoalsLeftOpen
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.domain import Bool, chosen, integer
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Var, all_of, const, flag, ite, var
@@ -37,13 +37,13 @@ def searched(system: TransitionSystem, *names: str, most: int | None = None) -> 
     deep = dict.fromkeys(names, 0)
     for event in search(system, names, most, NODES):
         match event:
-            case BddFound(goal, run):
+            case GoalReached(goal, run):
                 found[goal] = Reached(run)
-            case BddClosed(left, because):
+            case GoalsExcluded(left, because):
                 found |= dict.fromkeys(left, Unreachable(because))
-            case BddStuck(left, reason):
+            case GoalsLeftOpen(left, reason):
                 found |= {g: Open(reason, deep[g]) for g in left}
-            case BddBound(left, depth):
+            case DepthSearched(left, depth):
                 deep |= dict.fromkeys(left, depth)
     return {n: found.get(n, Open("", deep[n])) for n in names}
 
@@ -170,7 +170,9 @@ def test_progress_is_reported() -> None:
     lines: list[str] = []
     answers = bdd.check(system, [end, never], Limits(), lines.append)
     assert isinstance(answers["end"], Reached) and isinstance(answers["never"], Unreachable)
-    assert lines[-1].startswith("bdd: depth 6, 36 valuations") and lines[-1].endswith("0 goals open")
+    assert lines[-1].startswith("bdd: depth 6, 36 valuations") and lines[-1].endswith(
+        "0 goals open, 2 decided"
+    )
 
 
 def test_a_depth_limit_leaves_the_goal_open() -> None:
@@ -187,7 +189,7 @@ def test_a_node_limit_leaves_the_goal_open() -> None:
 
 
 def test_what_was_seen_before_the_time_was_over_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    cut_off(monkeypatch, bdd, BddBound(("end",), 7, 100, 10))
+    cut_off(monkeypatch, DepthSearched(("end",), 7))
     answer = check(counters(3)[0], flag("end"), Limits())
     assert answer == Open(LIMIT, 7)
 

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given, settings
 
 from rovercheck.checker.engines import Limits, bmc, engines, quiet
-from rovercheck.checker.engines.bmc.events import BmcBound, BmcFound, BmcUndefined
 from rovercheck.checker.engines.bmc.search import search
 from rovercheck.checker.process.isolate import Send
 from rovercheck.checker.results.verdict import Open, Reached, Run
+from rovercheck.checker.search import DepthSearched, GoalReached, GoalsLeftOpen, runner
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, flag, var
@@ -33,11 +33,11 @@ def searched(system: TransitionSystem, names: Sequence[str], most: int) -> Searc
     result = Searched(deep=dict.fromkeys(names, 0))
     for event in search(system, names, most):
         match event:
-            case BmcFound(goal, run):
+            case GoalReached(goal, run):
                 result.found[goal] = run
-            case BmcBound(goals_, depth):
+            case DepthSearched(goals_, depth):
                 result.deep |= dict.fromkeys(goals_, depth)
-            case BmcUndefined():
+            case GoalsLeftOpen():
                 raise AssertionError(event)
     return result
 
@@ -133,7 +133,7 @@ def _die(send: Send, *_: object) -> None:
 
 
 def test_what_was_seen_before_the_time_was_over_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    cut_off(monkeypatch, bmc, BmcBound(("full",), 7))
+    cut_off(monkeypatch, DepthSearched(("full",), 7))
     lines = list[str]()
     answers = bmc.check(filling(3), [flag("full")], Limits(), lines.append)
     assert answers["full"] == Open(LIMIT, 7)
@@ -141,7 +141,7 @@ def test_what_was_seen_before_the_time_was_over_counts(monkeypatch: pytest.Monke
 
 
 def test_a_dying_solver_leaves_the_goals_open(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(bmc, "_work", _die)
+    monkeypatch.setattr(runner, "work", _die)
     answers = bmc.check(filling(3), [flag("full")], Limits(), quiet)
     assert answers["full"] == Open("the solver process was ended by SIGSEGV", 0)
 

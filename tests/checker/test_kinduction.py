@@ -8,17 +8,17 @@ from hypothesis import given, settings
 
 from benchmarks.roverlite import roverlite
 from rovercheck.checker.engines import Limits, engines, kinduction, quiet
-from rovercheck.checker.engines.kinduction.events import (
-    Event,
-    InductionBound,
-    InductionClosed,
-    InductionFound,
-    InductionProgress,
-    InductionStuck,
-)
 from rovercheck.checker.engines.kinduction.hunt import InvariantHunt
 from rovercheck.checker.engines.kinduction.search import search
 from rovercheck.checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
+from rovercheck.checker.search import (
+    DepthSearched,
+    GoalReached,
+    GoalsExcluded,
+    GoalsLeftOpen,
+    SearchEvent,
+    SearchPhase,
+)
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.domain import chosen, integer
 from rovercheck.spec_model.lang.expr import FALSE, Var, flag, var
@@ -37,21 +37,21 @@ def searched(
     return answered(search(system, [g.name for g in wanted], depth), wanted)
 
 
-def answered(events: Iterable[Event], wanted: Sequence[Var]) -> Mapping[str, Answer]:
+def answered(events: Iterable[SearchEvent], wanted: Sequence[Var]) -> Mapping[str, Answer]:
     """What events come to."""
     found: dict[str, Answer] = {}
     deep = {g.name: 0 for g in wanted}
     for event in events:
         match event:
-            case InductionFound(goal, run, shortest):
+            case GoalReached(goal, run, shortest):
                 found[goal] = Reached(run, shortest)
-            case InductionClosed(goal, because):
+            case GoalsExcluded((goal,), because):
                 found[goal] = Unreachable(because)
-            case InductionBound(names, ticks):
+            case DepthSearched(names, ticks):
                 deep |= dict.fromkeys(names, ticks)
-            case InductionStuck(names, reason):
+            case GoalsLeftOpen(names, reason):
                 found |= {n: Open(reason, deep[n]) for n in names}
-            case InductionProgress():
+            case SearchPhase():
                 pass
     assert found.keys() == deep.keys()
     return found

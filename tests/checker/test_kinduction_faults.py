@@ -9,8 +9,9 @@ from rovercheck.checker.encode.cone import Slice
 from rovercheck.checker.encode.terms import Terms
 from rovercheck.checker.engines.kinduction import houdini, hunt, search
 from rovercheck.checker.engines.kinduction import search as induction
-from rovercheck.checker.engines.kinduction.events import Event, InductionBound, InductionClosed
 from rovercheck.checker.engines.kinduction.ticks import Ticks
+from rovercheck.checker.results.verdict import Inductive
+from rovercheck.checker.search import DepthSearched, GoalsExcluded, SearchEvent
 from rovercheck.spec_model.lang.expr import Expr
 from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.inductive import problems
@@ -20,7 +21,7 @@ from tests.toys import GOAL, counter, once, overflowing, relay, waiting
 def claims(system: TransitionSystem) -> list[str]:
     """What plain enumeration says of the engine's claim; ``no claim`` if it makes none."""
     for event in search.search(system, [GOAL.name], None):
-        if isinstance(event, InductionClosed):
+        if isinstance(event, GoalsExcluded) and isinstance(event.because, Inductive):
             return problems(system, GOAL, event.because)
     return ["no claim"]
 
@@ -66,9 +67,9 @@ def test_a_dropped_domain_constraint(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_a_base_case_that_is_not_looked_at(monkeypatch: pytest.MonkeyPatch) -> None:
     assert claims(once()) == ["no claim"]
 
-    def unseen(self: search.InductionGroup) -> Iterator[Event]:
+    def unseen(self: search.InductionGroup) -> Iterator[SearchEvent]:
         self.deep = search.BASE
-        yield InductionBound(tuple(self.open), self.deep)
+        yield DepthSearched(tuple(self.open), self.deep)
 
     monkeypatch.setattr(search.InductionGroup, "_first_ticks", unseen)
     monkeypatch.setattr(search, "SIMULATED", 0)

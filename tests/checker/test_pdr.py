@@ -10,10 +10,10 @@ from rovercheck.checker.encode.bits import circuit
 from rovercheck.checker.encode.bits.aig import Aig, Literal
 from rovercheck.checker.encode.bits.cnf import Cnf
 from rovercheck.checker.engines import Limits, engines, pdr, quiet
-from rovercheck.checker.engines.pdr.events import Decided, PdrBound, PdrUndefined
 from rovercheck.checker.engines.pdr.groups import decisions
 from rovercheck.checker.process.isolate import Send
 from rovercheck.checker.results.verdict import Inductive, Open, Reached, Unreachable
+from rovercheck.checker.search import DepthSearched, GoalReached, GoalsExcluded, GoalsLeftOpen, runner
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.domain import chosen, integer
 from rovercheck.spec_model.lang.evaluate import admissible, evaluate, step
@@ -33,9 +33,11 @@ def decided(
     found: dict[str, Reached | Unreachable] = {}
     for event in decisions(system, names, None, candidates):
         match event:
-            case Decided(goal, answer):
-                found[goal] = answer
-            case PdrUndefined():
+            case GoalReached(goal, run, shortest):
+                found[goal] = Reached(run, shortest)
+            case GoalsExcluded(names_, because):
+                found |= dict.fromkeys(names_, Unreachable(because))
+            case GoalsLeftOpen():
                 raise AssertionError(event)
     assert set(found) == set(names)
     return found
@@ -139,7 +141,7 @@ def test_the_engine_answers_for_every_goal() -> None:
     reached = answers["full"]
     assert isinstance(reached, Reached) and len(reached.run) == 12
     assert isinstance(answers["over"], Unreachable)
-    assert lines[-1].startswith("pdr: depth ") and ", 0 goals open, 2 decided, " in lines[-1]
+    assert lines[-1].startswith("pdr: depth ") and lines[-1].endswith(" lemmas, 0 goals open, 2 decided")
 
 
 def test_no_goals() -> None:
@@ -209,15 +211,15 @@ def _die(send: Send, *_: object) -> None:
 
 
 def test_what_was_seen_before_the_time_was_over_counts(monkeypatch: pytest.MonkeyPatch) -> None:
-    cut_off(monkeypatch, pdr, PdrBound("full", 7, 12))
+    cut_off(monkeypatch, DepthSearched(("full",), 7, "12 lemmas"))
     lines = list[str]()
     answers = pdr.check(filling(3), [flag("full")], Limits(), lines.append)
     assert answers["full"] == Open(LIMIT, 7)
-    assert lines[-1] == "pdr: depth 7, 1 goal open, 12 lemmas"
+    assert lines[-1] == "pdr: depth 7, 12 lemmas, 1 goal open"
 
 
 def test_a_dying_solver_leaves_the_goals_open(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pdr, "_work", _die)
+    monkeypatch.setattr(runner, "work", _die)
     answers = pdr.check(filling(3), [flag("full")], Limits(), quiet)
     assert answers["full"] == Open("the solver process was ended by SIGSEGV", 0)
 

@@ -12,13 +12,13 @@ import pytest
 from rovercheck.checker.encode.bits import Circuit, Literal
 from rovercheck.checker.engines.pdr import groups, search, seeds
 from rovercheck.checker.engines.pdr.cubes import Cube, cube
-from rovercheck.checker.engines.pdr.events import Decided, PdrBound
 from rovercheck.checker.engines.pdr.frames import Frames
 from rovercheck.checker.engines.pdr.groups import decisions
 from rovercheck.checker.engines.pdr.lemmas import Lemma, LemmaStep
 from rovercheck.checker.engines.pdr.machine import PdrMachine, machine
 from rovercheck.checker.engines.pdr.search import Generaliser, Lifter
 from rovercheck.checker.results.verdict import Reached, Unreachable
+from rovercheck.checker.search import DepthSearched, GoalReached, GoalsExcluded
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.domain import chosen, integer
 from rovercheck.spec_model.lang.expr import TRUE, Expr, flag, ite, var
@@ -88,10 +88,15 @@ def wrong() -> Iterator[str]:
             lies = [system.variables[0] < 3, system.variables[0] <= 5]
             for event in decisions(system, [g.name for g in goals], None, lies):
                 events += 1
-                if isinstance(event, PdrBound) and event.depth >= shortest.get(event.goal, event.depth + 1):
-                    yield f"{event.goal} is said not to be reached within {event.depth} ticks"
-                if isinstance(event, Decided):
-                    answers[event.goal] = event.answer
+                match event:
+                    case DepthSearched(names, depth):
+                        for name in names:
+                            if depth >= shortest.get(name, depth + 1):
+                                yield f"{name} is said not to be reached within {depth} ticks"
+                    case GoalReached(name, run, least):
+                        answers[name] = Reached(run, least)
+                    case GoalsExcluded(names, because):
+                        answers |= dict.fromkeys(names, Unreachable(because))
                 if events > PATIENCE:
                     yield f"{system.name} is not decided"
                     break

@@ -4,15 +4,13 @@ The step is unrolled over bit-vectors and Z3 searches; runs come shortest first.
 """
 
 from collections.abc import Mapping, Sequence
-from contextlib import closing
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.engines import Limits, Progress
-from rovercheck.checker.engines.bmc.events import BmcBound, BmcFound, BmcUndefined, Event
-from rovercheck.checker.process.isolate import Send, Stopped, messages
 from rovercheck.checker.results.trace import counted_ticks
-from rovercheck.checker.results.verdict import Answer, Open, Reached
+from rovercheck.checker.results.verdict import Answer
+from rovercheck.checker.search.runner import SearchJob
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
     from rovercheck.spec_model.lang.expr import Var
@@ -30,19 +28,11 @@ def check(
     """Shortest runs to the goals; ``Open`` with the depth searched for those not reached."""
     depth = DEPTH if limits.depth is None else limits.depth
     names = tuple(g.name for g in goals)
-    found: dict[str, Answer] = {}
-    deep = dict.fromkeys(names, 0)
-    reason = ""
-    job = (replace(system, source=None), names, depth)
-    try:
-        with closing(messages(_work, *job, seconds=limits.seconds, memory=limits.memory)) as events:
-            for event in events:
-                _note(event, found, deep)
-                progress(_line(deep, found))
-    except Stopped as stopped:
-        reason = str(stopped)
-    done = _searched(limits.depth)
-    return {n: found.get(n) or Open(done if deep[n] >= depth else reason, deep[n]) for n in names}
+    job = SearchJob(
+        NAME, f"{__name__}.search", "search", (replace(system, source=None), names, depth),
+        _searched(limits.depth), depth,
+    )  # fmt: skip
+    return job.answers(names, limits.seconds, limits.memory, progress)
 
 
 def _searched(wanted: int | None) -> str:
@@ -50,30 +40,3 @@ def _searched(wanted: int | None) -> str:
     if wanted is None:
         return f"no run of at most {DEPTH} ticks reaches it, and no other depth was asked for"
     return f"no run of at most {counted_ticks(wanted)} reaches it"
-
-
-def _note(event: Event | None, found: dict[str, Answer], deep: dict[str, int]) -> None:
-    """Take down what an event says; None only shows that time has passed."""
-    match event:
-        case BmcFound(goal, run):
-            found[goal] = Reached(run, shortest=True)
-        case BmcUndefined(goals, variables, depth):
-            names = ", ".join(variables)
-            found |= dict.fromkeys(goals, Open(f"{names} may leave its domain in tick {depth + 1}", depth))
-        case BmcBound(goals, depth):
-            deep |= dict.fromkeys(goals, depth)
-
-
-def _line(deep: Mapping[str, int], found: Mapping[str, Answer]) -> str:
-    left = [depth for name, depth in deep.items() if name not in found]
-    depth = min(left or deep.values(), default=0)
-    text = f"{NAME}: depth {depth}, {len(left)} goal{'s' * (len(left) != 1)} open"
-    return text + (f", {len(found)} decided" if found else "")
-
-
-def _work(send: Send, system: "TransitionSystem", goals: tuple[str, ...], depth: int) -> None:
-    """In the child: Z3 is loaded here only."""
-    from rovercheck.checker.engines.bmc.search import search
-
-    for event in search(system, goals, depth):
-        send(event)

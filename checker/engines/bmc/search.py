@@ -13,7 +13,7 @@ from rovercheck.checker.encode.bitvector import Term
 from rovercheck.checker.encode.cone import as_written, by_cone, cone, folded, straying
 from rovercheck.checker.encode.symbolic import SymbolicTransition, transition
 from rovercheck.checker.encode.unrolling import Outside, Unrolling, model_of, satisfiable, steps_taken
-from rovercheck.checker.engines.bmc.events import BmcBound, BmcFound, BmcUndefined, Event
+from rovercheck.checker.search import DepthSearched, GoalReached, GoalsLeftOpen, SearchEvent
 from rovercheck.spec_model.lang.expr import Expr
 from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.walk import variables
@@ -23,7 +23,7 @@ ALONE = 16
 BLOCK = 32
 
 
-def search(system: TransitionSystem, goals: Sequence[str], most: int) -> Iterator[Event]:
+def search(system: TransitionSystem, goals: Sequence[str], most: int) -> Iterator[SearchEvent]:
     """Events until every goal is reached or known not to be within ``most`` ticks.
 
     Raises ``ArithmeticError`` when Z3 gives up.
@@ -47,14 +47,14 @@ class _Group:
         self._unrolling = Unrolling(part, tuple(self._leaving.values()))
         self._queries = 0
 
-    def go_on(self, most: int) -> Iterator[Event]:
+    def go_on(self, most: int) -> Iterator[SearchEvent]:
         """Search the next block of ticks."""
         start = steps_taken(self._unrolling.solver)
         if self._outside.possible:
             yield from self._block(self.depth + 1, min(most, self.depth + self._block_length()))
         else:  # there is no run at all
             self.depth = most
-            yield BmcBound(tuple(self.open), most)
+            yield DepthSearched(tuple(self.open), most)
         self.spent += max(0, steps_taken(self._unrolling.solver) - start)
 
     def _block_length(self) -> int:
@@ -62,11 +62,11 @@ class _Group:
             return 1
         return min(BLOCK, self.depth // 2)
 
-    def _block(self, first: int, last: int) -> Iterator[Event]:
+    def _block(self, first: int, last: int) -> Iterator[SearchEvent]:
         for _ in range(first, last + 1):
             self._unrolling.tick()
         if self._leaving and self._sat(self._unrolling.events(last)):
-            yield BmcUndefined(tuple(self.open), self._leavers(last), self.depth)
+            yield self._undefined(last)
             self.open = []
             return
         while self.open and self._sat(self._hits(self.open, first, last)):
@@ -74,16 +74,20 @@ class _Group:
         self._exclude(self._hits(self.open, first, last))
         self.depth = last
         if self.open:
-            yield BmcBound(tuple(self.open), last)
+            yield DepthSearched(tuple(self.open), last)
 
-    def _shortest(self, first: int, last: int) -> BmcFound:
+    def _undefined(self, tick: int) -> GoalsLeftOpen:
+        names = ", ".join(self._leavers(tick))
+        return GoalsLeftOpen(tuple(self.open), f"{names} may leave its domain in tick {tick}")
+
+    def _shortest(self, first: int, last: int) -> GoalReached:
         """The goal that the model reaches first, by a shortest run; closes the goal."""
         goal, tick, model = self._earliest(self.open, first, last)
         while tick > first and self._sat(self._hits([goal], first, tick - 1)):
             goal, tick, model = self._earliest([goal], first, tick - 1)
         self._exclude(self._hits([goal], first, tick - 1))
         self.open.remove(goal)
-        return BmcFound(goal, self._outside.complete(self._unrolling.run(model, tick)))
+        return GoalReached(goal, self._outside.complete(self._unrolling.run(model, tick)))
 
     def _earliest(self, goals: Sequence[str], first: int, last: int) -> tuple[str, int, z3.ModelRef]:
         model = self._unrolling.solver.model()

@@ -6,21 +6,12 @@ by that run.
 """
 
 from collections.abc import Mapping, Sequence
-from contextlib import closing
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.engines import Limits, Progress
-from rovercheck.checker.engines.kinduction.events import (
-    Event,
-    InductionBound,
-    InductionClosed,
-    InductionFound,
-    InductionProgress,
-    InductionStuck,
-)
-from rovercheck.checker.process.isolate import Send, Stopped, messages
-from rovercheck.checker.results.verdict import Answer, Open, Reached, Unreachable
+from rovercheck.checker.results.verdict import Answer
+from rovercheck.checker.search.runner import SearchJob
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
     from rovercheck.spec_model.lang.expr import Expr, Var
@@ -58,58 +49,9 @@ def _answered(
     candidates: "tuple[Expr, ...] | None",
 ) -> Mapping[str, Answer]:
     names = tuple(g.name for g in goals)
-    state = _Answers(names)
-    job = (replace(system, source=None), names, limits.depth, candidates)
-    reason = "the search ended without a word"
-    try:
-        with closing(messages(_work, *job, seconds=limits.seconds, memory=limits.memory)) as events:
-            for event in events:
-                state.note(event)
-                progress(state.line())
-    except Stopped as stopped:
-        reason = str(stopped)
-    return {n: state.found.get(n) or Open(state.stuck.get(n, reason), state.deep[n]) for n in names}
-
-
-class _Answers:
-    """What is known of the goals so far."""
-
-    def __init__(self, goals: Sequence[str]) -> None:
-        self.found: dict[str, Answer] = {}
-        self.stuck: dict[str, str] = {}
-        self.deep = dict.fromkeys(goals, 0)
-        self._doing = "starting"
-
-    def note(self, event: Event | None) -> None:
-        """Take down what an event says; None only shows that time has passed."""
-        match event:
-            case InductionFound(goal, run, shortest):
-                self.found[goal] = Reached(run, shortest)
-            case InductionClosed(goal, because):
-                self.found[goal] = Unreachable(because)
-            case InductionBound(goals, depth):
-                self.deep |= dict.fromkeys(goals, depth)
-            case InductionStuck(goals, reason):
-                self.stuck |= dict.fromkeys(goals, reason)
-            case InductionProgress(text):
-                self._doing = text
-
-    def line(self) -> str:
-        left = len(self.deep) - len(self.found)
-        text = f"{NAME}: {self._doing}, {left} goal{'s' * (left != 1)} open"
-        return text + (f", {len(self.found)} decided" if self.found else "")
-
-
-def _work(
-    send: Send,
-    system: "TransitionSystem",
-    goals: tuple[str, ...],
-    depth: int | None,
-    candidates: "tuple[Expr, ...] | None",
-) -> None:
-    """In the child: Z3 is loaded here only."""
-    from rovercheck.checker.engines.kinduction.search import search, with_given
-
-    events = search(system, goals, depth) if candidates is None else with_given(system, goals, candidates)
-    for event in events:
-        send(event)
+    own = replace(system, source=None)
+    function = "search" if candidates is None else "with_given"
+    given = limits.depth if candidates is None else candidates
+    ended = "the search ended without a word"
+    job = SearchJob(NAME, f"{__name__}.search", function, (own, names, given), ended)
+    return job.answers(names, limits.seconds, limits.memory, progress)

@@ -14,18 +14,18 @@ from rovercheck.checker.encode.invariants import TemplateCube
 from rovercheck.checker.encode.simulate import Simulator, Trail
 from rovercheck.checker.encode.symbolic import transition
 from rovercheck.checker.encode.unrolling import Outside, Unrolling, literal, satisfiable
-from rovercheck.checker.engines.kinduction.events import (
-    Event,
-    InductionBound,
-    InductionClosed,
-    InductionFound,
-    InductionProgress,
-    InductionStuck,
-)
 from rovercheck.checker.engines.kinduction.houdini import Consecution, of_given
 from rovercheck.checker.engines.kinduction.hunt import InvariantHunt
 from rovercheck.checker.engines.kinduction.ticks import GaveUp, Scope, Ticks, excluded
 from rovercheck.checker.results.verdict import Inductive, Run
+from rovercheck.checker.search import (
+    DepthSearched,
+    GoalReached,
+    GoalsExcluded,
+    GoalsLeftOpen,
+    SearchEvent,
+    SearchPhase,
+)
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.system import TransitionSystem
 
@@ -89,7 +89,7 @@ def _unheard(_: TemplateCube) -> None:
     """Nothing is made of what stands in the way of a proof."""
 
 
-def search(system: TransitionSystem, goals: Sequence[str], depth: int | None) -> Iterator[Event]:
+def search(system: TransitionSystem, goals: Sequence[str], depth: int | None) -> Iterator[SearchEvent]:
     """Events about each goal; runs are not longer than ``depth``, if that is given.
 
     Raises ``ArithmeticError`` when Z3 gives up on the base case.
@@ -99,7 +99,9 @@ def search(system: TransitionSystem, goals: Sequence[str], depth: int | None) ->
         yield from InductionGroup(model, names, depth).decide()
 
 
-def with_given(system: TransitionSystem, goals: Sequence[str], candidates: Sequence[Expr]) -> Iterator[Event]:
+def with_given(
+    system: TransitionSystem, goals: Sequence[str], candidates: Sequence[Expr]
+) -> Iterator[SearchEvent]:
     """Events about all goals together, with those of the candidates that are inductive as the invariant.
 
     No run is told: other engines find shorter and plainer ones.
@@ -149,24 +151,24 @@ class InductionGroup:
         self._whole = replace(self._scope, part=cone(model.folded, [*goals, *(v.name for v in near)]))
         self._reason = "no invariant was found that makes it inductive"
 
-    def decide(self) -> Iterator[Event]:
+    def decide(self) -> Iterator[SearchEvent]:
         """Events until every goal is decided or stuck."""
         if not self._outside.possible:  # there is no run at all
-            yield from (InductionClosed(goal, Inductive(self._unchanging)) for goal in self.open)
+            yield from (GoalsExcluded((goal,), Inductive(self._unchanging)) for goal in self.open)
             return
         try:
             for phase in (self._first_ticks, self._plainly, self._by_simulation):
                 yield from phase()
                 if not self.open:
                     return
-            yield InductionStuck(tuple(self.open), self._reason)
+            yield GoalsLeftOpen(tuple(self.open), self._reason)
         except GaveUp as gave_up:
-            yield InductionStuck(tuple(self.open), f"Z3 took more steps than one query may ({gave_up})")
+            yield GoalsLeftOpen(tuple(self.open), f"Z3 took more steps than one query may ({gave_up})")
 
-    def decide_with(self, candidates: Sequence[Expr]) -> Iterator[Event]:
+    def decide_with(self, candidates: Sequence[Expr]) -> Iterator[SearchEvent]:
         """Events until every goal is closed or stuck."""
         if not self._outside.possible:
-            yield from (InductionClosed(goal, Inductive(self._unchanging)) for goal in self.open)
+            yield from (GoalsExcluded((goal,), Inductive(self._unchanging)) for goal in self.open)
             return
         try:
             invariant = of_given(self._scope, self._model.as_folded(candidates))
@@ -174,18 +176,18 @@ class InductionGroup:
             if self.open:
                 for event in self._first_ticks():
                     yield (
-                        InductionStuck((event.goal,), "a run reaches it")
-                        if isinstance(event, InductionFound)
+                        GoalsLeftOpen((event.goal,), "a run reaches it")
+                        if isinstance(event, GoalReached)
                         else event
                     )
                 yield from self._attempts(invariant, self.deep)
-            yield InductionStuck(tuple(self.open), "the given candidates make no invariant that excludes it")
+            yield GoalsLeftOpen(tuple(self.open), "the given candidates make no invariant that excludes it")
         except GaveUp as gave_up:
-            yield InductionStuck(tuple(self.open), f"Z3 took more steps than one query may ({gave_up})")
+            yield GoalsLeftOpen(tuple(self.open), f"Z3 took more steps than one query may ({gave_up})")
 
     # --- the base case ---------------------------------------------------------------------------
 
-    def _first_ticks(self) -> Iterator[Event]:
+    def _first_ticks(self) -> Iterator[SearchEvent]:
         """Runs of the first few ticks, shortest first."""
         unrolling = Unrolling(self._scope.part, self._scope.escapes)
         for tick in range(1, BASE + 1 if self._most is None else min(BASE, self._most) + 1):
@@ -196,26 +198,26 @@ class InductionGroup:
                     run = unrolling.run(unrolling.solver.model(), tick)
                     yield self._found(goal, self._outside.complete(run), shortest=True)
             self.deep = tick
-            yield InductionBound(tuple(self.open), tick)
+            yield DepthSearched(tuple(self.open), tick)
             if not self.open:
                 return
 
-    def _leaves(self, unrolling: Unrolling, tick: int) -> Iterator[Event]:
+    def _leaves(self, unrolling: Unrolling, tick: int) -> Iterator[SearchEvent]:
         """Give up where a run takes a variable out of its domain: nothing is said of what follows."""
         for name, event in zip(self._names, unrolling.events(tick), strict=True):
             if self.open and satisfiable(unrolling.solver, literal(unrolling, event)):
-                yield InductionStuck(tuple(self.open), f"{name} may leave its domain in tick {tick}")
+                yield GoalsLeftOpen(tuple(self.open), f"{name} may leave its domain in tick {tick}")
                 self.open = []
 
-    def _found(self, goal: str, run: Run, *, shortest: bool) -> InductionFound:
+    def _found(self, goal: str, run: Run, *, shortest: bool) -> GoalReached:
         self.open.remove(goal)
-        return InductionFound(goal, run, shortest)
+        return GoalReached(goal, run, shortest)
 
     # --- proofs ----------------------------------------------------------------------------------
 
-    def _plainly(self) -> Iterator[Event]:
+    def _plainly(self) -> Iterator[SearchEvent]:
         """k-induction over the domains alone."""
-        yield InductionProgress("k-induction over the domains alone")
+        yield SearchPhase("k-induction over the domains alone")
         if excluded(self._scope, (), PLAIN) is None:
             return
         for goal in list(self.open):
@@ -226,13 +228,13 @@ class InductionGroup:
             if isinstance(step, InductionStep):
                 yield self._closed(goal, step, ())
 
-    def _closed(self, goal: str, step: InductionStep, conjuncts: Sequence[Expr]) -> InductionClosed:
+    def _closed(self, goal: str, step: InductionStep, conjuncts: Sequence[Expr]) -> GoalsExcluded:
         self.open.remove(goal)
-        return InductionClosed(goal, Inductive((*self._unchanging, *conjuncts), step.ticks, step.simple))
+        return GoalsExcluded((goal,), Inductive((*self._unchanging, *conjuncts), step.ticks, step.simple))
 
-    def _by_simulation(self) -> Iterator[Event]:
+    def _by_simulation(self) -> Iterator[SearchEvent]:
         """Runs that random inputs find, then invariants that held in all of them."""
-        yield InductionProgress("random runs")
+        yield SearchPhase("random runs")
         simulator = Simulator(self._scope.part, self._scope.escapes)
         most = SIMULATED if self._most is None else min(SIMULATED, self._most)
         trail = simulator.run(simulator.start(), most)
@@ -245,15 +247,15 @@ class InductionGroup:
         if self.open and self.deep:
             yield from self._with_invariants(trail)
 
-    def _with_invariants(self, trail: Trail) -> Iterator[Event]:
+    def _with_invariants(self, trail: Trail) -> Iterator[SearchEvent]:
         hunt = InvariantHunt(self._scope, trail)
         for text in hunt.phases():
-            yield InductionProgress(text)
+            yield SearchPhase(text)
             yield from self._attempts(hunt.invariant, min(WINDOW, self.deep), hunt.note)
             if not self.open:
                 return
         self._reason += f", {hunt.answered} counterexamples to induction answered"
-        yield InductionProgress("k-induction along simple paths")
+        yield SearchPhase("k-induction along simple paths")
         yield from self._attempts(hunt.invariant, self.deep, simple=True)
 
     def _attempts(
@@ -263,7 +265,7 @@ class InductionGroup:
         note: Callable[[TemplateCube], None] = _unheard,
         *,
         simple: bool = False,
-    ) -> Iterator[Event]:
+    ) -> Iterator[SearchEvent]:
         """Try to close each goal with the invariant so far; ``note`` is told what stands in the way.
 
         ``simple``: along paths whose valuations, of all that the goals depend on as written, differ; whoever

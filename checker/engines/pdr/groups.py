@@ -12,12 +12,12 @@ from rovercheck.checker.encode.bits.model import cut
 from rovercheck.checker.encode.cone import as_written, by_cone, cone, constants, folded, straying
 from rovercheck.checker.encode.symbolic import SymbolicTransition, transition
 from rovercheck.checker.engines.pdr.cubes import Cube
-from rovercheck.checker.engines.pdr.events import Decided, Event, PdrBound, PdrUndefined
 from rovercheck.checker.engines.pdr.machine import LEAVES, machine
 from rovercheck.checker.engines.pdr.search import BoundedDepth, Excluded, PdrSearch, Traced
 from rovercheck.checker.engines.pdr.seeds import LARGE, Seed, mined, proved
 from rovercheck.checker.engines.pdr.support import needed
-from rovercheck.checker.results.verdict import Inductive, Reached, Run, Unreachable
+from rovercheck.checker.results.verdict import Inductive, Run
+from rovercheck.checker.search import DepthSearched, GoalReached, GoalsExcluded, GoalsLeftOpen, SearchEvent
 from rovercheck.spec_model.lang.domain import Bool, Num
 from rovercheck.spec_model.lang.evaluate import admissible, step
 from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var, any_of
@@ -144,7 +144,7 @@ def decisions(
     goals: Sequence[str],
     depth: int | None,
     candidates: Sequence[Expr] | None = None,
-) -> Iterator[Event]:
+) -> Iterator[SearchEvent]:
     """Events until every goal is decided or known not to be reached within ``depth`` ticks.
 
     Of the ``candidates`` (None: what random runs suggest), which may be wrong, those that are inductive
@@ -178,13 +178,13 @@ def _kept(system: TransitionSystem, goals: Sequence[str], fixed: Mapping[str, in
 class _Work(Protocol):
     """Something with events; ``spent`` counts its questions to the solver."""
 
-    events: Iterator[Event]
+    events: Iterator[SearchEvent]
 
     @property
     def spent(self) -> int: ...
 
 
-def _in_turns(work: Sequence[_Work]) -> Iterator[Event]:
+def _in_turns(work: Sequence[_Work]) -> Iterator[SearchEvent]:
     """The events of all, the next one always from where the least work was done."""
     left = list(work)
     while left:
@@ -212,25 +212,30 @@ class _Group:
     def spent(self) -> int:
         return self.search.frames.queries
 
-    def _events(self) -> Iterator[Event]:
+    @property
+    def lemmas(self) -> str:
+        """How many lemmas are in use."""
+        return f"{self.search.frames.size:,} lemmas"
+
+    def _events(self) -> Iterator[SearchEvent]:
         outside = others(self.circuit)
         if outside is None:  # there is no run at all
             because = Inductive(tuple(self._fixed))
-            yield from (Decided(goal, Unreachable(because)) for goal in self.circuit.goals)
+            yield GoalsExcluded(tuple(self.circuit.goals), because)
         elif not self.circuit.leaves or (yield from self._stays(outside)):
             yield from _in_turns([_Goal(self, goal, outside) for goal in self.circuit.goals])
 
-    def _stays(self, outside: dict[Literal, int]) -> Generator[Event, None, bool]:
+    def _stays(self, outside: dict[Literal, int]) -> Generator[SearchEvent, None, bool]:
         """Whether no tick of a run takes a variable out of its domain, which all else takes for granted."""
         goals, system = tuple(self.circuit.goals), self.circuit.system
         for event in self.search.decide(LEAVES):
             match event:
                 case Traced():
                     at = replayed(system, run_of(event, self.circuit, outside))
-                    yield PdrUndefined(goals, _leavers(system, at[-1]), len(at) - 1)
+                    yield _undefined(goals, _leavers(system, at[-1]), len(at) - 1)
                     return False
                 case _:
-                    yield from (PdrBound(goal, 0, self.search.frames.size) for goal in goals)
+                    yield DepthSearched(goals, 0, self.lemmas)
         return True
 
     def invariant(self, goal: str, cubes: Sequence[Cube]) -> tuple[Expr, ...]:
@@ -240,6 +245,10 @@ class _Group:
         return (*self._fixed, *(seed.condition for seed in seeds), *conjuncts(lemmas, latches))
 
 
+def _undefined(goals: tuple[str, ...], variables: tuple[str, ...], tick: int) -> GoalsLeftOpen:
+    return GoalsLeftOpen(goals, f"{', '.join(variables)} may leave its domain in tick {tick}")
+
+
 class _Goal:
     """The search for one goal."""
 
@@ -247,18 +256,18 @@ class _Goal:
         self.spent = 0
         self.events = self._events(group, goal, outside)
 
-    def _events(self, group: _Group, goal: str, outside: dict[Literal, int]) -> Iterator[Event]:
+    def _events(self, group: _Group, goal: str, outside: dict[Literal, int]) -> Iterator[SearchEvent]:
         bound, before = 0, group.spent
         for event in group.search.decide(goal):
             self.spent += group.spent - before
             match event:
                 case Traced():
                     run = _reaching(run_of(event, group.circuit, outside), goal, group.circuit.system)
-                    yield Decided(goal, Reached(run, shortest=len(run) == bound + 1))
+                    yield GoalReached(goal, run, shortest=len(run) == bound + 1)
                 case Excluded(cubes):
-                    yield Decided(goal, Unreachable(Inductive(group.invariant(goal, cubes))))
+                    yield GoalsExcluded((goal,), Inductive(group.invariant(goal, cubes)))
                 case BoundedDepth(bound):
-                    yield PdrBound(goal, bound, group.search.frames.size)
+                    yield DepthSearched((goal,), bound, group.lemmas)
                     if group.depth is not None and bound >= group.depth:
                         return
             before = group.spent
