@@ -19,6 +19,7 @@ from rovercheck.checker.verify.portfolio import (
     answers,
     as_found,
 )
+from rovercheck.checker.verify.portfolio.question import EngineAnswer
 from rovercheck.checker.verify.portfolio.shape import shape
 from rovercheck.checker.verify.result import Answers, Result, check_domains, result
 from rovercheck.checker.verify.runs.replay import ReplayError
@@ -143,7 +144,7 @@ class EngineCall:
         if self.deadline is None or monotonic() < self.deadline:
             return {}
         reason = f"time: {self.limits.seconds:g} s ended before an engine was asked"
-        return {goal.name: (Open(reason, 0), "none") for goal in question.goals}
+        return {goal.name: EngineAnswer(Open(reason, 0), "none") for goal in question.goals}
 
 
 def _unbounded(prop: Property, systems: Mapping[str, System], asking: EngineCall) -> Result:

@@ -1,8 +1,10 @@
 """The portfolio: engines in turn and all at once, on answers that are made up."""
 
+import doctest
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import reduce
+from operator import or_
 
 import pytest
 from hypothesis import given
@@ -18,11 +20,12 @@ from rovercheck.checker.verify.portfolio import (
     PortfolioQuestion,
     answers,
     as_found,
+    question,
     turns,
 )
 from rovercheck.checker.verify.portfolio.order import ORDERS, Turn
+from rovercheck.checker.verify.portfolio.question import EngineAnswer
 from rovercheck.checker.verify.portfolio.shape import VAST, WIDE, Shape
-from rovercheck.checker.verify.portfolio.turns import better
 from rovercheck.spec_model.lang.action import Assign
 from rovercheck.spec_model.lang.expr import Var, flag
 from rovercheck.spec_model.lang.system import TransitionSystem
@@ -248,8 +251,13 @@ def test_no_turn_grants_more_than_the_user_allows(
 
 def test_each_reason_is_told_once_with_its_engine() -> None:
     """Each further turn named the first engine once more: ``bmc: bmc: bmc: no run ...``."""
-    answers: list[tuple[Answer, str]] = [
-        (Open(f"reason {n}", n), name) for n, name in enumerate(("bmc", "explicit", "pdr"), start=1)
+    answers = [
+        EngineAnswer(Open(f"reason {n}", n), name)
+        for n, name in enumerate(("bmc", "explicit", "pdr"), start=1)
     ]
-    answer, by = reduce(better, answers)
+    answer, by = reduce(or_, answers)
     assert answer == Open("bmc: reason 1; explicit: reason 2; pdr: reason 3", 3) and by == "pdr"
+
+
+def test_the_example_of_two_answers_is_true() -> None:
+    assert doctest.testmod(question).failed == 0

@@ -14,6 +14,7 @@ from rovercheck.checker.results.verdict import Answer, Inductive, Open, Reached,
 from rovercheck.checker.system.formula_json import Tree, Unreadable, formula, readable, size, written
 from rovercheck.checker.verify.portfolio import Callbacks, PortfolioQuestion, answers, turns
 from rovercheck.checker.verify.portfolio.order import ORDERS, SOON
+from rovercheck.checker.verify.portfolio.question import EngineAnswer
 from rovercheck.checker.verify.portfolio.turns import RecordedInvariants
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.evaluate import evaluate
@@ -169,7 +170,7 @@ def test_what_a_record_leaves_open_is_enumerated_next(monkeypatch: pytest.Monkey
     """It was not proved with the rest: k-induction is not asked to prove a broad question once more."""
     order, asked_by = list[str](), turns.asked
 
-    def noted(engine: Engine, *rest: Any) -> dict[str, tuple[Answer, str]]:
+    def noted(engine: Engine, *rest: Any) -> dict[str, EngineAnswer]:
         order.append(engine.SUMMARY if isinstance(engine, RecordedInvariants) else engine.NAME)
         return asked_by(engine, *rest)
 

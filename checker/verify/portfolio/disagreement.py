@@ -1,10 +1,12 @@
 """Answers that cannot both be true are a bug of ours, and shown as one."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import reduce
+from operator import or_
 
-from rovercheck.checker.results.verdict import Answer, Open, Reached, Unreachable
-from rovercheck.checker.verify.portfolio.question import in_words, light
+from rovercheck.checker.results.verdict import Answer, Reached
+from rovercheck.checker.verify.portfolio.question import Contradiction, EngineAnswer, in_words, light
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TransitionSystem
 
@@ -42,22 +44,13 @@ class Disagreement(Exception):
         return f"engines disagree about {self.goal} of {self.system}. " + "; ".join(map(str, self.said)) + "."
 
 
-def contradict(first: Answer, second: Answer) -> bool:
-    """Whether two answers about one goal cannot both be true."""
-    match first, second:
-        case Reached(), Reached():
-            longer = max(first, second, key=lambda a: len(a.run))
-            return len(first.run) != len(second.run) and longer.shortest
-        case (Reached(run), Open(_, depth)) | (Open(_, depth), Reached(run)):
-            return depth >= len(run)
-        case _:
-            return {type(first), type(second)} == {Reached, Unreachable}
-
-
-def said(system: TransitionSystem, goal: Var, each: Iterable[tuple[Answer, str]]) -> Disagreement:
-    """What engines say of a goal, as the error that it is."""
-    sayings = (Statement(by, light(answer), _replays(system, goal, answer)) for answer, by in each)
-    return Disagreement(system.name, goal.name, tuple(sayings))
+def together(system: TransitionSystem, goal: Var, each: Sequence[EngineAnswer]) -> EngineAnswer:
+    """What engines say of a goal together.  Raises ``Disagreement`` with all that they say."""
+    try:
+        return reduce(or_, each)
+    except Contradiction:
+        said = (Statement(by, light(answer), _replays(system, goal, answer)) for answer, by in each)
+        raise Disagreement(system.name, goal.name, tuple(said)) from None
 
 
 def _replays(system: TransitionSystem, goal: Var, answer: Answer) -> bool | None:

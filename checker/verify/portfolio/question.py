@@ -3,15 +3,78 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from typing import NamedTuple
 
-from rovercheck.checker.engines import Progress, quiet
+from rovercheck.checker.engines import Progress, engines, quiet
 from rovercheck.checker.results.trace import counted_ticks
 from rovercheck.checker.results.verdict import Answer, Evidence, Exhausted, Open, Reached, Unreachable
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.system import TransitionSystem
 
-Found = Mapping[str, tuple[Answer, str]]
-"""An answer for each goal, and the name of the engine that gave it."""
+
+class Contradiction(Exception):
+    """Two answers about one goal cannot both be true."""
+
+
+class EngineAnswer(NamedTuple):
+    """An answer, and the name of the engine that gave it.  ``a | b`` is what both say together.
+
+    >>> EngineAnswer(Open("the time limit is reached", 4), "bmc") | EngineAnswer(Open("no idea", 0), "pdr")
+    EngineAnswer(answer=Open(reason='bmc: the time limit is reached; pdr: no idea', depth=4), engine='bmc')
+    """
+
+    answer: Answer
+    engine: str
+
+    def __or__(self, other: "EngineAnswer") -> "EngineAnswer":
+        """The shorter run, the deeper search.  Raises ``Contradiction``."""
+        if contradict(self.answer, other.answer):
+            raise Contradiction
+        match self.answer, other.answer:
+            case Open(), Open():
+                return self._deeper(other)
+            case Reached() as run, Open(_, depth):
+                return (
+                    self._replace(answer=replace(run, shortest=True)) if depth >= len(run.run) - 1 else self
+                )
+            case Open(), Reached():
+                return other | self
+            case Reached(one, shortest), Reached(another):
+                return self if shortest or len(one) < len(another) else other
+            case Open(), _:
+                return other
+            case _:
+                return self
+
+    def _deeper(self, other: "EngineAnswer") -> "EngineAnswer":
+        assert isinstance(self.answer, Open) and isinstance(other.answer, Open)
+        deeper = self if self.answer.depth > other.answer.depth else other
+        reason = f"{self._reason}; {other._reason}"
+        return EngineAnswer(Open(reason, max(self.answer.depth, other.answer.depth)), deeper.engine)
+
+    @property
+    def _reason(self) -> str:
+        """Why it is open, with the engine whose reason it is, unless those put together already say it."""
+        assert isinstance(self.answer, Open)
+        reason = self.answer.reason
+        told = reason.startswith(tuple(f"{name}: " for name in engines()))
+        return reason if told else f"{self.engine}: {reason}"
+
+
+def contradict(first: Answer, second: Answer) -> bool:
+    """Whether two answers about one goal cannot both be true."""
+    match first, second:
+        case Reached(), Reached():
+            longer = max(first, second, key=lambda a: len(a.run))
+            return len(first.run) != len(second.run) and longer.shortest
+        case (Reached(run), Open(_, depth)) | (Open(_, depth), Reached(run)):
+            return depth >= len(run)
+        case _:
+            return {type(first), type(second)} == {Reached, Unreachable}
+
+
+Found = Mapping[str, EngineAnswer]
+"""An answer for each goal, by its name."""
 
 
 def stays(question: "PortfolioQuestion", found: Found) -> bool:

@@ -1,18 +1,17 @@
 """What a user's choice of engine makes of a question: its answers, each as soon as it counts."""
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from functools import reduce
-from itertools import combinations
+from dataclasses import dataclass, field
 from time import monotonic
 
 from rovercheck.checker.engines import ALL, AUTO, Engine, Limits, Progress, Prover, Stage, engines
 from rovercheck.checker.process.faults import Failed, attempted
 from rovercheck.checker.results.verdict import Answer, Open, Reached, Run, Unreachable
-from rovercheck.checker.verify.portfolio.disagreement import contradict, said
+from rovercheck.checker.verify.portfolio.disagreement import together
 from rovercheck.checker.verify.portfolio.order import CHECKS, ORDERS, RECORDED, SOON, Turn
 from rovercheck.checker.verify.portfolio.question import (
     Callbacks,
+    EngineAnswer,
     Found,
     PortfolioQuestion,
     conclusive,
@@ -88,8 +87,9 @@ class _Turns:
         self.told.granted(left)
         answers = asked(engine, self.question, turn.within(self.limits, left), self.told, goals)
         self.told.granted(self.limits.seconds)  # for what is made of the answers
-        now = {g.name: _both(self.question, g, self.found.get(g.name), answers[g.name]) for g in goals}
-        self.found = {**self.found, **now}
+        for goal in goals:
+            each = [*filter(None, [self.found.get(goal.name)]), answers[goal.name]]
+            self.found = {**self.found, goal.name: together(self.question.system, goal, each)}
         return self.found
 
 
@@ -99,18 +99,7 @@ def _affordable(question: PortfolioQuestion, deadline: float | None) -> bool:
     return not wide and (deadline is None or monotonic() < deadline)
 
 
-def _both(
-    question: PortfolioQuestion, goal: Var, before: tuple[Answer, str] | None, now: tuple[Answer, str]
-) -> tuple[Answer, str]:
-    """What two turns say of a goal together.  Raises ``Disagreement``."""
-    if before is None:
-        return now
-    if contradict(before[0], now[0]):
-        raise said(question.system, goal, (before, now))
-    return better(before, now)
-
-
-def _worth(known: tuple[Answer, str] | None) -> bool:
+def _worth(known: EngineAnswer | None) -> bool:
     """Whether a goal is worth another engine: a run that is known need only be made shorter."""
     return known is None or not isinstance(known[0], Reached) or len(known[0].run) <= SHORTENED
 
@@ -136,7 +125,7 @@ def _looked(answer: Answer, depth: int) -> bool:
 
 def asked(
     engine: Engine, question: PortfolioQuestion, limits: Limits, told: Callbacks, goals: Sequence[Var]
-) -> dict[str, tuple[Answer, str]]:
+) -> dict[str, EngineAnswer]:
     """What one engine says of some goals; nothing, if it fails: the others have their turns all the same."""
     told.progress(Stage(f"{engine.NAME}: searching"))
 
@@ -154,7 +143,7 @@ def asked(
         meant = Failed(f"the operating system refuses: {error}")
     if isinstance(meant, Failed):
         meant = {goal.name: Open(meant.reason, 0) for goal in goals}
-    return {name: (answer, engine.NAME) for name, answer in meant.items()}
+    return {name: EngineAnswer(answer, engine.NAME) for name, answer in meant.items()}
 
 
 def _without_strays(question: PortfolioQuestion, answers: Mapping[str, Answer]) -> dict[str, Answer]:
@@ -172,35 +161,6 @@ def _without_strays(question: PortfolioQuestion, answers: Mapping[str, Answer]) 
     return meant
 
 
-def better(first: tuple[Answer, str], second: tuple[Answer, str]) -> tuple[Answer, str]:
-    """Of two answers to one goal what both say together: the shorter run, the deeper search."""
-    match first[0], second[0]:
-        case Open(), Open():
-            return _deeper(first, second)
-        case Reached() as run, Open(_, depth):
-            return (replace(run, shortest=True), first[1]) if depth >= len(run.run) - 1 else first
-        case Open(), Reached():
-            return better(second, first)
-        case Reached(one, shortest), Reached(other):
-            return first if shortest or len(one) < len(other) else second
-        case Open(), _:
-            return second
-        case _:
-            return first
-
-
-def _deeper(first: tuple[Answer, str], second: tuple[Answer, str]) -> tuple[Answer, str]:
-    (a, by_a), (b, by_b) = first, second
-    assert isinstance(a, Open) and isinstance(b, Open)
-    reason = f"{_by(by_a, a.reason)}; {_by(by_b, b.reason)}"
-    return Open(reason, max(a.depth, b.depth)), by_a if a.depth > b.depth else by_b
-
-
-def _by(engine: str, reason: str) -> str:
-    """The reason with the engine whose it is, unless those that were put together already say it."""
-    return reason if reason.startswith(tuple(f"{name}: " for name in engines())) else f"{engine}: {reason}"
-
-
 # --- every engine on the same question, and their answers compared -------------------------------------
 
 
@@ -212,18 +172,15 @@ def compared(question: PortfolioQuestion, limits: Limits, told: Callbacks) -> Fo
         by_engine[name] = asked(engine, question, limits, told, question.goals)
     told.granted(limits.seconds)
     goals = {g.name: g for g in question.goals}
-    merged: dict[str, tuple[Answer, str]] = {}
+    merged: dict[str, EngineAnswer] = {}
     for name, goal in goals.items():
-        each = [found[name] for found in by_engine.values()]
-        if any(contradict(a, b) for (a, _), (b, _) in combinations(each, 2)):
-            raise said(question.system, goal, each)
-        merged[name] = reduce(better, each)
+        merged[name] = together(question.system, goal, [found[name] for found in by_engine.values()])
     return merged
 
 
 def answers(question: PortfolioQuestion, engine: str | Engine, limits: Limits, told: Callbacks) -> Found:
     """An answer for each goal and each check of the system.  Raises ``Disagreement``."""
-    found: dict[str, tuple[Answer, str]] = {}
+    found: dict[str, EngineAnswer] = {}
     for more in as_found(question, engine, limits, told):
         found |= more
     return found
@@ -275,7 +232,7 @@ def _final(question: PortfolioQuestion, found: Found, goal: str) -> bool:
     return conclusive(answer) and (isinstance(answer, Reached) or stays(question, found))
 
 
-def _meant(question: PortfolioQuestion, found: Found, goal: str) -> tuple[Answer, str]:
+def _meant(question: PortfolioQuestion, found: Found, goal: str) -> EngineAnswer:
     """The answer, open if it rests on the model staying in its domains and that is not known."""
     answer, by = found[goal]
     if isinstance(answer, Unreachable):
@@ -283,5 +240,5 @@ def _meant(question: PortfolioQuestion, found: Found, goal: str) -> tuple[Answer
             staying = found[check.name][0]
             if isinstance(staying, Open) and goal != check.name:
                 reason = f"not reached as long as values stay in their domains; {check.doc}? {staying.reason}"
-                return Open(reason, staying.depth), by
-    return answer, by
+                return EngineAnswer(Open(reason, staying.depth), by)
+    return found[goal]
