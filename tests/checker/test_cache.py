@@ -164,12 +164,12 @@ def test_code_made_by_sources_that_were_changed_meanwhile_is_not_kept(
 def test_every_module_that_takes_part_is_in_the_key() -> None:
     """The modules of the project that are loaded for compiling, seen in a process of its own."""
     script = (
-        "import sys, checker.encode.native\n"
+        "import sys, rovercheck.checker.encode.native\n"
         "print(*(f for m in sys.modules.values() if (f := getattr(m, '__file__', None))), sep='\\n')"
     )
     out = subprocess.run([sys.executable, "-c", script], cwd=ROOT, check=True, capture_output=True, text=True)
     loaded = {Path(line) for line in out.stdout.splitlines()}
-    own = {p for p in loaded if p.is_relative_to(ROOT / "checker") or p.is_relative_to(ROOT / "spec_model")}
+    own = {p for p in loaded if p.is_relative_to(ROOT / "rovercheck") and p.parent != ROOT / "rovercheck"}
     assert own and own <= set(fingerprint.sources())
 
 

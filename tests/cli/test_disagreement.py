@@ -25,7 +25,7 @@ SUMMARY = "wrong on purpose"
 def check(system, goals, limits, progress):
     return {g.name: Unreachable(Inductive(())) for g in goals}
 '''
-FOUND = "import checker.engines; checker.engines.__path__.append({folder!r})"
+FOUND = "import rovercheck.checker.engines; rovercheck.checker.engines.__path__.append({folder!r})"
 
 
 @pytest.fixture

@@ -13,7 +13,7 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.engines import explicit, kinduction
 
 ROOT = Path(__file__).parents[2]
-FOUND = "import checker.engines; checker.engines.__path__.insert(0, {folder!r})"
+FOUND = "import rovercheck.checker.engines; rovercheck.checker.engines.__path__.insert(0, {folder!r})"
 FAILED = "failed on {system} with AssertionError: two and two are five (checker.engines."
 
 

@@ -123,8 +123,8 @@ def test_every_area_is_examined() -> None:
         "from rovercheck.spec_model.signals import board1\nwheels = getattr(board1, 'WHEELS')",
         "from rovercheck.spec_model.composition import link as the_link\nmany = the_link.MANY",
         "from rovercheck.spec_model.board1.limits import *",
-        "import spec_model.board1.safety",
-        "import spec_model.board1.safety as safety\ncause = safety.critical",
+        "import rovercheck.spec_model.board1.safety",
+        "import rovercheck.spec_model.board1.safety as safety\ncause = safety.critical",
         "def cause():\n    from rovercheck.spec_model.board1.safety import critical\n    return critical",
     ],
 )
