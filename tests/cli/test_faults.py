@@ -14,7 +14,7 @@ from rovercheck.checker.engines import explicit, kinduction
 
 ROOT = Path(__file__).parents[2]
 FOUND = "import rovercheck.checker.engines; rovercheck.checker.engines.__path__.insert(0, {folder!r})"
-FAILED = "failed on {system} with AssertionError: two and two are five (checker.engines."
+FAILED = "failed on {system} with AssertionError: two and two are five (rovercheck.checker.engines."
 
 
 @pytest.fixture
