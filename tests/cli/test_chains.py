@@ -11,8 +11,8 @@ from rovercheck.checker.commands.check.further import Further
 from rovercheck.checker.commands.check.run import CheckOutput, CheckRequest, check
 from rovercheck.checker.commands.check.standing import Chains
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.variant import Variant
 from rovercheck.checker.commands.shared.verdicts import results
+from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.properties.catalogue import promises
 from rovercheck.properties.promises.promise import Promise

@@ -8,8 +8,8 @@ from rovercheck.checker.cli import run
 from rovercheck.checker.commands.reports.promises import page
 from rovercheck.checker.commands.reports.repairs import Proof, repair_pages, sections
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.variant import Variant
 from rovercheck.checker.commands.shared.verdicts import results
+from rovercheck.checker.model.variant import Variant
 from rovercheck.properties.catalogue import expected, promises
 from rovercheck.spec_model.repairs import repairs
 

@@ -16,7 +16,7 @@ from rovercheck.checker.commands.check.run import CheckOutput, CheckRequest, che
 from rovercheck.checker.commands.doctor.run import memory
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.progress import Watch
-from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.model.variant import Variant
 from rovercheck.properties.expected import Expected
 from rovercheck.spec_model.rover import systems
 from tests.cli.terminal import Terminal

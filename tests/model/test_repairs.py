@@ -2,9 +2,9 @@
 
 import pytest
 
-from rovercheck.checker.commands.shared.variant import Variant
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.engines import Limits, Timers
+from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.render.drawing.changes import changes
 from rovercheck.checker.verify.checked import SearchSettings
 from rovercheck.properties.catalogue import baseline, catalogue, expected

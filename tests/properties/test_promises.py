@@ -8,7 +8,7 @@ from itertools import product
 import pytest
 
 from rovercheck.checker.commands.check.chains import check, holes
-from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.model.variant import Variant
 from rovercheck.properties.catalogue import as_written, catalogue, expected, promises
 from rovercheck.properties.forms import Always, EntersOnlyIf, HoldsAfter, LeavesOnlyIf, Property, formulas
 from rovercheck.properties.promises.promise import Chain, Promise

@@ -16,10 +16,11 @@ from rovercheck.checker.certify.terms import Malformed
 from rovercheck.checker.certify.tick import executed
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.select import pick
-from rovercheck.checker.commands.shared.variant import Variant, pick_variant
+from rovercheck.checker.commands.shared.variant import pick_variant
 from rovercheck.checker.commands.shared.wrapping import whole
 from rovercheck.checker.engines import Limits, Timers, quiet
 from rovercheck.checker.io.files import replaced
+from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.process.isolate import Send
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.checker.verify.decide import Task, decide

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from rovercheck.checker.commands.check.premises import PremiseSearch
     from rovercheck.checker.commands.check.run import Deliver
     from rovercheck.checker.commands.check.standing import Chains
-    from rovercheck.checker.commands.shared.variant import Variant
+    from rovercheck.checker.model.variant import Variant
     from rovercheck.checker.verify.checked import SearchSettings
 
 
@@ -126,6 +126,7 @@ def check(
         from rovercheck.checker.commands.check.findings import Guide, causes
         from rovercheck.checker.commands.check.run import CheckOutput, CheckRequest
         from rovercheck.checker.commands.check.run import check as run
+        from rovercheck.checker.commands.shared.variant import askable
 
         variant = charts.variant()
         properties = selection.properties(variant)
@@ -134,7 +135,7 @@ def check(
             more = *properties, *variant.promised(), *chains.links.values()
             properties = list({p.id: p for p in more}.values())
         if variant.name:
-            properties = variant.askable(properties)
+            properties = askable(variant, properties)
         options.possible()
         settings = _settings(search, options, variant)
         guide = Guide(variant.options, selection.again, variant.model.by_gravity, causes(variant))
@@ -161,6 +162,7 @@ def _settings(search: SearchOptions, options: CheckOptions, variant: "Variant") 
     """
     from rovercheck.checker.commands.check.certificates import writable
     from rovercheck.checker.commands.shared.select import pick_engine
+    from rovercheck.checker.commands.shared.variant import certifying as certify
     from rovercheck.checker.model.kept_invariants import invariants_of
     from rovercheck.checker.verify.checked import SearchSettings
 
@@ -169,7 +171,7 @@ def _settings(search: SearchOptions, options: CheckOptions, variant: "Variant") 
     if options.certificates:
         writable(options.certificates)
     wanted = options.certify or options.certificates
-    certifying = variant.certifying(options.certificates, options.certify) if wanted else None
+    certifying = certify(variant, options.certificates, options.certify) if wanted else None
     return SearchSettings(engine, limits, options.jobs, invariants_of(variant.model), certifying)
 
 

@@ -17,7 +17,7 @@ from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
     from rovercheck.checker.commands.check.standing import Standing
-    from rovercheck.checker.commands.shared.variant import Variant
+    from rovercheck.checker.model.variant import Variant
     from rovercheck.checker.verify.checked import CheckedProperty
 
 REPORTS = Path("reports/README.md")

@@ -6,7 +6,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.check.chains import check
-from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.mutate.asked import depends_on
 from rovercheck.checker.mutate.product import same
 from rovercheck.checker.system.lowered import lowered

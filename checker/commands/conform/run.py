@@ -11,10 +11,10 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.failure import told
 from rovercheck.checker.commands.shared.output import err, out
 from rovercheck.checker.commands.shared.progress import ProgressLine
-from rovercheck.checker.commands.shared.variant import Variant
 from rovercheck.checker.compare.varied import varied
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.logs import Against, ColumnMap, LogError, LogResult, examine, read_map
+from rovercheck.checker.model.variant import Variant
 
 SCHEMA = "rovercheck/conform/1"
 """The format of the JSON documents, and its version."""

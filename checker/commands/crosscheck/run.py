@@ -11,7 +11,7 @@ from rovercheck.checker.commands.crosscheck.text import CrosscheckReport, report
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, err, out, write
 from rovercheck.checker.commands.shared.progress import ProgressLine
-from rovercheck.checker.commands.shared.variant import Variant, pick_variant
+from rovercheck.checker.commands.shared.variant import pick_variant
 from rovercheck.checker.commands.shared.wrapping import whole
 from rovercheck.checker.compare import Allowance, CompareResult, cross_check, effort
 from rovercheck.checker.compare.reproduce import file_name, pytest_file
@@ -19,6 +19,7 @@ from rovercheck.checker.compare.result import ALLOWED, RANDOM
 from rovercheck.checker.compare.search import CompareSearch
 from rovercheck.checker.compare.varied import varied
 from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.errors import did_you_mean
 

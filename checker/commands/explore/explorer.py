@@ -6,9 +6,9 @@ from rich.console import Console
 
 from rovercheck.checker.commands.explore.text import changes
 from rovercheck.checker.commands.shared.output import counted
-from rovercheck.checker.commands.shared.variant import Variant
 from rovercheck.checker.commands.shared.wrapping import filled
 from rovercheck.checker.explore.by_hand.session import Ran, Session
+from rovercheck.checker.model.variant import Variant
 
 
 class Explorer:

@@ -7,10 +7,10 @@ from rovercheck.checker.commands.explore.text import show
 from rovercheck.checker.commands.explore.words import split
 from rovercheck.checker.commands.shared.output import write
 from rovercheck.checker.commands.shared.select import pick
-from rovercheck.checker.commands.shared.variant import Variant
 from rovercheck.checker.commands.shared.wrapping import whole
 from rovercheck.checker.explore.by_hand.session import Session
 from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.results.trace import Trace
 from rovercheck.properties.forms import Property
 

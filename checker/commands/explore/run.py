@@ -22,10 +22,10 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import out
 from rovercheck.checker.commands.shared.select import pick
 from rovercheck.checker.commands.shared.tables import laid
-from rovercheck.checker.commands.shared.variant import Variant
 from rovercheck.checker.commands.shared.wrapping import filled, whole
 from rovercheck.checker.explore.by_hand.session import Session
 from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.system import System, charts_of, in_order

@@ -7,10 +7,11 @@ from pathlib import Path
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, write, wrote
 from rovercheck.checker.commands.shared.select import pick, pick_properties
-from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.commands.shared.variant import askable
 from rovercheck.checker.commands.shared.wording import formally
 from rovercheck.checker.commands.shared.wrapping import whole
 from rovercheck.checker.export import Exporter, exporters, problem
+from rovercheck.checker.model.variant import Variant
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.lower import lower
@@ -30,7 +31,7 @@ def export(
         raise UsageError("Nothing names what to export; write the ids of properties, or --system NAME.")
     chosen = pick_properties(ids, about, variant.properties(), True, variant.unchanged())
     if variant.name:
-        chosen = variant.askable(chosen)
+        chosen = askable(variant, chosen)
     if not chosen:
         raise UsageError("Nothing to export: no such property is about such a system.")
     systems = variant.systems()

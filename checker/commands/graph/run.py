@@ -9,13 +9,13 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, out, text_width, wrapped, write, wrote
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.commands.shared.select import pick
-from rovercheck.checker.commands.shared.variant import Variant
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.shared.wrapping import whole
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.explore.graphs.making import Made, made
 from rovercheck.checker.explore.graphs.suggesting import Offer, Suggestions, among, suggestions
 from rovercheck.checker.model import names_of
+from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.render import Renderer, renderers
 from rovercheck.checker.render.stategraph.findings import told
 from rovercheck.checker.render.verdict_text import evidence

@@ -93,19 +93,20 @@ def report(
     with prepared(*LOADED):
         from rovercheck.checker.commands.report.run import report as run
         from rovercheck.checker.commands.shared.select import pick_engine
+        from rovercheck.checker.commands.shared.variant import askable, certifying
         from rovercheck.checker.model.kept_invariants import invariants_of
         from rovercheck.checker.verify.checked import SearchSettings
 
         variant = charts.variant()
         properties = selection.properties(variant)
         if variant.name:
-            properties = variant.askable(properties)
+            properties = askable(variant, properties)
         settings = SearchSettings(
             pick_engine(search.engine),
             search.limits(options.memory),
             options.jobs,
             invariants_of(variant.model),
-            variant.certifying(None, True) if options.certify else None,
+            certifying(variant, None, True) if options.certify else None,
         )
         some = not selection.whole or bool(variant.name)
         return run(

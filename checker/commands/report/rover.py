@@ -4,8 +4,8 @@ from collections.abc import Iterator, Sequence
 
 from rovercheck.checker.commands.report.data import Extras
 from rovercheck.checker.commands.reports.repairs import SEARCH, Proof
-from rovercheck.checker.commands.shared.variant import Variant
 from rovercheck.checker.commands.shared.verdicts import results
+from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.render.drawing.changes import changes
 from rovercheck.checker.render.review.model import Ambiguity, Covered, Edit, Remedy
 from rovercheck.checker.render.verdict_text import evidence

@@ -19,12 +19,12 @@ from rovercheck.checker.commands.report.graphs import state_graphs
 from rovercheck.checker.commands.report.rover import extras
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, err, out, write
-from rovercheck.checker.commands.shared.variant import Variant
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.shared.wrapping import whole
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_runs import file_of, read
+from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.render.review import render
 from rovercheck.checker.render.review.model import ReviewOrigin
 from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase, SearchSettings, worst

@@ -10,7 +10,7 @@ from html import escape
 from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.commands.shared.verdicts import results
-from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.engines import AUTO, Limits, Timers
 from rovercheck.checker.model.kept_invariants import invariants_of_rover
 from rovercheck.checker.render import renderers

@@ -15,7 +15,7 @@ from rovercheck.checker.commands.shared.silence import silence
 from rovercheck.checker.engines import AUTO, Limits, Timers
 
 if TYPE_CHECKING:
-    from rovercheck.checker.commands.shared.variant import Variant
+    from rovercheck.checker.model.variant import Variant
     from rovercheck.properties.forms import Property
 
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.select import pick
-from rovercheck.checker.commands.shared.variant import Variant
+from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.system.lowered import lowered
