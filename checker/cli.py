@@ -12,6 +12,7 @@ from pathlib import Path
 import click
 
 from checker import commands
+from checker.commands.shared.aliases import current
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.completing import completed
 from checker.commands.shared.failure import alarm, no_room, told
@@ -36,11 +37,14 @@ Begin:
 
 
 class Verbs(click.Group):
-    """A group that offers the nearest verb."""
+    """A group that takes old words for new ones, and offers the nearest verb."""
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
+        args, renamed = current(args)
+        if renamed and not ctx.resilient_parsing:
+            _note(renamed)
         if self.get_command(ctx, args[0]) is None:
             ctx.fail(f"No such command {args[0]!r}. {did_you_mean(args[0], self.commands)}")
         return super().resolve_command(ctx, args)
@@ -123,11 +127,15 @@ def _internal(error: Exception, arguments: list[str]) -> str:
 
 
 def _say(message: str, code: Exit) -> Exit:
+    _note(message)
+    return code
+
+
+def _note(message: str) -> None:
     from checker.commands.shared.output import err
 
-    with suppress(OSError):  # the code says it too
+    with suppress(OSError):  # the exit code says what matters
         err.print(message, markup=False)
-    return code
 
 
 def _write_no_more() -> None:

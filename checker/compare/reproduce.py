@@ -14,7 +14,7 @@ AS_READ: Mapping[str, str] = {}
 
 TEMPLATE = '''"""{title}
 
-Written by rovercheck crosscheck.  It fails while the implementation has the fault; run it with pytest.
+Written by rovercheck compare.  It fails while the implementation has the fault; run it with pytest.
 {expected}
 """
 

@@ -12,7 +12,7 @@ from unittest.mock import patch
 
 from checker.cli import run
 from checker.commands.reports import run as reporting
-from checker.commands.testgen import run as generating
+from checker.commands.generate_tests import run as generating
 from checker.compare import check, recorded
 from checker.compare.environment import Environment
 from checker.compare.search import Run
@@ -34,10 +34,10 @@ COMMANDS = (
     f"certify certificates {LIFT}",
     f"graph lift {LIFT} --project Door -o door.svg",
     "reports -o reports",
-    "crosscheck --system board2 --impl python:tests.conform.cross_faults:StopsLate --examples 1",
-    "conform examples/logs",
+    "compare --system board2 --impl python:tests.conform.cross_faults:StopsLate --examples 1",
+    "check-log examples/logs",
     "simulate examples/scenarios/link_loss.toml -o motion.csv",
-    "testgen --system toy --ticks 200 --jobs 1 -o tests",
+    "generate-tests --system toy --ticks 200 --jobs 1 -o tests",
     f"explore lift {LIFT} --trace LIFT-3 --script {ROOT}/tests/cli/conversation.txt",
 )
 

@@ -32,10 +32,10 @@ SAID = {
     "certify": "file checked",
     "graph": "searches done",
     "reports": "searches done",
-    "crosscheck": "mismatches",
-    "conform": "2 of 2: good.csv",
+    "compare": "mismatches",
+    "check-log": "2 of 2: good.csv",
     "simulate": " of 16 s",
-    "testgen": "goals decided",
+    "generate-tests": "goals decided",
     "explore": "searches done",
 }
 """What the progress line of each verb says last."""

@@ -40,7 +40,7 @@ def test_every_goal_is_covered_or_said_not_to_be(name: str) -> None:
 
 @pytest.mark.parametrize("name", BOARDS)
 def test_what_is_proved_is_proved_of_the_charts_as_drawn(name: str) -> None:
-    """After a change of charts: ``rovercheck testgen --keep checker/testgen/kept``."""
+    """After a change of charts: ``rovercheck generate-tests --keep checker/testgen/kept``."""
     document = kept_of(boards()[name], kept_text(name))
     assert document.charts == fingerprint(boards()[name], systems()[name])
 

@@ -6,7 +6,7 @@ import pytest
 
 from checker.adapters.python_calls import Instance
 from checker.commands.check.run import results
-from checker.commands.crosscheck.record import in_steps_of
+from checker.commands.compare.record import in_steps_of
 from checker.compare.beside import differs, rerun
 from checker.engines import AUTO, Limits
 from checker.results.trace import Trace

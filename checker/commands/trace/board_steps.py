@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from checker.commands.crosscheck.record import in_steps_of
+from checker.commands.compare.record import in_steps_of
 from checker.compare.beside import SteppedCharts
 from checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSignal, Value
 from checker.results.trace import Tick, Trace

@@ -1,4 +1,4 @@
-"""The verb ``conform``: logs checked against the properties and the charts."""
+"""The verb ``check-log``: logs checked against the properties and the charts."""
 
 from pathlib import Path
 
@@ -15,14 +15,14 @@ from checker.commands.shared.options import VariantOptions, changing, quietly
     "map_file",
     type=click.Path(path_type=Path),
     metavar="MAP.toml",
-    help="What the columns are (docs/conform.md).",
+    help="What the columns are (docs/check-log.md).",
 )
 @click.option("--system", metavar="NAME", help="The board: board1 or board2; by default the columns tell.")
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
 @click.option("--verbose", "-v", is_flag=True, help="Every property, also those that say nothing.")
 @changing
 @quietly
-def conform(
+def check_log(
     place: Path,
     map_file: Path | None,
     system: str | None,
@@ -31,6 +31,6 @@ def conform(
     charts: VariantOptions,
 ) -> Exit:
     """Check a log, or all logs of a folder: every property as a monitor, and as a run of the charts."""
-    from checker.commands.conform.run import conform as run
+    from checker.commands.check_log.run import check_log as run
 
     return run(place, map_file, system, as_json, verbose, charts.chosen, charts.repair)

@@ -1,4 +1,4 @@
-"""The verb ``crosscheck``: an implementation and the charts side by side."""
+"""The verb ``compare``: an implementation and the charts side by side."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -61,12 +61,12 @@ class ComparisonOptions:
 @changing
 @quietly
 @gathered(ComparisonOptions, "options")
-def crosscheck(
+def compare(
     options: ComparisonOptions, as_json: bool, output: Path | None, charts: VariantOptions
 ) -> Exit:
     """Run a supervisor and the charts side by side; exit code 1 where they differ."""
-    from checker.commands.crosscheck.run import CrosscheckOptions
-    from checker.commands.crosscheck.run import crosscheck as run
+    from checker.commands.compare.run import CrosscheckOptions
+    from checker.commands.compare.run import compare as run
     from checker.compare import Allowance
 
     allowed = Allowance(options.mismatches, options.failures)

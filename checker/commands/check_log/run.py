@@ -1,11 +1,11 @@
-"""``rovercheck conform``: logs checked against the properties and the charts."""
+"""``rovercheck check-log``: logs checked against the properties and the charts."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from checker.commands.conform.document import as_json
-from checker.commands.conform.text import LogFault, Outcome, page, summary
+from checker.commands.check_log.document import as_json
+from checker.commands.check_log.text import LogFault, Outcome, page, summary
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.failure import told
 from checker.commands.shared.output import err, out
@@ -50,7 +50,7 @@ class ConformOptions:
             return LogFault(told(error))
 
 
-def conform(
+def check_log(
     place: Path,
     map_file: Path | None,
     system: str | None,

@@ -1,4 +1,4 @@
-"""``rovercheck crosscheck``: an implementation and the charts side by side, under the same inputs."""
+"""``rovercheck compare``: an implementation and the charts side by side, under the same inputs."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ from pathlib import Path
 
 from checker.adapters import start
 from checker.adapters.implementation import ImplementationError
-from checker.commands.crosscheck.text import CrosscheckReport, report, row, shown
+from checker.commands.compare.text import CrosscheckReport, report, row, shown
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import counted, err, out, write
 from checker.commands.shared.progress import ProgressLine
@@ -50,7 +50,7 @@ class CrosscheckOptions:
         return pick_variant(self.chosen, self.repair, ())
 
 
-def crosscheck(asked: CrosscheckOptions, output: Path | None, as_json: bool) -> Exit:
+def compare(asked: CrosscheckOptions, output: Path | None, as_json: bool) -> Exit:
     """Compare one board, or both, and write a test for every mismatch and failure that is shown.
 
     Raises ``UsageError`` for a board that does not exist and an implementation that cannot be started.

@@ -1,4 +1,4 @@
-"""The verb ``testgen``: tests that cover the charts."""
+"""The verb ``generate-tests``: tests that cover the charts."""
 
 from dataclasses import dataclass
 from pathlib import Path
@@ -82,7 +82,7 @@ class GenerationOptions:
 )
 @quietly
 @gathered(GenerationOptions, "options")
-def testgen(options: GenerationOptions, as_json: bool, output: Path) -> Exit:
+def generate_tests(options: GenerationOptions, as_json: bool, output: Path) -> Exit:
     """Write short input sequences that cover the charts, with the outputs that the charts require.
 
     Exit code 0 if every goal is reached by a test or proved out of reach, 2 if some are not known to be
@@ -91,8 +91,8 @@ def testgen(options: GenerationOptions, as_json: bool, output: Path) -> Exit:
     from checker.process.isolate import prepared
 
     with prepared(*LOADED):
-        from checker.commands.testgen.run import CoveringRequest
-        from checker.commands.testgen.run import testgen as run
+        from checker.commands.generate_tests.run import CoveringRequest
+        from checker.commands.generate_tests.run import generate_tests as run
         from checker.system.instrument.goals import GoalKind
         from checker.testgen.coverage import GenerationEffort
 

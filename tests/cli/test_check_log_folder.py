@@ -1,4 +1,4 @@
-"""``rovercheck conform`` of many logs and of hostile ones: each is judged on its own, and told harmlessly."""
+"""``rovercheck check-log`` of many logs and of hostile ones: each is judged on its own, and told harmlessly."""
 
 import json
 import os
@@ -12,7 +12,7 @@ from jsonschema import Draft202012Validator
 import checker
 from checker.adapters.c_build import compiler
 from checker.cli import run
-from checker.commands.conform import run as conforming
+from checker.commands.check_log import run as conforming
 from checker.commands.shared.codes import Exit
 from checker.logs import LogResult, examine
 from spec_model.abstraction import boards
@@ -22,14 +22,14 @@ EXAMPLES = Path(__file__).parents[2] / "examples" / "logs"
 SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "conform-1.json").read_text("utf-8"))
 
 
-def conform(*arguments: str | Path) -> Exit:
-    return run(["conform", *map(str, arguments)])
+def check_log(*arguments: str | Path) -> Exit:
+    return run(["check-log", *map(str, arguments)])
 
 
 def document(*arguments: str | Path, capsys: pytest.CaptureFixture[str]) -> Any:
     """What is printed as JSON: it is as described, and names the exit code."""
     capsys.readouterr()
-    code = conform(*arguments, "--json")
+    code = check_log(*arguments, "--json")
     found = json.loads(capsys.readouterr().out)
     Draft202012Validator.check_schema(SCHEMA)
     Draft202012Validator(SCHEMA).validate(found)
@@ -100,7 +100,7 @@ def test_the_gravest_log_decides_and_every_log_is_told(
 ) -> None:
     for make in logs:
         make(tmp_path)
-    assert conform(tmp_path) == code
+    assert check_log(tmp_path) == code
     printed = " ".join(capsys.readouterr().out.split())
     for file in tmp_path.iterdir():
         assert file.name in printed
@@ -117,7 +117,7 @@ def test_the_gravest_log_decides_and_every_log_is_told(
 @pytest.mark.usefixtures("a_fault_of_ours")
 def test_a_fault_of_ours_on_a_single_log(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     failing(tmp_path)
-    assert conform(tmp_path / "fails.csv") is Exit.INTERNAL
+    assert check_log(tmp_path / "fails.csv") is Exit.INTERNAL
     assert "This is a bug of rovercheck" in capsys.readouterr().err
 
 
@@ -130,13 +130,13 @@ def test_a_log_for_which_there_is_no_room_leaves_the_others(
         raise MemoryError
 
     monkeypatch.setattr(conforming, "examine", no_room)
-    assert conform(tmp_path) is Exit.USAGE
+    assert check_log(tmp_path) is Exit.USAGE
     assert "good.csv: not read: takes more memory than there is" in capsys.readouterr().out
 
 
 def test_a_wrong_cell_is_told_and_counted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with_a_wrong_cell(tmp_path)
-    assert conform(tmp_path / "cell.csv") is Exit.CHANGED
+    assert check_log(tmp_path / "cell.csv") is Exit.CHANGED
     printed = " ".join(capsys.readouterr().out.split())
     assert "Cells: 1 cell without meaning, taken as not logged. ✗ btn1: 2 is outside boolean" in printed
     assert "tick 31, line 32" in printed and "a run of the charts" in printed
@@ -144,7 +144,7 @@ def test_a_wrong_cell_is_told_and_counted(tmp_path: Path, capsys: pytest.Capture
     assert (cell["column"], cell["value"], cell["first_tick"], cell["first_line"], cell["rows"]) == (
         "btn1", "2", 31, 32, 1,
     )  # fmt: skip
-    conform(tmp_path)
+    check_log(tmp_path)
     assert "1 log: none deviates, 1 with cells without meaning." in capsys.readouterr().out
 
 
@@ -180,7 +180,7 @@ def hostile(folder: Path, name: str = "log.csv") -> Path:
 def test_names_of_columns_and_cells_are_printed_as_they_are(
     option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert conform(hostile(tmp_path), option) is Exit.CHANGED
+    assert check_log(hostile(tmp_path), option) is Exit.CHANGED
     printed = capsys.readouterr().out
     assert harmless(printed)
     assert option == "--json" or SHOWN in printed.replace("\n", " ").replace("               ", "")
@@ -193,7 +193,7 @@ def test_names_of_files_are_printed_as_they_are(
 ) -> None:
     good(tmp_path)
     os.rename(tmp_path / "good.csv", os.fsencode(tmp_path) + b"/\x1b[31m\xff:12:.csv")
-    assert conform(tmp_path, option) is Exit.AS_EXPECTED
+    assert check_log(tmp_path, option) is Exit.AS_EXPECTED
     printed = capsys.readouterr().out
     assert harmless(printed)
     assert (r"\x1b[31m\udcff:12:.csv" if option == "--quiet" else r"\u001b[31m\udcff:12:.csv") in printed
@@ -202,12 +202,12 @@ def test_names_of_files_are_printed_as_they_are(
 @pytest.mark.parametrize(
     "arguments",
     [
-        ["conform", "NAME"],
-        ["conform", "LOG", "--map", "NAME"],
-        ["conform", "LOG", "--system", "NAME"],
-        ["conform", "LOG", "--reading", "NAME"],
-        ["crosscheck", "--impl", "NAME"],
-        ["crosscheck", "--system", "board1", "--impl", "command:NAME"],
+        ["check-log", "NAME"],
+        ["check-log", "LOG", "--map", "NAME"],
+        ["check-log", "LOG", "--system", "NAME"],
+        ["check-log", "LOG", "--reading", "NAME"],
+        ["compare", "--impl", "NAME"],
+        ["compare", "--system", "board1", "--impl", "command:NAME"],
         ["check", "NAME"],
         ["check", "--model", "NAME"],
         ["trace", "NAME"],
@@ -241,6 +241,6 @@ def test_messages_of_a_compiler_are_printed_as_they_are(
     (tmp_path / "map.toml").write_text(
         'header = "sup.h"\nstep = "go"\n[inputs]\nbtn1 = "a"\n[outputs]\nv_ref = "b"\n', encoding="utf-8"
     )
-    assert run(["crosscheck", "--system", "board1", "--impl", f"c:{tmp_path}"]) is Exit.USAGE
+    assert run(["compare", "--system", "board1", "--impl", f"c:{tmp_path}"]) is Exit.USAGE
     printed = capsys.readouterr().err
     assert harmless(printed) and ":1234:" in printed and ":smile: [red]" in printed

@@ -1,4 +1,4 @@
-"""``rovercheck testgen``: files, exact counts, exit codes."""
+"""``rovercheck generate-tests``: files, exact counts, exit codes."""
 
 import json
 from pathlib import Path
@@ -10,8 +10,8 @@ from jsonschema import Draft202012Validator
 import checker
 from checker.cli import run
 from checker.commands.shared.codes import Exit
-from checker.commands.testgen import run as generating
-from checker.commands.testgen.run import GenerationProgress
+from checker.commands.generate_tests import run as generating
+from checker.commands.generate_tests.run import GenerationProgress
 from checker.system.instrument.watch import watched
 from checker.testgen.fingerprint import fingerprint
 from checker.testgen.generate import Aim
@@ -22,7 +22,7 @@ SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "testgen-1
 
 
 def test_the_kept_tests_are_written_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code = run(["testgen", "--kept", "--system", "Relay", "--cover", "pairs", "-o", str(tmp_path / "new")])
+    code = run(["generate-tests", "--kept", "--system", "Relay", "--cover", "pairs", "-o", str(tmp_path / "new")])
     said = capsys.readouterr().out
     assert code is Exit.AS_EXPECTED
     assert "pairs 3: 3 covered" in said and "0 proved uncoverable, 0 unknown" in said
@@ -30,7 +30,7 @@ def test_the_kept_tests_are_written_at_once(tmp_path: Path, capsys: pytest.Captu
 
 
 def test_the_document_names_every_goal(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    run(["testgen", "--kept", "--system", "Relay", "--json", "--format", "c", "-o", str(tmp_path)])
+    run(["generate-tests", "--kept", "--system", "Relay", "--json", "--format", "c", "-o", str(tmp_path)])
     document = json.loads(capsys.readouterr().out)
     Draft202012Validator.check_schema(SCHEMA)
     Draft202012Validator(SCHEMA).validate(document)
@@ -44,7 +44,7 @@ def test_the_document_names_every_goal(tmp_path: Path, capsys: pytest.CaptureFix
 
 def test_a_search_covers_a_block(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ["--system", "checkStop", "--cover", "boundaries", "--ticks", "3000", "--format", "pytest"]
-    code = run(["testgen", *arguments, "--jobs", "1", "-o", str(tmp_path)])
+    code = run(["generate-tests", *arguments, "--jobs", "1", "-o", str(tmp_path)])
     said = capsys.readouterr().out
     assert code is Exit.AS_EXPECTED, said
     assert "boundaries 12: 12 covered" in said
@@ -56,7 +56,7 @@ def test_no_line_is_wider_than_the_terminal(
 ) -> None:
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.chdir(tmp_path)
-    run(["testgen", "--kept", "--system", "board1", "-o", "tests"])
+    run(["generate-tests", "--kept", "--system", "board1", "-o", "tests"])
     assert max(map(len, capsys.readouterr().out.splitlines())) <= 80
 
 
@@ -72,7 +72,7 @@ def test_no_line_is_wider_than_the_terminal(
 def test_a_mistake_is_one_message(
     arguments: list[str], said: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert run(["testgen", *arguments, "-o", str(tmp_path)]) is Exit.USAGE
+    assert run(["generate-tests", *arguments, "-o", str(tmp_path)]) is Exit.USAGE
     assert said in capsys.readouterr().err
 
 
@@ -80,7 +80,7 @@ def test_a_place_that_cannot_be_written_is_one_message(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "file").write_text("")
-    code = run(["testgen", "--kept", "--system", "Relay", "-o", str(tmp_path / "file" / "in")])
+    code = run(["generate-tests", "--kept", "--system", "Relay", "-o", str(tmp_path / "file" / "in")])
     assert code in (Exit.USAGE, Exit.INCONCLUSIVE)
     assert len(capsys.readouterr().err.strip().splitlines()) == 1
 
@@ -94,7 +94,7 @@ def test_ctrl_c_writes_what_was_found(
 
     monkeypatch.setattr(GenerationProgress, "__call__", ctrl_c)
     arguments = ["--system", "checkStop", "--cover", "boundaries", "--ticks", "3000", "--timeout", "0.1"]
-    assert run(["testgen", *arguments, "--jobs", "1", "-o", str(tmp_path)]) is Exit.INTERRUPTED
+    assert run(["generate-tests", *arguments, "--jobs", "1", "-o", str(tmp_path)]) is Exit.INTERRUPTED
     said = capsys.readouterr().out
     assert "Interrupted: this is what was found so far." in said
     assert (tmp_path / "board1_001.csv").exists()
@@ -118,23 +118,23 @@ EFFORT = ["--ticks", "400", "--jobs", "1"]
 @pytest.mark.usefixtures("toy_kept")
 def test_a_set_is_kept_and_gone_on_from(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     place = tmp_path / "new" / "toy.json"
-    assert run(["testgen", "--keep", str(tmp_path / "new"), *EFFORT]) is Exit.AS_EXPECTED
+    assert run(["generate-tests", "--keep", str(tmp_path / "new"), *EFFORT]) is Exit.AS_EXPECTED
     first = place.read_text(encoding="utf-8")
     assert kept_of(TOY, first).charts == fingerprint(TOY, SYSTEM)
     said = capsys.readouterr().out
     assert f"{len(kept_of(TOY, first).tests)} tests of" in said and "in the set of" in said
-    assert run(["testgen", "--keep", str(tmp_path / "new"), "--ticks", "0"]) is Exit.AS_EXPECTED
+    assert run(["generate-tests", "--keep", str(tmp_path / "new"), "--ticks", "0"]) is Exit.AS_EXPECTED
     assert place.read_text(encoding="utf-8") == first
 
 
 @pytest.mark.usefixtures("toy_kept")
 def test_a_set_that_is_none_is_left_as_it_is(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "toy.json").write_text("{}", encoding="utf-8")
-    assert run(["testgen", "--keep", str(tmp_path), *EFFORT]) is Exit.USAGE
+    assert run(["generate-tests", "--keep", str(tmp_path), *EFFORT]) is Exit.USAGE
     assert "Cannot go on from" in capsys.readouterr().err
     assert (tmp_path / "toy.json").read_text(encoding="utf-8") == "{}"
 
 
 def test_to_keep_and_to_write_what_is_kept_are_two_things(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["testgen", "--kept", "--keep", "somewhere"]) is Exit.USAGE
+    assert run(["generate-tests", "--kept", "--keep", "somewhere"]) is Exit.USAGE
     assert "leave one out" in capsys.readouterr().err

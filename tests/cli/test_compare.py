@@ -1,4 +1,4 @@
-"""``rovercheck crosscheck``: report, exit codes, tests that it writes, bad input."""
+"""``rovercheck compare``: report, exit codes, tests that it writes, bad input."""
 
 import json
 import subprocess
@@ -31,12 +31,12 @@ def _on_counterexamples_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(check, "_known", known)
 
 
-def crosscheck(*arguments: str) -> Exit:
-    return run(["crosscheck", *arguments])
+def compare(*arguments: str) -> Exit:
+    return run(["compare", *arguments])
 
 
 def test_a_board_conforms(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
-    assert crosscheck("--system", "board2", "--examples", "1", "-o", str(tmp_path)) is Exit.AS_EXPECTED
+    assert compare("--system", "board2", "--examples", "1", "-o", str(tmp_path)) is Exit.AS_EXPECTED
     said = capsys.readouterr().out
     assert "✓ board2 conforms: " in said and "of boundaries" in said
     assert list(tmp_path.iterdir()) == []
@@ -45,7 +45,7 @@ def test_a_board_conforms(capsys: pytest.CaptureFixture[str], tmp_path: Path) ->
 
 def test_a_fault_is_shown_and_becomes_a_test(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     fault, folder = f"python:{FAULTS}:StopsLate", tmp_path / "with a blank"
-    code = crosscheck("--system", "board2", "--impl", fault, "--examples", "0", "-o", str(folder))
+    code = compare("--system", "board2", "--impl", fault, "--examples", "0", "-o", str(folder))
     said = capsys.readouterr().out
     assert code is Exit.CHANGED
     assert "board2 does not conform" in said and "the charts took" in said
@@ -64,7 +64,7 @@ def test_a_fault_is_shown_and_becomes_a_test(capsys: pytest.CaptureFixture[str],
 
 def test_results_for_machines(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     fault = f"python:{FAULTS}:SwappedSonars"
-    code = crosscheck("--system", "board2", "--impl", fault, "--examples", "0", "--json", "-o", str(tmp_path))
+    code = compare("--system", "board2", "--impl", fault, "--examples", "0", "--json", "-o", str(tmp_path))
     document = json.loads(capsys.readouterr().out)
     [result] = document["results"]
     assert document["exit"] == code == Exit.CHANGED and document["complete"]
@@ -79,9 +79,9 @@ def test_what_is_not_told_in_full_is_told_in_a_line_and_how_to_see_it(
 ) -> None:
     fault = f"python:{FAULTS}:StalePayload"
     asked = ["--system", "board1", "--impl", fault, "--examples", "0", "-o", str(tmp_path)]
-    assert crosscheck(*asked, "--mismatches", "1") is Exit.CHANGED
+    assert compare(*asked, "--mismatches", "1") is Exit.CHANGED
     said = " ".join(capsys.readouterr().out.split())
-    assert crosscheck(*asked, "--mismatches", "1", "--json") is Exit.CHANGED
+    assert compare(*asked, "--mismatches", "1", "--json") is Exit.CHANGED
     [result] = json.loads(capsys.readouterr().out)["results"]
     found = result["mismatches"]
     assert result["distinct"] == len(found) > 1 and [m["small"] for m in found] == [
@@ -98,7 +98,7 @@ def test_what_is_not_told_in_full_is_told_in_a_line_and_how_to_see_it(
     )
     for one in found[1:]:
         assert f"step {one['step']} of {one['origin']}: {one['differences'][0]['output']} differs" in said
-    assert crosscheck(*asked, "--mismatches", str(len(found))) is Exit.CHANGED
+    assert compare(*asked, "--mismatches", str(len(found))) is Exit.CHANGED
     assert "all of them with" not in " ".join(capsys.readouterr().out.split())
 
 
@@ -108,12 +108,12 @@ def test_what_was_not_tried_is_said_with_the_reason(
     monkeypatch.undo()
     fault = f"python:{FAULTS}:Crashing"
     asked = ["--system", "board2", "--impl", fault, "--examples", "7", "-o", str(tmp_path), "--failures", "2"]
-    assert crosscheck(*asked) is Exit.CHANGED
+    assert compare(*asked) is Exit.CHANGED
     said = " ".join(capsys.readouterr().out.split())
     assert "tried, not all; given up after 2 runs not survived." in said
     assert "Random runs: 0 of 7 tried; given up after 2 runs not survived." in said
     assert "Try more with --failures N (now 2)." in said
-    assert crosscheck(*asked, "--json") is Exit.CHANGED
+    assert compare(*asked, "--json") is Exit.CHANGED
     [result] = json.loads(capsys.readouterr().out)["results"]
     reason = "given up after 2 runs not survived"
     assert result["tried"][1] == {"kind": "random runs", "tried": 0, "of": 7, "because": reason}
@@ -126,7 +126,7 @@ def test_a_crash_is_a_finding_that_becomes_a_test(
     """On all runs, of which it does not survive the 50th."""
     monkeypatch.undo()
     fault = f"python:{FAULTS}:Crashing"
-    code = crosscheck("--system", "board2", "--impl", fault, "--examples", "0", "-o", str(tmp_path))
+    code = compare("--system", "board2", "--impl", fault, "--examples", "0", "-o", str(tmp_path))
     said = capsys.readouterr().out
     assert code is Exit.CHANGED
     assert "nobody steers" in said and "inputs that are not calm" in said
@@ -153,7 +153,7 @@ def test_a_command_that_dies_is_a_finding_and_what_it_answered_before_counts(
     program, tests = tmp_path / "dying.py", tmp_path / "tests"
     program.write_text(DYING, encoding="utf-8")
     asked = ["--system", "board2", "--impl", f"command:{sys.executable} {program}"]
-    code = crosscheck(*asked, "--examples", "0", "--json", "-o", str(tests))
+    code = compare(*asked, "--examples", "0", "--json", "-o", str(tests))
     [result] = json.loads(capsys.readouterr().out)["results"]
     assert code is Exit.CHANGED
     assert all("SIGSEGV" in failure["message"] for failure in result["failures"])
@@ -164,7 +164,7 @@ def test_a_command_that_dies_is_a_finding_and_what_it_answered_before_counts(
 
 def test_other_charts_require_something_else(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     asked = ["--system", "board1", "--examples", "0", "--repair", "relay-without-delay"]
-    assert crosscheck(*asked, "-o", str(tmp_path)) is Exit.CHANGED
+    assert compare(*asked, "-o", str(tmp_path)) is Exit.CHANGED
     said = " ".join(capsys.readouterr().out.split())
     assert "charts under S45=IMMEDIATE with relay-without-delay; 0 random runs" in said
     assert "give_b2_actuation differs" in said
@@ -189,7 +189,7 @@ def test_other_charts_require_something_else(capsys: pytest.CaptureFixture[str],
     ],
 )
 def test_bad_input(arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert crosscheck(*arguments) is Exit.USAGE
+    assert compare(*arguments) is Exit.USAGE
     assert says in capsys.readouterr().err
 
 
@@ -203,8 +203,8 @@ def test_tests_of_a_folder_are_run_too(capsys: pytest.CaptureFixture[str], tmp_p
     row = ",0,0,0,0,0,0,0,0,0,0,0,0,false,false,0,0,0,0,0,0"
     asked = ["--system", "board2", "--examples", "0", "--tests", str(tmp_path)]
     bad.write_text(f"{names}\n20{row}\n45{row}\n", encoding="utf-8")
-    assert crosscheck(*asked) is Exit.USAGE
+    assert compare(*asked) is Exit.USAGE
     assert "20 ms apart" in capsys.readouterr().err
     bad.write_text(f"{names}\n20{row}\nx{row}\n", encoding="utf-8")
-    assert crosscheck(*asked) is Exit.USAGE
+    assert compare(*asked) is Exit.USAGE
     assert "step 2" in capsys.readouterr().err

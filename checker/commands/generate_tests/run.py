@@ -1,4 +1,4 @@
-"""``rovercheck testgen``: short tests that cover the charts, with the outputs that they require."""
+"""``rovercheck generate-tests``: short tests that cover the charts, with the outputs that they require."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -49,7 +49,7 @@ class Generated:
     interrupted: bool = False
 
 
-def testgen(asked: CoveringRequest, output: Path, as_json: bool) -> Exit:
+def generate_tests(asked: CoveringRequest, output: Path, as_json: bool) -> Exit:
     """Generate tests, write them, and say exactly what they cover.
 
     Raises ``ModelError`` for a name of no board or chart, ``UsageError`` where nothing can be written.

@@ -1,4 +1,4 @@
-"""``rovercheck conform``: what it prints, its exit codes, and that one bad log does not spoil the others."""
+"""``rovercheck check-log``: what it prints, its exit codes, and that one bad log does not spoil the others."""
 
 import json
 from pathlib import Path
@@ -14,12 +14,12 @@ EXAMPLES = Path(__file__).parents[2] / "examples" / "logs"
 FAULTS = [str(EXAMPLES / "faults.csv"), "--map", str(EXAMPLES / "map.toml")]
 
 
-def conform(*arguments: str) -> Exit:
-    return run(["conform", *arguments])
+def check_log(*arguments: str) -> Exit:
+    return run(["check-log", *arguments])
 
 
 def test_the_good_example(capsys: pytest.CaptureFixture[str]) -> None:
-    assert conform(str(EXAMPLES / "good.csv")) is Exit.AS_EXPECTED
+    assert check_log(str(EXAMPLES / "good.csv")) is Exit.AS_EXPECTED
     printed = capsys.readouterr().out
     assert "Behaviour: a run of the charts, of 27 outputs compared." in printed
     assert "known findings" in printed and "not expected" not in printed
@@ -27,7 +27,7 @@ def test_the_good_example(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_the_example_with_faults(capsys: pytest.CaptureFixture[str]) -> None:
-    assert conform(*FAULTS) is Exit.CHANGED
+    assert check_log(*FAULTS) is Exit.CHANGED
     printed = capsys.readouterr().out
     assert "3 distinct deviations from the charts" in printed
     assert "rover_safety_state one tick late" in printed and "swapped" in printed
@@ -36,14 +36,14 @@ def test_the_example_with_faults(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_every_property_on_request(capsys: pytest.CaptureFixture[str]) -> None:
-    conform(*FAULTS, "--verbose")
+    check_log(*FAULTS, "--verbose")
     printed = capsys.readouterr().out
     assert "satisfied on this log" in printed and "never triggered: says nothing" in printed
     assert "missing: btn1" in printed and "no finite run breaks it" in printed
 
 
 def test_json(capsys: pytest.CaptureFixture[str]) -> None:
-    assert conform(*FAULTS, "--json") is Exit.CHANGED
+    assert check_log(*FAULTS, "--json") is Exit.CHANGED
     found = json.loads(capsys.readouterr().out)
     assert found["system"] == "board1" and not found["conforms"] and found["ticks"] == 300
     assert [d["kind"] for d in found["deviations"]] == ["late", "swapped", "value"]
@@ -56,14 +56,14 @@ def test_json(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_another_reading_explains_another_log(capsys: pytest.CaptureFixture[str]) -> None:
     good = str(EXAMPLES / "good.csv")
-    assert conform(good, "--reading", "S43=AND") is Exit.CHANGED
+    assert check_log(good, "--reading", "S43=AND") is Exit.CHANGED
     printed = capsys.readouterr().out
     assert (
         "under S43=AND" in printed
         and "1 distinct deviation" in printed
         and "Relay: in B1_actuating" in printed
     )
-    assert conform(good, "--reading", "S43=OR", "--json") is Exit.AS_EXPECTED
+    assert check_log(good, "--reading", "S43=OR", "--json") is Exit.AS_EXPECTED
     assert json.loads(capsys.readouterr().out)["charts"] == "under S43=OR"
 
 
@@ -71,9 +71,9 @@ def test_a_repair_is_compared_with_and_its_promises_are_expected(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "one.csv").write_bytes((EXAMPLES / "good.csv").read_bytes())
-    assert conform(str(tmp_path), "--repair", "relay-without-delay") is Exit.CHANGED
+    assert check_log(str(tmp_path), "--repair", "relay-without-delay") is Exit.CHANGED
     assert "with relay-without-delay" in capsys.readouterr().out
-    conform(str(tmp_path), "--repair", "relay-without-delay", "--json")
+    check_log(str(tmp_path), "--repair", "relay-without-delay", "--json")
     [found] = json.loads(capsys.readouterr().out)["logs"]
     [broken] = [p for p in found["properties"] if p["id"] == "PB1-15"]
     assert broken["verdict"] == "violated" and not broken["as_on_record"]
@@ -92,14 +92,14 @@ def test_a_repair_is_compared_with_and_its_promises_are_expected(
 def test_charts_that_no_log_is_compared_with(
     option: str, value: str, says: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert conform(str(EXAMPLES / "good.csv"), option, value) is Exit.USAGE
+    assert check_log(str(EXAMPLES / "good.csv"), option, value) is Exit.USAGE
     assert says in " ".join(capsys.readouterr().err.split())
 
 
 def test_what_cannot_be_decided_is_no_pass(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     inputs = [s.name for s in boards()["board1"].inputs if s.name != "now_ms"]
     log = written(tmp_path, copied(long_log("board1")[:400]), inputs)
-    assert conform(str(log)) is Exit.INCONCLUSIVE
+    assert check_log(str(log)) is Exit.INCONCLUSIVE
     printed = capsys.readouterr().out
     assert "not all was decided" in printed and "unknown from tick" in printed
 
@@ -117,7 +117,7 @@ def test_what_cannot_be_decided_is_no_pass(tmp_path: Path, capsys: pytest.Captur
 def test_a_mistake_is_one_message(
     arguments: list[str], says: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert conform(*arguments) is Exit.USAGE
+    assert check_log(*arguments) is Exit.USAGE
     printed = capsys.readouterr()
     assert printed.out == "" and says in printed.err and "Traceback" not in printed.err
 
@@ -128,12 +128,12 @@ def test_a_folder_is_summed_up_though_one_log_is_broken(
     rows = copied(long_log("board1")[:200])
     written(tmp_path, rows, name="good.csv")
     (tmp_path / "cut.csv").write_text("now_ms,temp_status\n20,0\n40\n", encoding="utf-8")
-    assert conform(str(tmp_path)) is Exit.USAGE
+    assert check_log(str(tmp_path)) is Exit.USAGE
     rows[90]["temp_status"] = (int(rows[90]["temp_status"]) + 1) % 3
     written(tmp_path, rows, name="odd.csv")
     written(tmp_path, copied(long_log("board2")[:200]), name="two.csv")
     capsys.readouterr()
-    assert conform(str(tmp_path)) is Exit.CHANGED
+    assert check_log(str(tmp_path)) is Exit.CHANGED
     printed = capsys.readouterr().out
     lines = {line.split()[0]: line.split() for line in printed.splitlines() if line}
     assert lines["good.csv"][1:4] == ["board1", "200", "0"] and lines["odd.csv"][5] == "1"
@@ -146,12 +146,12 @@ def test_a_folder_is_summed_up_though_one_log_is_broken(
 def test_a_folder_as_json(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     written(tmp_path, copied(long_log("board1")[:50]), name="good.csv")
     (tmp_path / "empty.csv").write_text("", encoding="utf-8")
-    assert conform(str(tmp_path), "--json") is Exit.USAGE
+    assert check_log(str(tmp_path), "--json") is Exit.USAGE
     logs = json.loads(capsys.readouterr().out)["logs"]
     assert [log.get("error", log.get("conforms")) for log in logs][1] is True
     assert "is empty" in logs[0]["error"]
 
 
 def test_a_folder_without_logs(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert conform(str(tmp_path)) is Exit.NOTHING
+    assert check_log(str(tmp_path)) is Exit.NOTHING
     assert "holds no log" in capsys.readouterr().err
