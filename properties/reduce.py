@@ -174,7 +174,7 @@ class _Monitors:
             case Temporal(_, arg, _, _):
                 if arg is None or expr.when in (When.AFTER, When.DURATION):
                     raise ModelError(
-                        f"{self._owner}: `{expr}` belongs to an arrow of a chart; in a property write "
+                        f"{self._owner}: `{expr}` belongs to a transition of a chart; in a property write "
                         "held(condition, for_=...) or previous(...)."
                     )
                 return self._temporal(expr, self.formula(arg))

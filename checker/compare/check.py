@@ -49,7 +49,7 @@ class RecordedSuite:
 
 @dataclass(frozen=True)
 class Suite:
-    """The runs of an effort on a board, those that take new arrows first."""
+    """The runs of an effort on a board, those that take new transitions first."""
 
     board: Board
     runs: tuple[RecordedSuite, ...]
@@ -74,9 +74,9 @@ def suite(env: Environment, effort: CompareEffort, runs: Iterable[Run]) -> Suite
     known: set[object] = set()
 
     def keep(origin: str, steps: list[ComparedStep]) -> None:
-        arrows = {(f.chart, f.source, f.target, f.label) for step in steps for f in step.fired}
-        made.append((-len(arrows - known), RecordedSuite(origin, tuple(_changes(steps)))))
-        known.update(arrows)
+        transitions = {(f.chart, f.source, f.target, f.label) for step in steps for f in step.fired}
+        made.append((-len(transitions - known), RecordedSuite(origin, tuple(_changes(steps)))))
+        known.update(transitions)
 
     CompareSearch(env, _Nothing(), effort, record=keep).run(runs)
     made.sort(key=lambda pair: pair[0])
@@ -246,6 +246,6 @@ def known_runs(env: Environment) -> Iterator[Run]:
 
 
 def _covering(board: Board) -> Iterator[Run]:
-    """The tests that cover every arrow and boundary, kept with the project."""
+    """The tests that cover every transition and boundary, kept with the project."""
     for test in kept(board.name):
         yield f"covering test {test.name}", rerun(board, test.steps)

@@ -17,7 +17,7 @@ Phase = Callable[["Environment"], st.SearchStrategy[Blocks]]
 SHORT = (1, 1, 2, 2, 3, 4, 6, 8, 12)
 """Steps that a block lasts when it waits for nothing."""
 AROUND = (-1, 0, 1, 2)
-"""Steps beside the length of a timer: an arrow may fire a step later than its condition began to hold."""
+"""Steps beside the length of a timer: a transition may fire a step later than its condition began to hold."""
 
 
 @dataclass(frozen=True)

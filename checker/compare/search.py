@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 
 from checker.adapters.implementation import Implementation, ImplementationError, Values, notes, run
 from checker.compare.beside import ComparedStep, StepMismatch, compared, played
-from checker.compare.coverage import ArrowCoverage
+from checker.compare.coverage import TransitionCoverage
 from checker.compare.environment import Environment
 from checker.compare.result import ALLOWED, FIXED, RANDOM, Allowance, CompareResult, CompareStage, Failure
 from checker.compare.smaller import BUDGET, Budget, smaller
@@ -61,7 +61,7 @@ class CompareSearch:
     budget: int = BUDGET
     progress: Progress = lambda search: None
     record: Callable[[str, list[ComparedStep]], None] = lambda origin, steps: None
-    coverage: ArrowCoverage = field(init=False)
+    coverage: TransitionCoverage = field(init=False)
     found: dict[tuple[object, ...], StepMismatch] = field(default_factory=dict)
     failures: list[Failure] = field(default_factory=list)
     doing: str = FIXED
@@ -70,7 +70,7 @@ class CompareSearch:
     interrupted: bool = False
 
     def __post_init__(self) -> None:
-        self.coverage = ArrowCoverage(self.env.board)
+        self.coverage = TransitionCoverage(self.env.board)
         self._seen: set[str] = set()
         self._complete = False
         self._small: dict[tuple[object, ...], StepMismatch] = {}

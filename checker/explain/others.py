@@ -1,7 +1,7 @@
-"""Other runs that end alike: each takes another set of arrows than those before.
+"""Other runs that end alike: each takes another set of transitions than those before.
 
-The charts are made to raise a flag in each of their arrows, the flags are remembered, and the engines are
-asked for a run that reaches the goal with another set of flags.  That there is no more such run is proved
+The charts are made to raise a flag in each of their transitions, the flags are remembered, and the engines
+are asked for a run that reaches the goal with another set of flags.  That there is no more such run is proved
 like anything else.
 """
 
@@ -30,10 +30,10 @@ from spec_model.lang.expr import Expr, Var, all_of, any_of
 from spec_model.lang.system import System, TransitionSystem
 
 MOST = 4
-"""Arrows that are named to tell two runs apart."""
+"""Transitions that are named to tell two runs apart."""
 
 Taken = frozenset[str]
-"""The arrows that a run takes, by id."""
+"""The transitions that a run takes, by id."""
 
 
 @dataclass(frozen=True)
@@ -61,17 +61,17 @@ class NoMore:
 class Others:
     """Runs that break a property, or reach what it wants reached, from one that is known.
 
-    ``looked`` is the system with flags for all its arrows, where the property already speaks of these.
+    ``looked`` is the system with flags for all its transitions, where the property already speaks of these.
     """
 
     def __init__(self, first: Trace, prop: Property, system: System, looked: Watched | None = None) -> None:
         self._plain = reduce(lowered(system), [replace(prop, on=system.name)])
-        looked = looked or watched(system, (GoalKind.ARROWS,))
-        self.arrows = tuple(arrow for arrow in looked.goals if arrow.part in first.charts)
+        looked = looked or watched(system, (GoalKind.TRANSITIONS,))
+        self.transitions = tuple(transition for transition in looked.goals if transition.part in first.charts)
         question = reduce(lowered(looked.system), [replace(prop, on=system.name)])
-        self._question, self._memories = _remembering(question, self.arrows)
+        self._question, self._memories = _remembering(question, self.transitions)
         run = _run_of(first, self._plain)
-        self._taken = [self._arrows_of(run)]
+        self._taken = [self._transitions_of(run)]
         self._told = [_told(first)]
 
     def next(self, engine: str, limits: Limits, progress: Progress = quiet) -> Other | NoMore:
@@ -87,10 +87,10 @@ class Others:
                 return NoMore.open(left)
 
     def _another(self) -> Question:
-        """The question for a run that takes another set of arrows than each before."""
+        """The question for a run that takes another set of transitions than each before."""
         [goal] = self._question.goals
         other = Var(
-            "another run", boolean, 0, "the end is reached with other arrows than before", hidden=True
+            "another run", boolean, 0, "the end is reached with other transitions than before", hidden=True
         )
         differs = (any_of(*(~m if a.id in taken else m for a, m in self._memories)) for taken in self._taken)
         wanted: Expr = all_of(goal.var, *differs)
@@ -104,7 +104,7 @@ class Others:
     def _shown(self, question: Question, run: Run) -> Other:
         """The run on the charts as drawn, replayed there."""
         calm = calmed(question.system, question.goals[0].var, run)
-        taken = self._arrows_of(calm)
+        taken = self._transitions_of(calm)
         trace = replay(self._plain.system, self._plain.goals[0], calm)
         told = _told(trace)
         before = zip(self._taken, self._told, strict=True)
@@ -113,40 +113,40 @@ class Others:
         self._told.append(told)
         return Other(trace, differences)
 
-    def _arrows_of(self, run: Run) -> Taken:
-        """The arrows that a run takes in some tick, by their flags."""
+    def _transitions_of(self, run: Run) -> Taken:
+        """The transitions that a run takes in some tick, by their flags."""
         ticks, _ = followed(self._question.system, run, self._question.goals[0].var.name)
-        return frozenset(a.id for a in self.arrows if any(tick.after[a.flag.name] for tick in ticks))
+        return frozenset(a.id for a in self.transitions if any(tick.after[a.flag.name] for tick in ticks))
 
     def _parts(self, taken: Taken, earlier: Taken) -> str:
-        """The difference in parts of arrows, from junction to junction, where no whole arrow makes it."""
-        names = {a.id: _named(a) for a in self.arrows}
+        """The difference in segments, from junction to junction, where no whole transition makes it."""
+        names = {a.id: _named(a) for a in self.transitions}
         return _difference([n for i, n in names.items() if i in taken], [names[i] for i in earlier])
 
 
 def _told(trace: Trace) -> list[str]:
-    """The arrows that fired, as a trace shows them, in order of their first time."""
-    return list(dict.fromkeys(str(a) for t in trace.ticks for a in t.arrows if a.chart in trace.charts))
+    """The transitions that fired, as a trace shows them, in order of their first time."""
+    return list(dict.fromkeys(str(a) for t in trace.ticks for a in t.transitions if a.chart in trace.charts))
 
 
 def _difference(taken: Sequence[str], earlier: Sequence[str]) -> str:
-    """Which arrows a run takes that another does not, and the other way round; empty if there are none."""
-    more = [arrow for arrow in taken if arrow not in earlier]
-    fewer = [arrow for arrow in earlier if arrow not in taken]
+    """Which transitions a run takes that another does not, and the other way round; empty if none."""
+    more = [transition for transition in taken if transition not in earlier]
+    fewer = [transition for transition in earlier if transition not in taken]
     parts = [f"takes {_some(more)}" if more else "", f"does not take {_some(fewer)}" if fewer else ""]
     return "; ".join(part for part in parts if part)
 
 
-def _some(arrows: Sequence[str]) -> str:
-    more = len(arrows) - MOST
-    return ", ".join(arrows[:MOST]) + (f" and {more} more" if more > 0 else "")
+def _some(transitions: Sequence[str]) -> str:
+    more = len(transitions) - MOST
+    return ", ".join(transitions[:MOST]) + (f" and {more} more" if more > 0 else "")
 
 
 def _remembering(
-    question: Question, arrows: Sequence[CoverGoal]
+    question: Question, transitions: Sequence[CoverGoal]
 ) -> tuple[Question, list[tuple[CoverGoal, Var]]]:
-    """The question with a variable for each arrow that tells whether it was taken so far."""
-    memories = [(a, Var(f"taken {a.id}", boolean, 0, f"{a.text} so far", hidden=True)) for a in arrows]
+    """The question with a variable for each transition that tells whether it was taken so far."""
+    memories = [(a, Var(f"taken {a.id}", boolean, 0, f"{a.text} so far", hidden=True)) for a in transitions]
     system = replace(
         question.system,
         variables=(*question.system.variables, *(m for _, m in memories)),
@@ -160,8 +160,8 @@ def _run_of(trace: Trace, question: Question) -> Run:
     return Run(frozen, tuple(tick.inputs for tick in trace.ticks))
 
 
-def _named(arrow: CoverGoal) -> str:
-    return f"{arrow.part}: {arrow.text}"
+def _named(transition: CoverGoal) -> str:
+    return f"{transition.part}: {transition.text}"
 
 
 # --- in a child -------------------------------------------------------------------------------------

@@ -39,7 +39,7 @@ WORDS: Mapping[Any, str] = {
     Var: "a variable, made with var() or flag()",
     Span: "a length of time, such as `3 * sec` or `2 * ticks`",
     Action: "an action, assign(), when() or send()",
-    Transition: "an arrow, to(...)",
+    Transition: "a transition, to(...)",
     State: "a state, State(...)",
     Junction: "a junction, Junction(...)",
     Component: "a chart, a block or an enabled subsystem",
@@ -52,7 +52,7 @@ WORDS: Mapping[Any, str] = {
 def kind_faults(thing: object, file: str) -> Iterator[str]:
     """What is of the wrong kind in a system, a chart or a property, a line each.
 
-    Each names the line of the arrow, state, chart or property that it is in, else the ``file``.
+    Each names the line of the transition, state, chart or property that it is in, else the ``file``.
     """
     seen = set[int]()
     todo: list[tuple[object, Place | str, str]] = [(thing, file, "")]
@@ -122,7 +122,7 @@ def _named(thing: object) -> str:
         case Property(id):
             return brief(id) if not isinstance(id, str) else id
         case Transition(target):
-            return f"the arrow to {brief(target)}"
+            return f"the transition to {brief(target)}"
         case State() | Junction() | Chart() | Block() | Enabled() | System() | Var():
             return f"{type(thing).__name__} {brief(thing.name)}"
     return ""

@@ -68,7 +68,7 @@ def _kind(row: Row) -> object:
     """What two rows have in common of which one repeats the other; nothing, if no other can."""
     match row:
         case StoryEvent():
-            return row.changes, row.arrows
+            return row.changes, row.transitions
         case Quiet():
             return row.count, row.counters
     return row

@@ -48,8 +48,9 @@ def _refuse(chart: Chart, every: tuple[ChartArrow, ...]) -> None:
         start, end = _levels(arrow)
         if start != end and _common(arrow):
             raise ModelError(
-                f"{chart.name}: the arrow from {'.'.join(arrow.source)} to {'.'.join(arrow.target)} crosses "
-                f"the border of a composite inside {'.'.join(_common(arrow))}, which Mermaid draws wrong. "
+                f"{chart.name}: the transition from {'.'.join(arrow.source)} to {'.'.join(arrow.target)} "
+                f"crosses the border of a composite inside {'.'.join(_common(arrow))}, "
+                "which Mermaid draws wrong. "
                 f"{_OTHERS}"
             )
 

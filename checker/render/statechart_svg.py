@@ -9,13 +9,13 @@ from checker.render.drawing.nested import picture
 from checker.render.drawing.picture import Box, PicturePiece, Spot
 from checker.render.drawing.scheme import arrows, explained
 from checker.render.drawing.text import LINE, width, wrap
-from checker.results.trace import Arrow
+from checker.results.trace import TakenTransition
 from spec_model.lang.chart import Chart
 
 NAME = "svg"
 KIND = "statechart"
 SUFFIX = ".svg"
-SUMMARY = "picture with nested boxes, labelled arrows and priorities; no outside resources"
+SUMMARY = "picture with nested boxes, labelled transitions and priorities; no outside resources"
 
 MARGIN = 24
 STYLE = """
@@ -43,12 +43,12 @@ STYLE = """
 """
 LEGEND = (
     "dashed box: parallel region, its number the order of execution",
-    "number at the start of an arrow: its priority",
+    "number at the start of a transition: its priority",
     "label: event [guard] {condition action} / transition action",
 )
 
 
-def render(chart: Chart, active: Collection[str] = (), fired: Collection[Arrow] = ()) -> str:
+def render(chart: Chart, active: Collection[str] = (), fired: Collection[TakenTransition] = ()) -> str:
     """The picture as SVG text.
 
     ``active`` names states to be shown as active (the states around them are too), ``fired`` holds

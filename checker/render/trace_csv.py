@@ -16,7 +16,7 @@ from checker.results.trace import Trace
 NAME = "csv"
 KIND = "trace"
 SUFFIX = ".csv"
-SUMMARY = "one row per tick: time, inputs, variables, arrows that fired"
+SUMMARY = "one row per tick: time, inputs, variables, transitions that fired"
 
 FIRST = ("tick", "time_ms")
 LAST = "arrows"
@@ -34,8 +34,8 @@ def render(trace: Trace) -> str:
     fixed = {n: v for n, v in trace.before.items() if trace.ticks and n not in trace.ticks[0].after}
     for tick in trace.ticks:
         cells = _cells(trace, names, {**fixed, **tick.after, **tick.inputs})
-        arrows = csv_cell("; ".join(map(str, tick.arrows)))
-        table.writerow([tick.number, trace.ms(tick.number), *cells, arrows])
+        transitions = csv_cell("; ".join(map(str, tick.transitions)))
+        table.writerow([tick.number, trace.ms(tick.number), *cells, transitions])
     return out.getvalue()
 
 

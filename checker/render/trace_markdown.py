@@ -32,7 +32,7 @@ def render(trace: Trace) -> str:
     lines = [_plain(heading(trace)) + ".", ""]
     if chosen := start_values(trace):
         lines += ["Fixed for the whole run: " + ", ".join(_code(f"{n} = {v}") for n, v in chosen) + ".", ""]
-    lines += ["| Tick | ms | Inputs | Changes | Arrows that fired |", "|---:|---:|---|---|---|"]
+    lines += ["| Tick | ms | Inputs | Changes | Transitions that fired |", "|---:|---:|---|---|---|"]
     lines += [_row(trace, row) for row in folded(trace)]
     lines += ["", f"**{_plain(last)}**"] if (last := ending(trace)) else []
     lines += ["", UNTOLD]
@@ -69,11 +69,11 @@ def _event(trace: Trace, event: StoryEvent) -> str:
     inputs = [_code(str(c)) + (" needed" if c.needed else "") for c in event.changes if c.is_input]
     others = [_code(str(c)) for c in event.changes if not c.is_input]
     others += [f"*{said}*"] if (said := standstill(trace, event)) else []
-    arrows = [
+    transitions = [
         f"{_plain(a.chart)}: {_plain(start_of(a))}" + (f"<br>{_code(a.label)}" if a.label else "")
-        for a in event.arrows
+        for a in event.transitions
     ]
-    cells = [str(event.number), str(event.ms), *("<br>".join(c) for c in (inputs, others, arrows))]
+    cells = [str(event.number), str(event.ms), *("<br>".join(c) for c in (inputs, others, transitions))]
     return "| " + " | ".join(cells) + " |"
 
 

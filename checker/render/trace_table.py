@@ -22,7 +22,7 @@ from checker.render.story import (
     start_of,
     start_values,
 )
-from checker.results.trace import Arrow, Trace
+from checker.results.trace import TakenTransition, Trace
 
 NAME = "table"
 KIND = "trace"
@@ -96,8 +96,8 @@ def _event(trace: Trace, event: StoryEvent) -> Iterator[Part]:
             yield _marked(", ".join(given), NEEDED if needed else INPUT, "cyan")
     changed = [c for c in event.changes if c.old]
     yield from map(_changed, changed)
-    yield from map(_fired, event.arrows)
-    if not (event.changes or event.arrows):
+    yield from map(_fired, event.transitions)
+    if not (event.changes or event.transitions):
         yield _marked(standstill(trace, event))
 
 
@@ -106,9 +106,9 @@ def _changed(change: StoryChange) -> Part:
     return _marked(str(change), mark, "cyan" if change.is_input else "")
 
 
-def _fired(arrow: Arrow) -> Part:
-    label = f"  {arrow.label}" if arrow.label else ""
-    return _marked(f"{arrow.chart}: {start_of(arrow)}{label}", "  ▸ ", "green")
+def _fired(transition: TakenTransition) -> Part:
+    label = f"  {transition.label}" if transition.label else ""
+    return _marked(f"{transition.chart}: {start_of(transition)}{label}", "  ▸ ", "green")
 
 
 def _marked(shown: str, mark: str = "    ", style: str = "") -> Part:

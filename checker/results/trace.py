@@ -17,10 +17,10 @@ def counted_ticks(count: int) -> str:
 
 
 @dataclass(frozen=True)
-class Arrow:
-    """An arrow that fired: its chart, where it starts and ends, and its label as drawn.
+class TakenTransition:
+    """A transition that fired: its chart, where it starts and ends, and its label as drawn.
 
-    ``order`` is its position among the arrows leaving ``source`` (1 is tested first; 0 for a
+    ``order`` is its position among the transitions leaving ``source`` (1 is tested first; 0 for a
     default transition).  ``event`` is the local event during whose processing it fired, if any.
     ``place`` is where it is written.
     """
@@ -35,18 +35,18 @@ class Arrow:
 
     def __str__(self) -> str:
         start = f"{self.source} -> {self.target}" if self.order else f"default -> {self.target}"
-        number = f" (arrow {self.order})" if self.order else ""
+        number = f" (transition {self.order})" if self.order else ""
         return f"{self.chart}: {start}{number}{' ' + self.label if self.label else ''}"
 
 
 @dataclass(frozen=True)
 class Tick:
-    """One tick: its number from 1, its inputs, the valuation after it and the arrows fired in it."""
+    """One tick: its number from 1, its inputs, the valuation after it and the transitions fired in it."""
 
     number: int
     inputs: Mapping[str, int]
     after: Mapping[str, int]
-    arrows: tuple[Arrow, ...] = ()
+    transitions: tuple[TakenTransition, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -152,7 +152,7 @@ class Trace:
                 t.number,
                 {n: v for n, v in t.inputs.items() if n in shown},
                 {n: v for n, v in t.after.items() if n in shown},
-                tuple(a for a in t.arrows if a.chart in self.charts),
+                tuple(a for a in t.transitions if a.chart in self.charts),
             )
             for t in self.ticks
         )

@@ -13,9 +13,9 @@ from spec_model.lang.system import System
 from spec_model.lang.time import Span
 
 __all__ = [
-    "also", "arrow", "arrows", "begin", "constant", "drop", "edit_at", "edit_junction", "edit_state", "entry",
-    "everywhere", "guard", "in_actions", "in_block", "in_expressions", "in_system", "instead", "operator",
-    "swap", "timer",
+    "also", "begin", "constant", "drop", "edit_at", "edit_junction", "edit_state", "edit_transition",
+    "edit_transitions", "entry", "everywhere", "guard", "in_actions", "in_block", "in_expressions",
+    "in_system", "instead", "operator", "swap", "timer",
 ]  # fmt: skip
 
 
@@ -58,20 +58,22 @@ def edit_junction(chart: Chart, name: str, change: Callable[[Junction], Junction
     return _rebuilt(chart, walk(chart.root))
 
 
-def arrows(chart: Chart, name: str, change: Callable[[list[Transition]], list[Transition]]) -> Chart:
-    """The chart with the arrows of a state or junction changed."""
+def edit_transitions(
+    chart: Chart, name: str, change: Callable[[list[Transition]], list[Transition]]
+) -> Chart:
+    """The chart with the transitions of a state or junction changed."""
     if any(j.name == name for j in chart.junctions.values()):
         return edit_junction(chart, name, lambda j: Junction(j.name, change(list(j.transitions))))
     return edit_state(chart, name, lambda s: replace(s, transitions=tuple(change(list(s.transitions)))))
 
 
 def also(chart: Chart, name: str, *more: Transition, first: bool = False) -> Chart:
-    """More arrows of a state or junction, tested after those drawn, or before them (``first``)."""
-    return arrows(chart, name, lambda found: [*more, *found] if first else [*found, *more])
+    """More transitions of a state or junction, tested after those drawn, or before them (``first``)."""
+    return edit_transitions(chart, name, lambda found: [*more, *found] if first else [*found, *more])
 
 
 def begin(chart: Chart, default: Sequence[Transition], junctions: Sequence[Junction] = ()) -> Chart:
-    """Other default arrows of the outermost level, with junctions that they lead to."""
+    """Other default transitions of the outermost level, with junctions that they lead to."""
     root = chart.root
     return _rebuilt(chart, replace(root, default=tuple(default), junctions=(*root.junctions, *junctions)))
 
@@ -83,28 +85,30 @@ def swap(chart: Chart, name: str, first: int = 1, second: int = 2) -> Chart:
         found[first - 1], found[second - 1] = found[second - 1], found[first - 1]
         return found
 
-    return arrows(chart, name, exchanged)
+    return edit_transitions(chart, name, exchanged)
 
 
-def arrow(chart: Chart, name: str, order: int, change: Callable[[Transition], Transition]) -> Chart:
-    """One arrow changed, by its priority."""
-    return arrows(chart, name, lambda found: [change(t) if i == order else t for i, t in enumerate(found, 1)])
+def edit_transition(chart: Chart, name: str, order: int, change: Callable[[Transition], Transition]) -> Chart:
+    """One transition changed, by its priority."""
+    return edit_transitions(
+        chart, name, lambda found: [change(t) if i == order else t for i, t in enumerate(found, 1)]
+    )
 
 
 def drop(chart: Chart, name: str, order: int) -> Chart:
-    """One arrow removed."""
-    return arrows(chart, name, lambda found: [t for i, t in enumerate(found, 1) if i != order])
+    """One transition removed."""
+    return edit_transitions(chart, name, lambda found: [t for i, t in enumerate(found, 1) if i != order])
 
 
 def guard(chart: Chart, name: str, order: int, change: Callable[[Expr], Expr]) -> Chart:
-    """The guard of one arrow changed."""
+    """The guard of one transition changed."""
 
     def changed(segment: Transition) -> Transition:
         if segment.guard is None:
-            raise ModelError(f"{chart.name}: arrow {order} of {name} has no guard to change.")
+            raise ModelError(f"{chart.name}: transition {order} of {name} has no guard to change.")
         return replace(segment, guard=change(segment.guard))
 
-    return arrow(chart, name, order, changed)
+    return edit_transition(chart, name, order, changed)
 
 
 def everywhere(expr: Expr, change: Callable[[Expr], Expr]) -> Expr:
@@ -194,7 +198,7 @@ def _everything(
     guarded: Callable[[Expr], Expr],
     acts: Callable[[tuple[Action, ...]], tuple[Action, ...]],
 ) -> Chart:
-    def arrow(segment: Transition) -> Transition:
+    def transition(segment: Transition) -> Transition:
         changed = None if segment.guard is None else guarded(segment.guard)
         return replace(segment, guard=changed, do=acts(segment.do), then=acts(segment.then))
 
@@ -203,8 +207,9 @@ def _everything(
             state,
             entry=acts(state.entry), during=acts(state.during), exit=acts(state.exit),
             states=tuple(walk(s) for s in state.states),
-            transitions=tuple(map(arrow, state.transitions)), default=tuple(map(arrow, state.default)),
-            junctions=tuple(Junction(j.name, list(map(arrow, j.transitions))) for j in state.junctions),
+            transitions=tuple(map(transition, state.transitions)),
+            default=tuple(map(transition, state.default)),
+            junctions=tuple(Junction(j.name, list(map(transition, j.transitions))) for j in state.junctions),
         )  # fmt: skip
 
     return _rebuilt(chart, walk(chart.root))
@@ -251,3 +256,7 @@ def in_system(system: System, part: str, change: Callable[[Chart | Block], Chart
     if hits != 1:
         raise ModelError(f"{system.name} has {hits} parts named {part!r}; name one of its charts or blocks.")
     return changed
+
+
+# The names that these had: what imports them keeps working.
+arrow, arrows = edit_transition, edit_transitions

@@ -1,4 +1,4 @@
-"""Print expressions and actions the way Stateflow writes them on an arrow."""
+"""Print expressions and actions the way Stateflow writes them on a transition."""
 
 import re
 

@@ -11,8 +11,8 @@ from pathlib import Path
 from unittest.mock import patch
 
 from checker.cli import run
-from checker.commands.reports import run as reporting
 from checker.commands.generate_tests import run as generating
+from checker.commands.reports import run as reporting
 from checker.compare import check, recorded
 from checker.compare.environment import Environment
 from checker.compare.search import Run

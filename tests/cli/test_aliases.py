@@ -45,7 +45,7 @@ def test_old_words_become_new_ones(old: str, new: str, said: str) -> None:
 @pytest.mark.parametrize(
     ("old", "new"),
     [
-        (["trace", "--arrow", TRANSITION, "--no-explain"], ["trace", "--transition", TRANSITION, "--no-explain"]),
+        (["trace", "--arrow", TRANSITION], ["trace", "--transition", TRANSITION]),
         (["crosscheck", "--system", "nothing"], ["compare", "--system", "nothing"]),
         (["trace", "PB1-15", "--by", "arrows"], ["trace", "PB1-15", "--by", "transitions"]),
         (

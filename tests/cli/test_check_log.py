@@ -1,4 +1,4 @@
-"""``rovercheck check-log``: what it prints, its exit codes, and that one bad log does not spoil the others."""
+"""``rovercheck check-log``: what it prints, its exit codes; one bad log does not spoil the others."""
 
 import json
 from pathlib import Path

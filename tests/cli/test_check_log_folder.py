@@ -1,4 +1,4 @@
-"""``rovercheck check-log`` of many logs and of hostile ones: each is judged on its own, and told harmlessly."""
+"""``rovercheck check-log`` of many logs and of hostile ones: each is judged on its own, and shown safely."""
 
 import json
 import os

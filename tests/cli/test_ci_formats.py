@@ -100,7 +100,7 @@ def test_what_changed_fails_with_the_explained_run(
     assert written.check(CHANGED) == Exit.CHANGED
     kinds = {name: [type(r) for r in case.result] for name, case in written.cases.items()}
     assert kinds == {"PB1-11": [Failure], "PB1-12": [Error], "PB1-14": [], "PB1-15": [Failure]}
-    assert "Relay: Ours → Theirs (arrow 1)" in written.cases["PB1-11"].result[0].text
+    assert "Relay: Ours → Theirs (transition 1)" in written.cases["PB1-11"].result[0].text
     said = capsys.readouterr().out
     assert said.count("::error ") == 2 and said.count("::warning ") == 1
     assert "▸ Relay: Ours → Theirs" in said, "in the log"

@@ -9,9 +9,9 @@ from jsonschema import Draft202012Validator
 
 import checker
 from checker.cli import run
-from checker.commands.shared.codes import Exit
 from checker.commands.generate_tests import run as generating
 from checker.commands.generate_tests.run import GenerationProgress
+from checker.commands.shared.codes import Exit
 from checker.system.instrument.watch import watched
 from checker.testgen.fingerprint import fingerprint
 from checker.testgen.generate import Aim
@@ -22,7 +22,8 @@ SCHEMA: Any = json.loads((Path(checker.__file__).parent / "schemas" / "testgen-1
 
 
 def test_the_kept_tests_are_written_at_once(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    code = run(["generate-tests", "--kept", "--system", "Relay", "--cover", "pairs", "-o", str(tmp_path / "new")])
+    target = tmp_path / "new"
+    code = run(["generate-tests", "--kept", "--system", "Relay", "--cover", "pairs", "-o", str(target)])
     said = capsys.readouterr().out
     assert code is Exit.AS_EXPECTED
     assert "pairs 3: 3 covered" in said and "0 proved uncoverable, 0 unknown" in said

@@ -48,11 +48,11 @@ def test_every_repair_is_listed_with_what_it_repairs(capfd: pytest.CaptureFixtur
     assert all(name in listed for name in (*repairs(), "all"))
 
 
-def test_the_pages_show_the_changed_arrows_and_the_picture_of_the_repaired_chart() -> None:
+def test_the_pages_show_the_changed_transitions_and_the_picture_of_the_repaired_chart() -> None:
     proof = Proof(repairs()["battery-gap-releases"], ())
     page = "\n".join(sections("PB1-29", expected("PB1-29"), [proof]))
     assert "[Monitor_battery, repaired](../repairs/battery-gap-releases/Monitor_battery.svg)" in page
-    assert "| arrows of Batt_CRIT | <code>1: → decide</code> |" in page and "2: → Batt_DEG" in page
+    assert "| transitions of Batt_CRIT | <code>1: → decide</code> |" in page and "2: → Batt_DEG" in page
     made = repair_pages([proof])
     assert set(made) == {"repairs/README.md", "repairs/battery-gap-releases/Monitor_battery.svg"}
 

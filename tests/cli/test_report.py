@@ -56,7 +56,7 @@ def test_a_finding_has_reason_formula_requirement_and_readings(made: tuple[Exit,
     assert "!(rx_status == RX_OK &amp;&amp; b2_sup_status == SUP_OK) || !give_b2_actuation" in finding
     assert 'href="#requirement-B1-REL-04"' in finding
     assert 'href="#reading-S45"' in finding
-    assert "B1_actuating → B2_actuating (arrow 1)" in finding
+    assert "B1_actuating → B2_actuating (transition 1)" in finding
     assert 'stated of <a href="#system-relay">relay</a>' in finding
     assert "told-reasons" in finding
 
@@ -153,7 +153,7 @@ def test_of_a_case_that_nobody_reproduced_the_limits_are_not_listed() -> None:
 
 def test_the_reason_of_another_finding_is_followed_to_the_first() -> None:
     reasons = {
-        "A-1": "The arrow.",
+        "A-1": "The transition.",
         "A-2b": "As A-1: again.",
         "A-3": "As A-2b.",
         "A-4": "As Z-9.",
@@ -192,7 +192,7 @@ def test_a_property_is_written_part_by_part() -> None:
 def test_the_figures_of_the_covering_tests_add_up() -> None:
     rows = list(coverage())
     assert {(r.board, r.kind) for r in rows} == {
-        (b, k) for b in ("board1", "board2") for k in ("arrows", "boundaries", "pairs")
+        (b, k) for b in ("board1", "board2") for k in ("transitions", "boundaries", "pairs")
     }
     assert all(r.goals == r.reached + r.unreachable + r.unknown for r in rows)
 

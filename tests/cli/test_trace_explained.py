@@ -1,4 +1,4 @@
-"""``rovercheck trace``: what forces the end, several runs, runs into states and through arrows."""
+"""``rovercheck trace``: what forces the end, several runs, runs into states and through transitions."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -21,7 +21,7 @@ from tests.explain.test_others import BOTH, ENDS, SYSTEM, first, left
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ([], "Name one thing: the ID of a property, --state CHART.STATE or --arrow"),
+        ([], "Name one thing: the ID of a property, --state CHART.STATE or --transition"),
         (["PB1-15", "--state", "Relay.B1_actuating"], "Name one thing"),
         (["--state", "Relay"], "'Relay' names no state; write CHART.STATE"),
         (["--state", "Relai.B1_actuating"], "There is no chart 'Relai'. Did you mean 'Relay'"),
@@ -31,13 +31,16 @@ from tests.explain.test_others import BOTH, ENDS, SYSTEM, first, left
             ["--state", "Relay.B1_actuating", "--system", "battery"],
             "battery does not execute Relay; these do",
         ),
-        (["PB1-15", "--system", "board1"], "--system goes with --state and --arrow"),
-        (["--arrow", "Relay"], "'Relay' names no arrow; write 'CHART: A -> B'"),
-        (["--arrow", "Relay: B1_actuating -> B1"], "has no arrow 'B1_actuating -> B1'. Did you mean"),
+        (["PB1-15", "--system", "board1"], "--system goes with --state and --transition"),
+        (["--transition", "Relay"], "'Relay' names no transition; write 'CHART: A -> B'"),
+        (
+            ["--transition", "Relay: B1_actuating -> B1"],
+            "has no transition 'B1_actuating -> B1'. Did you mean",
+        ),
         (["PB1-15", "--witnesses", "2", "--format", "json"], "write --format table or markdown"),
         (["PSY-18", "--witnesses", "2"], "is about runs without end, of which one is shown"),
         (["PB1-15", "--witnesses", "0"], "0 is not in the range"),
-        (["PB1-15", "--witnesses", "2", "--by", "length"], "'length' is not one of 'arrows', 'reason'"),
+        (["PB1-15", "--witnesses", "2", "--by", "length"], "'length' is not one of 'transitions', 'reason'"),
         (
             ["PB1-15", "--witnesses", "2", "--by", "reason", "--no-explain"],
             "--by reason compares what forces runs",
@@ -59,9 +62,9 @@ def test_a_state_is_reached_and_the_run_explained(capfd: pytest.CaptureFixture[s
     assert max(map(len, shown.splitlines())) <= 80
 
 
-def test_an_arrow_is_taken_on_the_chart_as_drawn(capfd: pytest.CaptureFixture[str]) -> None:
-    arrow = "Monitor_battery: default → Batt_OK"
-    assert run(["trace", "--arrow", arrow, "--engine", "bmc", "--no-explain"]) == Exit.AS_EXPECTED
+def test_a_transition_is_taken_on_the_chart_as_drawn(capfd: pytest.CaptureFixture[str]) -> None:
+    transition = "Monitor_battery: default → Batt_OK"
+    assert run(["trace", "--transition", transition, "--engine", "bmc", "--no-explain"]) == Exit.AS_EXPECTED
     shown = capfd.readouterr().out
     assert "Monitor_battery: default → Batt_OK" in shown
     assert "goal" not in shown and "What forces it" not in shown
@@ -105,7 +108,10 @@ def test_several_runs_are_told_apart_until_there_is_no_more(
     assert trace(wanted(ENDS), "bdd", Limits(), Showing(runs=3, output=file)) == Exit.AS_EXPECTED
     told = " ".join(file.read_text(encoding="utf-8").split())
     assert "--- Run 2 --- Unlike run 1 it takes Way: Start -> " in told
-    assert "--- No run 3 --- Every other run to this end takes the same arrows as one of these: all " in told
+    assert (
+        "--- No run 3 --- Every other run to this end takes the same transitions as one of these: all "
+        in told
+    )
     assert told.count("What forces it") == 2 and capfd.readouterr().out == ""
 
 

@@ -8,7 +8,7 @@ import pytest
 from checker.commands.shared.codes import Exit
 from checker.commands.shared.variant import pick_variant
 from checker.commands.trace import run as tracing
-from checker.commands.trace.examples import TraceRequest, asked, of_arrow, of_state
+from checker.commands.trace.examples import TraceRequest, asked, of_state, of_transition
 from checker.commands.trace.explain import Explaining
 from checker.commands.trace.formats import exit_written
 from checker.commands.trace.run import Showing, trace
@@ -95,10 +95,10 @@ def test_that_there_is_no_other_among_some_runs_is_no_word_on_the_rest(
     assert "No run 3" in told and "way has only some of the runs there are" in told
 
 
-def test_several_runs_through_an_arrow_are_shown_on_the_chart_as_drawn(
+def test_several_runs_through_a_transition_are_shown_on_the_chart_as_drawn(
     capfd: pytest.CaptureFixture[str],
 ) -> None:
-    wanted = of_arrow("Way: Right -> End", {"way": SYSTEM}, None)
+    wanted = of_transition("Way: Right -> End", {"way": SYSTEM}, None)
     assert trace(wanted, "bdd", Limits(), Showing(runs=2, explaining=QUIET)) == Exit.AS_EXPECTED
     told = capfd.readouterr().out
     assert "--- Run 1 ---" in told and "--- No run 2 ---" in told
@@ -141,5 +141,5 @@ def test_a_file_says_how_its_run_was_asked_for(named: tuple[str | None, ...], ag
 def test_an_example_is_written_nowhere() -> None:
     """A reader of the run is not led to a line of the checker."""
     there = {"way": SYSTEM}
-    for made in (of_state("Way.End", there, None), of_arrow("Way: Right -> End", there, None)):
+    for made in (of_state("Way.End", there, None), of_transition("Way: Right -> End", there, None)):
         assert made.property.place is None

@@ -16,7 +16,7 @@ from spec_model.rover import systems
 BOARDS = ["board1", "board2"]
 OURS = {"board1": "supervisor.board1:Board1", "board2": "supervisor.board2.board:Board2"}
 LEAST = {"board1": 104, "board2": 127}
-"""Arrows that the kept tests reach at least."""
+"""Transitions that the kept tests reach at least."""
 
 
 @pytest.mark.parametrize("name", BOARDS)
@@ -46,10 +46,10 @@ def test_what_is_proved_is_proved_of_the_charts_as_drawn(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", BOARDS)
-def test_kept_tests_cover_the_arrows(name: str) -> None:
-    arrows = {g.id for g in watched(boards()[name].system, [GoalKind.ARROWS]).goals}
+def test_kept_tests_cover_the_transitions(name: str) -> None:
+    transitions = {g.id for g in watched(boards()[name].system, [GoalKind.TRANSITIONS]).goals}
     covered = {goal for test in kept(name) for goal in test.goals}
-    assert len(arrows & covered) >= LEAST[name]
+    assert len(transitions & covered) >= LEAST[name]
 
 
 @pytest.mark.parametrize("name", BOARDS)

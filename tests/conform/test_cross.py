@@ -12,7 +12,7 @@ from checker.adapters.implementation import Implementation, ImplementationError,
 from checker.compare import Allowance, StepMismatch, cross_check, effort, quick_check, replay
 from checker.compare.beside import rerun
 from checker.compare.check import Remembered, recorded_suite
-from checker.compare.coverage import arrows
+from checker.compare.coverage import transitions
 from checker.compare.recorded import counterexamples
 from checker.compare.reproduce import file_name, pytest_file, stimulus_of
 from checker.compare.result import ALLOWED, FIXED, RANDOM
@@ -81,10 +81,10 @@ def run_test(place: Path, text: str) -> None:
     test()
 
 
-def test_a_deep_mismatch_is_small_and_names_the_arrow() -> None:
+def test_a_deep_mismatch_is_small_and_names_the_transition() -> None:
     mismatch = made_small("board1", "LateRelay")
     assert mismatch.tick < 400
-    assert mismatch.arrows[0].chart == "Relay" and mismatch.arrows[0].target == ("B1_actuating",)
+    assert mismatch.transitions[0].chart == "Relay" and mismatch.transitions[0].target == ("B1_actuating",)
     assert replay("board1", f"python:{HERE}:LateRelay", stimulus_of(mismatch)) is not None
 
 
@@ -98,7 +98,7 @@ def test_the_same_profile_tries_the_same() -> None:
         cross_check("board2", running("board2", OURS["board2"]), examples=4, seed=9) for _ in range(2)
     )
     assert first.coverage.steps == second.coverage.steps and first.coverage.taken == second.coverage.taken
-    assert first.conforms and first.arrows[1] == len(arrows(first.board))
+    assert first.conforms and first.transitions[1] == len(transitions(first.board))
     other = cross_check("board2", running("board2", OURS["board2"]), examples=4, seed=10)
     assert other.coverage.steps != first.coverage.steps
 

@@ -46,11 +46,13 @@ COMMANDS = {
     f"rovercheck compare --system board1 --impl {FAULTY}": CROSSCHECKS,
     "rovercheck doctor": Instead("tests/cli/test_doctor.py puts its questions to every engine"),
     "rovercheck generate-tests": COVERS,
-    "rovercheck generate-tests --system board1 --cover arrows --cover pairs": COVERS,
+    "rovercheck generate-tests --system board1 --cover transitions --cover pairs": COVERS,
     "rovercheck generate-tests --system Relay --cover boundaries": COVERS,
     "rovercheck generate-tests --format pytest -o tests_b1": COVERS,
     "rovercheck generate-tests --format c -o tests_c": COVERS,
-    "rovercheck generate-tests --kept": Instead("tests/cli/test_generate_tests.py writes the kept set of a board"),
+    "rovercheck generate-tests --kept": Instead(
+        "tests/cli/test_generate_tests.py writes the kept set of a board"
+    ),
     "rovercheck generate-tests --keep FOLDER": COVERS,
     "rovercheck generate-tests --keep checker/testgen/kept": COVERS,
     "rovercheck mutate": MUTATES,
@@ -110,8 +112,8 @@ COMMANDS = {
         "explained in the run of the format before it",
         "rovercheck trace PB1-15 --format c --no-explain -o pb1_15.c",
     ),
-    "rovercheck trace --arrow 'Relay: B2_actuating -> B1_actuating'": Instead(
-        "12 s; tests/cli/test_trace_kinds.py runs through an arrow"
+    "rovercheck trace --transition 'Relay: B2_actuating -> B1_actuating'": Instead(
+        "12 s; tests/cli/test_trace_kinds.py runs through a transition"
     ),
     r"printf 'step 3\nwhy\n' | rovercheck explore Relay": Instead(
         "a pipe of the shell", "rovercheck explore Relay --script session.txt"

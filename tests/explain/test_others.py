@@ -1,4 +1,4 @@
-"""Other runs to the same end, each through other arrows or for another reason, until there is no more."""
+"""Other runs to the same end, each by other transitions or for another reason, until there is none."""
 
 from dataclasses import replace
 
@@ -50,10 +50,10 @@ def test_both_ways_are_found_and_that_there_is_no_third() -> None:
     assert isinstance(second, Other)
     [difference] = second.differences
     assert difference == (
-        "takes Way: Start -> Right (arrow 2) [right], Way: Right -> End (arrow 1) [quick]; "
-        "does not take Way: Start -> Left (arrow 1) [left], Way: Left -> End (arrow 1)"
+        "takes Way: Start -> Right (transition 2) [right], Way: Right -> End (transition 1) [quick]; "
+        "does not take Way: Start -> Left (transition 1) [left], Way: Left -> End (transition 1)"
     )
-    assert [a.target for t in second.trace.ticks for a in t.arrows] == ["Start", "Right", "End"]
+    assert [a.target for t in second.trace.ticks for a in t.transitions] == ["Start", "Right", "End"]
     assert "goal" not in str(second.trace.ticks), "the run is replayed on the charts as drawn"
     third = others.next("bdd", Limits())
     assert isinstance(third, NoMore) and third.proved and "valuations" in third.reason

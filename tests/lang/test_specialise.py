@@ -43,7 +43,7 @@ def test_a_formula_without_the_variable_is_itself() -> None:
 
 
 def swapped() -> Chart:
-    """Two arrows whose order depends on the switch, and a junction that only one order needs."""
+    """Two transitions whose order depends on the switch, and a junction that only one order needs."""
     return Chart(
         "C",
         [
@@ -60,7 +60,7 @@ def swapped() -> Chart:
     )
 
 
-def test_arrows_that_can_never_be_taken_disappear_and_states_stay() -> None:
+def test_transitions_that_can_never_be_taken_disappear_and_states_stay() -> None:
     chart = fixing(1).chart(swapped())
     assert [t.target for t in chart.states[("A",)].transitions] == ["B", "C"]
     assert not chart.junctions

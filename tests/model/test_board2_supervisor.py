@@ -109,7 +109,7 @@ def test_a_mean_on_the_limit_is_no_fault() -> None:
     assert "DEG" in statuses(IMU, [*stamps(1, 5, 6), False])
 
 
-def test_a_stamp_in_a_step_with_an_arrow_is_seen_at_the_next_question() -> None:
+def test_a_stamp_in_a_step_with_a_transition_is_seen_at_the_next_question() -> None:
     # Gap of 3 at the first stamp; DEG in step 4, whose stamp merges with that of step 5: gaps 3, 2, 1.
     shown = statuses(BLE, [*stamps(3), *[True] * 60])
     assert shown[:4] == ["OK", "OK", "OK", "DEG"]
@@ -131,7 +131,7 @@ def test_degradation_comes_before_silence_and_a_slow_critical_source_stays_criti
 
 
 def lone(source: SourceSignals, record: Sequence[object]) -> System:
-    """The record questioned in every step but the first, as a region that never takes an arrow does."""
+    """The record questioned in every step but the first, as a region that never takes a transition does."""
     slow2 = exact(source) if record == [exact] else runs(source)
     chart = Chart("Ask", [State("OK", during=slow2.ask)], default="OK")
     return in_order("ask", slow2.note, chart)

@@ -202,7 +202,7 @@ def test_fairness_leaves_out_runs_that_are_stuck_by_choice() -> None:
 def test_a_trap_is_a_run_into_it_and_what_it_leads_to() -> None:
     verdict = _decided(Recoverable(PLANT.active("Idle")), "plant").verdict
     assert isinstance(verdict, Violated) and isinstance(verdict.because, Trace)
-    assert verdict.because.trapped == 1 and verdict.because.ticks[-1].arrows[-1].target == "Broken"
+    assert verdict.because.trapped == 1 and verdict.because.ticks[-1].transitions[-1].target == "Broken"
     assert "No way back" in render(verdict.because)
     jsonschema.validate(document(verdict.because), SCHEMA)
     assert isinstance(_decided(Recoverable(PLANT.active("Idle")), "calm").verdict, Proved)

@@ -105,12 +105,12 @@ class TestSarif(TraceSuite):
         [result] = run["results"]
         assert run["tool"]["driver"]["rules"][result["ruleIndex"]]["id"] == result["ruleId"]
 
-    def test_the_code_flow_goes_along_the_lines_of_the_arrows(self) -> None:
+    def test_the_code_flow_goes_along_the_lines_of_the_transitions(self) -> None:
         [result] = valid(self.shown("lasso"))["results"]
         steps = locations(result)
         lines = [s["location"]["physicalLocation"]["region"]["startLine"] for s in steps]
         assert {10, 11} <= set(lines) and lines[-1] == 7, (
-            "default arrow, first arrow, the property at the end"
+            "default transition, first transition, the property at the end"
         )
         uri = steps[0]["location"]["physicalLocation"]["artifactLocation"]["uri"]
         assert uri == "models/relay%20%26%20co.py" and unquote(uri) == "models/relay & co.py"
@@ -197,7 +197,7 @@ class TestJunit(TraceSuite):
     def test_a_counterexample_fails_with_the_run_and_a_witness_passes(self) -> None:
         [failed] = cases(self.shown("lasso")).values()
         assert [type(r) for r in failed.result] == [Failure]
-        assert "Relay: Ours → Theirs (arrow 1)" in failed.result[0].text
+        assert "Relay: Ours → Theirs (transition 1)" in failed.result[0].text
         assert "repeat for ever" in failed.result[0].text
         assert next(iter(cases(self.shown("witness")).values())).is_passed
 

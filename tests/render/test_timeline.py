@@ -97,10 +97,10 @@ class TestLanes:
             ("0 ms", ""), ("20 ms", "3 s"), ("0 ms", "")
         ]  # fmt: skip
 
-    def test_arrows_are_marked_where_the_state_changes(self) -> None:
+    def test_transitions_are_marked_where_the_state_changes(self) -> None:
         shots = lane(timeline(drawn()), "Relay").shots
         assert [shot.tick for shot in shots] == [1, 2, 153]
-        assert shots[1].text == "Ours → Theirs (arrow 1) [level >= 100]"
+        assert shots[1].text == "Ours → Theirs (transition 1) [level >= 100]"
 
     def test_the_property_lane_is_its_truth(self) -> None:
         never, bare = timeline(drawn()).of(LaneGroup.PROPERTY)

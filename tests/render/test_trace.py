@@ -60,7 +60,7 @@ class TestStory:
 
     def test_a_last_tick_without_a_change_breaks_the_property(self) -> None:
         trace = long_trace()
-        still = replace(trace.ticks[-1], number=len(trace) + 1, arrows=())
+        still = replace(trace.ticks[-1], number=len(trace) + 1, transitions=())
         longer = replace(trace, ticks=(*trace.ticks, still))
         said = "nothing changes, which breaks the property"
         assert said in trace_table.render(longer) and said in trace_markdown.render(longer)
@@ -153,7 +153,7 @@ class TestTable(TraceSuite):
     def test_reads_like_a_log(self) -> None:
         shown = self.shown("long")
         assert re.search(r"^ +2 +40 +in  level: 0 → 100$", shown, re.M)
-        assert "▸ Relay: Ours → Theirs (arrow 1)  [level >= 100]" in shown
+        assert "▸ Relay: Ours → Theirs (transition 1)  [level >= 100]" in shown
         assert "False since tick 153: never_critical" in shown
 
     def test_colour_on_request(self) -> None:

@@ -77,10 +77,10 @@ def review(properties: tuple[Checked, ...] = ALL) -> Review:
         readings=(Ambiguity("S1", "Relays", EVIL, "OR", (("OR", "either"), ("AND", EVIL)), EVIL, EVIL),),
         assumptions=(ReviewAssumption("A1", EVIL, ("toy",)),),
         repairs=(
-            Remedy("mend", EVIL, (Edit("Relay", "arrows", ("[a < b]",), (EVIL,)),),
+            Remedy("mend", EVIL, (Edit("Relay", "transitions", ("[a < b]",), (EVIL,)),),
                    (("T-1", "proved", "bdd: all 4 valuations"),), (("T-5", EVIL),), "check --repair mend"),
         ),
-        coverage=(Covered("board", "arrows", 10, 8, 1, 1),),
+        coverage=(Covered("board", "transitions", 10, 8, 1, 1),),
         graphs=(SEEN,),
         undrawn=(("other system", EVIL),),
         how_to_read="A step is one tick.",

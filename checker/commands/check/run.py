@@ -382,9 +382,9 @@ def _explain(compared: Compared, guide: Guide) -> None:
     out.print(f"\n{prop.id} is {verdict.word}, on record is {recorded(compared.expected)}.", markup=False)
     out.print(f"  {prop.text}", markup=False)
     if isinstance(verdict, Violated) and isinstance(verdict.because, Trace):
-        fired = [a for t in verdict.because.ticks for a in t.arrows if a.order]
-        for arrow in fired[-3:]:
-            out.print(f"  fired: {arrow}", markup=False)
+        fired = [a for t in verdict.because.ticks for a in t.transitions if a.order]
+        for transition in fired[-3:]:
+            out.print(f"  fired: {transition}", markup=False)
         out.print(f"  See it whole: {guide.command('trace', prop.id)}", markup=False)
 
 

@@ -130,7 +130,7 @@ def _doing(board: Board, search: CompareSearch) -> str:
     found = counted(len(search.found), "mismatch", "mismatches")
     return (
         f"{board.name}: {search.doing}{of} | {search.coverage.steps:,} steps, "
-        f"{len(search.coverage.taken)} arrows, {found}"
+        f"{len(search.coverage.taken)} transitions, {found}"
     )
 
 

@@ -18,7 +18,7 @@ from spec_model.abstraction import BoardSignal, Value
 from spec_model.lang.system import TICK_MS
 
 BEFORE = 3
-"""Steps before that of the mismatch of which the arrows are told."""
+"""Steps before that of the mismatch of which the transitions are told."""
 
 
 @dataclass(frozen=True)
@@ -67,11 +67,11 @@ def _wrapped(text: str, indent: str = "") -> str:
 
 
 def _in_short(mismatch: StepMismatch) -> str:
-    """A mismatch in a line: which output differs, where, after which arrow of its chart."""
+    """A mismatch in a line: which output differs, where, after which transition of its chart."""
     first = mismatch.differences[0].name
     fired = [f for f in mismatch.steps[-1].fired if f.chart == author_of(mismatch.board, first)]
-    arrow = f"; {taken(fired[-1])}" if fired else ""
-    return f"{mismatch.board.name}, step {mismatch.tick} of {mismatch.origin}: {first} differs{arrow}"
+    transition = f"; {taken(fired[-1])}" if fired else ""
+    return f"{mismatch.board.name}, step {mismatch.tick} of {mismatch.origin}: {first} differs{transition}"
 
 
 # --- a mismatch ---------------------------------------------------------------------------------------
@@ -88,7 +88,7 @@ def _mismatch(number: int, mismatch: StepMismatch) -> Iterator[str]:
     for d in mismatch.differences:
         actual = "missing" if d.actual is None else signals[d.name].show(d.actual)
         yield f"   {d.name:<26}{signals[d.name].show(d.expected):<24}{actual}"
-    yield from _arrows(mismatch, author_of(board, first))
+    yield from _transitions(mismatch, author_of(board, first))
 
 
 def _failure(number: int, failure: Failure) -> Iterator[str]:
@@ -155,15 +155,17 @@ def _shown(signals: Mapping[str, BoardSignal], name: str, change: Change) -> str
     return signals[name].show(change)
 
 
-def _arrows(mismatch: StepMismatch, author: str) -> Iterator[str]:
-    """The arrow that decides the output; where none was taken, the states in which its chart stays."""
+def _transitions(mismatch: StepMismatch, author: str) -> Iterator[str]:
+    """The transition that decides the output; where none was taken, the states in which its chart stays."""
     fired = [f for f in mismatch.steps[-1].fired if f.chart == author]
     if fired:
         yield "   the charts took"
         for one in fired:
             yield _wrapped(str(taken(one)), "     ")
     else:
-        yield _wrapped(f"the charts took no arrow of {author} in that step{_states(mismatch, author)}", "   ")
+        yield _wrapped(
+            f"the charts took no transition of {author} in that step{_states(mismatch, author)}", "   "
+        )
     for back in range(min(BEFORE, mismatch.tick - 1), 0, -1):
         earlier = [f for f in mismatch.steps[-1 - back].fired if f.chart == author]
         for one in earlier:
@@ -192,13 +194,13 @@ def _test(files: Sequence[Path], number: int) -> Iterator[str]:
 
 
 def _summary(result: CompareResult) -> Iterator[str]:
-    cover, (took, of) = result.coverage, result.arrows
+    cover, (took, of) = result.coverage, result.transitions
     met, sides = cover.boundaries()
     ended = result.compared < cover.steps
     part = f", {result.compared:,} of them compared, as a run ends where it differs" if ended else ""
     yield _wrapped(
         f"{_sign(result)} {result.board.name} {_verdict(result)}: {cover.steps:,} steps in "
-        f"{counted(cover.runs, 'run', 'runs')}{part}; the charts took {took} of {of} arrows, "
+        f"{counted(cover.runs, 'run', 'runs')}{part}; the charts took {took} of {of} transitions, "
         f"and inputs met {met} of {sides} sides of boundaries."
     )
     for stage in result.stages:
@@ -214,8 +216,8 @@ def _summary(result: CompareResult) -> Iterator[str]:
     if result.uncompared:
         yield _wrapped(f"Not compared, because it never gave them: {', '.join(result.uncompared)}.", "  ")
     if result.missing and not _given_up(result):
-        yield f"  Arrows that no run took ({len(result.missing)}; some cannot be):"
-        yield from (_wrapped(str(arrow), "    ") for arrow in result.missing)
+        yield f"  Transitions that no run took ({len(result.missing)}; some cannot be):"
+        yield from (_wrapped(str(transition), "    ") for transition in result.missing)
 
 
 def _untried(stage: CompareStage) -> str:
@@ -250,7 +252,7 @@ def _given_up(result: CompareResult) -> bool:
 
 def row(of: CrosscheckReport) -> dict[str, object]:
     """The result of one board for machines."""
-    result, (took, every) = of.result, of.result.arrows
+    result, (took, every) = of.result, of.result.transitions
     met, sides = result.coverage.boundaries()
     return {
         "system": result.board.name,
@@ -302,6 +304,6 @@ def _row(mismatch: StepMismatch, file: str, small: bool) -> dict[str, object]:
         "differences": [
             {"output": d.name, "expected": d.expected, "actual": d.actual} for d in mismatch.differences
         ],
-        "arrows": [str(taken(fired)) for fired in mismatch.arrows],
+        "arrows": [str(taken(fired)) for fired in mismatch.transitions],
         "test": file,
     }

@@ -20,11 +20,11 @@ from spec_model.lang.expr import Temporal
 from spec_model.lang.label import text
 from spec_model.lang.walk import nodes, variables
 
-# --- why arrows were not taken -------------------------------------------------------------------------
+# --- why transitions were not taken -------------------------------------------------------------------------
 
 
 def why(console: Console, session: Session, charts: Sequence[str]) -> None:
-    """Every arrow of these charts tested in the tick, with what was true and false of its guard."""
+    """Every transition of these charts tested in the tick, with what was true and false of its guard."""
     sim = session.simulation
     if not sim.at:
         console.print("Nothing was tested before the first tick; write step first.")
@@ -34,7 +34,7 @@ def why(console: Console, session: Session, charts: Sequence[str]) -> None:
     for chart in (c for c in sim.system.charts if c.name in charts):
         own = [t for t in tested if t.chart == chart.name]
         place = where(chart, sim.state())
-        tested_here = place if own else f"{place}: no arrow was tested in this tick"
+        tested_here = place if own else f"{place}: no transition was tested in this tick"
         beside(console, Text(), Text(tested_here, style="bold"))
         for one in own:
             beside(console, *_test(chart, one))
@@ -52,8 +52,8 @@ def _test(chart: Chart, one: Tested) -> tuple[Text, Text]:
     return Text(f"{indent}{mark} ", style=style), shown
 
 
-def _has(arrows: Sequence[Transition], wanted: Transition) -> bool:
-    return any(arrow is wanted for arrow in arrows)
+def _has(transitions: Sequence[Transition], wanted: Transition) -> bool:
+    return any(transition is wanted for transition in transitions)
 
 
 def _conjuncts(one: Tested, trace: Trace, at: Mapping[str, int]) -> Table:
@@ -109,7 +109,7 @@ def _watch(explorer: Explorer, rest: str) -> None:
 
 
 COMMANDS: Commands = {
-    "show": ("show [all|NAME ...]", _show, "states, arrows, inputs, values and timers of this tick"),
+    "show": ("show [all|NAME ...]", _show, "states, transitions, inputs, values and timers of this tick"),
     "why": ("why [CHART ...]", _why, "which guards were true and which false in this tick"),
     "watch": ("watch NAME ...", _watch, "show these values after every command that moves"),
 }

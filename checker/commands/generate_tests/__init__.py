@@ -33,8 +33,8 @@ class GenerationOptions:
     "--cover",
     "kinds",
     multiple=True,
-    type=click.Choice(["arrows", "boundaries", "pairs"]),
-    help="What the tests must reach; more than one may be given.  [default: arrows; all with --keep]",
+    type=click.Choice(["transitions", "boundaries", "pairs"]),
+    help="What the tests must reach; more than one may be given.  [default: transitions; all with --keep]",
 )
 @click.option(
     "--format",
@@ -96,8 +96,8 @@ def generate_tests(options: GenerationOptions, as_json: bool, output: Path) -> E
         from checker.system.instrument.goals import GoalKind
         from checker.testgen.coverage import GenerationEffort
 
-        wanted = tuple(map(GoalKind, options.kinds)) or (
-            tuple(GoalKind) if options.keep else (GoalKind.ARROWS,)
+        wanted = tuple(GoalKind[kind.upper()] for kind in options.kinds) or (
+            tuple(GoalKind) if options.keep else (GoalKind.TRANSITIONS,)
         )
         asked = CoveringRequest(
             options.names,

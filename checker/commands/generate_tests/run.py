@@ -171,7 +171,7 @@ def _tests(found: Generated, asked: CoveringRequest, output: Path) -> str:
 
 
 def counts(kept: KeptTests, kind: GoalKind, goals: Sequence[CoverGoal]) -> str:
-    """``arrows 111: 104 covered (98 by a shortest run), 7 proved uncoverable, 0 unknown``."""
+    """``transitions 111: 104 covered (98 by a shortest run), 7 proved uncoverable, 0 unknown``."""
     ids = {g.id for g in goals}
     covered = ids & {g for _, reached, _ in kept.tests for g in reached}
     shortest = ids & set(kept.shortest)
@@ -180,7 +180,7 @@ def counts(kept: KeptTests, kind: GoalKind, goals: Sequence[CoverGoal]) -> str:
     left = len(ids) - len(covered) - len(proved) - len(unknown)
     more = f", {left} not in these tests" if left else ""
     rest = f"{len(proved)} proved uncoverable, {len(unknown)} unknown{more}"
-    return f"{kind} {len(ids)}: {len(covered)} covered{by}, {rest}"
+    return f"{kind.word} {len(ids)}: {len(covered)} covered{by}, {rest}"
 
 
 def _listed(sign: str, word: str, why: Mapping[str, str], goals: Sequence[CoverGoal]) -> Iterator[str]:

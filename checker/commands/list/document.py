@@ -72,7 +72,7 @@ def _chart(chart: Chart) -> Item:
         "name": chart.name,
         "text": chart.text,
         "states": len(chart.states) - 1,  # without the chart itself
-        "arrows": len(chart.arrows),
+        "arrows": len(chart.transitions),
     }
 
 

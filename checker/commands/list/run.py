@@ -35,8 +35,8 @@ def list_systems(model: "Model") -> None:
 
 def list_charts(model: "Model") -> None:
     listed(
-        ("name", "states", "arrows", "what it is"),
-        [(c.name, str(len(c.states) - 1), str(len(c.arrows)), c.text) for c in model.charts.values()],
+        ("name", "states", "transitions", "what it is"),
+        [(c.name, str(len(c.states) - 1), str(len(c.transitions)), c.text) for c in model.charts.values()],
     )
 
 

@@ -58,7 +58,9 @@ class MutateOptions:
     is_flag=True,
     help="Keep the runs that searches find, by which the next time needs none.",
 )
-@click.option("--by-place", is_flag=True, help="Also which properties constrain each arrow, action and wire.")
+@click.option(
+    "--by-place", is_flag=True, help="Also which properties constrain each transition, action and wire."
+)
 @click.option("--json", "as_json", is_flag=True, help="Every mutant as JSON (checker/schemas/mutate-1.json).")
 @modelling
 @quietly

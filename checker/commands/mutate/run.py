@@ -25,7 +25,7 @@ from checker.mutate.planning import homes
 from spec_model.lang.chart import parts
 from spec_model.lang.system import System
 
-# --- which properties constrain each arrow, action, wire and initial value -----------------------------
+# --- which properties constrain each transition, action, wire and initial value -----------------------------
 
 FAULTY = (Fate.KILLED, Fate.SURVIVOR, Fate.UNKNOWN, Fate.NOTICED)
 """What becomes of a mutant that is not known to behave like the original."""

@@ -156,7 +156,7 @@ def proved_again(outcome: Outcome | None) -> str:
 
 
 def written(prop: Property) -> Iterator[tuple[str, str]]:
-    """The parts of the form with their names, as formulas are written on arrows."""
+    """The parts of the form with their names, as formulas are written on transitions."""
     for part in fields(prop.form):
         value = getattr(prop.form, part.name)
         shown = [_part(one) for one in (value if isinstance(value, tuple) else (value,)) if one is not None]

@@ -93,4 +93,4 @@ def coverage() -> Iterator[Covered]:
         for kind in GoalKind:
             ids = {goal.id for goal in watched(board.system, {kind}).goals}
             proved, left = ids & kept.uncoverable.keys(), ids & kept.unknown.keys()
-            yield Covered(board.name, kind.value, len(ids), len(ids & reached), len(proved), len(left))
+            yield Covered(board.name, kind.word, len(ids), len(ids & reached), len(proved), len(left))

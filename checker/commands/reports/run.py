@@ -6,14 +6,14 @@ from dataclasses import replace
 from html import escape
 from pathlib import Path
 
-from checker.commands.check.run import Compared, evidence, results
-from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.check.findings import totals
-from checker.commands.shared.output import err, out, write
+from checker.commands.check.run import Compared, evidence, results
+from checker.commands.report.forced import with_reasons
 from checker.commands.reports.promises import page as promises_page
 from checker.commands.reports.repairs import Proof, proofs, repair_pages, sections
 from checker.commands.requirements.run import page as matrix_page
-from checker.commands.report.forced import with_reasons
+from checker.commands.shared.codes import Exit, UsageError
+from checker.commands.shared.output import err, out, write
 from checker.commands.shared.wording import formally
 from checker.commands.shared.wrapping import whole
 from checker.engines import AUTO, Limits
@@ -254,7 +254,7 @@ def _finding(compared: Compared, proved: Sequence[Proof]) -> str:
         lines += [f"![{prop.id} over time]({prop.id}.svg)", ""]
         shown = replace(verdict.because.focused(), needed=None)
         lines += [_text(renderers("trace")["markdown"].render(shown)), *_forced(verdict.because)]
-        names = dict.fromkeys(a.chart for t in verdict.because.ticks for a in t.arrows)
+        names = dict.fromkeys(a.chart for t in verdict.because.ticks for a in t.transitions)
         lines += ["", "## Charts", "", *(f"- [{n}](../charts/{n}.svg)" for n in names)]
     return HEADER + "\n".join(lines).rstrip() + "\n"
 

@@ -24,7 +24,7 @@ class TraceOptions:
 
     id: str | None
     state: str | None
-    arrow: str | None
+    transition: str | None
     system: str | None
     format: str
     everything: bool
@@ -37,8 +37,10 @@ class TraceOptions:
 @click.command(short_help="Show a counterexample or a witness, tick by tick.")
 @click.argument("id", required=False)
 @click.option("--state", metavar="CHART.STATE", help="Instead of a property: a run into a state of a chart.")
-@click.option("--arrow", metavar="'CHART: A -> B'", help="Instead of a property: a run through an arrow.")
-@click.option("--system", metavar="NAME", help="With --state or --arrow: on this system.")
+@click.option(
+    "--transition", metavar="'CHART: A -> B'", help="Instead of a property: a run through a transition."
+)
+@click.option("--system", metavar="NAME", help="With --state or --transition: on this system.")
 @click.option(
     "--format",
     default="table",
@@ -57,14 +59,14 @@ class TraceOptions:
     type=click.IntRange(min=1),
     default=1,
     metavar="N",
-    help="So many runs, each with other arrows than those before, or for another reason.",
+    help="So many runs, each with other transitions than those before, or for another reason.",
 )
 @click.option(
     "--by",
-    type=click.Choice(["arrows", "reason"]),
-    default="arrows",
+    type=click.Choice(["transitions", "reason"]),
+    default="transitions",
     show_default=True,
-    help="With --witnesses: in what runs differ, the arrows they take or the inputs they need.",
+    help="With --witnesses: in what runs differ, the transitions they take or the inputs they need.",
 )
 @modelling
 @varying
@@ -79,7 +81,7 @@ def trace(options: TraceOptions, charts: VariantOptions, search: SearchOptions) 
     Examples:
       rovercheck trace PB1-15 --witnesses 3
       rovercheck trace --state Relay.B2_actuating
-      rovercheck trace --arrow 'Relay: B1_actuating -> B2_actuating'
+      rovercheck trace --transition 'Relay: B1_actuating -> B2_actuating'
     """
     from checker.commands.shared.select import pick_engine
     from checker.commands.trace.examples import asked
@@ -88,7 +90,7 @@ def trace(options: TraceOptions, charts: VariantOptions, search: SearchOptions) 
     from checker.commands.trace.run import trace as run
 
     variant = charts.variant()
-    wanted = asked(variant, options.id, options.state, options.arrow, options.system)
+    wanted = asked(variant, options.id, options.state, options.transition, options.system)
     showing = Showing(
         options.format,
         options.everything,

@@ -44,8 +44,8 @@ class Showing:
     output: Path | None = None
     explaining: Explaining = field(default_factory=Explaining)
     runs: int = 1
-    by: str = "arrows"
-    """In what several runs differ: the ``arrows`` that they take, or the ``reason`` of their end."""
+    by: str = "transitions"
+    """In what several runs differ: the ``transitions`` that they take, or the ``reason`` of their end."""
 
     def check(self, prop: Property) -> None:
         """Raises ``UsageError`` for a format that there is not, that cannot show several runs, or for a place
@@ -59,7 +59,7 @@ class Showing:
                 f"--witnesses shows several runs, and a file of the format {self.format} holds one; "
                 f"write --format {' or '.join(FOR_READERS)}, or leave --witnesses out."
             )
-        if self.runs == 1 and self.by != "arrows":
+        if self.runs == 1 and self.by != "transitions":
             raise UsageError("--by says in what several runs are to differ; add --witnesses N.")
         if self.by == "reason" and not self.explaining.wanted:
             raise UsageError(
@@ -153,10 +153,10 @@ def _several(
     limits = limits if limits.seconds is not None else replace(limits, seconds=SECONDS)
     runs = [showing.explaining(first, prop, wanted.systems)]
     yield _heading("Run 1", [], showing) + _rendered(wanted.drawn(runs[0]), showing)
-    by_arrows = Others(first, prop, system, wanted.watched) if showing.by == "arrows" else None
+    by_transitions = Others(first, prop, system, wanted.watched) if showing.by == "transitions" else None
     by_reason = Unlike(prop, system)
     for number in range(2, showing.runs + 1):
-        if by_arrows is None and runs[-1].needed is None:
+        if by_transitions is None and runs[-1].needed is None:
             unknown = (
                 f"What forces run {number - 1} is not known, so that no other reason can be told from it."
             )
@@ -165,8 +165,8 @@ def _several(
         with Watch(err, 1) as watch:
             say = partial(watch.say, f"{prop.id}: run {number}")
             other = (
-                by_arrows.next(engine, limits, say)
-                if by_arrows is not None
+                by_transitions.next(engine, limits, say)
+                if by_transitions is not None
                 else by_reason.next(runs, engine, limits, say)
             )
         if isinstance(other, NoMore):
@@ -180,9 +180,9 @@ def _several(
 
 
 NO_MORE = {
-    "arrows": (
-        "No other was found that takes other arrows",
-        "Every other run to this end takes the same arrows as one of these",
+    "transitions": (
+        "No other was found that takes other transitions",
+        "Every other run to this end takes the same transitions as one of these",
     ),
     "reason": (
         "No other was found that ends so for another reason",

@@ -16,7 +16,7 @@ from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.expr import Expr, all_of, any_of, const, lift
 
 _AS_DRAWN = ((r"&&", " and "), (r"\|\|", " or "), (r"!(?!=)", " not "))
-"""What arrows are labelled with, and what it is called in Python."""
+"""What transitions are labelled with, and what it is called in Python."""
 _QUOTED = r"'[^']*'|\"[^\"]*\""
 
 _COMPARED: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from checker.explore.by_hand.admitted import broken, conjuncts
 from checker.explore.by_hand.written import RefusedInput, outside
 from checker.results.trace import Tick, Trace
-from checker.verify.runs.replay import ReplayError, arrow_of, ends
+from checker.verify.runs.replay import ReplayError, ends, transition_of
 from spec_model.lang.chart import Path, Transition
 from spec_model.lang.evaluate import step
 from spec_model.lang.expr import Expr
@@ -18,7 +18,8 @@ from spec_model.lang.system import System
 
 @dataclass(frozen=True)
 class Tested:
-    """An arrow that was tested in a tick: whether it was valid, and the truth of each conjunct of its guard.
+    """A transition that was tested in a tick: whether it was valid, and the truth of each conjunct of its
+    guard.
 
     ``source`` is the state that is left, None for a default transition.
     """
@@ -146,13 +147,13 @@ class HandSimulation:
         return measured[-1] if measured else self.at * self.lowered.tick_ms
 
     def tested(self) -> tuple[Tested, ...]:
-        """Every arrow that was tested in the tick that is looked at, in order."""
+        """Every transition that was tested in the tick that is looked at, in order."""
         found: list[Tested] = []
         self._replayed(self.at, found)
         return tuple(found)
 
     def fired(self, tick: int | None = None) -> tuple[Fired, ...]:
-        """The arrows taken in a tick, by default in the one that is looked at; before the first none."""
+        """The transitions taken in a tick, by default in the one that is looked at; before the first none."""
         tick = self.at if tick is None else tick
         return self._moments[tick - 1].fired if tick else ()
 
@@ -169,8 +170,8 @@ class HandSimulation:
 
     def _ticks(self, first: int) -> Iterator[Tick]:
         for number in range(first, self.at + 1):
-            arrows = tuple(map(arrow_of, self._moments[number - 1].fired))
-            yield Tick(number, self.given(number), self.state(number), arrows)
+            transitions = tuple(map(transition_of, self._moments[number - 1].fired))
+            yield Tick(number, self.given(number), self.state(number), transitions)
 
 
 def _agree(read: Mapping[str, int], lowered: Mapping[str, int], tick: int) -> None:
@@ -182,7 +183,7 @@ def _agree(read: Mapping[str, int], lowered: Mapping[str, int], tick: int) -> No
 
 
 def _into(found: list[Tested]) -> Testing:
-    """Keeps every arrow that an interpreter tests, with the truth of its conjuncts at that moment."""
+    """Keeps every transition that an interpreter tests, with the truth of its conjuncts at that moment."""
 
     def keep(chart: str, source: Path | None, segment: Transition, valid: bool, value: ValueOf) -> None:
         truths = tuple((part, bool(value(part))) for part in conjuncts(segment.guard))

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from checker.results.trace import Arrow
+from checker.results.trace import TakenTransition
 from spec_model.lang.chart import NOWHERE, Chart, Path
 
 Active = frozenset[Path]
@@ -34,7 +34,7 @@ def _children(chart: Chart, level: Path, values: Mapping[str, int]) -> list[str]
     return [] if name == NOWHERE else [name]
 
 
-def followed(chart: Chart, before: Active, arrow: Arrow) -> Active:
+def followed(chart: Chart, before: Active, arrow: TakenTransition) -> Active:
     """The active states once an arrow of this chart has been taken, before any other fires (rule G9)."""
     source, target = _path(arrow.source), _path(arrow.target)
     left = source[: len(_scope(source, target)) + 1] if arrow.order else ()

@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
 
 from checker.render.drawing.scheme import ChartArrow, label
-from checker.results.trace import Arrow
+from checker.results.trace import TakenTransition
 from spec_model.lang.chart import Chart, Path
 
 
@@ -17,7 +17,7 @@ class Emphasis:
 
 
 def emphasis(
-    chart: Chart, every: Iterable[ChartArrow], active: Collection[str], fired: Collection[Arrow]
+    chart: Chart, every: Iterable[ChartArrow], active: Collection[str], fired: Collection[TakenTransition]
 ) -> Emphasis:
     """What ``active`` state names and ``fired`` arrows of a trace mean in this chart.
 
@@ -32,7 +32,7 @@ def emphasis(
     return Emphasis(frozenset(states), frozenset(names))
 
 
-def segments(chart: Chart, every: Sequence[ChartArrow], fired: Arrow) -> tuple[ChartArrow, ...]:
+def segments(chart: Chart, every: Sequence[ChartArrow], fired: TakenTransition) -> tuple[ChartArrow, ...]:
     """The segments of the drawn path that fired; none when no path has its ends and its label."""
     leaving: dict[Path, list[ChartArrow]] = {}
     for arrow in every:
@@ -53,7 +53,7 @@ def _label(path: Sequence[ChartArrow]) -> str:
     return " → ".join(filter(None, (label(a.transition) for a in path)))
 
 
-def _starts(arrow: ChartArrow, fired: Arrow) -> bool:
+def _starts(arrow: ChartArrow, fired: TakenTransition) -> bool:
     if arrow.default or fired.order == 0:
         return arrow.default and fired.order == 0
     return arrow.order == fired.order and _named(arrow.source, fired.source)

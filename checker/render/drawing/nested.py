@@ -235,7 +235,7 @@ def _box(
 def _inset(content: DrawnPicture, sides: Sides, wide: int, meet: int) -> int:
     """How far from the left content that is drawn from top to bottom lies.
 
-    Arrows from above pass the heading on its right; those that end at the border meet it before others.
+    Transitions from above pass the heading on its right; those that end at the border meet it before others.
     """
     above = [wide + PAD + EDGE - at for name, at in content.ports.items() if not sides.get(name)]
     return max([PAD, *above, *(meet - at for at in content.ports.values())])
@@ -260,7 +260,7 @@ def _regions(sheet: Sheet, level: Path, found: Sequence[Cut], sides: Sides, span
     for cut in found:
         if not cut.crosses:
             raise ModelError(
-                f"{sheet.chart.name}: an arrow from {'.'.join(cut.arrow.source)} to "
+                f"{sheet.chart.name}: a transition from {'.'.join(cut.arrow.source)} to "
                 f"{'.'.join(cut.arrow.target)} joins two parallel regions; send a local event instead."
             )
     crossing = {c.name: sides.get(c.name, bool(c.source)) for c in found}

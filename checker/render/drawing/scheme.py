@@ -55,7 +55,8 @@ def _from(
         if target is None:
             start = ".".join(source) or chart.name
             raise ModelError(
-                f"{chart.name}: arrow {order} of {start} goes to {transition.target!r}, which is unknown."
+                f"{chart.name}: transition {order} of {start} goes to {transition.target!r}, "
+                "which is unknown."
             )
         name = f"{'.'.join(source)}{'*' if default else ''}#{order}"
         yield ChartArrow(name, source, target, order, len(transitions), default, transition)

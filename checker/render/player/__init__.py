@@ -1,4 +1,4 @@
-"""A counterexample played on its charts: what is active and which arrow is taken, step by step."""
+"""A counterexample played on its charts: what is active and which transition is taken, step by step."""
 
 from collections.abc import Iterable, Iterator
 from hashlib import sha256
@@ -13,7 +13,7 @@ from checker.render.page import Part, data, templates
 from checker.render.player.steps import PlayerStep, Script, States, script, shown_charts
 from checker.render.statechart_svg import LEGEND, STYLE, inline, size
 from checker.render.story import StoryEvent, ending, false_parts, heading, start_of, value
-from checker.results.trace import Arrow, Trace
+from checker.results.trace import TakenTransition, Trace
 from spec_model.lang.chart import Chart
 
 TEMPLATES = templates("player")
@@ -86,15 +86,17 @@ def _event(trace: Trace, event: StoryEvent, charts: dict[str, Chart]) -> dict[st
         "tick": event.number,
         "inputs": [str(c) for c in event.changes if c.is_input],
         "changes": [str(c) for c in event.changes if not c.is_input],
-        "arrows": [_arrow(arrow, charts.get(arrow.chart)) for arrow in event.arrows],
+        "transitions": [
+            _transition(transition, charts.get(transition.chart)) for transition in event.transitions
+        ],
         "forced": list(_forced(trace, event.number)),
     }
 
 
-def _arrow(arrow: Arrow, chart: Chart | None) -> dict[str, Any]:
-    drawn = segments(chart, arrows(chart), arrow) if chart else ()
+def _transition(transition: TakenTransition, chart: Chart | None) -> dict[str, Any]:
+    drawn = segments(chart, arrows(chart), transition) if chart else ()
     names = [segment.name for segment in drawn]
-    return {"chart": arrow.chart, "way": start_of(arrow), "label": arrow.label, "drawn": names}
+    return {"chart": transition.chart, "way": start_of(transition), "label": transition.label, "drawn": names}
 
 
 def _forced(trace: Trace, tick: int) -> Iterator[str]:
@@ -129,5 +131,5 @@ def _end(trace: Trace) -> Iterator[str]:
 def _told(event: StoryEvent) -> tuple[int, int, list[str]]:
     """A row of the printed table: tick, time and what happened."""
     lines = [f"in {c}" if c.is_input else str(c) for c in event.changes]
-    lines += [f"▸ {a.chart}: {start_of(a)}" + (f" {a.label}" if a.label else "") for a in event.arrows]
+    lines += [f"▸ {a.chart}: {start_of(a)}" + (f" {a.label}" if a.label else "") for a in event.transitions]
     return event.number, event.ms, lines

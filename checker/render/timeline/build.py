@@ -218,18 +218,18 @@ def _place(trace: Trace) -> Callable[[Lane], tuple[int, bool, int, bool, int]]:
 
 
 def _shots(trace: Trace, name: str) -> Iterator[Shot]:
-    """The arrows of a chart, marked on its outermost location; those that keep their state left out."""
+    """The transitions of a chart, marked on its outermost location; those that keep their state left out."""
     if "." in name or not is_location(trace, name):
         return
     for tick in trace.ticks:
-        fired = [a for a in tick.arrows if a.chart == name and a.source != a.target]
+        fired = [a for a in tick.transitions if a.chart == name and a.source != a.target]
         if fired:
             yield Shot(tick.number, "; ".join(_fired(a.source, a.target, a.order, a.label) for a in fired))
 
 
 def _fired(source: str, target: str, order: int, label: str) -> str:
     start = f"{source} → {target}" if order else f"default → {target}"
-    number = f" (arrow {order})" if order else ""
+    number = f" (transition {order})" if order else ""
     return f"{start}{number} {label}".rstrip()
 
 

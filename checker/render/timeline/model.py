@@ -52,7 +52,7 @@ class Limit:
 
 @dataclass(frozen=True)
 class Shot:
-    """An arrow that fired in a tick, in a few words."""
+    """A transition that fired in a tick, in a few words."""
 
     tick: int
     text: str
@@ -72,7 +72,7 @@ class Lane:
     """One variable over time (or one part of the property).
 
     ``runs`` cover ticks in order without overlap; a tick in none of them has no value.  ``needed`` tells
-    where the value forces the end of the run.  ``shots`` are arrows fired, for the location of a chart.
+    where the value forces the end of the run.  ``shots`` are transitions fired, for the location of a chart.
     """
 
     name: str

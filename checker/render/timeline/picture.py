@@ -109,7 +109,7 @@ def signs(timeline: Timeline) -> Iterator[tuple[str, str]]:
     if any(visible(lane) for lane in timeline.lanes):
         yield tag("path", d="M0 8H24", class_="tl-limit"), "limit with which it is compared"
     if any(lane.shots for lane in timeline.lanes):
-        yield tag("path", d="M8 4h8l-4 7z", class_="tl-shot"), "an arrow of the chart fired"
+        yield tag("path", d="M8 4h8l-4 7z", class_="tl-shot"), "a transition of the chart fired"
     if any(lane.needed for lane in timeline.lanes):
         box = tag("rect", x=1, y=2, width=22, height=11, class_="tl-needed")
         yield box, "input that forces the end, whatever the others are"

@@ -35,11 +35,11 @@ def shapes(lane: Lane, axis: Axis, top: int, tall: int, *, tips: bool = True) ->
         told = tag("title", escape(f"{_span(need.first, need.last)}: {need.condition} is needed"))
         yield tag("rect", told, x=x, y=top + 1, width=round(wide, 2), height=tall - 2, class_="tl-needed")
     for shot in lane.shots:
-        yield _arrow(axis.left(shot.tick), top, f"tick {shot.tick}: {shot.text}")
+        yield _transition(axis.left(shot.tick), top, f"tick {shot.tick}: {shot.text}")
 
 
-def _arrow(x: float, top: int, told: str) -> str:
-    """A small mark where an arrow fired."""
+def _transition(x: float, top: int, told: str) -> str:
+    """A small mark where a transition fired."""
     mark = f"M{x - 4} {top - 2}h8l-4 7z"
     return tag("path", tag("title", escape(told)), d=mark, class_="tl-shot")
 

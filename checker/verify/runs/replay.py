@@ -7,7 +7,7 @@ trace that both produce is evidence about the charts.
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import accumulate
 
-from checker.results.trace import Arrow, Tick, Trace
+from checker.results.trace import TakenTransition, Tick, Trace
 from checker.results.verdict import Run
 from checker.system.slice import sliced
 from checker.verify.runs.domains import leaves, stayed, stray
@@ -75,7 +75,7 @@ def followed(system: TransitionSystem, run: Run, what: str) -> tuple[tuple[Tick,
         if not stayed(system, after) and (found := stray(system, run)) is not None:
             raise leaves(system, found)
         fired = _interpreted(interpreter, inputs, after, number) if interpreter else ()
-        ticks.append(Tick(number, dict(inputs), _visible(system, after), tuple(map(arrow_of, fired))))
+        ticks.append(Tick(number, dict(inputs), _visible(system, after), tuple(map(transition_of, fired))))
         at = {n: v for n, v in after.items() if n not in inputs}
     return tuple(ticks), after if ticks else at
 
@@ -117,9 +117,9 @@ def _interpreted(
     return fired
 
 
-def arrow_of(fired: Fired) -> Arrow:
-    """An arrow taken by the interpreter, as traces hold it."""
-    return Arrow(
+def transition_of(fired: Fired) -> TakenTransition:
+    """A transition taken by the interpreter, as traces hold it."""
+    return TakenTransition(
         fired.chart,
         _dotted(fired.source),
         _dotted(fired.target),

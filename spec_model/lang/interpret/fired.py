@@ -14,8 +14,8 @@ class Fired:
     """A path taken from a state to a state, through junctions perhaps (rules G7, G9).
 
     ``source`` is empty for a default transition and ``order`` then 0; otherwise ``order`` is the
-    position, from 1, of the path's first arrow among those leaving ``source``.  ``event`` is the
-    local event being processed.  ``place`` is where that first arrow is written.
+    position, from 1, of the path's first transition among those leaving ``source``.  ``event`` is the
+    local event being processed.  ``place`` is where that first transition is written.
     """
 
     chart: str

@@ -19,7 +19,7 @@ class Interpreter:
 
     ``frozen`` gives raw values of frozen variables; those left out have their initial value.  With
     ``measured``, numbers may lie between the values of their domains: inputs are any numbers, and what is
-    computed from them stays between the ends of its domain.  ``tested`` is told of every arrow tested.
+    computed from them stays between the ends of its domain.  ``tested`` is told of every transition tested.
     Raises ``ModelError`` for an ill-formed system.
     """
 
@@ -54,7 +54,7 @@ class Interpreter:
         return dict(self._at)
 
     def step(self, inputs: Mapping[str, int]) -> tuple[Fired, ...]:
-        """One tick: all components in order.  Returns the arrows taken, in order.
+        """One tick: all components in order.  Returns the transitions taken, in order.
 
         Raises ``ModelError`` for a missing or foreign input and for a value outside its domain.
         """

@@ -1,6 +1,6 @@
-"""Every arrow of the non-degraded obstacle chart can be taken [seed §3.4.1, Figs 24-27].
+"""Every transition of the non-degraded obstacle chart can be taken [seed §3.4.1, Figs 24-27].
 
-An arrow is known by what it alone does: the states before and after it, or the flag that it sets.
+A transition is known by what it alone does: the states before and after it, or the flag that it sets.
 """
 
 from properties.forms import Property, reachable
@@ -20,9 +20,9 @@ to_S1, to_S2, to_S3 = (chart.active(f"MoveToS{i}") for i in (1, 2, 3))
 window_21, window_23, window_32 = (chart.active(f"timerSonar{ij}.Fall1Detected") for ij in (21, 23, 32))
 
 
-def taken(id: str, arrow: str, that: Expr, *covers: str, on: str = "obstacles_n") -> Property:
-    """The arrow is taken in some step of the chart as drawn."""
-    return reachable(id, f"{arrow} can be taken.", that=that, covers=covers, on=on)
+def taken(id: str, transition: str, that: Expr, *covers: str, on: str = "obstacles_n") -> Property:
+    """The transition is taken in some step of the chart as drawn."""
+    return reachable(id, f"{transition} can be taken.", that=that, covers=covers, on=on)
 
 
 def between(source: Expr, target: Expr) -> Expr:
@@ -42,38 +42,38 @@ def never_in(detected: Expr) -> Expr:
 
 # --- distance_70 and distance_gt70 -----------------------------------------------------------------
 
-PB2_23_stops = taken("PB2-23-stops", "The arrow that stops", between(~again, again), "B2-OBS-11")
-PB2_23_moves = taken("PB2-23-moves", "The arrow that ends the stop", between(again, ~again), "B2-OBS-12")
+PB2_23_stops = taken("PB2-23-stops", "The transition that stops", between(~again, again), "B2-OBS-11")
+PB2_23_moves = taken("PB2-23-moves", "The transition that ends the stop", between(again, ~again), "B2-OBS-12")
 
 PB2_23_rises_1 = taken(
-    "PB2-23-rises-1", "The arrow that detects at sonar 1", rising(obj1Detected), "B2-OBS-16"
+    "PB2-23-rises-1", "The transition that detects at sonar 1", rising(obj1Detected), "B2-OBS-16"
 )
 PB2_23_rises_2 = taken(
-    "PB2-23-rises-2", "The arrow that detects at sonar 2", rising(obj2Detected), "B2-OBS-16"
+    "PB2-23-rises-2", "The transition that detects at sonar 2", rising(obj2Detected), "B2-OBS-16"
 )
 PB2_23_rises_3 = taken(
-    "PB2-23-rises-3", "The arrow that detects at sonar 3", rising(obj3Detected), "B2-OBS-16"
+    "PB2-23-rises-3", "The transition that detects at sonar 3", rising(obj3Detected), "B2-OBS-16"
 )
-PB2_23_falls_1 = taken("PB2-23-falls-1", "The arrow that sends Fall1", falls(obj1Detected), "B2-OBS-17")
-PB2_23_falls_2 = taken("PB2-23-falls-2", "The arrow that sends Fall2", falls(obj2Detected), "B2-OBS-17")
-PB2_23_falls_3 = taken("PB2-23-falls-3", "The arrow that sends Fall3", falls(obj3Detected), "B2-OBS-17")
+PB2_23_falls_1 = taken("PB2-23-falls-1", "The transition that sends Fall1", falls(obj1Detected), "B2-OBS-17")
+PB2_23_falls_2 = taken("PB2-23-falls-2", "The transition that sends Fall2", falls(obj2Detected), "B2-OBS-17")
+PB2_23_falls_3 = taken("PB2-23-falls-3", "The transition that sends Fall3", falls(obj3Detected), "B2-OBS-17")
 
-# --- the windows; the arrows that open them lead to the states of PB2-23-window-12 and so on --------
+# --- the windows; the transitions that open them lead to the states of PB2-23-window-12 and so on --------
 
 PB2_23_confirms_12 = taken(
-    "PB2-23-confirms-12", "The arrow of timerSonar12 that sends moveToS1",
+    "PB2-23-confirms-12", "The transition of timerSonar12 that sends moveToS1",
     rising(to_S1), "B2-OBS-19", "B2-OBS-21",
 )  # fmt: skip
 PB2_23_confirms_21 = taken(
-    "PB2-23-confirms-21", "The arrow of timerSonar21 that sends moveToS2",
+    "PB2-23-confirms-21", "The transition of timerSonar21 that sends moveToS2",
     rising(to_S2) & never_in(obj3Detected), "B2-OBS-19", "B2-OBS-21",
 )  # fmt: skip
 PB2_23_confirms_23 = taken(
-    "PB2-23-confirms-23", "The arrow of timerSonar23 that sends moveToS2",
+    "PB2-23-confirms-23", "The transition of timerSonar23 that sends moveToS2",
     rising(to_S2) & never_in(obj1Detected), "B2-OBS-19", "B2-OBS-21",
 )  # fmt: skip
 PB2_23_confirms_32 = taken(
-    "PB2-23-confirms-32", "The arrow of timerSonar32 that sends moveToS3",
+    "PB2-23-confirms-32", "The transition of timerSonar32 that sends moveToS3",
     rising(to_S3), "B2-OBS-19", "B2-OBS-21",
 )  # fmt: skip
 
@@ -81,7 +81,7 @@ PB2_23_confirms_32 = taken(
 def expires(ij: str, window: Expr, confirming: Expr) -> Property:
     """The window ends although the second sonar detects nothing throughout the step."""
     return taken(
-        f"PB2-23-expiry-{ij}", f"The arrow of timerSonar{ij} for the end of its window",
+        f"PB2-23-expiry-{ij}", f"The transition of timerSonar{ij} for the end of its window",
         falls(window) & never_in(confirming), "B2-OBS-18", "B2-OBS-20", on=f"obstacles_n_{ij}",
     )  # fmt: skip
 
