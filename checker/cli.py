@@ -112,7 +112,7 @@ def _run(arguments: list[str]) -> Exit:
 
 
 def _internal(error: Exception, arguments: list[str]) -> str:
-    """What is said of a fault of ours; what shows that an engine is wrong is kept."""
+    """What is said of an internal error; what shows that an engine is wrong is kept."""
     from checker.verify.portfolio import Disagreement
 
     if not isinstance(error, Disagreement):

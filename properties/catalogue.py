@@ -29,7 +29,7 @@ KINDS: dict[type, str] = {str: "text", int: "whole number"}
 
 @dataclass(frozen=True)
 class Expected:
-    """A verdict on record: ``depth`` is the length in ticks of the shortest counterexample.
+    """An expected verdict: ``depth`` is the length in ticks of the shortest counterexample.
 
     ``because`` names the transition or sentence that causes it; ``no_repair`` says why no change of a chart
     is proposed, where none is; ``no_fault`` why a proof need not notice any fault of the charts.
@@ -122,7 +122,7 @@ def _add(found: dict[str, Property], prop: Property) -> None:
 
 @cache
 def baseline() -> dict[str, Expected]:
-    """The verdicts on record; a property that is not listed is expected to be proved.
+    """The expected verdicts; a property that is not listed is expected to be proved.
 
     Raises ``ModelError`` for an entry that names no property or has no reason.
     """

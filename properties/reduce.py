@@ -1,6 +1,6 @@
 """From a property to a goal that engines decide: monitor statements appended to the step, and the way home.
 
-A monitor reads the valuation at the end of a tick, with the inputs of the tick.  Memories that two
+A monitor reads the state at the end of a tick, with the inputs of the tick.  Memories that two
 properties share (the same ``previous(x)``, the same tick counter) are made once.
 """
 

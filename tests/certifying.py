@@ -35,7 +35,7 @@ Rows = Iterable[Mapping[str, int]]
 
 
 def closed_set(variables: Sequence[Var], rows: Rows) -> ClosedSet:
-    """Distinct valuations, each variable in a word of its own."""
+    """Distinct states, each variable in a word of its own."""
     values = [[at[v.name] - v.domain.low for v in variables] for at in rows]
     words = np.array(values, dtype=np.uint64).reshape(len(values), len(variables))
     bits = [(v.domain.high - v.domain.low).bit_length() for v in variables]
@@ -45,7 +45,7 @@ def closed_set(variables: Sequence[Var], rows: Rows) -> ClosedSet:
 
 
 def part_of(system: TransitionSystem, goals: Sequence[Var]) -> tuple[TransitionSystem, tuple[Var, ...]]:
-    """What the goals depend on, the goals being variables of it, and the variables of a valuation."""
+    """What the goals depend on, the goals being variables of it, and the variables of a state."""
     part = sliced(system, goals)
     own = (*part.frozen, *part.variables)
     names = {v.name for v in own}
@@ -55,7 +55,7 @@ def part_of(system: TransitionSystem, goals: Sequence[Var]) -> tuple[TransitionS
 
 
 def reachable(system: TransitionSystem, goals: Sequence[Var]) -> list[dict[str, int]]:
-    """The reachable valuations of what the goals depend on."""
+    """The reachable states of what the goals depend on."""
     part, own = part_of(system, goals)
     return [dict(state) for state in projected(search(part, goals).states, [v.name for v in own])]
 
@@ -64,7 +64,7 @@ class Naive:
     """An engine: unreachable with the closed set, or open."""
 
     NAME = "naive"
-    SUMMARY = "the reference semantics on every valuation"
+    SUMMARY = "the reference semantics on every state"
 
     def check(
         self, system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress

@@ -1,4 +1,4 @@
-"""Lowering against the reference interpreter: the same valuation after every tick."""
+"""Lowering against the reference interpreter: the same state after every tick."""
 
 from collections.abc import Mapping, Sequence
 

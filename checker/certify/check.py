@@ -19,7 +19,7 @@ from spec_model.lang.domain import Bool
 from spec_model.lang.system import TransitionSystem
 
 LARGE = 20_000
-"""Nodes and edges of a diagram above which all valuations are tried.
+"""Nodes and edges of a diagram above which all states are tried.
 
 Where that takes a second or two, a solver takes a quarter of a minute or, of those of the steered scenes,
 all of its time in vain: it is asked only if it alone is.
@@ -91,7 +91,7 @@ def _checked(
 def _tried(
     invariant: Invariant, system: TransitionSystem, asked: CertifyQuestion, effort: CheckEffort
 ) -> Accepted | Rejected | TooMuch:
-    """By enumeration, slow and obvious, or on all valuations at once where that is what is left."""
+    """By enumeration, slow and obvious, or on all states at once where that is what is left."""
     if effort.by is By.SOLVER:
         return TooMuch("only the solver is asked")
     tried = enumerated(system, asked, invariant)
@@ -135,7 +135,7 @@ def _symbols(asked: CertifyQuestion, at: int, ticks: int) -> list[str]:
 
 
 def _words(asked: CertifyQuestion, ticks: int, values: solver.Values) -> str:
-    """The valuations and inputs, tick by tick."""
+    """The states and inputs, tick by tick."""
     parts = []
     for at in range(ticks + 1):
         found = {name: values[s] for name, s in asked.symbols(at).items() if s in values}

@@ -1,4 +1,4 @@
-"""Checking by plain enumeration: every valuation of the invariant, every input, the reference semantics.
+"""Checking by plain enumeration: every state of the invariant, every input, the reference semantics.
 
 Slow and obvious.  The system is run as it is: neither slicing nor the formulas of a tick are trusted.
 """
@@ -77,11 +77,11 @@ def _words(asked: CertifyQuestion, before: Valuation, inputs: Valuation) -> str:
     return f"{here}; inputs {told(asked.tick.inputs, inputs)}" if inputs else here
 
 
-# --- the valuations of an invariant ----------------------------------------------------------------
+# --- the states of an invariant ----------------------------------------------------------------
 
 
 def _size(asked: CertifyQuestion, invariant: Invariant) -> int:
-    """How many valuations are looked at."""
+    """How many states are looked at."""
     own, rest = _split(asked, invariant)
     found = (
         count(invariant, [v.domain for v in own])

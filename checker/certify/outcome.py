@@ -1,4 +1,4 @@
-"""What comes of checking a certificate, and the words for a valuation that refutes it."""
+"""What comes of checking a certificate, and the words for a state that refutes it."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass

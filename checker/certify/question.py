@@ -41,7 +41,7 @@ class CertifyQuestion:
 
     @property
     def state(self) -> tuple[Var, ...]:
-        """What makes up a valuation: frozen variables, then the others."""
+        """What makes up a state: frozen variables, then the others."""
         return (*self.tick.frozen, *self.tick.variables)
 
     def symbols(self, at: int) -> dict[str, str]:
@@ -56,7 +56,7 @@ class CertifyQuestion:
         return {symbols[v.name]: sort_bits(v.domain) for v in self.state if v.name in self.about}
 
     def valuation(self) -> list[str]:
-        """A valuation of any values, and the formula that all of them belong to their domains."""
+        """A state of any values, and the formula that all of them belong to their domains."""
         symbols = self.symbols(0)
         inside = [within(symbols[v.name], v.domain) for v in self.state]
         declared = [f"(declare-const {symbols[v.name]} {sort(v.domain)})" for v in self.state]
@@ -68,7 +68,7 @@ class CertifyQuestion:
         return [define(own("init", 0), "Bool", joined("and", parts))]
 
     def one_tick(self, at: int) -> list[str]:
-        """The inputs of a tick, the valuation after it, what is assumed, and what must not happen."""
+        """The inputs of a tick, the state after it, what is assumed, and what must not happen."""
         inputs, symbols = self.tick.inputs, self.symbols(at)
         printer = Printer(symbols, at)
         declared = [f"(declare-const {symbols[v.name]} {sort(v.domain)})" for v in inputs]

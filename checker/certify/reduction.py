@@ -1,4 +1,4 @@
-"""From a closed set of valuations to its decision diagram, bottom-up, level by level."""
+"""From a closed set of states to its decision diagram, bottom-up, level by level."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ Codes = NDArray[np.signedinteger[Any]]
 Words = NDArray[np.uint64]
 
 LARGE = 1 << 20
-"""Valuations from which on one order is tried."""
+"""States from which on one order is tried."""
 
 
 def diagram(closed: ClosedSet) -> CertifiedDiagram:

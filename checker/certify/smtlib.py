@@ -19,7 +19,7 @@ _SPECIAL = re.compile(r"[%|\\@:]|[^ -~]")
 
 
 def quoted(name: str, at: int | None = None) -> str:
-    """The symbol of a variable, ``at`` a number of ticks after the first valuation; frozen ones have none.
+    """The symbol of a variable, ``at`` a number of ticks after the first state; frozen ones have none.
 
     What has a meaning of its own in a symbol is written as % and its code point, as in ``%40``.
     """

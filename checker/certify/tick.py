@@ -1,4 +1,4 @@
-"""One tick as formulas: every variable after it, written over the valuation before it and the inputs.
+"""One tick as formulas: every variable after it, written over the state before it and the inputs.
 
 Plain symbolic execution.  Nothing is simplified, so that nothing can be simplified wrongly; nodes built
 alike are one node, so that formulas stay as long as the program.

@@ -1,7 +1,7 @@
 """Counters of a step: variables that a tick moves on by a constant, such as timers and ages.
 
 They are found by the shape of their assignments, ``c := min(c + k, top)`` under any conditions.  Nothing
-rests on finding all of them, or only them: they say which successor of a valuation is *expected*, the
+rests on finding all of them, or only them: they say which successor of a state is *expected*, the
 one in which every running counter has moved on and nothing else has changed (see ``quiet``).
 """
 
@@ -26,7 +26,7 @@ class Counter:
 
 
 def counters(system: TransitionSystem) -> tuple[Counter, ...]:
-    """The variables of the valuation that count in steps of one length."""
+    """The variables of the state that count in steps of one length."""
     steps: dict[str, set[int]] = {v.name: set() for v in system.variables}
     for action in each_action(system.step):
         if isinstance(action, Assign) and action.var.name in steps:

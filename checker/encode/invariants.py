@@ -1,4 +1,4 @@
-"""Candidate invariants: what held in every valuation of a sample and may hold in every reachable one.
+"""Candidate invariants: what held in every state of a sample and may hold in every reachable one.
 
 Templates go from cheap to rich: ranges, values never taken, pairs that exclude each other, ranges
 under a condition, and bounded differences and sums of counters (also under a condition, also up to
@@ -32,7 +32,7 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, eq=False)
 class Atom:
-    """A condition on one variable and the sampled valuations in which it holds."""
+    """A condition on one variable and the sampled states in which it holds."""
 
     var: Var
     expr: Expr
@@ -41,14 +41,14 @@ class Atom:
 
 @dataclass(frozen=True)
 class TemplateCube:
-    """Valuations that agree with one of them on the variables named."""
+    """States that agree with one of them on the variables named."""
 
     valuation: Mapping[str, int]
     names: frozenset[str]
 
 
 class Candidates:
-    """Builds candidates about the variables of a slice from sampled valuations."""
+    """Builds candidates about the variables of a slice from sampled states."""
 
     def __init__(self, part: Slice, sample: Columns) -> None:
         self.terms = Terms()
@@ -87,7 +87,7 @@ class Candidates:
         return self.terms.const(value, like.sort)
 
     def _atoms_of(self, var: Var) -> Iterator[Atom]:
-        """Conditions on a variable that are true in some sampled valuations and false in others."""
+        """Conditions on a variable that are true in some sampled states and false in others."""
         values = self.sample[var.name]
         for expr, holds in self._raw_atoms(var, values):
             if holds.any() and not holds.all():
@@ -190,13 +190,13 @@ class Candidates:
     def _made(self, op: Op, x: Var, y: Var) -> Expr:
         return self.terms.apply(op, (self.terms.var(x), self.terms.var(y)), x.sort)
 
-    # --- from a valuation that no run visits -----------------------------------------------------
+    # --- from a state that no run visits -----------------------------------------------------
 
     def excluding(self, cube: TemplateCube, order: np.random.Generator) -> Expr | None:
         """A clause over few conditions that is false in the cube and true in the whole sample.
 
         Conditions that hold in the cube are dropped one by one, in a random order, while no sampled
-        valuation meets all of them.  None when the sample visits the cube.
+        state meets all of them.  None when the sample visits the cube.
         """
         met = list(self._met_by(cube))
         shuffled = [met[i] for i in order.permutation(len(met))]
@@ -266,7 +266,7 @@ def _telling(values: Column, beside: Column) -> bool:
 
 
 def _least_unmet(atoms: Sequence[Atom]) -> list[int] | None:
-    """A subset of the conditions, none of them superfluous, that no sampled valuation meets."""
+    """A subset of the conditions, none of them superfluous, that no sampled state meets."""
     count = np.zeros(len(atoms[0].holds), dtype=np.int32)
     for atom in atoms:
         count += ~atom.holds

@@ -21,7 +21,7 @@ from spec_model.lang.operators import Op
 from spec_model.lang.walk import variables
 
 Column = NDArray[Any]
-"""A value for each of many valuations: truth values of numpy's bool, numbers of int64, or Python's own
+"""A value for each of many states: truth values of numpy's bool, numbers of int64, or Python's own
 where 64 bits may not suffice."""
 Columns = Mapping[str, Column]
 
@@ -145,7 +145,7 @@ class _Input:
 
 @dataclass
 class Trail:
-    """Runs: the valuations before the first and after every tick, the inputs of each tick, and where it
+    """Runs: the states before the first and after every tick, the inputs of each tick, and where it
     took place (not where no inputs were found that satisfy the assumption)."""
 
     states: list[dict[str, Column]]
@@ -153,11 +153,11 @@ class Trail:
     moved: list[Column]
 
     def samples(self, every: int = 1) -> dict[str, Column]:
-        """The valuations of all runs, of every so many ticks and the last ones, one after the other."""
+        """The states of all runs, of every so many ticks and the last ones, one after the other."""
         return _joined(self.states[::every] + self.states[-1:])
 
     def blocks(self) -> Iterator[dict[str, Column]]:
-        """All the valuations, some ticks at a time."""
+        """All the states, some ticks at a time."""
         for first in range(0, len(self.states), _BLOCK):
             yield _joined(self.states[first : first + _BLOCK])
 
@@ -210,7 +210,7 @@ class Simulator:
         self._about = [[i for i in self._inputs if i.var.name in variables(e)] for e in assumed]
 
     def start(self) -> dict[str, Column]:
-        """The initial valuation in every run, with frozen values drawn at random."""
+        """The initial state in every run, with frozen values drawn at random."""
         fixed = {v.name: column(v, [v.init] * self.lanes) for v in self.part.variables}
         return {**fixed, **{v.name: self._anything(v) for v in self.part.frozen}}
 
@@ -221,7 +221,7 @@ class Simulator:
         return column(var, [values[int(index)] for index in chosen])
 
     def everywhere(self, valuation: Mapping[str, int]) -> dict[str, Column]:
-        """One valuation in every run."""
+        """One state in every run."""
         of = (*self.part.variables, *self.part.frozen)
         return {v.name: column(v, [valuation[v.name]] * self.lanes) for v in of}
 
@@ -237,7 +237,7 @@ class Simulator:
     def steps(
         self, start: Columns, first: Mapping[str, int] | None = None, *, resting: bool = False
     ) -> Iterator[tuple[Columns, Columns, Column]]:
-        """Valuations after each tick, its inputs, and where it took place, for ever.
+        """States after each tick, its inputs, and where it took place, for ever.
 
         ``resting``: half of the runs begin with all inputs but one at their initial values.
         """

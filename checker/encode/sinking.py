@@ -1,7 +1,7 @@
 """Sinking: the statements of a step that only goals need, moved behind all others.
 
-Whatever such a statement chooses or computes, the valuation after the tick is the same.  So a search can
-store that valuation first, and then ask of it which goals are reached.
+Whatever such a statement chooses or computes, the state after the tick is the same.  So a search can
+store that state first, and then ask of it which goals are reached.
 """
 
 from collections.abc import Iterator

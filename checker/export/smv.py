@@ -69,7 +69,7 @@ class _Module:
         yield "MODULE main"
         sections = (
             ("FROZENVAR", "chosen once", made.frozen),
-            ("VAR", "valuation before a tick", made.states),
+            ("VAR", "state before a tick", made.states),
             ("VAR", "inputs of the tick", made.inputs),
         )
         for word, title, variables in sections:

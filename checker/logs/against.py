@@ -1,4 +1,4 @@
-"""What logs are checked against: boards, properties and verdicts on record, as specified or changed."""
+"""What logs are checked against: boards, properties and expected verdicts, as specified or changed."""
 
 from collections.abc import Callable, Mapping
 from functools import cache
@@ -16,7 +16,7 @@ from spec_model.rover import systems
 class Against:
     """The charts of the boards, the properties and their systems; what is made of them is made once.
 
-    ``expected`` is the verdict on record of a property, by its id.
+    ``expected`` is the expected verdict of a property, by its id.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""The valuations of a part of a board that explain a log so far, and how they go on."""
+"""The states of a part of a board that explain a log so far, and how they go on."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
@@ -10,7 +10,7 @@ from checker.logs.program import Known, NeededInputs
 from spec_model.lang.domain import Num
 
 MOST_VALUATIONS = 512
-"""Valuations that are followed at a time."""
+"""States that are followed at a time."""
 
 FIRST_RUNS, MORE_RUNS = 4_000, 30
 """Steps that may be tried at first, and how many more for each tick of the log."""
@@ -23,7 +23,7 @@ NEARLY = 1e-6
 
 @dataclass(frozen=True)
 class BeliefOutcome:
-    """What a step may lead to: the valuations before and after it, and the outputs it requires."""
+    """What a step may lead to: the states before and after it, and the outputs it requires."""
 
     before: Known
     after: Known
@@ -31,11 +31,11 @@ class BeliefOutcome:
 
 
 class TooMany(Exception):
-    """More valuations than are followed; the message names what multiplies them."""
+    """More states than are followed; the message names what multiplies them."""
 
 
 class Follower:
-    """Takes the steps of one part of a board, from sets of valuations."""
+    """Takes the steps of one part of a board, from sets of states."""
 
     def __init__(self, cone: LogCone, tolerance: Mapping[str, float]) -> None:
         self.cone = cone
@@ -50,11 +50,11 @@ class Follower:
         self._guessed: set[str] = set()
 
     def power_up(self) -> tuple[Known, ...]:
-        """The valuation before the first tick."""
+        """The state before the first tick."""
         return (tuple(v.init for v in self.cone.system.variables),)
 
     def anything(self, told: Mapping[str, Raw]) -> tuple[Known, ...]:
-        """Every valuation in which these variables have these values."""
+        """Every state in which these variables have these values."""
         return (tuple(told.get(name) for name in self._state),)
 
     def outcomes(self, valuations: Sequence[Known], inputs: Known) -> list[BeliefOutcome]:
@@ -73,7 +73,7 @@ class Follower:
         return [i for i, (wanted, got, apart) in enumerate(rows) if differs(wanted, got, apart)]
 
     def kept(self, outcomes: Sequence[BeliefOutcome]) -> tuple[Known, ...]:
-        """The valuations after the step, each once.  Raises ``TooMany``."""
+        """The states after the step, each once.  Raises ``TooMany``."""
         found = tuple(dict.fromkeys(o.after for o in outcomes))
         if len(found) > MOST_VALUATIONS:
             raise self._too_many()

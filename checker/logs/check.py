@@ -219,7 +219,7 @@ class LogResult:
 
     @property
     def unexpected(self) -> tuple[Verdict, ...]:
-        """Properties broken though they are on record as true, or reached though they are not."""
+        """Properties broken though expected to be true, or reached though expected not to be."""
         return tuple(v for v in self.verdicts if v.count and not as_on_record(v))
 
     @property

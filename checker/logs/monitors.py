@@ -48,7 +48,7 @@ class Verdict:
     """What a log says of a property.
 
     ``count``: the ticks in which it is broken; ``tested``: those in which it was put to the test at all;
-    ``expected``: the verdict on record.
+    ``expected``: the expected verdict.
     """
 
     prop: Property

@@ -14,7 +14,7 @@ Known = tuple[Raw | None, ...]
 """Values in the order of the variables; ``None``: any value."""
 
 Step = Callable[[Known, Known], tuple[Known, Known]]
-"""From a valuation and inputs to the valuation after the step and the outputs (``None``: nothing required).
+"""From a state and inputs to the state after the step and the outputs (``None``: nothing required).
 
 Raises ``NeededInputs`` when it must read a value that is not known.
 """

@@ -1,4 +1,4 @@
-"""Inductive invariants kept beside the verdicts on record: what a proof found once is only shown again.
+"""Inductive invariants kept beside the expected verdicts: what a proof found once is only shown again.
 
 A file of them is no evidence.  Its formulas are tried; those that are no invariant of the charts as they are
 now are dropped, and what the others do not show is searched for.
@@ -29,12 +29,12 @@ def read(file: Path) -> Recorded:
 
 
 def invariants_of(model: Model) -> Recorded:
-    """The invariants on record for a model.  Raises ``ModelError`` as ``read`` does."""
+    """The recorded invariants for a model.  Raises ``ModelError`` as ``read`` does."""
     return read(file_of(model, INVARIANTS))
 
 
 def invariants_of_rover() -> Recorded:
-    """The invariants on record for the rover.  Raises ``ModelError`` as ``read`` does."""
+    """The recorded invariants for the rover.  Raises ``ModelError`` as ``read`` does."""
     return read(ROVER / f"{INVARIANTS}.json")
 
 

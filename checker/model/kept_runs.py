@@ -1,4 +1,4 @@
-"""Runs kept beside the verdicts on record: they show cases that occur, and faults that are noticed."""
+"""Runs kept beside the expected verdicts: they show cases that occur, and faults that are noticed."""
 
 import json
 from collections.abc import Callable, Mapping

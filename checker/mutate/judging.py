@@ -26,7 +26,7 @@ from spec_model.lang.system import System
 
 DOMAINS, REFUSED = "(leaves a domain)", "(refused)"
 """Who kills a mutant that no property is needed for: the commands refuse such a model whatever is asked."""
-EQUAL_STEPS = "every tick takes every valuation to the same one"
+EQUAL_STEPS = "every tick takes every state to the same one"
 OVERWRITTEN = f"{EQUAL_STEPS}, and the first one overwrites what they begin with"
 """Why a mutant is equivalent that no search is needed for."""
 NOT_SEARCHED = "no run that is known kills it"
@@ -110,7 +110,7 @@ def judged(
     With ``before``, what became of it in another system, it is not compared again.  Without ``search`` it is
     unknown where no run that is known and no single query decides it.
 
-    Raises ``ReplayError`` and ``Disagreement``, which are bugs of ours.
+    Raises ``ReplayError`` and ``Disagreement``, which are internal errors.
     """
     first = cases[0]
     try:
@@ -247,7 +247,7 @@ class _Hunt:
         return Judged(fate, prop.id, case.mutant.name, ticks, shortest, asked=asked, run=known)
 
     def _confirmed(self, case: MutantCase, prop: Property) -> bool:
-        """Whether the verdict on the original is as it is on record."""
+        """Whether the verdict on the original is the expected one."""
         if case.sure:
             return True
         [found] = self._decided(Task(case.original, (prop,)))

@@ -1,4 +1,4 @@
-"""For each property a fault that it notices: by runs on record, by random runs, then by a search."""
+"""For each property a fault that it notices: by recorded runs, by random runs, then by a search."""
 
 import re
 from collections.abc import Collection, Iterator, Mapping, Sequence
@@ -41,7 +41,7 @@ class Kill:
 
 
 def still(system: System, properties: Sequence[Property], known: Mapping[str, Kill]) -> dict[str, Kill]:
-    """Of the kills on record those that are kills of the properties and charts as they are now, by id."""
+    """Of the recorded kills those that are kills of the properties and charts as they are now, by id."""
     original, found = as_it_is(system), dict[str, Kill]()
     wanted = {kill.mutant for kill in known.values()}
     made = {m.id: m for m in mutants(original, {id.partition("/")[0] for id in wanted}) if m.id in wanted}

@@ -38,7 +38,7 @@ class Planned:
 class Plan:
     """What is known of systems and properties.
 
-    ``recorded`` tells of a property whether it is proved, as far as that is on record, None if it is neither
+    ``recorded`` tells of a property whether it is proved, as far as that is recorded, None if it is neither
     proved nor violated; ``proved`` and ``runs`` hold what was found out of the originals, ``killers`` the
     runs that kill mutants of a system, by property, ``engines`` what proved a property of the original, and
     ``on_record`` runs of a system that are tried on every mutant.
@@ -83,7 +83,7 @@ class Plan:
         return sorted((name for name in bits if bits[name] <= SMALL), key=lambda name: bits[name])
 
     def tried_in(self, name: str, mutant: Mutant, home: str) -> Planned | None:
-        """The same fault in another system, whose verdicts on record are taken for granted until something
+        """The same fault in another system, whose expected verdicts are taken for granted until something
         kills; None if the system has it not, or is its home."""
         if name == home or not self._has(name, mutant.parts):
             return None
@@ -134,7 +134,7 @@ class Plan:
         return tuple(run for runs in self.killers.get(name, {}).values() for run in runs)
 
     def _tried(self, original: System) -> tuple[Run, ...]:
-        """Runs on record of a system, and random runs."""
+        """Recorded runs of a system, and random runs."""
         name = original.name
         if name not in self._tries:
             self._tries[name] = (*self._listed(name), *RandomRuns(original).from_the_start())

@@ -44,7 +44,7 @@ def fates(
     Without ``search`` it is unknown where no run that is known and no single query decides it.
 
     A child that dies, or does not stop in time, makes its mutant unknown, with the reason.  Raises
-    ``ReplayError`` and ``Disagreement``, which are bugs of ours.  Closing the generator ends all children.
+    ``ReplayError`` and ``Disagreement``, which are internal errors.  Closing the generator ends all children.
     """
     pool = Pool(jobs or cores(), _Judging, (limits, search), limits.memory + SLACK)
     known = before or {}

@@ -1,7 +1,7 @@
-"""Errors of ours in the midst of work that goes on without them: kept, told, and never the end of a verdict.
+"""Internal errors in the midst of work that goes on without them: kept, told, and never the end of a verdict.
 
-An engine that raises is a bug of ours, and no reason for the others to lose their turns.  ``attempted`` is
-put around such a piece of work; whoever leads the whole listens, and says it loudly when all is done.
+An engine that raises is an internal error, and no reason for the others to lose their turns.  ``attempted``
+is put around such a piece of work; whoever leads the whole listens, and says it loudly when all is done.
 """
 
 from collections.abc import Callable, Iterator
@@ -19,7 +19,7 @@ LONGEST = 300
 
 @dataclass(frozen=True)
 class Fault:
-    """An error of ours: ``who`` failed, on which system (empty: not known here), and with what."""
+    """An internal error: ``who`` failed, on which system (empty: not known here), and with what."""
 
     who: str
     system: str
@@ -77,7 +77,7 @@ def tell(fault: Fault) -> None:
 def attempted(who: str, system: str, work: Callable[[], T], *known: type[Exception]) -> T | Failed:
     """What the work comes to, or that a fault has ended it, which is told.
 
-    What is no fault of ours is raised: mistakes of the model, no memory, what the operating system refuses,
+    What is no internal error is raised: mistakes of the model, no memory, what the operating system refuses,
     and ``known`` kinds of errors, which have a meaning.  So is everything where nobody listens.
     """
     if not heard():

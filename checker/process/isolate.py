@@ -41,7 +41,7 @@ class End:
     """A child is done with an order: what went wrong, or None.  ``dead``: it takes no further order.
 
     ``crashed``: a fault of the code that it ran has ended it, and nobody from outside.  ``error``: what was
-    raised, with its place, if that was an error of ours.
+    raised, with its place, if that was an internal error.
     """
 
     failure: str | None

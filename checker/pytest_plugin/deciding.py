@@ -56,7 +56,7 @@ class Decider:
         return Decider(engine, Limits(depth, seconds), 1 if worker else None, apart)
 
     def compared(self, item: "PropertyItem") -> Compared:
-        """The verdict of an item beside the one on record.  Raises ``NoVerdict``."""
+        """The verdict of an item beside the expected one.  Raises ``NoVerdict``."""
         key = _key(item)
         if key not in self._found:
             self._decide([item] if self.apart else _together(item))
@@ -87,7 +87,7 @@ class Decider:
         found = self._found[_key(item)]
         if isinstance(found, NoVerdict):
             return found
-        verdict = f"{item.prop.id} is {found.word}, on record is {recorded(found.expected)}"
+        verdict = f"{item.prop.id} is {found.word}; expected: {recorded(found.expected)}"
         verdict += f": {evidence(found.result)}"
         return NoVerdict("\n".join([verdict, *dict.fromkeys(map(alarm, faults))]))
 

@@ -1,4 +1,4 @@
-"""A property as a test: it passes if its verdict is the one on record, else it shows why not."""
+"""A property as a test: it passes if its verdict is the expected one, else it shows why not."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -24,20 +24,20 @@ from rovercheck import own
 def on_record(compared: Compared) -> str:
     """One line on a verdict that is no proof and was expected."""
     prop, because = compared.result.property, compared.expected.because
-    return f"{prop.id} is {compared.verdict.word}, as on record: {because}"
+    return f"{prop.id} is {compared.verdict.word}, as expected: {because}"
 
 
 def shown(compared: Compared, model: Model) -> str:
-    """A verdict that is not the one on record, with what forces it as far as that is found."""
+    """A verdict that is not the expected one, with its cause as far as that is found."""
     try:
         return _why(_with_reasons(compared, model), model)
     except Exception as error:  # the verdict stands
         id, expected = compared.result.property.id, recorded(compared.expected)
-        return f"{id} is {compared.word}, on record is {expected}\n{told(error)}"
+        return f"{id} is {compared.word}; expected: {expected}\n{told(error)}"
 
 
 def _with_reasons(compared: Compared, model: Model) -> Compared:
-    """A counterexample with what forces it, as far as that is found in the time that ``trace`` takes for it.
+    """A counterexample with its cause, as far as that is found in the time that ``trace`` takes for it.
 
     Raises ``ReplayError`` if a run with the same needed inputs ends otherwise.
     """
@@ -49,18 +49,18 @@ def _with_reasons(compared: Compared, model: Model) -> Compared:
 
 
 def _why(compared: Compared, model: Model) -> str:
-    """A verdict that is not the one on record: what it rests on, and what to do."""
+    """A verdict that is not the expected one: what it rests on, and what to do."""
     found = finding(compared, model.systems, model.options)
     lines = [found.headline, explained(found)]
     if compared.expected.because:
-        lines += ["", f"On record because: {compared.expected.because}"]
+        lines += ["", f"Expected because: {compared.expected.because}"]
     if compared.expected.because and compared.verdict.word == "proved":
         lines += ["If that is over, delete its entry in the baseline."]
     return "\n".join(lines)
 
 
 class Different(Exception):
-    """The verdict is not the one on record; the message shows why."""
+    """The verdict is not the expected one; the message shows why."""
 
 
 class PropertyItem(pytest.Item):

@@ -190,7 +190,7 @@ class _Telling:
     def __init__(self, trace: Trace) -> None:
         self.trace = trace
         self.at = [dict(trace.before), *({**t.after, **t.inputs} for t in trace.ticks)]
-        """The valuations before the first tick and after each one."""
+        """The states before the first tick and after each one."""
         self._bounds = bounds(trace)
         self._needed = {(one.number, one.name) for one in trace.needed or ()}
 
@@ -251,10 +251,7 @@ def _conjunct(trace: Trace, expr: Expr, at: Mapping[str, int]) -> Conjunct:
     return Conjunct(expr.name if isinstance(expr, Named) else "", shown, values, trace.since(expr), true)
 
 
-UNTOLD = (
-    "Not told: steady counts, transitions that keep their state as in the tick before, "
-    "bookkeeping of the property."
-)
+OMITTED = "Omitted: running counters, repeated self-transitions, monitor variables."
 
 
 def heading(trace: Trace) -> str:
@@ -278,7 +275,7 @@ def ending(trace: Trace) -> str:
         back = f"tick {trace.loop}" if trace.loop else "the start"
         return f"Loop: back to {back}, with all that the property depends on as it was then."
     if trace.trapped is not None:
-        count = f"any of the {trace.trapped:,} valuations" if trace.trapped > 1 else "the only valuation"
+        count = f"any of the {trace.trapped:,} states" if trace.trapped > 1 else "the only state"
         return f"No way back: what is false now is false in {count} that can follow."
     return ""
 

@@ -1,6 +1,6 @@
 """A trace as comma-separated values: one row for each tick, for spreadsheets and data frames.
 
-Row 0 is the valuation before the first tick.  Numbers are in their units, truth values ``true`` and
+Row 0 is the state before the first tick.  Numbers are in their units, truth values ``true`` and
 ``false``; a cell is empty where nothing has that value in the tick.  Names and texts that a spreadsheet
 would compute begin with ``'``, as do those that begin so already.  A variable named as one of our columns
 (``tick``, ``time_ms``, ``arrows``) has ``_`` behind its name, as often as no other variable is named so.

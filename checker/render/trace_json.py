@@ -188,7 +188,7 @@ SCHEMA: dict[str, Any] = {
         },
         "needed": {"type": ["array", "null"], "items": _NEEDED},  # null: not examined
         "loop": {"type": "integer", "minimum": 0},  # after the last tick it is again as after this one
-        "trapped": {"type": "integer", "minimum": 1},  # valuations that can follow, all false
+        "trapped": {"type": "integer", "minimum": 1},  # states that can follow, all false
         "false": {"type": "array", "items": {"type": "object", "required": ["name", "formula", "values"]}},
     },
     "additionalProperties": False,

@@ -3,9 +3,9 @@
 from xml.sax.saxutils import escape
 
 from checker.render.again import Again, folded
-from checker.render.reasons import forced, reasons
+from checker.render.reasons import cause, meaning, reasons
 from checker.render.story import (
-    UNTOLD,
+    OMITTED,
     Quiet,
     Repeats,
     Row,
@@ -35,7 +35,7 @@ def render(trace: Trace) -> str:
     lines += ["| Tick | ms | Inputs | Changes | Transitions that fired |", "|---:|---:|---|---|---|"]
     lines += [_row(trace, row) for row in folded(trace)]
     lines += ["", f"**{_plain(last)}**"] if (last := ending(trace)) else []
-    lines += ["", UNTOLD]
+    lines += ["", OMITTED]
     for part in conjuncts(trace):
         lines += ["", f"**{part.verdict}:** {_code(part.name or part.formula)}"]
         if part.true:
@@ -43,13 +43,13 @@ def render(trace: Trace) -> str:
         lines += ["", f"which stands for {_code(part.formula)}"] if part.name else []
         lines += ["", "with " + ", ".join(_code(f"{n} = {v}") for n, v in part.values)] if part.values else []
     if said := reasons_told(trace):
-        lines += ["", *(["**What forces it**", ""] if trace.needed else []), *said]
+        lines += ["", *([f"**{cause(trace)}**", ""] if trace.needed else []), *said]
     return "\n".join([*lines, ""])
 
 
 def reasons_told(trace: Trace) -> list[str]:
-    """The inputs that force the end as the lines of a table, and what that means; none if not examined."""
-    if not (said := forced(trace)):
+    """The inputs that determine the end as a table, and what that means; none if not examined."""
+    if not (said := meaning(trace)):
         return []
     rows = [f"| {r.when} | {r.ms} | {_code(r.what)} |" for r in reasons(trace, regular=True)]
     return [*(["| Ticks | ms | Input |", "|---|---:|---|", *rows, ""] if rows else []), _plain(said)]

@@ -8,9 +8,9 @@ from rich.text import Text
 from checker.io.console import UnmarkedConsole
 from checker.render.again import folded
 from checker.render.hanging import hanging
-from checker.render.reasons import forced, reasons
+from checker.render.reasons import cause, meaning, reasons
 from checker.render.story import (
-    UNTOLD,
+    OMITTED,
     Conjunct,
     Repeats,
     StoryChange,
@@ -60,13 +60,13 @@ def _parts(trace: Trace) -> Iterator[Part]:
     yield from _table(trace)
     if last := ending(trace):
         yield none, Text(last, style="bold")
-    yield none, Text(UNTOLD, style="dim")
+    yield none, Text(OMITTED, style="dim")
     for part in conjuncts(trace):
         yield none, Text(f"{part.verdict}: {part.name or part.formula}", style=_STYLES[part.true])
         if not part.true:
             yield from ((Text("    "), Text(line)) for line in _explained(part))
-    if said := forced(trace):
-        yield none, Text("What forces it", style="bold")
+    if said := meaning(trace):
+        yield none, Text(cause(trace), style="bold")
         if trace.needed:
             yield from _reasons(trace)
         yield none, Text(said)

@@ -1,4 +1,4 @@
-"""A closed set of valuations: what an exhausted search visited, and no tick leads out of."""
+"""A closed set of states: what an exhausted search visited, and no tick leads out of."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from spec_model.lang.expr import Var
 
 @dataclass(frozen=True)
 class BitPlace:
-    """Where a variable lies in a packed valuation: ``(raw - low) / stride`` in ``bits`` bits of a word."""
+    """Where a variable lies in a packed state: ``(raw - low) / stride`` in ``bits`` bits of a word."""
 
     var: Var
     word: int
@@ -23,7 +23,7 @@ class BitPlace:
 
 @dataclass(frozen=True, eq=False)
 class ClosedSet:
-    """Distinct packed valuations, one per row of 64-bit words, in no particular order.
+    """Distinct packed states, one per row of 64-bit words, in no particular order.
 
     Variables that have no place were sliced away: the goals do not depend on them.
     """
@@ -38,7 +38,7 @@ class ClosedSet:
 def union(
     sets: Sequence[ClosedSet], variables: Sequence[Var], more: Iterable[Mapping[str, int]]
 ) -> ClosedSet:
-    """All valuations of some sets, and ``more`` of them, in places of one layout.
+    """All states of some sets, and ``more`` of them, in places of one layout.
 
     Each of the sets has a place for each of the ``variables``, whose domains may be wider than there.
     """

@@ -41,7 +41,7 @@ class TakenTransition:
 
 @dataclass(frozen=True)
 class Tick:
-    """One tick: its number from 1, its inputs, the valuation after it and the transitions fired in it."""
+    """One tick: its number from 1, its inputs, the state after it and the transitions fired in it."""
 
     number: int
     inputs: Mapping[str, int]
@@ -65,13 +65,13 @@ class Needed:
 class Trace:
     """A run with everything a reader needs.
 
-    ``before`` is the valuation before the first tick (frozen variables included); ``false_parts``
+    ``before`` is the state before the first tick (frozen variables included); ``false_parts``
     are the conjuncts of the property that are false after the last tick (for a witness, empty).
     ``relevant`` and ``charts`` name the variables and the charts the property depends on.
 
     ``loop`` is set for a run without end: after the last tick all that the property depends on is as
     after that tick (0: as before the first), and the ticks in between repeat for ever.  ``trapped``
-    is set for a run after which something is out of reach: it counts the valuations still reached.
+    is set for a run after which something is out of reach: it counts the states still reached.
 
     ``property`` and ``text`` are the id and the sentence of the property, which is written at ``place``;
     ``statecharts`` are the charts that executed, by name, as drawn, and ``components`` all that executes in a

@@ -50,7 +50,7 @@ class _Search:
     left: int
 
     def extended(self, at: Mapping[str, int], order: Sequence[str]) -> Iterator[Mapping[str, int]]:
-        """Valuations with a value for each variable of ``order``, too, in which every conjunct holds."""
+        """States with a value for each variable of ``order``, too, in which every conjunct holds."""
         if not order:
             yield at
             return

@@ -12,7 +12,7 @@ from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import plain
 
 Step = Callable[[MutableMapping[str, int]], None]
-"""Runs one tick in place: a valuation with the inputs of the tick becomes the valuation after it."""
+"""Runs one tick in place: a state with the inputs of the tick becomes the state after it."""
 
 DEEPEST = 40
 """Python admits a hundred levels of indentation; what lies deeper becomes a function of its own."""
@@ -33,7 +33,7 @@ def source(system: TransitionSystem) -> str:
 
 
 class _Source:
-    """Python text of functions over a valuation ``a``."""
+    """Python text of functions over a state ``a``."""
 
     def __init__(self) -> None:
         self.lines: list[str] = []

@@ -126,7 +126,7 @@ class RandomMachine:
 
 @dataclass
 class TriedPlace:
-    """A run so far: the valuation, the clock and stamps, what the reader remembers, the inputs given."""
+    """A run so far: the state, the clock and stamps, what the reader remembers, the inputs given."""
 
     machine: RandomMachine
     at: dict[str, int]
@@ -146,7 +146,7 @@ class TriedPlace:
         )
 
     def now(self) -> Mapping[str, int]:
-        """The valuation after the last step."""
+        """The state after the last step."""
         return self.at
 
     def step(self, moment: Moment) -> list[str]:

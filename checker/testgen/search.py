@@ -47,7 +47,7 @@ class Uncoverable:
 
     @property
     def text(self) -> str:
-        """``Relay alone: explicit, all 154 valuations``."""
+        """``Relay alone: explicit, all 154 reachable states``."""
         return f"{self.system}: {self.engine}, {self.because}"
 
     @staticmethod

@@ -23,7 +23,7 @@ from spec_model.lang.expiry import free_timers
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.system import System, TransitionSystem
 
-# --- properties decided on the system whose timers run out at will, as far as that goes (docs/timers.md)
+# --- properties decided where timers may expire at any time, as far as that goes (docs/timers.md)
 
 Ask = Callable[[TransitionSystem, Sequence[Var]], Answers]
 """An answer for each goal, and for each check of the system."""
@@ -73,11 +73,11 @@ def decide(
     """A verdict for each property of the task, each as soon as it is known.
 
     ``engine`` is one, or the name of one, ``auto`` (engines in turn, see ``checker.verify.portfolio.order``)
-    or ``all`` (every engine, answers compared).  With free timers in ``limits``, what the system with timers
-    that run out at will does not settle is then searched exactly.  The time of ``limits`` is for all of it,
+    or ``all`` (every engine, answers compared).  With free timers in ``limits``, what the system whose timers
+    may expire at any time leaves open is then searched exactly.  The time of ``limits`` is for all of it,
     lowering included, from now on or until the ``deadline``; ``searches`` ends what looks at no clock.
-    Raises ``Disagreement``, ``ReplayError``, and ``ModelError`` when the model leaves a domain or has no
-    run at all.
+    Raises ``Disagreement``, ``ReplayError``, and ``ModelError`` when the model leaves a domain or has no run
+    at all.
     """
     deadline = limits.deadline() if deadline is None else deadline
     progress(Stage(f"lowering {task.system.name}"))
@@ -140,7 +140,7 @@ class EngineCall:
 
 
 def _unbounded(prop: Property, systems: Mapping[str, System], asking: EngineCall) -> Result:
-    """The result of one property about infinite runs; unknown where an error of ours ends its search."""
+    """The result of one property about infinite runs; unknown where an internal error ends its search."""
 
     def work() -> Result:
         return unbounded(prop, systems, asking, asking.told.progress)

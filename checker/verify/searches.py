@@ -99,7 +99,7 @@ def searches(
     A child that dies, or that does not stop within a time limit, makes what it had not yet decided
     unknown, with the reason.  If it crashes after it took compiled code from the cache, all of the task is
     first searched once more with code compiled anew.  Raises what ``decide`` raises, and ``Unwritable``.
-    Errors of ours in a child are told to who listens (``checker.process.faults``), or raised where nobody
+    Internal errors in a child are told to who listens (``checker.process.faults``), or raised where nobody
     does.  Closing the generator ends all children.
 
     A proof waits until it is known that its system leaves no domain, or not found out by any of its searches:
@@ -386,7 +386,7 @@ class _Calm:
 
 
 def _light(verdict: Verdict) -> Verdict:
-    """The verdict without the valuations that an exhausted search kept."""
+    """The verdict without the states that an exhausted search kept."""
     if isinstance(verdict, Proved | Violated) and isinstance(verdict.because, Exhausted | Inductive):
         from checker.verify.portfolio.question import light_evidence
 

@@ -10,7 +10,7 @@ from spec_model.lang.system import TransitionSystem
 
 
 def evaluate(expr: Expr, at: Mapping[str, int]) -> int:
-    """The raw value of a formula without temporal words in a valuation (booleans are 0 and 1)."""
+    """The raw value of a formula without temporal words in a state (booleans are 0 and 1)."""
     if isinstance(expr, Apply):
         op, args = expr.op, expr.args
         if op is _AND:
@@ -84,7 +84,7 @@ def run(program: Sequence[Action], at: MutableMapping[str, int]) -> None:
 
 
 def step(system: TransitionSystem, before: Mapping[str, int], inputs: Mapping[str, int]) -> dict[str, int]:
-    """The valuation after one tick: ``before`` with every variable that the step writes updated.
+    """The state after one tick: ``before`` with every variable that the step writes updated.
 
     ``before`` holds the variables and the frozen variables; the result holds these and the inputs.
     """

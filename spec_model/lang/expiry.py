@@ -1,4 +1,4 @@
-"""Free expiry: a system whose timers may run out at any moment, so that counters need no memory.
+"""Free expiry: a system whose timers may expire at any time, so that counters need no memory.
 
 The counter behind a temporal word only ever rises tick by tick or returns to 0.  The pass keeps what
 its first tick tells and leaves the rest to a free input:
@@ -48,7 +48,7 @@ def free_timers(system: System, keep: Collection[str] = (), *, name: str = "", t
     return replace(
         system,
         name=name or f"{system.name}~free",
-        text=text or f"As {system.name}; timers run out at will.",
+        text=text or f"As {system.name}; timers may expire at any time.",
         components=tuple(_components(system.components, {id(c): free.chart() for c, free in charts})),
         notes=(*system.notes, _note(freed)),
         over=True,

@@ -1,4 +1,4 @@
-"""What the explicit search says of the variable that multiplies its valuations."""
+"""What the explicit search says of the variable that multiplies its states."""
 
 import re
 
@@ -92,7 +92,7 @@ def counting(*, always: bool) -> TransitionSystem:
 
 def test_the_reason_names_the_limit_the_valuations_and_the_variable() -> None:
     said = re.fullmatch(
-        r"the memory limit of 1 MiB is reached at ([\d,]+) valuations: (\w+) multiplies them by about "
+        r"the memory limit of 1 MiB is reached at ([\d,]+) states: (\w+) multiplies them by about "
         r"([\d.,]+)( \(try --timers skip\))?",
         stopped(counting(always=False), end),
     )

@@ -1,4 +1,4 @@
-"""Symbolic search against a naive search: answers, shortest runs, and the very set of valuations."""
+"""Symbolic search against a naive search: answers, shortest runs, and the very set of states."""
 
 from dataclasses import replace
 from itertools import product
@@ -53,7 +53,7 @@ def check(system: TransitionSystem, wanted: Var, limits: Limits = UNLIMITED) -> 
 
 
 def agrees(system: TransitionSystem, names: list[str], expected: naive.Searched) -> None:
-    """Answers, lengths, the runs themselves, the number of valuations, and which ones they are."""
+    """Answers, lengths, the runs themselves, the number of states, and which ones they are."""
     for name, answer in searched(system, *names).items():
         match answer:
             case Reached(run, True):
@@ -71,7 +71,7 @@ def agrees(system: TransitionSystem, names: list[str], expected: naive.Searched)
 def holds_exactly(
     diagram: Diagram, system: TransitionSystem, because: Exhausted, expected: naive.Searched
 ) -> None:
-    """Of the valuations of its variables, those that are reachable belong to the diagram and no others."""
+    """Of the states of its variables, those that are reachable belong to the diagram and no others."""
     names = {*because.variables, *diagram.variables}
     own = [v for v in (*system.frozen, *system.variables) if v.name in names]
     reachable = naive.projected(expected.states, [v.name for v in own])
@@ -170,7 +170,7 @@ def test_progress_is_reported() -> None:
     lines: list[str] = []
     answers = bdd.check(system, [end, never], Limits(), lines.append)
     assert isinstance(answers["end"], Reached) and isinstance(answers["never"], Unreachable)
-    assert lines[-1].startswith("bdd: depth 6, 36 valuations") and lines[-1].endswith("0 goals open")
+    assert lines[-1].startswith("bdd: depth 6, 36 states") and lines[-1].endswith("0 goals open")
 
 
 def test_a_depth_limit_leaves_the_goal_open() -> None:
@@ -263,7 +263,7 @@ def test_frozen_values_are_chosen_once() -> None:
 
 
 def test_constants_belong_to_the_diagram() -> None:
-    """The valuations are closed only where the constant has its value."""
+    """The states are closed only where the constant has its value."""
     fixed, count, goal = var("fixed", integer(-2, 5), -2), var("count", integer(0, 3)), flag("goal")
     step = (Assign(count, ite(count == 2, 0, count + 1) + (fixed + 2)), Assign(goal, count > 2))
     system = TransitionSystem("fixed", (), (), (fixed, count, goal), (), step)

@@ -41,7 +41,7 @@ def values(script: str, symbols: list[str]) -> dict[str, int]:
 
 
 def fixed(found: CertifyQuestion, at: dict[str, int], variables: tuple[Var, ...]) -> list[str]:
-    """The valuation and the inputs, asserted."""
+    """The state and the inputs, asserted."""
     symbols = found.symbols(0)
     return [f"(assert {smtlib.among(symbols[v.name], v.domain, [(at[v.name],) * 2])})" for v in variables]
 

@@ -1,4 +1,4 @@
-"""Trying all valuations of a closed set at once, against trying them one by one."""
+"""Trying all states of a closed set at once, against trying them one by one."""
 
 from dataclasses import replace
 
@@ -124,7 +124,7 @@ def test_a_large_diagram_is_swept() -> None:
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(checking, "LARGE", 0)
         patch.setattr(enumeration, "MOST", 0)
-        assert check(one, system, BOTH) == Accepted("4 valuations and 1 vectors of inputs tried")
+        assert check(one, system, BOTH) == Accepted("4 states and 1 vectors of inputs tried")
         lost = replace(
             one, invariant=CertifiedDiagram(("count",), Nodes.of([CertifiedNode(0, ((0, 2, 0),))]), 1)
         )
@@ -141,7 +141,7 @@ def test_no_solver_is_asked_about_a_large_diagram_that_is_too_much_to_try() -> N
         patch.setattr(checking, "LARGE", 0)
         patch.setattr(enumeration, "MOST", 0)
         patch.setattr(sweep, "MOST", 0)
-        too_many = "4 valuations and 1 vectors of inputs are too many to try"
+        too_many = "4 states and 1 vectors of inputs are too many to try"
         assert check(one, system, BOTH) == Undecided(too_many)
         assert isinstance(check(one, system, replace(BOTH, by=By.SOLVER)), Accepted)
 

@@ -1,6 +1,6 @@
 """Faults put into the explicit engine on purpose: the comparison with the naive search sees each of them.
 
-The comparison asks for verdicts, lengths of runs, runs that replay, and the very set of valuations.
+The comparison asks for verdicts, lengths of runs, runs that replay, and the very set of states.
 Every fault is first shown to be one: without it the same systems agree.
 """
 
@@ -173,12 +173,12 @@ def the_else_branch_is_lost(patch: pytest.MonkeyPatch) -> None:
 
 
 def all_is_known(patch: pytest.MonkeyPatch) -> None:
-    """The table says "known" whenever another valuation lies where one belongs."""
+    """The table says "known" whenever another state lies where one belongs."""
     patch.setattr(table.StateTable, "_same", lambda *_: BIT(1))
 
 
 def nothing_is_known(patch: pytest.MonkeyPatch) -> None:
-    """The table never recognises a valuation; the search ends all the same, by its depth."""
+    """The table never recognises a state; the search ends all the same, by its depth."""
     patch.setattr(table.StateTable, "_same", lambda *_: BIT(0))
     patch.setattr(
         answers,
@@ -326,7 +326,7 @@ def test_a_fault_of_quiet_ticks_is_seen(lost: str, monkeypatch: pytest.MonkeyPat
 
 
 def test_a_constant_of_the_comparison() -> None:
-    """The comparison itself tells a wrong number of valuations from a right one."""
+    """The comparison itself tells a wrong number of states from a right one."""
     system, goals = chain()
     longer = replace(system, step=(*system.step, Assign(goals[0], const(False))))
     with pytest.raises(Differs):

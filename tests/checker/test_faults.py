@@ -1,4 +1,4 @@
-"""An engine that raises is a bug of ours: the others have their turns, and it is told."""
+"""An engine that raises is an internal error: the others have their turns, and it is told."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -120,7 +120,7 @@ def test_simple_paths_where_no_invariant_is_found(monkeypatch: pytest.MonkeyPatc
 def test_simple_paths_are_simple_in_all_that_the_goal_is_written_with(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """``turn`` is simplified away, and valuations that differ in it alone are different to who checks."""
+    """``turn`` is simplified away, and states that differ in it alone are different to who checks."""
     monkeypatch.setattr(InvariantHunt, "phases", lambda self: iter(()))
     turn, plain = var("turn", integer(0, 1)), waiting()
     step = (*plain.step, Assign(GOAL, GOAL | (turn > 1)), Assign(turn, 1 - turn))

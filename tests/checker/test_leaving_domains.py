@@ -152,7 +152,7 @@ def after(count: int) -> Run:
 
 @pytest.mark.usefixtures("engines_in_this_process")
 def test_a_run_through_an_exit_is_a_mistake_of_the_model() -> None:
-    """It was told as a bug of ours when the engine had not come to the check, or found a longer run to it."""
+    """It was told as an internal error when the engine had not come to the check, or found a longer run."""
     system = MODELS["in every run"]
     engine = Deep(("x.out_of_domain",), {"P": after(6)})
     expected = r"_domains\.py:\d+: every: x := x \+ 1 gives 4, outside integer in 0\.\.3, in tick 4 of a run"
@@ -283,9 +283,9 @@ def test_checks_are_no_variables_to_project_on() -> None:
 
 
 def test_valuations_are_counted_without_the_flag_of_the_property() -> None:
-    """The lamp has three valuations, none yet, off and on; with the flag of the property there were four."""
+    """The lamp has three states, none yet, off and on; with the flag of the property there were four."""
     system = in_order("lamp", LAMP)
     verdict = asked(system, forms.Recoverable(ON & PUSH), AUTO, Limits()).verdict
     assert isinstance(verdict, Proved) and isinstance(verdict.because, Exhausted)
     assert verdict.because.states == 3 and verdict.because.variables == ("Lamp",)
-    assert verdict.because.depth == 2, "ticks to its own valuations"
+    assert verdict.because.depth == 2, "ticks to its own states"

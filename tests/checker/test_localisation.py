@@ -66,7 +66,7 @@ def test_with_all_switches_on_nothing_is_other(system: TransitionSystem, pick: i
 
 
 def _ticks(system: TransitionSystem) -> Iterator[tuple[dict[str, int], dict[str, int]]]:
-    """Some valuations on one run, and the inputs that lead on."""
+    """Some states on one run, and the inputs that lead on."""
     at = {**system.init, **{v.name: v.init for v in system.frozen}}
     for inputs in islice(naive.vectors(system.inputs), 8):
         yield at, inputs

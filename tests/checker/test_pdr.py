@@ -42,7 +42,7 @@ def decided(
 
 
 def within(system: TransitionSystem, invariant: Sequence[Expr]) -> Iterator[dict[str, int]]:
-    """Every valuation within the domains that satisfies an invariant."""
+    """Every state within the domains that satisfies an invariant."""
     for at in naive.vectors((*system.frozen, *system.variables)):
         if all(evaluate(c, at) for c in invariant):
             yield at
@@ -54,7 +54,7 @@ def holds_initially(system: TransitionSystem, invariant: Sequence[Expr]) -> bool
 
 
 def passes_on(system: TransitionSystem, invariant: Sequence[Expr], goal: str) -> bool:
-    """Whether every tick from a valuation of the invariant leads to another, and not to the goal."""
+    """Whether every tick from a state of the invariant leads to another, and not to the goal."""
     for at in within(system, invariant):
         for inputs in naive.vectors(system.inputs):
             if admissible(system, at, inputs):
@@ -66,7 +66,7 @@ def passes_on(system: TransitionSystem, invariant: Sequence[Expr], goal: str) ->
 
 
 def justified(system: TransitionSystem, goal: str, because: object) -> bool:
-    """Whether evidence is an inductive invariant that excludes a goal, by trying every valuation."""
+    """Whether evidence is an inductive invariant that excludes a goal, by trying every state."""
     assert isinstance(because, Inductive) and because.ticks == 1
     return holds_initially(system, because.conjuncts) and passes_on(system, because.conjuncts, goal)
 
@@ -159,7 +159,7 @@ def test_a_variable_that_leaves_its_domain_leaves_the_goals_open() -> None:
 
 
 def test_a_variable_that_could_leave_its_domain_from_elsewhere_only() -> None:
-    """Growing beyond the domain takes a valuation that no run comes to, which is part of the proof."""
+    """Growing beyond the domain takes a state that no run comes to, which is part of the proof."""
     count, stop, goal = var("count", integer(0, 40)), flag("stop"), flag("goal")
     body = (
         If(~stop, (Assign(count, count + 2),)),
@@ -228,7 +228,7 @@ def test_a_dying_solver_leaves_the_goals_open(monkeypatch: pytest.MonkeyPatch) -
 @settings(max_examples=200)
 @given(transition_systems())
 def test_clauses_mean_what_the_graph_means(system: TransitionSystem) -> None:
-    """One valuation and all that depends on it: the solver must find the values that the graph has."""
+    """One state and all that depends on it: the solver must find the values that the graph has."""
     from pysat.solvers import Minisat22
 
     made = circuit(system, [g.name for g in goals(system)])

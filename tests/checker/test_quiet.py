@@ -202,7 +202,7 @@ def test_an_event_in_the_middle_of_a_line_is_found_in_time() -> None:
 
 
 def test_a_line_that_meets_an_anchor_ends_there() -> None:
-    """A valuation may be reached by an event first and by quiet ticks later, or the other way round."""
+    """A state may be reached by an event first and by quiet ticks later, or the other way round."""
     a, jumped = var("a", integer(0, 40)), flag("jumped")
     step = (
         Assign(jumped, go),

@@ -1,4 +1,4 @@
-"""Invariants on record: formulas that are written and read again, and tried before anything is searched."""
+"""Recorded invariants: formulas that are written and read again, and tried before anything is searched."""
 
 import json
 from collections.abc import Mapping, Sequence

@@ -1,4 +1,4 @@
-"""What counts as a wide question: what one valuation can hold at once, not all that is declared."""
+"""What counts as a wide question: what one state can hold at once, not all that is declared."""
 
 import pytest
 

@@ -39,7 +39,7 @@ def test_every_random_run_is_a_run(system: TransitionSystem, lane: int) -> None:
 @settings(max_examples=50)
 @given(transition_systems())
 def test_formulas_on_arrays(system: TransitionSystem) -> None:
-    """The next values of all variables, against the reference, in many valuations at once."""
+    """The next values of all variables, against the reference, in many states at once."""
     exprs = list(transition(system).next.values())
     everything = (*system.variables, *system.inputs, *system.frozen)
     random = np.random.default_rng(0)

@@ -125,7 +125,7 @@ def test_children_come_before_parents() -> None:
 @settings(max_examples=60)
 @given(transition_systems())
 def test_what_is_folded_away_never_changes(system: TransitionSystem) -> None:
-    """On every reachable valuation, under the assumption, the folded formulas give what a tick gives."""
+    """On every reachable state, under the assumption, the folded formulas give what a tick gives."""
     whole = folded(transition(system))
     for state in sorted(search(system, ()).states)[:40]:
         at = dict(state)

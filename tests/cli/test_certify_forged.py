@@ -31,7 +31,7 @@ def test_a_corrupted_invariant_is_rejected(
     def drop(document: Any) -> None:
         document["certificates"][0]["invariant"]["nodes"][-1][1:4] = []
 
-    assert cli.run(["certify", str(changed(counters(made), tmp_path, drop))]) is Exit.CHANGED
+    assert cli.run(["certify", str(changed(counters(made), tmp_path, drop))]) is Exit.FAILED
     assert f"✗ {COUNTERS[0]}" in capsys.readouterr().out
 
 
@@ -41,7 +41,7 @@ def test_a_certificate_of_another_model_is_rejected(
     def other(document: Any) -> None:
         document["certificates"][0]["digest"] = "0" * 64
 
-    assert cli.run(["certify", str(changed(counters(made), tmp_path, other))]) is Exit.CHANGED
+    assert cli.run(["certify", str(changed(counters(made), tmp_path, other))]) is Exit.FAILED
     assert "question: it is about another counters" in capsys.readouterr().out
 
 
@@ -68,7 +68,7 @@ def test_an_origin_that_does_not_exist_is_rejected(
         lambda d: d["origin"].update(properties=["PX-1"], proved=["PX-1"]),
     ]
     for change in changes:
-        assert certify([changed(counters(made), tmp_path, change)], SOLVER, None, False) is Exit.CHANGED
+        assert certify([changed(counters(made), tmp_path, change)], SOLVER, None, False) is Exit.FAILED
         assert "rejected  origin" in capsys.readouterr().out
 
 
@@ -97,7 +97,7 @@ def test_a_file_cannot_write_lines_of_its_own(
         id = "PX\n✓ PB1-15 accepted \x1b[2K\ud800"
         document["origin"].update(properties=[id], proved=[id])
 
-    assert certify([changed(counters(made), tmp_path, spoof)], SOLVER, None, False) is Exit.CHANGED
+    assert certify([changed(counters(made), tmp_path, spoof)], SOLVER, None, False) is Exit.FAILED
     said = capsys.readouterr().out
     assert "\n✓" not in said and "\x1b" not in said and r"\n✓ PB1-15" in said
 

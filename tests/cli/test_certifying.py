@@ -52,7 +52,7 @@ def test_a_verdict_tells_why_it_is_not(capfd: pytest.CaptureFixture[str]) -> Non
 def test_a_proof_stands_that_is_too_large_for_a_certificate(
     known: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Two promises ended as unknown when diagrams were made of their 20 to 40 million valuations."""
+    """Two promises ended as unknown when diagrams were made of their 20 to 40 million states."""
 
     def no_room(*_: object) -> None:
         raise MemoryError
@@ -122,7 +122,7 @@ def test_a_folder_that_cannot_be_written_any_more(
     (tmp_path / "taken").write_text("a file")
     assert run(["check", "PB1-11", "--certificates", str(tmp_path / "taken" / "in")]) == Exit.USAGE
     shown = capfd.readouterr()
-    assert "PB1-11" in shown.out and "The verdicts stand." in shown.err and "INTERNAL" not in shown.err
+    assert "PB1-11" in shown.out and "The verdicts stand." in shown.err and "Internal error" not in shown.err
 
 
 def test_no_folder_is_left_where_nothing_is_proved(tmp_path: Path) -> None:

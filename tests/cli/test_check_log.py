@@ -27,7 +27,7 @@ def test_the_good_example(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_the_example_with_faults(capsys: pytest.CaptureFixture[str]) -> None:
-    assert check_log(*FAULTS) is Exit.CHANGED
+    assert check_log(*FAULTS) is Exit.FAILED
     printed = capsys.readouterr().out
     assert "3 distinct deviations from the charts" in printed
     assert "rover_safety_state one tick late" in printed and "swapped" in printed
@@ -43,7 +43,7 @@ def test_every_property_on_request(capsys: pytest.CaptureFixture[str]) -> None:
 
 
 def test_json(capsys: pytest.CaptureFixture[str]) -> None:
-    assert check_log(*FAULTS, "--json") is Exit.CHANGED
+    assert check_log(*FAULTS, "--json") is Exit.FAILED
     found = json.loads(capsys.readouterr().out)
     assert found["system"] == "board1" and not found["conforms"] and found["ticks"] == 300
     assert [d["kind"] for d in found["deviations"]] == ["late", "swapped", "value"]
@@ -56,7 +56,7 @@ def test_json(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_another_reading_explains_another_log(capsys: pytest.CaptureFixture[str]) -> None:
     good = str(EXAMPLES / "good.csv")
-    assert check_log(good, "--reading", "S43=AND") is Exit.CHANGED
+    assert check_log(good, "--reading", "S43=AND") is Exit.FAILED
     printed = capsys.readouterr().out
     assert (
         "under S43=AND" in printed
@@ -71,7 +71,7 @@ def test_a_repair_is_compared_with_and_its_promises_are_expected(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     (tmp_path / "one.csv").write_bytes((EXAMPLES / "good.csv").read_bytes())
-    assert check_log(str(tmp_path), "--repair", "relay-without-delay") is Exit.CHANGED
+    assert check_log(str(tmp_path), "--repair", "relay-without-delay") is Exit.FAILED
     assert "with relay-without-delay" in capsys.readouterr().out
     check_log(str(tmp_path), "--repair", "relay-without-delay", "--json")
     [found] = json.loads(capsys.readouterr().out)["logs"]
@@ -133,7 +133,7 @@ def test_a_folder_is_summed_up_though_one_log_is_broken(
     written(tmp_path, rows, name="odd.csv")
     written(tmp_path, copied(long_log("board2")[:200]), name="two.csv")
     capsys.readouterr()
-    assert check_log(str(tmp_path)) is Exit.CHANGED
+    assert check_log(str(tmp_path)) is Exit.FAILED
     printed = capsys.readouterr().out
     lines = {line.split()[0]: line.split() for line in printed.splitlines() if line}
     assert lines["good.csv"][1:4] == ["board1", "200", "0"] and lines["odd.csv"][5] == "1"

@@ -106,7 +106,8 @@ def test_the_gravest_log_decides_and_every_log_is_told(
         assert file.name in printed
     if failing in logs:
         assert (
-            "fails.csv: not judged: INTERNAL: KeyError: 'prevDEG_B1'. This is a bug of rovercheck" in printed
+            "fails.csv: not judged: Internal error: KeyError: 'prevDEG_B1'. "
+            "This is a bug of rovercheck" in printed
         )
         assert "1 not judged for an internal error" in printed
     found = document(tmp_path, capsys=capsys)
@@ -136,7 +137,7 @@ def test_a_log_for_which_there_is_no_room_leaves_the_others(
 
 def test_a_wrong_cell_is_told_and_counted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     with_a_wrong_cell(tmp_path)
-    assert check_log(tmp_path / "cell.csv") is Exit.CHANGED
+    assert check_log(tmp_path / "cell.csv") is Exit.FAILED
     printed = " ".join(capsys.readouterr().out.split())
     assert "Cells: 1 cell without meaning, taken as not logged. ✗ btn1: 2 is outside boolean" in printed
     assert "tick 31, line 32" in printed and "a run of the charts" in printed
@@ -180,7 +181,7 @@ def hostile(folder: Path, name: str = "log.csv") -> Path:
 def test_names_of_columns_and_cells_are_printed_as_they_are(
     option: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert check_log(hostile(tmp_path), option) is Exit.CHANGED
+    assert check_log(hostile(tmp_path), option) is Exit.FAILED
     printed = capsys.readouterr().out
     assert harmless(printed)
     assert option == "--json" or SHOWN in printed.replace("\n", " ").replace("               ", "")
@@ -226,7 +227,7 @@ def test_what_was_written_is_told_harmlessly_by_every_verb(
     given = [a.replace("NAME", HOSTILE).replace("LOG", str(EXAMPLES / "good.csv")) for a in arguments]
     assert run(given) in (Exit.USAGE, Exit.NOTHING)
     printed = capsys.readouterr()
-    assert harmless(printed.out + printed.err) and "INTERNAL" not in printed.err
+    assert harmless(printed.out + printed.err) and "Internal error" not in printed.err
     assert ":1234: :smile: [red]" in " ".join(printed.err.split())
 
 

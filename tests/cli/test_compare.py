@@ -47,7 +47,7 @@ def test_a_fault_is_shown_and_becomes_a_test(capsys: pytest.CaptureFixture[str],
     fault, folder = f"python:{FAULTS}:StopsLate", tmp_path / "with a blank"
     code = compare("--system", "board2", "--impl", fault, "--examples", "0", "-o", str(folder))
     said = capsys.readouterr().out
-    assert code is Exit.CHANGED
+    assert code is Exit.FAILED
     assert "board2 does not conform" in said and "the charts took" in said
     written = min(folder.glob("crosscheck_board2_*.py"))
     assert f"pytest '{written}'" in said, "a command that can be typed"
@@ -67,7 +67,7 @@ def test_results_for_machines(capsys: pytest.CaptureFixture[str], tmp_path: Path
     code = compare("--system", "board2", "--impl", fault, "--examples", "0", "--json", "-o", str(tmp_path))
     document = json.loads(capsys.readouterr().out)
     [result] = document["results"]
-    assert document["exit"] == code == Exit.CHANGED and document["complete"]
+    assert document["exit"] == code == Exit.FAILED and document["complete"]
     assert result["verdict"] == "mismatch" and result["distinct"] >= len(result["mismatches"]) > 0
     first = result["mismatches"][0]
     assert first["differences"] and Path(first["test"]).is_file() and first["step"] > 0
@@ -79,9 +79,9 @@ def test_what_is_not_told_in_full_is_told_in_a_line_and_how_to_see_it(
 ) -> None:
     fault = f"python:{FAULTS}:StalePayload"
     asked = ["--system", "board1", "--impl", fault, "--examples", "0", "-o", str(tmp_path)]
-    assert compare(*asked, "--mismatches", "1") is Exit.CHANGED
+    assert compare(*asked, "--mismatches", "1") is Exit.FAILED
     said = " ".join(capsys.readouterr().out.split())
-    assert compare(*asked, "--mismatches", "1", "--json") is Exit.CHANGED
+    assert compare(*asked, "--mismatches", "1", "--json") is Exit.FAILED
     [result] = json.loads(capsys.readouterr().out)["results"]
     found = result["mismatches"]
     assert result["distinct"] == len(found) > 1 and [m["small"] for m in found] == [
@@ -98,7 +98,7 @@ def test_what_is_not_told_in_full_is_told_in_a_line_and_how_to_see_it(
     )
     for one in found[1:]:
         assert f"step {one['step']} of {one['origin']}: {one['differences'][0]['output']} differs" in said
-    assert compare(*asked, "--mismatches", str(len(found))) is Exit.CHANGED
+    assert compare(*asked, "--mismatches", str(len(found))) is Exit.FAILED
     assert "all of them with" not in " ".join(capsys.readouterr().out.split())
 
 
@@ -108,12 +108,12 @@ def test_what_was_not_tried_is_said_with_the_reason(
     monkeypatch.undo()
     fault = f"python:{FAULTS}:Crashing"
     asked = ["--system", "board2", "--impl", fault, "--examples", "7", "-o", str(tmp_path), "--failures", "2"]
-    assert compare(*asked) is Exit.CHANGED
+    assert compare(*asked) is Exit.FAILED
     said = " ".join(capsys.readouterr().out.split())
     assert "tried, not all; given up after 2 runs not survived." in said
     assert "Random runs: 0 of 7 tried; given up after 2 runs not survived." in said
     assert "Try more with --failures N (now 2)." in said
-    assert compare(*asked, "--json") is Exit.CHANGED
+    assert compare(*asked, "--json") is Exit.FAILED
     [result] = json.loads(capsys.readouterr().out)["results"]
     reason = "given up after 2 runs not survived"
     assert result["tried"][1] == {"kind": "random runs", "tried": 0, "of": 7, "because": reason}
@@ -128,7 +128,7 @@ def test_a_crash_is_a_finding_that_becomes_a_test(
     fault = f"python:{FAULTS}:Crashing"
     code = compare("--system", "board2", "--impl", fault, "--examples", "0", "-o", str(tmp_path))
     said = capsys.readouterr().out
-    assert code is Exit.CHANGED
+    assert code is Exit.FAILED
     assert "nobody steers" in said and "inputs that are not calm" in said
     assert "does not conform (3 runs not survived, then the search gave up)" in " ".join(said.split())
     [written] = tmp_path.glob("crosscheck_board2_*.py")
@@ -155,7 +155,7 @@ def test_a_command_that_dies_is_a_finding_and_what_it_answered_before_counts(
     asked = ["--system", "board2", "--impl", f"command:{sys.executable} {program}"]
     code = compare(*asked, "--examples", "0", "--json", "-o", str(tests))
     [result] = json.loads(capsys.readouterr().out)["results"]
-    assert code is Exit.CHANGED
+    assert code is Exit.FAILED
     assert all("SIGSEGV" in failure["message"] for failure in result["failures"])
     assert {f["step"] for f in result["failures"]} == {21}
     assert result["failures"][0]["inputs"].keys() == {s.name for s in boards()["board2"].inputs}
@@ -164,7 +164,7 @@ def test_a_command_that_dies_is_a_finding_and_what_it_answered_before_counts(
 
 def test_other_charts_require_something_else(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     asked = ["--system", "board1", "--examples", "0", "--repair", "relay-without-delay"]
-    assert compare(*asked, "-o", str(tmp_path)) is Exit.CHANGED
+    assert compare(*asked, "-o", str(tmp_path)) is Exit.FAILED
     said = " ".join(capsys.readouterr().out.split())
     assert "charts under S45=IMMEDIATE with relay-without-delay; 0 random runs" in said
     assert "give_b2_actuation differs" in said

@@ -238,7 +238,7 @@ def test_a_program_that_is_killed_or_stopped_has_hidden_no_cursor() -> None:
 @pytest.mark.parametrize(
     ("error", "code", "said"),
     [
-        ("RuntimeError('nothing')", Exit.INTERNAL, "INTERNAL: RuntimeError: nothing."),
+        ("RuntimeError('nothing')", Exit.INTERNAL, "Internal error: RuntimeError: nothing."),
         ("MemoryError", Exit.INCONCLUSIVE, "Out of memory."),
         ("KeyboardInterrupt", Exit.INTERRUPTED, "Interrupted: 1 of 4 properties decided."),
     ],

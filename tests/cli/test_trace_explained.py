@@ -1,4 +1,4 @@
-"""``rovercheck trace``: what forces the end, several runs, runs into states and through transitions."""
+"""``rovercheck trace``: the cause of a violation, several runs, runs into states and through transitions."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -43,7 +43,7 @@ from tests.explain.test_others import BOTH, ENDS, SYSTEM, first, left
         (["PB1-15", "--witnesses", "2", "--by", "length"], "'length' is not one of 'transitions', 'reason'"),
         (
             ["PB1-15", "--witnesses", "2", "--by", "reason", "--no-explain"],
-            "--by reason compares what forces runs",
+            "--by reason compares the causes of runs",
         ),
         (["PB1-15", "--by", "reason"], "--by says in what several runs are to differ; add --witnesses"),
     ],
@@ -58,7 +58,7 @@ def test_a_state_is_reached_and_the_run_explained(capfd: pytest.CaptureFixture[s
     assert run(["trace", "--state", "Monitor_battery.Batt_CRIT", "--engine", "bmc"]) == Exit.AS_EXPECTED
     shown = capfd.readouterr().out
     assert shown.startswith("The state Monitor_battery.Batt_CRIT can be reached.\nbattery: ")
-    assert "What forces it\n" in shown and "can be left out" in shown
+    assert "Cause: the inputs that determine the outcome\n" in shown and "The set is minimal" in shown
     assert max(map(len, shown.splitlines())) <= 80
 
 
@@ -67,7 +67,7 @@ def test_a_transition_is_taken_on_the_chart_as_drawn(capfd: pytest.CaptureFixtur
     assert run(["trace", "--transition", transition, "--engine", "bmc", "--no-explain"]) == Exit.AS_EXPECTED
     shown = capfd.readouterr().out
     assert "Monitor_battery: default → Batt_OK" in shown
-    assert "goal" not in shown and "What forces it" not in shown
+    assert "goal" not in shown and "Cause:" not in shown
 
 
 def trace_of(explanation: Explaining) -> Trace:
@@ -82,7 +82,7 @@ def test_when_interrupted_the_run_is_shown_all_the_same(
 
     monkeypatch.setattr("checker.explain.explained.explained", interrupted)
     assert trace_of(Explaining()).needed is None
-    assert "Interrupted: the run is shown without what forces it." in capfd.readouterr().err
+    assert "Interrupted: the run is shown without its cause." in capfd.readouterr().err
 
 
 def test_an_explanation_that_takes_too_long_is_left_out(capfd: pytest.CaptureFixture[str]) -> None:
@@ -112,7 +112,7 @@ def test_several_runs_are_told_apart_until_there_is_no_more(
         "--- No run 3 --- Every other run to this end takes the same transitions as one of these: all "
         in told
     )
-    assert told.count("What forces it") == 2 and capfd.readouterr().out == ""
+    assert told.count("Cause:") == 2 and capfd.readouterr().out == ""
 
 
 def test_several_runs_are_told_apart_by_what_forces_them(capfd: pytest.CaptureFixture[str]) -> None:
@@ -126,7 +126,7 @@ def test_several_runs_are_told_apart_by_what_forces_them(capfd: pytest.CaptureFi
 def test_a_reason_that_is_not_known_cannot_be_told_from_another(capfd: pytest.CaptureFixture[str]) -> None:
     hurried = Showing(runs=3, by="reason", explaining=Explaining(seconds=-1))
     assert trace(wanted(ENDS), "bdd", Limits(), hurried) == Exit.AS_EXPECTED
-    assert "--- No run 2 ---\nWhat forces run 1 is not known, so that no other" in capfd.readouterr().out
+    assert "--- No run 2 ---\nThe cause of run 1 is not known, so that no other" in capfd.readouterr().out
 
 
 def test_what_no_run_reaches_is_said_with_the_proof(capfd: pytest.CaptureFixture[str]) -> None:

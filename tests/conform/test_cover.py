@@ -246,10 +246,10 @@ def test_why_a_goal_is_unknown_is_remembered_until_something_else_is_known() -> 
     again = GoalCoverage(TOY, LOOKED.goals)
     again.go_on(KeptTests((), unknown={NEVER: "too long"}), "")
     assert again.unknown[NEVER] == "too long" and again.unknown[AFTER_NEVER] == NOT_TRIED
-    again.answers[NEVER] = Uncoverable.of(NEVER, "Lamp alone: explicit, all 5 valuations, twice")
+    again.answers[NEVER] = Uncoverable.of(NEVER, "Lamp alone: explicit, all 5 reachable states, twice")
     assert NEVER not in again.unknown
-    assert again.uncoverable[NEVER].because == "all 5 valuations, twice"
-    assert again.kept().uncoverable[NEVER] == "Lamp alone: explicit, all 5 valuations, twice"
+    assert again.uncoverable[NEVER].because == "all 5 reachable states, twice"
+    assert again.kept().uncoverable[NEVER] == "Lamp alone: explicit, all 5 reachable states, twice"
 
 
 def test_a_fingerprint_is_of_the_charts_and_of_nothing_else() -> None:

@@ -158,7 +158,7 @@ SHOWN = {
         "a drawing; tests/test_architecture.py has the order of the folders"
     ),
     ("docs/mutate.md", "Relay/default.1/target"): "tests/cli/test_mutate.py has the survivor",
-    ("docs/timers.md", "all 425 valuations of references                                exact"): (
+    ("docs/timers.md", "all 425 reachable states of references                                exact"): (
         "three ways to count, of three systems; tests/checker has the texts"
     ),
 }

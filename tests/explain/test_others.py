@@ -56,7 +56,7 @@ def test_both_ways_are_found_and_that_there_is_no_third() -> None:
     assert [a.target for t in second.trace.ticks for a in t.transitions] == ["Start", "Right", "End"]
     assert "goal" not in str(second.trace.ticks), "the run is replayed on the charts as drawn"
     third = others.next("bdd", Limits())
-    assert isinstance(third, NoMore) and third.proved and "valuations" in third.reason
+    assert isinstance(third, NoMore) and third.proved and "reachable states" in third.reason
 
 
 def test_a_search_that_gives_up_proves_nothing() -> None:

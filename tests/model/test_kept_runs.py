@@ -1,4 +1,4 @@
-"""Runs that show cases: the file beside the baseline, and what is on record of the rover."""
+"""Runs that show cases: the file beside the baseline, and what is recorded of the rover."""
 
 import json
 from dataclasses import replace

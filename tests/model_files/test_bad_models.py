@@ -138,7 +138,7 @@ def refused(capfd: pytest.CaptureFixture[str], *arguments: str) -> str:
     assert run([*arguments]) == Exit.USAGE
     said = capfd.readouterr()
     assert said.out == ""
-    assert "Traceback" not in said.err and "INTERNAL" not in said.err
+    assert "Traceback" not in said.err and "Internal error" not in said.err
     return said.err
 
 

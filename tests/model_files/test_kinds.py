@@ -1,6 +1,6 @@
 """Things of the wrong kind in a user's model, and all that is wrong with it at once.
 
-Each was found out by some part of the checker and told as a bug of ours, or not found out at all.
+Each was found out by some part of the checker and told as an internal error, or not found out at all.
 """
 
 import re
@@ -259,7 +259,7 @@ def refused(capfd: pytest.CaptureFixture[str], text: str, path: str = "m.py") ->
         Path(path).write_text(f"{HEAD}{text}\n", encoding="utf-8")
     assert run(["check", "--model", path]) is Exit.USAGE
     said = capfd.readouterr()
-    assert said.out == "" and "INTERNAL" not in said.err
+    assert said.out == "" and "Internal error" not in said.err
     return said.err.splitlines()
 
 
@@ -315,5 +315,5 @@ def test_a_tick_of_another_length_counts_the_times_of_charts(
         always('~C.active("B")', "S"),
     ]
     (here / "m.py").write_text("\n".join((HEAD, *lines)), encoding="utf-8")
-    assert run(["check", "--model", "m.py"]) is Exit.CHANGED
+    assert run(["check", "--model", "m.py"]) is Exit.FAILED
     assert "violated 11 ticks = 0.11 s of S" in capfd.readouterr().out

@@ -1,4 +1,4 @@
-"""The fate of every mutant of a small model, against a naive search of pairs of valuations."""
+"""The fate of every mutant of a small model, against a naive search of pairs of states."""
 
 from dataclasses import replace
 from functools import cache

@@ -1,4 +1,4 @@
-"""Properties about infinite runs against a naive search for fair cycles in the graph of all valuations."""
+"""Properties about infinite runs against a naive search for fair cycles in the graph of all states."""
 
 from collections.abc import Mapping, Sequence
 from typing import NoReturn
@@ -38,11 +38,11 @@ from tests.strategies_ts import booleans, transition_systems
 
 At = Mapping[str, int]
 Node = tuple[tuple[int, ...], bool]
-"""A valuation, and whether a trigger is still without response."""
+"""A state, and whether a trigger is still without response."""
 
 
 class Naive:
-    """The reachable graph of a system; each tick is an edge with the valuation after it, inputs included."""
+    """The reachable graph of a system; each tick is an edge with the state after it, inputs included."""
 
     def __init__(self, system: TransitionSystem, trigger: Expr, response: Expr) -> None:
         names = [v.name for v in (*system.frozen, *system.variables)]

@@ -1,4 +1,4 @@
-"""Traces that every data exit must cope with: a loop, a witness, odd names, thousands of ticks."""
+"""Traces that every data format must cope with: a loop, a witness, odd names, thousands of ticks."""
 
 from dataclasses import replace
 from functools import cache

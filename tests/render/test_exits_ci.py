@@ -214,11 +214,9 @@ def test_junit_of_a_check() -> None:
         "TOY-1": [], "TOY-2": [], "TOY-3": [Error], "TOY-4": [Failure], "TOY-5": [Failure],
         "TOY-6": [Error], "TOY-7": [Skipped],
     }  # fmt: skip
-    assert (
-        "as on record" in found["TOY-2"].system_out and "As the figure has it." in found["TOY-2"].system_out
-    )
+    assert "as expected" in found["TOY-2"].system_out and "As the figure has it." in found["TOY-2"].system_out
     assert "out of time" in found["TOY-3"].result[0].text
-    assert found["TOY-5"].result[0].message == "TOY-5 is proved, on record is violated after 3 ticks"
+    assert found["TOY-5"].result[0].message == "TOY-5 is proved; expected: violated after 3 ticks"
     assert "engine: bmc" in found["TOY-4"].system_out
     suites = {
         s.name: (s.tests, s.failures, s.errors, s.skipped) for s in JUnitXml.fromstring(junit(ALL).encode())
@@ -307,7 +305,7 @@ def test_annotations_of_a_check() -> None:
         ("error", "TOY-6"), ("error", "TOY-4"), ("error", "TOY-5"), ("warning", "TOY-3"),
         ("notice", "TOY-2"), ("notice", "TOY-7"),
     ]  # fmt: skip
-    assert found[1][1] == {"file": "m.py", "line": "5", "title": "TOY-4 is violated, on record is proved"}
+    assert found[1][1] == {"file": "m.py", "line": "5", "title": "TOY-4 is violated; expected: proved"}
     assert "Relay: Ours → Theirs" in annotations(ALL), "the explained run is in the log"
 
 
@@ -352,9 +350,9 @@ def test_the_log_holds_no_command_by_accident(text: str) -> None:
 def test_summary() -> None:
     shown = summary(PARTLY)
     assert "7 of 9" in shown and "| ❌ | TOY-4 | violated | proved | It is so. |" in shown
-    assert "False since tick 5" in shown and "2 findings are as on record." in shown
+    assert "False since tick 5" in shown and "2 findings are as expected." in shown
     good = summary(CiReport((finding(FindingLevel.PASSED, 1, "proved"),), 1))
-    assert "Every verdict is as on record." in good and "|" not in good
+    assert "Every verdict is as expected." in good and "|" not in good
 
 
 def test_a_long_summary_stays_below_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -137,8 +137,8 @@ class TestWords:
 
     def test_what_a_graph_shows(self) -> None:
         said = sentences(GRAPHS["marked"])
-        assert said["size"] == "2 nodes and 3 edges for 3 valuations."
-        assert said["because"] == "the valuations behind 1 of 2 nodes can go to different nodes."
+        assert said["size"] == "2 nodes and 3 edges for 3 states."
+        assert said["because"] == "the states behind 1 of 2 nodes can go to different nodes."
         assert "with alarm too" in said["finer"] and "--project mode,alarm" in said["finer"]
         assert said["run"] == "the trace, 153 ticks: SAFE → CRITICAL."
         assert said["never left"] == "CRITICAL." and said["dead ends"].startswith("none")
@@ -159,9 +159,9 @@ class TestWords:
 
     def test_marks(self) -> None:
         graph = made(toys.filling(3), ["count"], wanted=("full",), looked_for="P is broken").graph
-        assert sentences(graph)["marked"] == "P is broken in 1 valuation behind 1 node: 3."
+        assert sentences(graph)["marked"] == "P is broken in 1 state behind 1 node: 3."
         none = made(toys.filling(3), ["count"], wanted=("over",), looked_for="P is broken").graph
-        assert sentences(none)["marked"] == "P is broken in none of the valuations found."
+        assert sentences(none)["marked"] == "P is broken in none of the states found."
 
 
 def count_of(system: TransitionSystem):

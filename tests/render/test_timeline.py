@@ -86,8 +86,8 @@ class TestLanes:
     def test_needed_inputs_come_first_and_are_marked(self) -> None:
         shown = timeline(drawn())
         assert shown.lanes[0].name == "level" and shown.lanes[0].needed == (Need(2, 2, "level = 100"),)
-        assert shown.forced.startswith("Forced by tick 2: level = 100. Whatever the other inputs are,")
-        assert timeline(long_trace()).forced == ""
+        assert shown.cause.startswith("Determined by tick 2: level = 100. Whatever the other inputs are,")
+        assert timeline(long_trace()).cause == ""
 
     def test_a_timer_is_a_ramp_of_times_up_to_its_span(self) -> None:
         timer = lane(timeline(drawn()), "Relay.Theirs.duration1")
@@ -290,7 +290,7 @@ class TestHtml(Suite):
     def test_all_that_a_reader_wants(self) -> None:
         names = self.parse(self.shown("drawn"))
         assert {"svg", "table", "output", "button"} <= set(names)
-        assert "Why it ends so" in self.shown("drawn") and "Why it ends so" not in self.shown("long")
+        assert "Cause: the inputs" in self.shown("drawn") and "Cause: the inputs" not in self.shown("long")
 
     def test_thousands_of_ticks_stay_small(self) -> None:
         assert len(trace_html.render(drawn(5000))) < 2 * len(trace_html.render(drawn(50)))
@@ -308,7 +308,7 @@ class TestNeeds:
         assert "Not minimised" in page and "Not minimised" not in told(replace(drawn(), minimal=True)).body
 
     def test_not_examined_is_not_nothing(self) -> None:
-        assert "Why it ends so" not in told(long_trace()).body
+        assert "Cause: the inputs" not in told(long_trace()).body
         assert "whatever its inputs" in told(replace(drawn(), needed=())).body
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from checker.render import trace_markdown, trace_table
-from checker.render.reasons import forced, reasons
+from checker.render.reasons import cause, meaning, reasons
 from checker.render.story import Quiet, StoryEvent, conjuncts, false_parts, rows
 from checker.results.trace import Needed, Trace
 from tests.render.conformance import Suite
@@ -105,12 +105,13 @@ class TestReasons:
         assert [r.what for r in reasons(explained(Needed(1, "level", frozenset(values))))] == [what]
 
     def test_what_is_said_of_them(self) -> None:
-        assert forced(long_trace()) == ""
-        assert "whatever its inputs" in forced(explained())
+        assert meaning(long_trace()) == ""
+        assert "whatever its inputs" in meaning(explained())
         some = Needed(1, "level", LOW)
-        assert forced(explained(some)).endswith("None of them can be left out.")
-        assert forced(explained(some, smallest=True)).endswith("left out, and no other set is smaller.")
-        assert "Not minimised" in forced(explained(some, minimal=False))
+        assert meaning(explained(some)).endswith("The set is minimal.")
+        assert meaning(explained(some, smallest=True)).endswith("The set is minimal and smallest.")
+        assert cause(explained(some)) == "Cause: the inputs that determine the violation"
+        assert "Not minimised" in meaning(explained(some, minimal=False))
 
     def test_needed_inputs_are_marked(self) -> None:
         trace = explained(Needed(2, "level", HIGH))

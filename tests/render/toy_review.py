@@ -78,7 +78,8 @@ def review(properties: tuple[Checked, ...] = ALL) -> Review:
         assumptions=(ReviewAssumption("A1", EVIL, ("toy",)),),
         repairs=(
             Remedy("mend", EVIL, (Edit("Relay", "transitions", ("[a < b]",), (EVIL,)),),
-                   (("T-1", "proved", "bdd: all 4 valuations"),), (("T-5", EVIL),), "check --repair mend"),
+                   (("T-1", "proved", "bdd: all 4 reachable states"),), (("T-5", EVIL),),
+                   "check --repair mend"),
         ),
         coverage=(Covered("board", "transitions", 10, 8, 1, 1),),
         graphs=(SEEN,),

@@ -188,7 +188,7 @@ TRACES = {
 
 
 def _graph() -> StateGraph:
-    """Four valuations of (mode, alarm); the projection on mode hides that alarm must come first."""
+    """Four states of (mode, alarm); the projection on mode hides that alarm must come first."""
     loud = {(0, 1), (1, 2)}
     steps = [((0, 0), [(0, 0), (0, 1)]), ((0, 1), [(1, 1), (0, 1)]), ((1, 1), [(1, 1)])]
     explored = tabulated([mode, alarm], [(0, 0)], steps)

@@ -31,7 +31,7 @@ class CertificationOptions:
 )
 @click.option("--smt2", type=click.Path(path_type=Path), metavar="DIR", help="Write the obligations there.")
 @click.option("--timeout", type=SECONDS, metavar="SEC", help="Seconds per certificate.")
-@click.option("--verbose", "-v", is_flag=True, help="The whole valuation that refutes a certificate.")
+@click.option("--verbose", "-v", is_flag=True, help="The whole state that refutes a certificate.")
 @click.option(
     "--json", "as_json", is_flag=True, help="The outcomes as JSON (checker/schemas/certify-1.json)."
 )

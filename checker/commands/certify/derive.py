@@ -150,5 +150,5 @@ def _outcome(one: Result, reader: CertificateReader) -> Outcome:
 def _verdict(one: Result, variant: Variant, systems: Mapping[str, System]) -> str:
     """The verdict and what it is about: the system, how it is changed, and whether it has too few runs."""
     system = systems.get(one.system, systems[one.property.on])
-    word = f"{one.verdict.word} in part" if system.under else one.verdict.word
+    word = f"{one.verdict.word} for a restricted model" if system.under else one.verdict.word
     return " ".join(part for part in (word, "of", one.system, variant.name) if part)

@@ -178,7 +178,7 @@ def code(found: Sequence[DerivedVerdict]) -> Exit:
     """What is rejected counts first, then what is not decided."""
     kinds = [type(one.outcome) for one in found]
     if Rejected in kinds:
-        return Exit.CHANGED
+        return Exit.FAILED
     return Exit.INCONCLUSIVE if Undecided in kinds else Exit.AS_EXPECTED if found else Exit.NOTHING
 
 

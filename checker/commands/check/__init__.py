@@ -1,4 +1,4 @@
-"""The verb ``check``: properties against the verdicts on record."""
+"""The verb ``check``: properties against the expected verdicts."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -48,7 +48,7 @@ class CheckOptions:
     annotations: str | None
 
 
-@click.command(short_help="Check properties, and compare with the verdicts on record.")
+@click.command(short_help="Check properties, and compare with the expected verdicts.")
 @click.argument("ids", nargs=-1, metavar="[ID]...")
 @click.option(
     "--system", "about", multiple=True, metavar="NAME", help="Only properties about this system, or these."
@@ -57,16 +57,18 @@ class CheckOptions:
 @click.option(
     "--strict",
     is_flag=True,
-    help="A proof of a case that never occurs, or may never, or that notices no known fault, is an error.",
+    help="Treat as errors: proofs that are or may be vacuous, and proofs that kill no known mutant.",
 )
-@click.option("--no-premises", is_flag=True, help="Do not ask whether the cases occur that proofs speak of.")
+@click.option("--no-premises", is_flag=True, help="Do not check whether the premises of proofs occur.")
 @click.option(
-    "--record-premises", is_flag=True, help="Search longer for these cases, and keep runs that show them."
+    "--record-premises",
+    is_flag=True,
+    help="Search longer for the premises of proofs, and record runs in which they occur.",
 )
 @click.option(
     "--record-invariants",
     is_flag=True,
-    help="Keep the invariants of proofs: the next check tries them first.",
+    help="Record the invariants of proofs: the next check tries them first.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
 @click.option("--quiet", "-q", is_flag=True, help="Only what is not as expected, and no progress.")
@@ -82,9 +84,9 @@ class CheckOptions:
     default=8.0,
     show_default=True,
     metavar="GIB",
-    help="What each search may take.",
+    help="Memory of each search, in GiB.",
 )
-@click.option("--all-engines", is_flag=True, help="Ask every engine and compare the answers.")
+@click.option("--all-engines", is_flag=True, help="Run every engine and compare the verdicts.")
 @click.option("--certify", is_flag=True, help="Check every proof again, without the engine that found it.")
 @click.option(
     "--certificates",
@@ -141,7 +143,7 @@ def check(options: CheckOptions, charts: VariantOptions, search: SearchOptions) 
             properties = variant.askable(properties)
         if options.no_premises and (options.strict or options.record_premises):
             other = "--strict" if options.strict else "--record-premises"
-            raise UsageError(f"--no-premises leaves out what {other} asks for; write one of them.")
+            raise UsageError(f"--no-premises leaves out what {other} needs; write one of them.")
         limits = search.limits(options.memory)
         asked = _asked(pick_engine(search.engine), options.all_engines)
         if options.certificates:
@@ -225,7 +227,7 @@ def _further(variant: "Variant", premises: "PremiseSearch | None", chains: "Chai
 def _premises(
     variant: "Variant", engine: str, limits: Limits, jobs: int | None, quiet: bool, keep: bool
 ) -> "PremiseSearch":
-    """Asks whether the cases occur that proofs speak of, and keeps the runs if wanted."""
+    """Checks whether the premises of proofs occur, and records the runs if wanted."""
     from checker.commands.check.premises import PremiseSearch, recordable
     from checker.model.kept_runs import file_of, read
 

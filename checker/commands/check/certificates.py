@@ -66,7 +66,7 @@ def certificates(found: Sequence[Result]) -> None:
 
 def _alarm(result: Result, rejected: Rejected) -> str:
     return (
-        f"INTERNAL: the proof of {result.property.id} by {result.verdict.engine} is WRONG: its certificate "
-        f"does not meet the obligation {rejected.obligation!r} ({rejected.shown}). Do not rely on this "
-        "verdict; please report it with the command."
+        f"Internal error: the proof of {result.property.id} by {result.verdict.engine} is WRONG: its "
+        f"certificate does not meet the obligation {rejected.obligation!r} ({rejected.shown}). "
+        "Do not rely on this verdict; please report it with the command."
     )

@@ -23,7 +23,7 @@ def document(
 ) -> dict[str, object]:
     """The verdicts as JSON; ``ended`` is the exit code of what ended the command before it was complete.
 
-    ``faulty``: an engine failed, which is a bug of ours whatever the others found.
+    ``faulty``: an engine failed, which is an internal error whatever the others found.
     """
     code = Exit.INTERNAL if faulty else worst(found) if ended is None else ended
     return {

@@ -24,7 +24,7 @@ def _no_cases(_: Sequence["Compared"]) -> Mapping[str, "PremiseCase"]:
 
 
 def _nothing_kept(_: Sequence["Compared"]) -> None:
-    """No proof is put on record."""
+    """No proof is recorded."""
 
 
 def _no_chains(_: Sequence["Compared"]) -> Sequence["Standing"]:
@@ -37,7 +37,7 @@ class Further:
 
     ``heard`` is told each result while others are searched for.  ``cases`` says of each proof that speaks of
     a case, by id, whether the case occurs, ``chains`` what becomes of chains of properties.  ``noticing`` are
-    the properties that notice a fault which is on record; None where none are kept.  ``keep`` puts proofs on
+    the properties that notice a recorded fault; None where none are kept.  ``keep`` records proofs in
     record.
     """
 
@@ -63,7 +63,7 @@ def asks_for_fault(prop: Property) -> bool:
 
 
 def noticing(model: Model) -> frozenset[str] | None:
-    """The properties that notice a fault, or the charts as they are; None if no kills are on record."""
+    """The properties that notice a fault, or the charts as they are; None if no kills are recorded."""
     place = file_of(model, KILLS)
     if not place.exists():
         return None

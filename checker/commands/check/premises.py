@@ -1,4 +1,4 @@
-"""Whether the cases occur that proofs speak of: runs on record first, then a search."""
+"""Whether the cases occur that proofs speak of: recorded runs first, then a search."""
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -66,7 +66,7 @@ def cases(
 class PremiseSearch:
     """Asks of each proof whether its case occurs; ``keep``: for longer, and the runs that show it are kept.
 
-    Runs on record are gone through as the proofs are heard of: while others are searched for, there is time.
+    Recorded runs are replayed as soon as a proof is reported, while the other searches go on.
     """
 
     model: Model
@@ -80,7 +80,7 @@ class PremiseSearch:
     _shown: dict[str, PremiseCase] = field(default_factory=dict)
 
     def heard(self, one: Compared) -> None:
-        """Go through the run on record of a proof that speaks of a case."""
+        """Go through the recorded run of a proof that speaks of a case."""
         self._shown |= _again(_wanted([one]), self.known, self.systems)
 
     def __call__(self, found: Sequence[Compared]) -> Mapping[str, PremiseCase]:
@@ -124,7 +124,7 @@ def _wanted(found: Sequence[Compared]) -> dict[str, Property]:
 def _again(
     wanted: Mapping[str, Property], known: Mapping[str, KeptRun], systems: Mapping[str, System]
 ) -> Iterator[tuple[str, PremiseCase]]:
-    """The cases that runs on record still show."""
+    """The cases that recorded runs still show."""
     for id, case in wanted.items():
         kept = known.get(id)
         if kept is not None and kept.system in systems:
@@ -165,7 +165,7 @@ def told(one: Result, systems: Mapping[str, System]) -> PremiseCase:
             assert run is not None, "what is reached is reached by a run"
             return PremiseCase(True, _occurs(len(run), systems[one.system]), KeptRun(one.system, run))
     part = ", as far as was searched" if one.in_part else ""
-    return PremiseCase(False, f"it NEVER occurs, so nothing is said{part}: {evidence(one)}")
+    return PremiseCase(False, f"it NEVER occurs, so the proof is vacuous{part}: {evidence(one)}")
 
 
 def _occurs(ticks: int, system: System) -> str:

@@ -49,7 +49,7 @@ SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
 
 @dataclass(frozen=True)
 class Compared:
-    """A result beside the verdict on record; ``variant`` says how the charts differ from those specified.
+    """A result beside the expected verdict; ``variant`` says how the charts differ from those specified.
 
     ``case``: whether the case occurs that a proof speaks of, ``noticed``: whether a fault is known that it
     notices, each if that was asked.  With ``strict``, a proof of a case that never occurs is not enough, nor
@@ -69,9 +69,9 @@ class Compared:
 
     @property
     def word(self) -> str:
-        """The verdict for people; ``proved in part`` where only some of the runs were searched."""
-        said = f"{self.verdict.word} in part" if self.result.in_part else self.verdict.word
-        return f"{said}, of nothing" if self.empty else said
+        """The verdict for people; ``proved for a restricted model`` if that has only some of the runs."""
+        said = f"{self.verdict.word} for a restricted model" if self.result.in_part else self.verdict.word
+        return f"{said}, vacuously" if self.empty else said
 
     @property
     def empty(self) -> bool:
@@ -85,7 +85,7 @@ class Compared:
 
     @property
     def as_expected(self) -> bool:
-        """Same verdict, and for a counterexample on record the same length."""
+        """Same verdict, and for a recorded counterexample the same length."""
         if self.verdict.word != self.expected.verdict:
             return False
         depth = None if self.variant else self.expected.depth
@@ -101,12 +101,12 @@ class Compared:
         if isinstance(self.result.certificate, Rejected):
             return Exit.INTERNAL
         if self.strict and self.case is not None and not self.case.occurs:
-            return Exit.CHANGED if self.empty else Exit.INCONCLUSIVE
+            return Exit.FAILED if self.empty else Exit.INCONCLUSIVE
         if self.strict and self.idle and not self.variant:
             return Exit.INCONCLUSIVE
         if self.as_expected or (self.variant and isinstance(self.verdict, Proved)):
             return Exit.AS_EXPECTED
-        return Exit.INCONCLUSIVE if isinstance(self.verdict, Unknown) else Exit.CHANGED
+        return Exit.INCONCLUSIVE if isinstance(self.verdict, Unknown) else Exit.FAILED
 
 
 def length(verdict: Verdict) -> int | None:
@@ -127,7 +127,7 @@ def results(
 ) -> Generator[Result, None, None]:
     """Decide the properties, several searches at a time; results come as they are found.
 
-    With ``quiet``, nothing is said meanwhile.  The ``invariants`` on record are tried first.
+    With ``quiet``, nothing is said meanwhile.  The recorded ``invariants`` are tried first.
 
     On Ctrl-C the searches under way are ended and ``KeyboardInterrupt`` is raised.
     """
@@ -150,7 +150,7 @@ def results(
 
 
 def _on_record(task: Task, invariants: Recorded) -> tuple[Tree, ...] | None:
-    """The conjuncts of all proofs on record of the properties of a task; None if there is none."""
+    """The conjuncts of all recorded proofs of the properties of a task; None if there is none."""
     known = [invariants[p.id] for p in task.properties if p.id in invariants]
     return tuple(tree for trees in known for tree in trees) if known else None
 
@@ -265,7 +265,7 @@ def check(
 
 
 def _alarmed(faults: Sequence[Fault]) -> str:
-    """Pass on every error of ours that the search went on without; all of them in one text."""
+    """Pass on every internal error that the search went on without; all of them in one text."""
     for fault in faults:
         if heard():
             tell(fault)
@@ -282,9 +282,9 @@ def _why(error: BaseException) -> str:
 
 
 def worst(found: Sequence[Compared]) -> Exit:
-    """A bug of ours outweighs a change, and that an inconclusive search."""
+    """An internal error outweighs a change, and that an inconclusive search."""
     codes = {c.code for c in found}
-    for code in (Exit.INTERNAL, Exit.CHANGED, Exit.INCONCLUSIVE):
+    for code in (Exit.INTERNAL, Exit.FAILED, Exit.INCONCLUSIVE):
         if code in codes:
             return code
     return Exit.AS_EXPECTED
@@ -294,17 +294,17 @@ def line(compared: Compared) -> str:
     """One verdict in one line of 80 columns: sign, id, verdict, evidence."""
     verdict = compared.verdict
     sign = "≈" if compared.result.in_part else SIGNS[verdict.word]
-    word = "in part" if compared.result.in_part else verdict.word
-    text = f"{sign} {compared.result.property.id:<21} {word:<8} {in_short(compared.result)}"
+    model = "for a restricted model: " if compared.result.in_part else ""
+    text = f"{sign} {compared.result.property.id:<21} {verdict.word:<8} {model}{in_short(compared.result)}"
     text += certified(compared.result.certificate)
     if compared.as_expected:
-        return text + (", as on record" if verdict.word != "proved" else "")
-    return text + f"\n    {_other(compared)} is {recorded(compared.expected)}"
+        return text + (", as expected" if verdict.word != "proved" else "")
+    return text + f"\n    {_other(compared)} {recorded(compared.expected)}"
 
 
 def _other(compared: Compared) -> str:
-    """What the verdict is compared with, in front of the verdict on record."""
-    return f"{compared.variant}; as specified it" if compared.variant else "CHANGED: on record"
+    """What the verdict is compared with, in front of the expected verdict."""
+    return f"{compared.variant}; as specified it is" if compared.variant else "CHANGED: expected"
 
 
 def in_short(result: Result) -> str:
@@ -365,10 +365,10 @@ def summary(found: Sequence[Compared], guide: Guide) -> None:
     out.print(totals(found), markup=False)
     parts = sum(c.result.in_part for c in found)
     if parts:
-        out.print(f"≈ {parts} of them for some runs only: see the notes of their systems.", markup=False)
+        out.print(f"≈ {parts} of them for a restricted model: see the notes of their systems.", markup=False)
     certificates([c.result for c in found])
     if not changed:
-        out.print("Every verdict is as on record in the baseline.")
+        out.print("Every verdict is as expected.")
         return
     if changed[0].variant:
         out.print(f"{len(changed)} of them differ {changed[0].variant}.", markup=False)
@@ -379,7 +379,7 @@ def summary(found: Sequence[Compared], guide: Guide) -> None:
 
 def _explain(compared: Compared, guide: Guide) -> None:
     prop, verdict = compared.result.property, compared.verdict
-    out.print(f"\n{prop.id} is {verdict.word}, on record is {recorded(compared.expected)}.", markup=False)
+    out.print(f"\n{prop.id} is {verdict.word}; expected: {recorded(compared.expected)}.", markup=False)
     out.print(f"  {prop.text}", markup=False)
     if isinstance(verdict, Violated) and isinstance(verdict.because, Trace):
         fired = [a for t in verdict.because.ticks for a in t.transitions if a.order]

@@ -58,7 +58,7 @@ class Chains:
     @cached_property
     def links(self) -> Mapping[str, Property]:
         """The links to decide, by id: those of which the variant asks another question than the charts as
-        specified do.  Of all others, whose slices are written alike, the verdict on record stands.
+        specified do.  Of all others, whose slices are written alike, the expected verdict stands.
         """
         ids = dict.fromkeys(id for _, chain in self.chosen for id in chain.properties)
         stated = self.variant.properties()
@@ -70,7 +70,7 @@ class Chains:
         return {p.id: p for p in links}
 
     def standings(self, found: Sequence["Compared"]) -> list[Standing]:
-        """What becomes of each chain, from the verdicts that were found and else those on record."""
+        """What becomes of each chain, from the verdicts that were found and else the expected ones."""
         known = {id: "unknown" for id in self.links} | {c.result.property.id: c.verdict.word for c in found}
         told = list[Standing]()
         for promise, chain in self.chosen:

@@ -15,11 +15,13 @@ from checker.commands.shared.options import VariantOptions, changing, quietly
     "map_file",
     type=click.Path(path_type=Path),
     metavar="MAP.toml",
-    help="What the columns are (docs/check-log.md).",
+    help="What the columns are (docs/logs.md).",
 )
-@click.option("--system", metavar="NAME", help="The board: board1 or board2; by default the columns tell.")
+@click.option(
+    "--system", metavar="NAME", help="The board: board1 or board2; by default found from the columns."
+)
 @click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
-@click.option("--verbose", "-v", is_flag=True, help="Every property, also those that say nothing.")
+@click.option("--verbose", "-v", is_flag=True, help="Every property, also those that are never triggered.")
 @changing
 @quietly
 def check_log(

@@ -19,7 +19,7 @@ SCHEMA = "rovercheck/conform/1"
 """The format of the JSON documents, and its version."""
 
 SUFFIXES = (".csv", ".csv.gz", ".tsv", ".tsv.gz", ".parquet")
-GRAVEST = (Exit.INTERNAL, Exit.CHANGED, Exit.USAGE, Exit.INCONCLUSIVE)
+GRAVEST = (Exit.INTERNAL, Exit.FAILED, Exit.USAGE, Exit.INCONCLUSIVE)
 """Of a folder the first of these that applies to some log."""
 
 
@@ -83,7 +83,7 @@ def _log(place: Path, asked: ConformOptions) -> Exit:
 
 
 def _against(variant: Variant) -> Against:
-    """The boards, properties and verdicts on record of a variant."""
+    """The boards, properties and expected verdicts of a variant."""
     found = varied(variant.choices, variant.repair)
     properties, systems = variant.properties(), variant.systems()
     return Against(found, properties, systems, lambda id: variant.expected(id).verdict)
@@ -144,5 +144,5 @@ def _code_of(found: Outcome) -> Exit:
         case LogError():
             return Exit.USAGE
     if found.deviates or found.invalid:
-        return Exit.CHANGED
+        return Exit.FAILED
     return Exit.INCONCLUSIVE if found.behaviour.undecided else Exit.AS_EXPECTED

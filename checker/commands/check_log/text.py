@@ -139,7 +139,7 @@ def _outcome(verdict: Verdict) -> str:
     where = f"tick {verdict.first.tick}, line {verdict.first.line}"
     record = "a known finding" if as_on_record(verdict) else "not expected: it should hold in every run"
     if verdict.word == "reached":
-        return f"reached at {where}" + ("" if as_on_record(verdict) else ", on record as out of reach")
+        return f"reached at {where}" + ("" if as_on_record(verdict) else ", expected to be out of reach")
     return f"violated at {where}, in {counted(verdict.count, 'tick', 'ticks')}; {record}"
 
 

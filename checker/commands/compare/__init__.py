@@ -11,7 +11,7 @@ from checker.commands.shared.options import VariantOptions, changing, gathered, 
 
 @dataclass(frozen=True)
 class ComparisonOptions:
-    """What is compared, on how many runs, and how much is told."""
+    """What is compared, on how many runs, and how much is reported."""
 
     system: str | None
     impl: str | None
@@ -40,7 +40,7 @@ class ComparisonOptions:
     default=5,
     show_default=True,
     metavar="N",
-    help="Distinct mismatches told with inputs and a test; the others in a line each.",
+    help="Distinct mismatches reported with inputs and a test; the others in a line each.",
 )
 @click.option(
     "--failures",
@@ -61,9 +61,7 @@ class ComparisonOptions:
 @changing
 @quietly
 @gathered(ComparisonOptions, "options")
-def compare(
-    options: ComparisonOptions, as_json: bool, output: Path | None, charts: VariantOptions
-) -> Exit:
+def compare(options: ComparisonOptions, as_json: bool, output: Path | None, charts: VariantOptions) -> Exit:
     """Run a supervisor and the charts side by side; exit code 1 where they differ."""
     from checker.commands.compare.run import CrosscheckOptions
     from checker.commands.compare.run import compare as run

@@ -48,7 +48,7 @@ def runs(found: Iterable[Found], known: Mapping[str, System]) -> dict[str, list[
 
 
 def in_steps_of(board: Board, system: System, at: Mapping[str, int]) -> dict[str, int]:
-    """The valuation with each number in the resolution that it has on the board: systems differ in grids."""
+    """The state with each number in the resolution that it has on the board: systems differ in grids."""
     found = dict(at)
     for name, there in {**system.written, **system.inputs}.items():
         here = board.system.inputs.get(name)

@@ -129,8 +129,8 @@ def _doing(board: Board, search: CompareSearch) -> str:
     of = f" {search.tried[RANDOM]} of {search.effort.examples}" if search.doing == RANDOM else ""
     found = counted(len(search.found), "mismatch", "mismatches")
     return (
-        f"{board.name}: {search.doing}{of} | {search.coverage.steps:,} steps, "
-        f"{len(search.coverage.taken)} transitions, {found}"
+        f"{board.name}: {search.doing}{of} | {found}, {search.coverage.steps:,} steps, "
+        f"{len(search.coverage.taken)} transitions"
     )
 
 
@@ -154,7 +154,7 @@ def _write_tests(result: CompareResult, address: str, variant: Variant, folder: 
 def worst(reports: Sequence[CrosscheckReport]) -> Exit:
     """What differs outweighs a search that is not finished."""
     if any(r.result.differs for r in reports):
-        return Exit.CHANGED
+        return Exit.FAILED
     if any(r.result.interrupted for r in reports):
         return Exit.INTERRUPTED
     return Exit.AS_EXPECTED if all(r.result.conforms for r in reports) else Exit.INCONCLUSIVE

@@ -103,7 +103,7 @@ def doctor(as_json: bool, quiet: bool = False) -> Exit:
         print(json_text(document, ascii=True))
     else:
         _tell([f for f in found if not (quiet and f.ok)], broken)
-    return Exit.CHANGED if broken else Exit.AS_EXPECTED
+    return Exit.FAILED if broken else Exit.AS_EXPECTED
 
 
 def findings() -> Iterator[DoctorFinding]:

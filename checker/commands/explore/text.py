@@ -31,7 +31,7 @@ def show(console: Console, session: Session, everything: bool = False) -> None:
     trace = sim.trace(max(sim.at, 1))
     grid = _grid()
     _row(grid, "charts", [where(chart, sim.state()) for chart in sim.system.charts], "bold")
-    _row(grid, "transitions", [_transition(a) for a in map(transition_of, sim.fired())], "green")
+    _row(grid, "fired", [_transition(a) for a in map(transition_of, sim.fired())], "green")
     _row(grid, "frozen", [listed(trace, sim.frozen)] if sim.frozen else [])
     _row(grid, "inputs", [_inputs(session, trace)], "cyan")
     _row(grid, "values", [_outputs(sim, trace, everything)])

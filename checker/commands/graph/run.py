@@ -39,7 +39,7 @@ NAMED = 14
 def offered(system: str, found: Suggestions, options: str = "") -> str:
     """What can be projected on, as lines of text; ``options`` is what each command needs besides."""
     at_least = "at least " if found.cut else ""
-    lines = [f"{system}: {at_least}{found.valuations:,} reachable valuations of the variables below."]
+    lines = [f"{system}: {at_least}{found.valuations:,} reachable states of the variables below."]
     if found.cut:
         lines.append(f"The exploration is cut, so all counts are lower bounds: {found.cut}.")
     wide = max((len(r.var.name) for r in found.variables[:NAMED]), default=0)
@@ -222,9 +222,7 @@ def _monitored(system: System, prop: Property | None) -> tuple[TransitionSystem,
         return lowered, (), ""
     _about(system, prop)
     if isinstance(prop.form, Unbounded):
-        raise UsageError(
-            f"No single valuation breaks {prop.id}, but a run without end; use --trace {prop.id}."
-        )
+        raise UsageError(f"No single state breaks {prop.id}, but a run without end; use --trace {prop.id}.")
     question = reduce(lowered, [prop])
     word = "reached" if isinstance(prop.form, Reachable) else "broken"
     return question.system, (question.goals[0].var.name,), f"{prop.id} is {word}"

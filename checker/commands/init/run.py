@@ -19,7 +19,7 @@ WRITTEN = {
 
 
 def init(folder: Path) -> Exit:
-    """Write the model, its verdicts on record and a file for CI; nothing is overwritten.
+    """Write the model, its expected verdicts and a file for CI; nothing is overwritten.
 
     Raises ``UsageError`` if one of the files is there already, or the folder cannot be written.
     """

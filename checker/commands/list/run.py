@@ -18,7 +18,7 @@ if TYPE_CHECKING:  # each list reads only what is in it
 
 def list_properties(chosen: Iterable["Property"], model: "Model") -> None:
     listed(
-        ("id", "system", "on record", "requires"),
+        ("id", "system", "expected", "requires"),
         [(p.id, p.on, model.expected(p.id).verdict, p.text) for p in chosen],
     )
 

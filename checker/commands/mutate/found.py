@@ -31,7 +31,7 @@ class MutationResults:
     def code(self) -> Exit:
         """A survivor outweighs what is not known."""
         if self.of(Fate.SURVIVOR):
-            return Exit.CHANGED
+            return Exit.FAILED
         return Exit.INCONCLUSIVE if self.of(Fate.UNKNOWN) or self.undecided else Exit.AS_EXPECTED
 
 

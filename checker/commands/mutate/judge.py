@@ -159,7 +159,7 @@ class _Stages:
             self.found.searched.add(mutant.id)
 
     def _has_run(self, prop: Property) -> bool:
-        """Whether the verdict on record rests on a finite run."""
+        """Whether the expected verdict rests on a finite run."""
         if isinstance(prop.form, Unbounded):
             return False
         return self.plan.recorded[prop.id] is isinstance(prop.form, Reachable)
@@ -189,7 +189,7 @@ class _Stages:
 
 
 def _runs(known: Sequence[Mapping[str, KeptRun]]) -> dict[str, list[Run]]:
-    """The runs on record, by system, each once."""
+    """The recorded runs, by system, each once."""
     found: dict[str, dict[str, Run]] = {}
     for kept in (one for rows in known for one in rows.values()):
         found.setdefault(kept.system, {}).setdefault(repr(kept.run), kept.run)

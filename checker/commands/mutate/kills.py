@@ -26,9 +26,9 @@ SHOWN = 40
 def record_kills(model: Model, limits: Limits, jobs: int | None, about: Collection[str] = ()) -> Exit:
     """Look for a fault that each proved demand notices, and keep it with the run that shows it.
 
-    Only demands about the systems ``about``, if these are named.  What is on record is gone through again;
+    Only demands about the systems ``about``, if these are named.  What is recorded is gone through again;
     only demands of which it shows nothing any more are looked at.  Raises ``UsageError`` where
-    the file cannot be written, ``ModelError`` where what is on record cannot be read.
+    the file cannot be written, ``ModelError`` where what is recorded cannot be read.
     """
     place, premises = file_of(model, KILLS), read(file_of(model))
     known = {id: kept for id, kept in read(place, KILLS).items() if id in model.properties}
@@ -52,7 +52,7 @@ def record_kills(model: Model, limits: Limits, jobs: int | None, about: Collecti
         write(text(found, KILLS), place)
     left = [id for id in total if id not in found]
     demands = counted(len(total), "proved demand", "proved demands")
-    out.print(f"{len(total) - len(left)} of {demands} notice a fault that was put into the charts.")
+    out.print(f"{len(total) - len(left)} of {demands} kill a mutant of the charts.")
     if left:
         more = f" and {len(left) - SHOWN} more" if len(left) > SHOWN else ""
         out.print(wrapped(f"None was found for {', '.join(left[:SHOWN])}{more}.", 4), markup=False)

@@ -107,7 +107,7 @@ def mutate(model: Model, wanted: MutateOptions, limits: Limits, as_json: bool) -
 def _record(model: Model, found: MutationResults, made: Collection[str], alone: bool) -> None:
     """Keep the runs by which searches killed mutants.
 
-    What is on record stays, but for mutants that no run kills, if not only properties of some systems were
+    What is recorded stays, but for mutants that no run kills, if not only properties of some systems were
     asked (``alone``), and those of the same parts that are not ``made`` any more.
     """
     place, parts_of = file_of(model, MUTANTS), {id.partition("/")[0] for id in made}
@@ -124,7 +124,7 @@ def _record(model: Model, found: MutationResults, made: Collection[str], alone: 
         if id not in alive and (id in made or id.partition("/")[0] not in parts_of)
     }
     write(text({**known, **rows}, MUTANTS), place)
-    err.print(f"{counted(len(rows), 'run is', 'runs are')} on record that searches found now.")
+    err.print(f"{counted(len(rows), 'run is', 'runs are')} recorded that searches found now.")
 
 
 def _homes(model: Model, wanted: MutateOptions, stated: Collection[str]) -> dict[str, list[str]]:

@@ -35,14 +35,14 @@ from spec_model.lang.walk import nodes
 from spec_model.rover import charts_of
 
 SAME_CAUSE = re.compile(r"As ([\w-]*\d[\w-]*)\b")
-"""How a reason on record begins that is the reason of another finding."""
+"""How the reason of a finding begins that has the same cause as another one."""
 
 
 @dataclass(frozen=True)
 class Extras:
     """What a model may have besides properties and systems.
 
-    ``depends`` names the readings on which a property depends; ``reasons`` are the causes on record, by id,
+    ``depends`` names the readings on which a property depends; ``reasons`` are the recorded causes, by id,
     ``premises`` what came of asking whether the case occurs that a property speaks of.  ``graphs`` are the
     state graphs of systems, ``undrawn`` says of some why there is none.
     """
@@ -85,7 +85,7 @@ def reviewed(
         extras.graphs,
         extras.undrawn,
         HOW_TO_READ,
-        tuple((p.id, f"only with --full; on record {model.expected(p.id).verdict}") for p in left),
+        tuple((p.id, f"only with --full; expected: {model.expected(p.id).verdict}") for p in left),
     )
 
 

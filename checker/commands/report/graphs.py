@@ -80,7 +80,7 @@ def _state_graph(
     except ModelError as problem:
         return str(problem)
     if stopped := exploration.explored.stopped:
-        many = f"more than {counted(len(exploration.explored), 'valuation', 'valuations')}"
+        many = f"more than {counted(len(exploration.explored), 'state', 'states')}"
         return many if "memory" in stopped else stopped
     onto = _onto(system, exploration.explored)
     if onto is None:
@@ -94,7 +94,7 @@ def _state_graph(
 
 
 def _marked(compared: Compared, system: System) -> bool:
-    """Whether it is broken by single valuations of the system."""
+    """Whether it is broken by single states of the system."""
     prop, word = compared.result.property, compared.verdict.word
     return prop.on == system.name and word == "violated" and not isinstance(prop.form, Reachable | Unbounded)
 

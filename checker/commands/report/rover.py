@@ -75,7 +75,7 @@ def remedy(proof: Proof) -> Remedy:
 
 
 def _word(result: Result) -> str:
-    return f"{result.verdict.word} in part" if result.in_part else result.verdict.word
+    return f"{result.verdict.word} for a restricted model" if result.in_part else result.verdict.word
 
 
 def _edits(proof: Proof) -> Iterator[Edit]:

@@ -33,8 +33,8 @@ PACKAGES = ("rovercheck", "z3-solver", "bitwuzla", "llvmlite", "python-sat", "ox
 """The tool, its solvers, and what else a verdict may rest on."""
 NO_LIMITS = Limits()
 MEANINGS = {
-    Exit.AS_EXPECTED: "every verdict is as on record",
-    Exit.CHANGED: "a verdict is not as on record",
+    Exit.AS_EXPECTED: "every verdict is as expected",
+    Exit.FAILED: "a verdict is not as expected",
     Exit.INCONCLUSIVE: "a limit was reached",
     Exit.INTERNAL: "the proof of a verdict was rejected",
 }
@@ -45,7 +45,7 @@ class ReportOptions:
     """What the command line asks for.
 
     ``command`` is the line itself; ``whole`` says that no selection was made, ``date`` is shown as given.
-    ``repairs`` and ``premises`` are decided too, and what forces a counterexample is looked for, if wanted.
+    ``repairs`` and ``premises`` are decided too, and the causes of counterexamples are looked for, if wanted.
     """
 
     command: str
@@ -117,7 +117,7 @@ def page(
 
 def origin(model: Model, variant: Variant, code: Exit, asked: ReportOptions) -> ReviewOrigin:
     """How the page is made; nothing about the machine or the time, unless the user gave a date."""
-    meaning = MEANINGS[code].replace("on record", "expected") if variant.name else MEANINGS[code]
+    meaning = MEANINGS[code]
     return ReviewOrigin(
         asked.command, int(code), meaning, tuple(versions()), digests(model), asked.date, variant.name
     )

@@ -19,7 +19,7 @@ from spec_model.repairs import Repair, repairs
 from spec_model.rover import systems
 
 LIMITS = Limits(timers=Timers.FREE)
-"""Timers that run out at will prove most repairs with far fewer valuations."""
+"""Timers that may expire at any time prove most repairs with far fewer states."""
 
 
 @dataclass(frozen=True)
@@ -152,7 +152,7 @@ def repair_pages(proved: Sequence[Proof]) -> dict[str, str]:
 INTRODUCTION = (
     "Each repair is a variant of the charts kept beside the original, in a file of `spec_model/repairs/`; "
     f"the specified charts stay as they are. `{_recheck('NAME')}` decides every property that it concerns "
-    "(timers that run out at will only make it faster), `--repair all` does so for all repairs that edit "
+    "(timers that may expire at any time only make it faster), `--repair all` does so for all repairs that edit "
     "charts, together."
 )
 

@@ -120,7 +120,7 @@ class Variant:
         return Certifying(folder, again, dict(self.choices), repair, tuple(sorted(self.without)))
 
     def expected(self, id: str) -> Expected:
-        """The verdict to compare with: what the repair promises, else the verdict on record."""
+        """The verdict to compare with: what the repair promises, else the expected verdict."""
         if self.repair is not None and id in self.repair.fixes:
             return Expected()
         if self.repair is not None and id in self.repair.gives_up:

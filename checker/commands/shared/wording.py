@@ -20,7 +20,7 @@ def in_english(properties: Sequence[Property], model: Model) -> None:
 
 def paragraph(prop: Property, model: Model) -> str:
     """One property in lines of 80 columns."""
-    head = f"{prop.id} (on {prop.on}, on record {model.expected(prop.id).verdict})"
+    head = f"{prop.id} (on {prop.on}; expected: {model.expected(prop.id).verdict})"
     return "\n".join(
         (
             head,

@@ -199,7 +199,7 @@ def simulate(place: Path, output: Path | None, log: Path | None, plot: bool) -> 
         _write_logs(record, log)
     if plot:
         _write_plot(scenario, record, place, output, suffix)
-    return Exit.AS_EXPECTED if all(outcome.met for outcome in outcomes) else Exit.CHANGED
+    return Exit.AS_EXPECTED if all(outcome.met for outcome in outcomes) else Exit.FAILED
 
 
 def _run(scenario: Scenario) -> Record:

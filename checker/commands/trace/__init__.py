@@ -52,7 +52,7 @@ class TraceOptions:
 @click.option(
     "--explain/--no-explain",
     default=None,
-    help="Which inputs force the end of the run; by default for ten seconds at most.",
+    help="Which inputs determine the violation; by default for ten seconds at most.",
 )
 @click.option(
     "--witnesses",

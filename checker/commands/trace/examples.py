@@ -27,7 +27,7 @@ COVERS = ("an example was asked for",)
 
 @dataclass(frozen=True)
 class TraceRequest:
-    """A property, the systems that it is decided on, and the verdicts on record.
+    """A property, the systems that it is decided on, and the expected verdicts.
 
     An ``example`` is no property that somebody stated, but something of which a user wants to see a run.
     ``plain`` is the system as drawn, where charts had to be changed so that the property could be stated,

@@ -63,7 +63,7 @@ class Showing:
             raise UsageError("--by says in what several runs are to differ; add --witnesses N.")
         if self.by == "reason" and not self.explaining.wanted:
             raise UsageError(
-                "--by reason compares what forces runs, which --no-explain does not look for; "
+                "--by reason compares the causes of runs, which --no-explain does not look for; "
                 "leave one of them out."
             )
         if self.runs > 1 and isinstance(prop.form, Unbounded):
@@ -73,7 +73,7 @@ class Showing:
 
     @property
     def renderer(self) -> Renderer:
-        """The exit of the format, which there is."""
+        """The renderer of the format, which there is."""
         found = named("trace", self.format)
         assert found is not None, "the format was checked"
         return found
@@ -158,7 +158,7 @@ def _several(
     for number in range(2, showing.runs + 1):
         if by_transitions is None and runs[-1].needed is None:
             unknown = (
-                f"What forces run {number - 1} is not known, so that no other reason can be told from it."
+                f"The cause of run {number - 1} is not known, so that no other cause can be told from it."
             )
             yield _heading(f"No run {number}", [unknown], showing)
             return

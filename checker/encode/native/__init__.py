@@ -84,13 +84,13 @@ class NativeSearch:
         return Status(call(*map(_address, arrays)))
 
     def rehash(self, table: Words, words: Words, count: int) -> None:
-        """Enter the first ``count`` stored valuations into an empty table."""
+        """Enter the first ``count`` stored states into an empty table."""
         types = [ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64]
         call = self.library.function("rehash", None, types)
         call(_address(table), len(table), _address(words), count)
 
     def known(self, table: Words, words: Words, asked: Words) -> NDArray[np.bool_]:
-        """Which of the valuations asked about are stored."""
+        """Which of the states asked about are stored."""
         found: NDArray[np.int64] = np.zeros(len(asked), dtype=np.int64)
         types = [ctypes.c_void_p, ctypes.c_int64, *[ctypes.c_void_p] * 2, ctypes.c_int64, ctypes.c_void_p]
         call = self.library.function("known", None, types)
@@ -129,7 +129,7 @@ class NativeRetrace:
         call = self.library.function("retrace", ctypes.c_int64, types)
         one, two = np.ascontiguousarray(before), np.ascontiguousarray(target)
         if not call(_address(one), _address(two), wanted, _address(chosen)):
-            raise LookupError("no inputs lead from one stored valuation to the next")
+            raise LookupError("no inputs lead from one stored state to the next")
         values = zip(self.task.system.inputs, chosen, strict=False)
         return {v.name: int(raw) for v, raw in values if raw != UNREAD}
 
@@ -147,7 +147,7 @@ class NativeSuccessors:
         return NativeSuccessors(task, _library("successors", task, _level(task))[0])
 
     def __call__(self, words: Words, room: int) -> tuple[Ended, int, Words, NDArray[np.int64]]:
-        """Why it ended, how many of the valuations are expanded, where their ticks lead, and from which."""
+        """Why it ended, how many of the states are expanded, where their ticks lead, and from which."""
         found = np.empty((room + 1, self.task.layout.words), dtype=np.uint64)
         origins = np.empty(room + 1, dtype=np.int64)
         state = np.zeros(2, dtype=np.int64)

@@ -1,4 +1,4 @@
-"""All ticks that leave some valuations, as LLVM code: graphs need every pair, not only what is new."""
+"""All ticks that leave some states, as LLVM code: graphs need every pair, not only what is new."""
 
 from enum import IntEnum
 from typing import Any
@@ -10,7 +10,7 @@ from checker.encode.native.table import WORDS, StateTable, function
 from checker.encode.path_statements import saved
 
 MOST_PATHS = 1 << 25
-"""Ways through one tick beyond which its valuation is given up: the code could not be interrupted."""
+"""Ways through one tick beyond which its state is given up: the code could not be interrupted."""
 
 
 class Ended(IntEnum):
@@ -23,10 +23,10 @@ class Ended(IntEnum):
 
 
 def add_successors(module: Any, task: NativeTask) -> None:
-    """``successors(words, count, room, found, origins, state)``: expand the first ``count`` valuations.
+    """``successors(words, count, room, found, origins, state)``: expand the first ``count`` states.
 
     Each path ends in a row of ``found``, which has ``room`` + 1 of them, with the place of its origin in
-    ``origins``; rows that repeat the one before are left out.  ``state`` becomes how many valuations are
+    ``origins``; rows that repeat the one before are left out.  ``state`` becomes how many states are
     expanded and how many rows belong to them.  Returns an ``Ended``.
     """
     _Successors(module, task).emit()
@@ -60,7 +60,7 @@ class _Successors:
         build.branch(head)
 
     def _head(self, head: Any) -> None:
-        """The next valuation, or the end."""
+        """The next state, or the end."""
         build = self.build
         expand, done = (build.append_basic_block(n) for n in ("expand", "done"))
         build.position_at_end(head)
@@ -72,7 +72,7 @@ class _Successors:
         build.position_at_end(expand)
 
     def _leave(self, why: Ended) -> None:
-        """Back to Python; what was found of the current valuation does not count."""
+        """Back to Python; what was found of the current state does not count."""
         build = self.build
         for number, place in enumerate((self.at, self.first)):
             build.store(build.load(place), build.gep(self.a["state"], [INT(number)]))
@@ -91,7 +91,7 @@ class _Successors:
             self._keep(after)
 
     def _as_before(self, after: list[Any]) -> Any:
-        """Whether the path ends where the last one that was kept for this valuation did."""
+        """Whether the path ends where the last one that was kept for this state did."""
         build, filled = self.build, self.build.load(self.filled)
         same = build.icmp_signed(">", filled, build.load(self.first))
         last = build.sub(filled, build.zext(same, INT))

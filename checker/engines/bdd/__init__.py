@@ -1,4 +1,4 @@
-"""Symbolic search: sets of valuations as binary decision diagrams, breadth first, until nothing is new.
+"""Symbolic search: sets of states as binary decision diagrams, breadth first, until nothing is new.
 
 Burch, Clarke, McMillan, Dill, Hwang, *Symbolic model checking: 10^20 states and beyond*, LICS 1990.
 """
@@ -20,7 +20,7 @@ if TYPE_CHECKING:  # `list engines` reads this file for two lines
     from spec_model.lang.system import TransitionSystem
 
 NAME = "bdd"
-SUMMARY = "all reachable valuations as binary decision diagrams (OxiDD); proofs and shortest runs"
+SUMMARY = "all reachable states as binary decision diagrams (OxiDD); proofs and shortest runs"
 
 _NODE = 48
 """Bytes of a node: 36 as measured (children, count, place in the table), the rest for what Python holds."""
@@ -31,7 +31,7 @@ _STACKS = 2 << 30
 def check(
     system: "TransitionSystem", goals: Sequence["Var"], limits: Limits, progress: Progress
 ) -> Mapping[str, Answer]:
-    """Shortest runs to the goals, or the closed set of valuations that shows that there is none."""
+    """Shortest runs to the goals, or the closed set of states that shows that there is none."""
     names = tuple(g.name for g in goals)
     known = _Known(dict.fromkeys(names, 0))
     job = (replace(system, source=None), names, limits.depth, limits.memory // _NODE)
@@ -69,10 +69,10 @@ class _Known:
                 self._last = event
 
     def line(self) -> str:
-        """``bdd: depth 34, 1.2e+09 valuations (3e+08/s), 20,310 nodes, 2 goals open``."""
+        """``bdd: depth 34, 1.2e+09 states (3e+08/s), 20,310 nodes, 2 goals open``."""
         at, left = self._last, len(self.deep) - len(self.answers)
         rate = at.states / max(1e-3, monotonic() - self._start)
-        counts = f"{at.states:.3g} valuations ({rate:.2g}/s), {at.nodes:,} nodes"
+        counts = f"{at.states:.3g} states ({rate:.2g}/s), {at.nodes:,} nodes"
         return f"bdd: depth {at.depth}, {counts}, {left} goal{'s' * (left != 1)} open"
 
 

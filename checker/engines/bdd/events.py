@@ -18,7 +18,7 @@ class BddFound:
 class BddBound:
     """The goals are not reached by any run of at most ``depth`` ticks.
 
-    So far ``states`` valuations are reached; the diagrams take ``nodes`` nodes.
+    So far ``states`` states are reached; the diagrams take ``nodes`` nodes.
     """
 
     goals: tuple[str, ...]
@@ -29,7 +29,7 @@ class BddBound:
 
 @dataclass(frozen=True)
 class BddClosed:
-    """No tick leads out of the valuations reached, and none from them to the goals."""
+    """No tick leads out of the states reached, and none from them to the goals."""
 
     goals: tuple[str, ...]
     because: Exhausted

@@ -30,7 +30,7 @@ Case = Callable[[TransitionSystem], TransitionSystem]
 """What leaves one case of a system, or of a slice of it."""
 
 KEPT = 1 << 21
-"""Valuations of all cases that are kept for a certificate: more could not be checked."""
+"""States of all cases that are kept for a certificate: more could not be checked."""
 
 
 def cases(system: TransitionSystem, part: TransitionSystem) -> Iterator[tuple[str, Case]]:
@@ -54,7 +54,7 @@ def _only(chosen: Var, raw: int, system: TransitionSystem) -> TransitionSystem:
 
 
 def about(case: str, answer: Answer) -> Answer:
-    """The answer of a case, without the valuations if these would keep much memory."""
+    """The answer of a case, without the states if these would keep much memory."""
     match answer:
         case Open(reason, depth):
             return Open(f"{case}: {reason}", depth)
@@ -97,7 +97,7 @@ def _joined(
 
 
 def _union(part: TransitionSystem, found: Sequence[ClosedSet | None]) -> ClosedSet | None:
-    """The valuations of all cases, also of those in which no tick is possible: there they are initial."""
+    """The states of all cases, also of those in which no tick is possible: there they are initial."""
     sets = [one for one in found if one is not None]
     frozen = prod(len(v.domain) for v in part.frozen)
     if len(sets) < len(found) or sum(map(len, sets)) + frozen > KEPT:
@@ -112,7 +112,7 @@ def _union(part: TransitionSystem, found: Sequence[ClosedSet | None]) -> ClosedS
 
 
 NARROW = 3 * WORD_BITS
-"""Bits of a valuation up to which memory is not what ends searches."""
+"""Bits of a state up to which memory is not what ends searches."""
 EXTRA, APART = 10, 128
 """Bits that a goal may add to those of others and still be searched with them, and bits of all goals from
 which on they are anyhow: compiling so wide a step takes longer than most searches."""

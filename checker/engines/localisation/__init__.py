@@ -117,6 +117,6 @@ def _shortened(
 def _carries(answer: Unreachable) -> bool:
     """Whether the proof is one of the system without cuts, too.
 
-    Valuations that differ there need not differ in the variables that are left.
+    States that differ there need not differ in the variables that are left.
     """
     return isinstance(answer.because, Inductive) and not answer.because.simple

@@ -49,7 +49,7 @@ def run_of(traced: Traced, circuit: Circuit, outside: dict[Literal, int]) -> Run
 
 
 def replayed(system: TransitionSystem, run: Run) -> list[dict[str, int]]:
-    """The valuation before the first tick and after each.  Raises ``ArithmeticError`` if the run is none."""
+    """The state before the first tick and after each.  Raises ``ArithmeticError`` if the run is none."""
     if any(run.frozen[v.name] not in v.domain for v in system.frozen):
         raise ArithmeticError("the engine is wrong: its run has frozen values outside their domains")
     at = {**system.init, **run.frozen}

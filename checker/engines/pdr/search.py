@@ -1,6 +1,6 @@
 """Property directed reachability (Bradley, VMCAI 2011; Eén, Mishchenko, Brayton, FMCAD 2011).
 
-Obligations are valuations from which a goal is reached; each is excluded from a frame by a lemma, or
+Obligations are states from which a goal is reached; each is excluded from a frame by a lemma, or
 has a predecessor there, which is the next obligation, or is initial, which makes a run.
 """
 
@@ -19,19 +19,19 @@ from checker.engines.pdr.machine import PdrMachine
 
 
 class Lifter:
-    """Generalises one valuation and its inputs to all valuations in which the same inputs do the same."""
+    """Generalises one state and its inputs to all states in which the same inputs do the same."""
 
     def __init__(self, machine: PdrMachine) -> None:
         self._machine = machine
         self._cones = Cones(machine, inside=False)
 
     def into(self, step: LemmaStep, target: Cube) -> Cube:
-        """The valuations from which, as the step shows of one, the inputs lead into the target."""
+        """The states from which, as the step shows of one, the inputs lead into the target."""
         after = self._machine.after
         return self._lifted(step, [after[x] for x in target.literals])
 
     def onto(self, step: LemmaStep, goal: str) -> Cube:
-        """The valuations from which, as the step shows of one, the inputs make the goal true."""
+        """The states from which, as the step shows of one, the inputs make the goal true."""
         return self._lifted(step, [self._machine.goals[goal]])
 
     def _lifted(self, step: LemmaStep, wanted: list[int]) -> Cube:
@@ -76,7 +76,7 @@ class Generaliser:
         return lemma
 
     def _smallest(self, blocked: Cube, level: int) -> Cube:
-        """Literals are dropped one by one as long as the rest is blocked and holds no initial valuation."""
+        """Literals are dropped one by one as long as the rest is blocked and holds no initial state."""
         activity, frames = self._activity, self._frames
         for literal in sorted(blocked.literals, key=lambda x: activity[abs(x)]):
             if literal in blocked.literals:
@@ -96,7 +96,7 @@ class Generaliser:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PdrObligation:
-    """Every valuation of the cube leads with the inputs to the next obligation, or to the goal."""
+    """Every state of the cube leads with the inputs to the next obligation, or to the goal."""
 
     cube: Cube
     inputs: tuple[int, ...]
@@ -160,7 +160,7 @@ class PdrSearch:
     # --- obligations -----------------------------------------------------------------------------
 
     def _one_less(self, goal: str, level: int) -> Traced | LemmaStep | None:
-        """Exclude a valuation of the frame from which the goal is reached: the step is such a one, unless
+        """Exclude a state of the frame from which the goal is reached: the step is such a one, unless
         it begins a run; None when there is none left."""
         step = self.frames.hits(goal, level)
         if step is None:
@@ -177,7 +177,7 @@ class PdrSearch:
             if frames.initial(wanted.cube):
                 return self._run(wanted)
             if level == 0:
-                raise ArithmeticError("the engine is wrong: frame 0 has a valuation that is not initial")
+                raise ArithmeticError("the engine is wrong: frame 0 has a state that is not initial")
             if not frames.excluded(wanted.cube, level):
                 blocked = frames.blocked(wanted.cube, level - 1)
                 if blocked is None:

@@ -30,7 +30,7 @@ LARGE = 400
 
 @dataclass(frozen=True, eq=False)
 class Seed:
-    """A condition on the valuation before a tick, and the same after it, as literals of the circuit."""
+    """A condition on the state before a tick, and the same after it, as literals of the circuit."""
 
     condition: Expr
     before: Literal
@@ -100,7 +100,7 @@ class _Houdini:
         self._next = cnf.variables
 
     def drop_initially_false(self) -> None:
-        """Strike out what some initial valuation breaks."""
+        """Strike out what some initial state breaks."""
         init = [(n, latch.init) for n, latch in enumerate(self._circuit.latches, 1) if latch.init is not None]
         start = [self._cnf.literal(self._circuit.start), *(n if value else -n for n, value in init)]
         while broken := self._broken([seed.before for seed in self.left], start):

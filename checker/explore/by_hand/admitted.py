@@ -62,7 +62,7 @@ def conjuncts(formula: Expr | None) -> Sequence[Expr]:
 def broken(
     system: TransitionSystem, before: Mapping[str, int], inputs: Mapping[str, int]
 ) -> tuple[AssumedInputs, ...]:
-    """The conditions that inputs break in the tick after a valuation."""
+    """The conditions that inputs break in the tick after a state."""
     at = {**before, **inputs}
     return tuple(one for one in assumed(system) if not evaluate(one.formula, at))
 

@@ -33,7 +33,7 @@ class Tested:
 
 @dataclass(frozen=True)
 class _Moment:
-    """A tick that was executed; its valuations as tuples, for a run may be long."""
+    """A tick that was executed; its states as tuples, for a run may be long."""
 
     inputs: tuple[int, ...]
     after: tuple[int, ...]
@@ -66,7 +66,7 @@ class HandSimulation:
 
     @property
     def before(self) -> dict[str, int]:
-        """The valuation before the first tick, frozen values included."""
+        """The state before the first tick, frozen values included."""
         return {**self.lowered.init, **self.frozen}
 
     def state(self, tick: int | None = None) -> dict[str, int]:

@@ -1,4 +1,4 @@
-"""What an exploration found: reachable valuations, and all ticks that leave those it expanded."""
+"""What an exploration found: reachable states, and all ticks that leave those it expanded."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -14,12 +14,12 @@ from spec_model.lang.expr import Var
 
 @dataclass(frozen=True, eq=False)
 class Explored:
-    """Valuations, numbered as they were found, breadth first, and the pairs of them that a tick joins.
+    """States, numbered as they were found, breadth first, and the pairs of them that a tick joins.
 
     ``columns`` are their raw values, one row for each of ``variables``.  ``levels`` has the number of the
-    first valuation of each level: what is found after so many ticks and not before; ``parents`` the
-    valuation from which each was found.  Each pair of a ``source`` and a ``target`` is there once, by
-    source.  Ticks are known of the first ``expanded`` valuations only; where that is not all of them,
+    first state of each level: what is found after so many ticks and not before; ``parents`` the
+    state from which each was found.  Each pair of a ``source`` and a ``target`` is there once, by
+    source.  Ticks are known of the first ``expanded`` states only; where that is not all of them,
     ``stopped`` says why.
     """
 
@@ -37,32 +37,32 @@ class Explored:
         return int(self.columns.shape[1])
 
     def column(self, name: str) -> Numbers:
-        """The values of a variable in each valuation.  Raises ``ModelError`` for an unknown name."""
+        """The values of a variable in each state.  Raises ``ModelError`` for an unknown name."""
         names = [v.name for v in self.variables]
         if name not in names:
             raise ModelError(f"There is no variable {name!r} to project on. {did_you_mean(name, names)}")
         return np.asarray(self.columns[names.index(name)])
 
     def any_of(self, names: Sequence[str]) -> NDArray[np.bool_]:
-        """The valuations in which one of these variables is not 0.  Raises ``ModelError`` as ``column``."""
+        """The states in which one of these variables is not 0.  Raises ``ModelError`` as ``column``."""
         found = np.zeros(len(self), dtype=np.bool_)
         for name in names:
             found |= self.column(name) != 0
         return found
 
     def at(self, number: int) -> dict[str, int]:
-        """A valuation by name."""
+        """A state by name."""
         return {v.name: int(c) for v, c in zip(self.variables, self.columns[:, number], strict=True)}
 
     @cached_property
     def depths(self) -> Numbers:
-        """The ticks after which each valuation is first reached."""
+        """The ticks after which each state is first reached."""
         starts = np.array(self.levels, dtype=np.int64)
         return np.searchsorted(starts, np.arange(len(self)), side="right") - 1
 
     @cached_property
     def dead(self) -> NDArray[np.bool_]:
-        """The valuations from which no input is admissible."""
+        """The states from which no input is admissible."""
         result = np.ones(len(self), dtype=np.bool_)
         result[self.sources] = False
         result[self.expanded :] = False
@@ -75,7 +75,7 @@ def tabulated(
     steps: Sequence[tuple[Sequence[int], Sequence[Sequence[int]]]],
     stopped: str = "",
 ) -> Explored:
-    """The same from a table: each expanded valuation with those it leads to, in breadth-first order."""
+    """The same from a table: each expanded state with those it leads to, in breadth-first order."""
     numbers: dict[tuple[int, ...], int] = {}
     parents: list[int] = []
     for valuation in initial:

@@ -25,7 +25,7 @@ BUDGET = 20_000
 """Ticks tried for one graph: few enough not to be waited for, and counted so that it is always the same."""
 
 Same = Callable[[Mapping[str, int]], bool]
-"""Whether a valuation is behind the node in question."""
+"""Whether a state is behind the node in question."""
 
 
 class Telling:
@@ -38,7 +38,7 @@ class Telling:
         self.cells = {name: tuple(c.value for c in p.cells) for name, p in cells.items()}
 
     def told(self, before: Mapping[str, int], inputs: Mapping[str, int], same: Same) -> dict[str, int]:
-        """Inputs with which every tick from the valuation ends behind the same node.
+        """Inputs with which every tick from the state ends behind the same node.
 
         More than these only where too many ways through the tick would have to be tried.
         """
@@ -73,7 +73,7 @@ class Made:
 
     @cached_property
     def first(self) -> Mapping[int, int]:
-        """A first valuation of each node; of a marked node the first that is marked."""
+        """A first state of each node; of a marked node the first that is marked."""
         explored = self.exploration.explored
         rows = zip(*(explored.column(name).tolist() for name in self.graph.variables), strict=True)
         numbers = {node.raw: node.number for node in self.graph.nodes}
@@ -123,7 +123,7 @@ def made(
 ) -> Made:
     """The graph of the system on the variables named ``onto``.
 
-    A valuation is marked in which one of the variables ``wanted`` is 1; ``looked_for`` says what that means.
+    A state is marked in which one of the variables ``wanted`` is 1; ``looked_for`` says what that means.
     Raises ``ModelError`` for an unknown variable, an input, and a tick that leaves a domain.
     """
     return seen(explore(system, [*onto, *wanted], limits, progress), onto, wanted, looked_for)
@@ -133,7 +133,7 @@ def seen(
     exploration: Exploration, onto: Sequence[str], wanted: tuple[str, ...] = (), looked_for: str = ""
 ) -> Made:
     """What was explored, projected on the variables named ``onto``, which it must have."""
-    exploration.progress(f"projecting {len(exploration.words):,} valuations")
+    exploration.progress(f"projecting {len(exploration.words):,} states")
     system = exploration.system
     source = system.source
     graph = project(
@@ -170,7 +170,7 @@ def _notes(system: TransitionSystem, onto: Sequence[str], wanted: Sequence[str])
     more = [v.name for v in sliced(system, asked).variables if v.name not in part]
     also = f" on {', '.join(more[:4])}{' and others' if len(more) > 4 else ''}" if more else ""
     known = wanted[0] if len(wanted) == 1 else "the properties looked for"
-    return (f"Valuations count what {known} depends on, too{':' if also else ''}{also}.",)
+    return (f"States count what {known} depends on, too{':' if also else ''}{also}.",)
 
 
 class _Shown:

@@ -1,6 +1,6 @@
-"""The projection of what was explored: nodes, edges, how many valuations and ticks are behind them.
+"""The projection of what was explored: nodes, edges, how many states and ticks are behind them.
 
-Whether it is exact is decided by counting: an edge is sure if as many valuations have it as there are
+Whether it is exact is decided by counting: an edge is sure if as many states have it as there are
 behind its source.
 """
 
@@ -17,17 +17,17 @@ from spec_model.lang.domain import Enum
 from spec_model.lang.expr import Var
 
 Inputs = Callable[[int, int], Mapping[str, int]]
-"""Inputs with which a tick leads from one valuation to another."""
+"""Inputs with which a tick leads from one state to another."""
 
 TRIED = 30_000_000
-"""Pairs of valuations looked at to find what would make a projection exact."""
+"""Pairs of states looked at to find what would make a projection exact."""
 FEW = 16
 """Values that a number may have for those never reached to be named."""
 
 
 @dataclass(frozen=True, eq=False)
 class Projection:
-    """The node of each valuation; the nodes by their first valuation; the edges, joined pairs by edge.
+    """The node of each state; the nodes by their first state; the edges, joined pairs by edge.
 
     ``edge`` has the number of the edge of each pair; an edge is shown by its first pair, ``example``.
     """
@@ -43,12 +43,12 @@ class Projection:
 
     @property
     def mixes(self) -> bool:
-        """Whether valuations behind a node can go to different nodes."""
+        """Whether states behind a node can go to different nodes."""
         return bool((self.sources < self.behind[self.ends[0]]).any())
 
 
 def projection(explored: Explored, columns: Sequence[Numbers]) -> Projection:
-    """Valuations that agree in the columns are one node."""
+    """States that agree in the columns are one node."""
     first, node = numbered(columns, len(explored))
     ends = node[explored.sources], node[explored.targets]
     example, edge = numbered(ends, len(explored.sources))
@@ -73,7 +73,7 @@ def project(
 ) -> StateGraph:
     """The graph on the variables named ``onto``.
 
-    ``show`` describes the inputs of a tick between two valuations; a valuation is marked in which one
+    ``show`` describes the inputs of a tick between two states; a state is marked in which one
     of the variables ``wanted`` is 1.  Raises ``ModelError`` for an unknown name.
     """
     found = projection(explored, [explored.column(name) for name in onto])

@@ -224,7 +224,7 @@ def fingerprint(finding: CiFinding) -> str:
 
 
 def _compared(finding: CiFinding) -> str:
-    """How the result stands to the verdict on record."""
+    """How the result stands to the expected verdict."""
     if finding.level is FindingLevel.KNOWN:
         return "unchanged"
     return "new" if finding.recorded.startswith("proved") else "updated"

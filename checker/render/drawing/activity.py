@@ -1,4 +1,6 @@
-"""Which states of a chart are active: read off a valuation, or followed along the arrows that fired."""
+"""Which states of a chart are active: read off the values of all variables, or followed
+along the transitions that fired.
+"""
 
 from collections.abc import Mapping
 
@@ -10,7 +12,7 @@ Active = frozenset[Path]
 
 
 def active(chart: Chart, values: Mapping[str, int]) -> Active:
-    """The active states in a valuation; what lies below a location that it does not hold is unknown."""
+    """The active states, given all values; what lies below a location that it does not hold is unknown."""
     found: set[Path] = set()
     levels: list[Path] = [()] if _entered(chart, values) else []
     for level in levels:

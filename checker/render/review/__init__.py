@@ -103,11 +103,11 @@ Group = tuple[str, list[tuple[str, list[Checked]]]]
 
 
 def grouped(findings: Iterable[Checked]) -> list[Group]:
-    """What is not as on record first, then area by area; findings with one cause are together."""
+    """What is not as expected first, then area by area; findings with one cause are together."""
     shown = list(findings)
     surprising = [p for p in shown if not p.as_expected]
     known = [p for p in shown if p.as_expected]
-    groups: list[Group] = [("Not as on record", [("", [p]) for p in surprising])] if surprising else []
+    groups: list[Group] = [("Not as expected", [("", [p]) for p in surprising])] if surprising else []
     for area, members in groupby(known, key=_area):
         groups.append((title_of(area), list(_causes(members))))
     return groups

@@ -19,7 +19,7 @@ class Checked:
     """A property and its verdict.
 
     ``english`` is what is checked in words, ``formula`` the same as written, part by part with its name.
-    ``record`` is the verdict on record ("" for none), ``certificate`` what came of checking the proof again
+    ``record`` is the expected verdict ("" for none), ``certificate`` what came of checking the proof again
     ("" where that was not asked for or there is no proof), ``premise`` whether the case it speaks of
     occurs at all ("" where that was not examined), ``vacuous`` that it does not.  ``trace`` is the
     counterexample or the witness.
@@ -51,20 +51,20 @@ class Checked:
     on: str = ""
     """The system it is stated of, where the verdict is about another one."""
     quiet: bool = False
-    """Whether valuations after quiet ticks were visited and not stored."""
+    """Whether states after quiet ticks were visited and not stored."""
     again: str = ""
     """The command that decides it again."""
     trace: Trace | None = None
 
     @property
     def finding(self) -> bool:
-        """Whether a reviewer has to look at it: violated, undecided, not as on record, or about nothing."""
+        """Whether a reviewer has to look at it: violated, undecided, not as expected, or vacuous."""
         return self.verdict != PROVED or not self.as_expected or self.vacuous
 
     @property
     def word(self) -> str:
         """The verdict for people."""
-        return f"{self.verdict} in part" if self.in_part else self.verdict
+        return f"{self.verdict} for a restricted model" if self.in_part else self.verdict
 
 
 @dataclass(frozen=True)

@@ -11,7 +11,7 @@ from checker.render.drawing.text import LINE, SIZE, width, wrap
 from checker.render.durations import duration
 from checker.render.sequence.steps import Message, MessageSequence, Pause, SequenceNote, SequenceStep
 from checker.render.story import Repeats, ending, false_parts, heading
-from checker.render.timeline import forced_by
+from checker.render.timeline import determined_by
 from checker.results.trace import Trace
 
 LEFT, MARGIN = 84, 16
@@ -246,7 +246,7 @@ def _end(trace: Trace, sequence: MessageSequence, columns: SequenceColumns, y: i
         lines += [
             (line, "wrong") for line in wrap(f"{told}   ({values})" if values else told, letters, "   ")
         ]
-    lines += [(line, "") for line in (*wrap(forced_by(trace), letters), *wrap(ending(trace), letters))]
+    lines += [(line, "") for line in (*wrap(determined_by(trace), letters), *wrap(ending(trace), letters))]
     lines = lines or [(f"Tick {len(trace)} shows it.", "")]
     tall, class_ = LINE * len(lines) + 12, "end" if trace.false_parts else "head"
     box = tag("rect", x=MARGIN, y=y + 4, width=columns.right - MARGIN, height=tall, class_=class_)

@@ -210,7 +210,7 @@ def _label(graph: StateGraph, edge: GraphEdge, all_: bool) -> tuple[str, ...]:
 
 
 def _lines(graph: StateGraph, node: GraphNode) -> tuple[str, ...]:
-    """The values, then the counts: of valuations, and of ticks that stay."""
+    """The values, then the counts: of states, and of ticks that stay."""
     own = next((e for e in graph.edges if e.source == e.target == node.number), None)
     values = tuple(line for value in short(graph, node) for line in wrap(value, WIDEST, "  "))
     if own is None:

@@ -1,8 +1,8 @@
 """A run over time as lanes: what changed when, limits and timers, and the tick in which a part is false."""
 
-from checker.render.timeline.build import forced_by, timeline
+from checker.render.timeline.build import determined_by, timeline
 from checker.render.timeline.fragment import part
 from checker.render.timeline.picture import picture
 from checker.render.timeline.told import told
 
-__all__ = ["forced_by", "part", "picture", "timeline", "told"]
+__all__ = ["determined_by", "part", "picture", "timeline", "told"]

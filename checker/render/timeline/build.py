@@ -5,7 +5,7 @@ from dataclasses import replace
 from itertools import groupby
 
 from checker.render.lanes import Tone
-from checker.render.reasons import forced, reasons
+from checker.render.reasons import meaning, reasons
 from checker.render.story import TIMER, Quiet, ending, false_parts, heading, of_model, rows, value
 from checker.render.timeline.limits import Limits, thresholds, time_limits
 from checker.render.timeline.model import Lane, LaneGroup, LaneKind, Limit, Need, Shot, Timeline, TimelineRun
@@ -85,7 +85,7 @@ def timeline(trace: Trace, *, everything: bool = False) -> Timeline:
         loop=trace.loop,
         wrong=tuple(_wrong(trace)),
         ending=ending(trace),
-        forced=forced_by(trace),
+        cause=determined_by(trace),
     )
 
 
@@ -161,11 +161,11 @@ def _lane(trace: Trace, name: str, values: Values, limits: Limits, spans: Limits
     )
 
 
-def forced_by(trace: Trace) -> str:
-    """Which inputs force the end of the run, and what that means; empty where nobody examined that."""
+def determined_by(trace: Trace) -> str:
+    """Which inputs determine the end of the run, and what that means; empty where nobody examined that."""
     told = groupby(reasons(trace, regular=True), key=lambda reason: reason.when)
     spans = [f"{when}: {', '.join(reason.what for reason in group)}" for when, group in told]
-    return f"Forced by {'; '.join(spans)}. {forced(trace)}" if spans else forced(trace)
+    return f"Determined by {'; '.join(spans)}. {meaning(trace)}" if spans else meaning(trace)
 
 
 def _flat(trace: Trace, name: str, values: Values, limits: Sequence[Limit]) -> bool:

@@ -6,8 +6,8 @@ from itertools import groupby
 from markupsafe import Markup
 
 from checker.render.page import Part
-from checker.render.reasons import forced, reasons
-from checker.render.story import UNTOLD, rows, standstill, start_of, start_values
+from checker.render.reasons import cause, meaning, reasons
+from checker.render.story import OMITTED, rows, standstill, start_of, start_values
 from checker.render.timeline.fragment import TEMPLATES, own
 from checker.results.trace import Trace
 
@@ -21,8 +21,9 @@ def told(trace: Trace, *, everything: bool = False) -> Part:
         rows=list(rows(shown)),
         start_of=start_of,
         standstill=partial(standstill, shown),
-        untold=UNTOLD,
-        forced=forced(trace),
+        omitted=OMITTED,
+        cause=cause(trace),
+        meaning=meaning(trace),
         reasons=[(ticks, [reason.what for reason in group]) for ticks, group in by_ticks],
     )
     return Part(Markup(body), (own("story.css"),))

@@ -40,7 +40,7 @@ def looped(hunt: LoopHunt, run: Run) -> Trace:
     """The trace of a run of the lasso system that closes a loop.
 
     Raises ``ReplayError`` unless the same inputs take the charts round the loop once more, tick by
-    tick through the same valuations.  The interpreter, which counts time on its own, goes along.
+    tick through the same states.  The interpreter, which counts time on its own, goes along.
     """
     calm = calmed(hunt.lasso.system, hunt.lasso.goal, run)
     save = hunt.lasso.save.name

@@ -2,7 +2,7 @@
 
 Many runs have random inputs for a few ticks.  Then each gets inputs for which the condition of the
 loop is true, and keeps them.  Where something that must recur in the loop is still true much later,
-the run is followed until it comes back to an earlier valuation, and the loop is examined.  This finds
+the run is followed until it comes back to an earlier state, and the loop is examined.  This finds
 loops far too long for an unrolling; that it finds none shows nothing.  The same question has the same
 answer: what is random comes from fixed seeds.
 """
@@ -36,7 +36,7 @@ FOLLOWED, LONGEST = 3, 2000
 
 @dataclass(frozen=True)
 class _Batch:
-    """Runs, the values to choose from for each input, and the inputs that others or a valuation restrict."""
+    """Runs, the values to choose from for each input, and the inputs that others or a state restrict."""
 
     simulation: BitSimulation
     choices: Mapping[Var, Sequence[int]]
@@ -190,6 +190,6 @@ def _breaks(hunt: LoopHunt, loop: Sequence[Mapping[str, int]]) -> bool:
 
 
 def _saved(hunt: LoopHunt, ticks: Sequence[Mapping[str, int]], start: int) -> Run:
-    """The run of the lasso system that saves its valuation before the tick with which the loop starts."""
+    """The run of the lasso system that saves its state before the tick with which the loop starts."""
     save = hunt.lasso.save.name
     return Run({}, tuple({**tick, save: int(n == start)} for n, tick in enumerate(ticks)))

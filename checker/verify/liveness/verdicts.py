@@ -1,7 +1,7 @@
 """Verdicts on properties about infinite runs: a stronger bounded property first, then what refutes them.
 
 A ``LeadsTo`` or ``Settles`` is broken by a loop; that there is none proves it.  A ``Recoverable`` is
-broken by a valuation from which there is no way back (``checker.verify.liveness.verdicts``).
+broken by a state from which there is no way back (``checker.verify.liveness.verdicts``).
 """
 
 from collections.abc import Iterable, Mapping
@@ -50,7 +50,7 @@ MOST_TICKS = 500_000
 
 @dataclass(frozen=True)
 class Trap:
-    """A valuation of ``variables`` that is reached after some tick, and how many it can lead to."""
+    """A state of ``variables`` that is reached after some tick, and how many it can lead to."""
 
     variables: tuple[Var, ...]
     valuation: Values
@@ -69,7 +69,7 @@ def recovered(prop: Property, system: System, ask: Ask, progress: Progress) -> V
     try:
         found = trapped(question, question.goals[0].var, progress)
     except TooLarge:
-        limit = f"more than {MOST_VALUATIONS:,} valuations or {MOST_TICKS:,} ticks between them"
+        limit = f"more than {MOST_VALUATIONS:,} states or {MOST_TICKS:,} ticks between them"
         return Unknown(f"{limit}; all of them are needed to tell what can be reached again", 0, ENGINE)
     if isinstance(found, Exhausted):
         return Proved(found, ENGINE)
@@ -77,7 +77,7 @@ def recovered(prop: Property, system: System, ask: Ask, progress: Progress) -> V
 
 
 def left_open(system: TransitionSystem, ask: Ask) -> Unknown | None:
-    """Unknown, unless every run stays in all domains: a graph of valuations goes on where a run does not.
+    """Unknown, unless every run stays in all domains: a graph of states goes on where a run does not.
 
     Raises ``LeavesDomain`` if some run is known to leave one.
     """
@@ -94,7 +94,7 @@ def left_open(system: TransitionSystem, ask: Ask) -> Unknown | None:
 
 
 def trapped(question: Question, to: Var, progress: Progress) -> Trap | Exhausted:
-    """The first valuation after some tick from which no run reaches ``to``, if there is one."""
+    """The first state after some tick from which no run reaches ``to``, if there is one."""
     part = sliced(question.system, [to])
     carried = [v for v in (*part.frozen, *part.variables) if v.name != to.name]
     variables = (*carried, to)
@@ -141,7 +141,7 @@ def _reached(start: Iterable[Values], following: Mapping[Values, set[Values]]) -
 def shown(question: Question, trap: Trap, ask: Ask) -> Verdict:
     """A shortest run into the trap, replayed."""
     [goal] = question.goals
-    entered = Var(f"{goal.var.name} trap", boolean, 0, "the run is in a valuation without a way back")
+    entered = Var(f"{goal.var.name} trap", boolean, 0, "the run is in a state without a way back")
     there = all_of(*(v == Const(raw, v.sort) for v, raw in zip(trap.variables, trap.valuation, strict=True)))
     system = replace(
         question.system,
@@ -247,7 +247,7 @@ def _hunted(prop: Property, system: System, ask: Ask, progress: Progress) -> tup
 
 
 def _vast(hunted: LoopHunt) -> bool:
-    """Whether pairs of valuations are too wide to enumerate, so that a long loop is best met by chance."""
+    """Whether pairs of states are too wide to enumerate, so that a long loop is best met by chance."""
     return shape(PortfolioQuestion(hunted.lasso.system, (hunted.lasso.goal,))).bits > VAST
 
 

@@ -1,4 +1,4 @@
-"""Answers that cannot both be true are a bug of ours, and shown as one."""
+"""Answers that cannot both be true are an internal error, and shown as one."""
 
 from collections.abc import Iterable
 from dataclasses import dataclass
@@ -30,7 +30,7 @@ class Statement:
 
 
 class Disagreement(Exception):
-    """Two engines gave answers that cannot both be true: a bug of ours."""
+    """Two engines gave answers that cannot both be true: an internal error."""
 
     def __init__(self, system: str, goal: str, said: tuple[Statement, ...]) -> None:
         super().__init__(system, goal, said)

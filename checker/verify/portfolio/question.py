@@ -38,8 +38,8 @@ class Hint(StrEnum):
 class PortfolioQuestion:
     """Is any of the ``wanted`` goals ever true after a tick, and does the model leave a domain?
 
-    ``candidates`` are formulas that may be an invariant, from a proof on record: of the same charts, or of
-    charts before they were changed.  None: no proof is on record.
+    ``candidates`` are formulas that may be an invariant, from a recorded proof: of the same charts, or of
+    charts before they were changed.  None: no proof is recorded.
     """
 
     system: TransitionSystem
@@ -92,7 +92,7 @@ class Callbacks:
 
 
 def in_words(answer: Answer) -> str:
-    """``after 8 ticks``, ``never: all 154 valuations``, ``not within 300 ticks: the time limit ...``."""
+    """``after 8 ticks``, ``never: all 154 reachable states``, ``not within 300 ticks: the time ...``."""
     match answer:
         case Reached(run):
             return f"after {counted_ticks(len(run))}"
@@ -103,10 +103,10 @@ def in_words(answer: Answer) -> str:
 
 
 def light(answer: Answer) -> Answer:
-    """The answer without the valuations that an exhausted search kept: fit for travelling."""
+    """The answer without the states that an exhausted search kept: fit for travelling."""
     return Unreachable(light_evidence(answer.because)) if isinstance(answer, Unreachable) else answer
 
 
 def light_evidence(evidence: Evidence) -> Evidence:
-    """The evidence without the valuations themselves."""
+    """The evidence without the states themselves."""
     return replace(evidence, closed=None, diagram=None) if isinstance(evidence, Exhausted) else evidence

@@ -19,13 +19,13 @@ from spec_model.lang.system import TransitionSystem
 
 # --- engines in turn -----------------------------------------------------------------------------------
 
-# --- proofs on record, tried before anything is searched -----------------------------------------------
+# --- recorded proofs, tried before anything is searched -----------------------------------------------
 
 
 class RecordedInvariants:
     """An engine that tries the conjuncts of earlier proofs and searches for nothing."""
 
-    SUMMARY = "the invariants on record"
+    SUMMARY = "the recorded invariants"
 
     def __init__(self, prover: Prover, candidates: Sequence[Expr]) -> None:
         self.NAME = prover.NAME

@@ -92,7 +92,7 @@ def _with_changes(column: Column, kept: list[int]) -> Column:
 
 
 class _Rerun:
-    """The run so far, the valuations along it, and what is left of the budget."""
+    """The run so far, the states along it, and what is left of the budget."""
 
     def __init__(self, system: TransitionSystem, goal: Var, run: Run) -> None:
         read = [v for v in system.variables if v.name in variables(system.assume)]
@@ -125,7 +125,7 @@ class _Rerun:
         return True
 
     def _from(self, first: int, last: int) -> list[Mapping[str, int]] | None:
-        """The valuations after ``first`` until they are again those known, or None if all is lost."""
+        """The states after ``first`` until they are again those known, or None if all is lost."""
         found: list[Mapping[str, int]] = []
         for k, at in enumerate(self._along(first, self.before[first])):
             if k == 0:
@@ -137,7 +137,7 @@ class _Rerun:
         return found if reaches else None
 
     def _along(self, start: int, at: Mapping[str, int]) -> Iterator[Mapping[str, int]]:
-        """Valuations from the one before tick ``start`` on, as long as inputs are admissible."""
+        """States from the one before tick ``start`` on, as long as inputs are admissible."""
         yield at
         ticks = len(next(iter(self.columns.values()), ()))
         for k in range(start, ticks):

@@ -69,7 +69,7 @@ def _writer(system: TransitionSystem, var: Var) -> Place | None:
 
 
 def stayed(system: TransitionSystem, after: Mapping[str, int]) -> bool:
-    """Whether the tick that ended in a valuation left no domain."""
+    """Whether the tick that ended in a state left no domain."""
     return not any(after.get(check.name) for check, _ in system.checks)
 
 

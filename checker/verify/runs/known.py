@@ -54,8 +54,8 @@ def reaching(
 
 
 def confirm(system: System, prop: Property, run: Run) -> None:
-    """Raises ``AssertionError``, a bug of ours, unless the property is violated, or reached, after the run by
-    the reference semantics, and not before."""
+    """Raises ``AssertionError``, an internal error, unless the property is violated, or reached, after the
+    run by the reference semantics, and not before."""
     if _reached(reduce(lowered(system), [prop]), run).get(prop.id) != len(run):
         raise AssertionError(f"{prop.id}: a run of {len(run)} ticks reaches it only as compiled")
 

@@ -21,15 +21,15 @@ from spec_model.lang.walk import variables
 
 
 class ReplayError(Exception):
-    """Two parts of the checker disagree about a run: a bug of ours, never a verdict."""
+    """Two parts of the checker disagree about a run: an internal error, never a verdict."""
 
 
 def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
     """The trace of a run that reaches the goal in its last tick.
 
     Raises ``ReplayError`` when the run is not admissible, does not reach the goal, or when the
-    interpreter of the charts computes another valuation or refuses a step; ``LeavesDomain`` when the run
-    leaves a domain, which is no fault of ours but one of the model.
+    interpreter of the charts computes another state or refuses a step; ``LeavesDomain`` when the run
+    leaves a domain, which is an error of the model.
     """
     ticks, last = followed(system, run, goal.var.name)
     if not ticks or not last[goal.var.name]:
@@ -60,7 +60,7 @@ def ends(system: TransitionSystem, ticks: Sequence[Tick]) -> tuple[int, ...]:
 
 
 def followed(system: TransitionSystem, run: Run, what: str) -> tuple[tuple[Tick, ...], Mapping[str, int]]:
-    """The ticks of a run, ``what`` it shows being named in errors, and the valuation after the last.
+    """The ticks of a run, ``what`` it shows being named in errors, and the state after the last.
 
     Raises ``ReplayError`` when the run is not admissible, or the interpreter of the charts disagrees, and
     ``LeavesDomain`` when a tick leaves a domain.

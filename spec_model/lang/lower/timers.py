@@ -1,8 +1,8 @@
 """Temporal words of a chart as saturating counters and one-tick memories (rules G13-G15, section 7).
 
 A counter stops one above what is ever asked of it and is 0 while its state is not active, so that
-valuations that behave alike are equal.  One that is only asked for its first tick is set anew in each
-step and belongs to no valuation.  Where ticks last unlike times, ``held`` counts milliseconds: 1 in the first
+states that behave alike are equal.  One that is only asked for its first tick is set anew in each
+step and belongs to no state.  Where ticks last unlike times, ``held`` counts milliseconds: 1 in the first
 tick, and in each later one what has elapsed.
 """
 
