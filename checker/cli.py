@@ -14,7 +14,7 @@ import click
 from checker import commands
 from checker.commands.shared.aliases import current
 from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.completing import completed
+from checker.commands.shared.completion import completed
 from checker.commands.shared.failure import alarm, no_room, told
 from checker.commands.shared.help_examples import helped
 from checker.process.faults import Fault, listening

@@ -15,7 +15,7 @@ from pathlib import Path
 from spec_model.lang.domain import Bool, Num, Sort, enumeration
 from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.expr import Const, Expr, Operand, Var, all_of, any_of, ite, lift
-from spec_model.lang.specialise import Fixing
+from spec_model.lang.specialise import Specialiser
 
 ANY = "any"
 """In place of a choice: the reading stays open, and a verdict holds for every choice."""
@@ -100,7 +100,7 @@ def _sort_of(meanings: Iterable[Operand]) -> Sort:
     return formulas[0] if formulas else Bool() if isinstance(values[0], bool) else Num()
 
 
-def fixed(choices: Mapping[str, str]) -> Fixing:
+def fixed(choices: Mapping[str, str]) -> Specialiser:
     """Replaces every reading by its chosen or default constant; those chosen as ``any`` stay.
 
     Raises ``ModelError`` for an unknown reading or choice.
@@ -112,7 +112,7 @@ def fixed(choices: Mapping[str, str]) -> Fixing:
         choice = choices.get(id, one.default)
         if choice != ANY:
             values[id] = one.value(choice)
-    return Fixing(values)
+    return Specialiser(values)
 
 
 def left_open(choices: Mapping[str, str]) -> tuple[Var, ...]:

@@ -13,13 +13,13 @@ from hypothesis.strategies import DrawFn
 
 from checker.certify import solver
 from checker.certify.certificate import Certificate, certificates
-from checker.certify.check import By, CheckEffort
+from checker.certify.check import CheckEffort, CheckMethod
 from checker.certify.diagram import CertifiedDiagram
 from checker.certify.invariant import Conjuncts
 from checker.certify.question import question
 from checker.certify.tick import executed
 from checker.engines import Limits, Progress
-from checker.results.closed import BitPlace, ClosedSet
+from checker.results.closed_set import BitPlace, ClosedSet
 from checker.results.verdict import Answer, Exhausted, Inductive, Open, Unreachable
 from checker.system.slice import sliced
 from spec_model.lang.action import Assign
@@ -29,7 +29,7 @@ from spec_model.lang.system import TransitionSystem
 from tests.naive import projected, search
 from tests.strategies_ts import goals, transition_systems
 
-SOLVER, ENUMERATION, BOTH = (CheckEffort(by) for by in By)
+SOLVER, ENUMERATION, BOTH = (CheckEffort(by) for by in CheckMethod)
 
 Rows = Iterable[Mapping[str, int]]
 

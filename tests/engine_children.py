@@ -11,7 +11,7 @@ from checker.certify import solver
 from checker.engines import engines
 from checker.engines.localisation import orders
 from checker.engines.simulation import batches
-from checker.process.isolate import End, Stopped
+from checker.process.isolate import ChildStopped, End
 from tests.certifying import inline
 
 LIMIT = "the time limit of 2.5 s is reached"
@@ -26,7 +26,7 @@ def cut_off(monkeypatch: pytest.MonkeyPatch, engine: ModuleType, *events: object
     def messages(*_: object, **__: object) -> Iterator[object]:
         yield from events
         yield None
-        raise Stopped(LIMIT)
+        raise ChildStopped(LIMIT)
 
     monkeypatch.setattr(engine, "messages", messages)
 

@@ -10,12 +10,12 @@ from pathlib import Path
 import pytest
 
 from checker.commands.check.findings import Guide, about_cases, about_faults, read_on
-from checker.commands.check.further import Further, noticing
+from checker.commands.check.further import CheckExtras, noticing
 from checker.commands.check.premises import cases
-from checker.commands.check.run import Compared, line, results, summary
+from checker.commands.check.run import ComparedResult, line, results, summary
 from checker.commands.reports.run import differences, pages
 from checker.commands.shared.codes import Exit
-from checker.commands.shared.wrapping import plain
+from checker.commands.shared.text_wrap import plain
 from checker.engines import AUTO, Limits
 from checker.model.kept_invariants import invariants_of_rover
 from checker.model.kept_runs import file_of, read
@@ -35,9 +35,9 @@ def test_verdicts_are_as_on_record_and_the_committed_reports_show_them(
     # One test, so that the properties are decided once however many processes run the suite.
     affordable = [prop for prop in catalogue().values() if not prop.costly]
     found = results(affordable, systems(), AUTO, Limits(), invariants=invariants_of_rover())
-    decided = [Compared(r, expected(r.property.id)) for r in found]
+    decided = [ComparedResult(r, expected(r.property.id)) for r in found]
     told = cases(decided, systems(), read(file_of(rover())), AUTO, Limits())
-    further = Further(noticing=noticing(rover()))
+    further = CheckExtras(noticing=noticing(rover()))
     verdicts = [
         replace(c, case=told.get(c.result.property.id), noticed=further.noticed(c), strict=True)
         for c in decided

@@ -11,10 +11,10 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
-from checker.cache import running
-from checker.cache.places import Unsafe, carefully, chosen, usable
+from checker.cache import run_marks
+from checker.cache.listeners import CachedCodeUse, CacheRefused, anew, heard, tell
+from checker.cache.places import UnsafePlace, carefully, chosen, usable
 from checker.cache.secret_file import secret
-from checker.cache.telling import CacheRefused, Taken, anew, heard, tell
 
 ENDING = ".o"
 MOST_BYTES = 256 << 20
@@ -43,11 +43,11 @@ def read(name: str) -> bytes | None:
         folder = usable(chosen(), make=False)
         key = secret(folder, make=False)
         path = folder / f"{name}{ENDING}"
-        if anew() or running.crashed(path):
+        if anew() or run_marks.crashed(path):
             remove(name)
             return None
         contents = opened(name, carefully(path, MOST_BYTES)[1], key)
-    except Unsafe as unsafe:
+    except UnsafePlace as unsafe:
         tell(CacheRefused(str(unsafe)))
         return None
     except OSError:
@@ -56,9 +56,9 @@ def read(name: str) -> bytes | None:
         with suppress(OSError):  # where files are read only, too, they may be used
             os.utime(path)  # used now: the last to be removed
         if heard():
-            tell(Taken(name))
+            tell(CachedCodeUse(name))
         else:
-            running.mark(path)
+            run_marks.mark(path)
     return contents
 
 
@@ -76,7 +76,7 @@ def write(name: str, contents: bytes) -> None:
             os.unlink(part)
             raise
         _written(folder, len(whole))
-    except Unsafe as unsafe:
+    except UnsafePlace as unsafe:
         tell(CacheRefused(str(unsafe)))
     except OSError:
         pass

@@ -15,7 +15,7 @@ from checker.certify.reduction import diagram
 from checker.certify.terms import TRUTH, Malformed, definitions
 from checker.certify.tick import conjuncts as parts
 from checker.certify.tick import executed
-from checker.results.closed import ClosedSet
+from checker.results.closed_set import ClosedSet
 from checker.results.diagram import Diagram as Bits
 from checker.results.diagram import formula
 from checker.results.verdict import Answer, Evidence, Exhausted, Inductive, Unreachable

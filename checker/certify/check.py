@@ -14,7 +14,7 @@ from checker.certify.outcome import Accepted, Outcome, Rejected, TooMuch, Undeci
 from checker.certify.question import CertifyQuestion, question
 from checker.certify.sweep import swept
 from checker.certify.terms import Malformed
-from checker.certify.tick import Executed, executed
+from checker.certify.tick import SymbolicStep, executed
 from spec_model.lang.domain import Bool
 from spec_model.lang.system import TransitionSystem
 
@@ -26,7 +26,7 @@ all of its time in vain: it is asked only if it alone is.
 """
 
 
-class By(StrEnum):
+class CheckMethod(StrEnum):
     """Who checks."""
 
     SOLVER = "bitwuzla"
@@ -38,11 +38,11 @@ class By(StrEnum):
 class CheckEffort:
     """Who checks, and the wall seconds that the solver may take for one certificate (None: no bound)."""
 
-    by: By = By.BOTH
+    by: CheckMethod = CheckMethod.BOTH
     seconds: float | None = 600
 
 
-def rebuilt(certificate: Certificate, step: Executed) -> CertifyQuestion | Rejected:
+def rebuilt(certificate: Certificate, step: SymbolicStep) -> CertifyQuestion | Rejected:
     """The question of the certificate put to the system as it is now, if that is still the same one."""
     try:
         asked = question(step, certificate.claims, certificate.kept, certificate.about)
@@ -79,7 +79,9 @@ def _checked(
 ) -> Outcome:
     """By enumeration where that is feasible, and by the solver."""
     tried = _tried(certificate.invariant, system, asked, effort)
-    if effort.by is By.ENUMERATION or (effort.by is By.BOTH and _large(certificate.invariant)):
+    if effort.by is CheckMethod.ENUMERATION or (
+        effort.by is CheckMethod.BOTH and _large(certificate.invariant)
+    ):
         return Undecided(tried.reason) if isinstance(tried, TooMuch) else tried
     if too_long(asked, certificate.invariant):
         return Undecided("k-induction with so large a k needs scripts too long to write")
@@ -92,10 +94,12 @@ def _tried(
     invariant: Invariant, system: TransitionSystem, asked: CertifyQuestion, effort: CheckEffort
 ) -> Accepted | Rejected | TooMuch:
     """By enumeration, slow and obvious, or on all states at once where that is what is left."""
-    if effort.by is By.SOLVER:
+    if effort.by is CheckMethod.SOLVER:
         return TooMuch("only the solver is asked")
     tried = enumerated(system, asked, invariant)
-    fast = isinstance(invariant, CertifiedDiagram) and (effort.by is By.ENUMERATION or _large(invariant))
+    fast = isinstance(invariant, CertifiedDiagram) and (
+        effort.by is CheckMethod.ENUMERATION or _large(invariant)
+    )
     if isinstance(tried, TooMuch) and isinstance(invariant, CertifiedDiagram) and fast:
         return swept(asked, invariant)
     return tried

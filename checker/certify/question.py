@@ -11,7 +11,7 @@ from hashlib import sha256
 
 from checker.certify.smtlib import Printer, among, define, joined, own, quoted, sort, sort_bits, within
 from checker.certify.terms import Sort
-from checker.certify.tick import CertifiedTick, Executed
+from checker.certify.tick import CertifiedTick, SymbolicStep
 from spec_model.lang.expr import Var
 
 
@@ -87,7 +87,7 @@ class CertifyQuestion:
 
 
 def question(
-    step: Executed, claims: Sequence[str], kept: Sequence[int], about: Sequence[str]
+    step: SymbolicStep, claims: Sequence[str], kept: Sequence[int], about: Sequence[str]
 ) -> CertifyQuestion:
     """The question whether the claimed goals are ever true after a tick.
 

@@ -10,7 +10,7 @@ from checker.compare.stimulus import Stimulus, StimulusPlayer
 from spec_model.abstraction import Board
 from spec_model.lang.chart import parts
 from spec_model.lang.domain import Num
-from spec_model.lang.interpret import Fired, Interpreter
+from spec_model.lang.interpret import FiredTransition, Interpreter
 
 NEAR = 1e-6
 """Numbers that differ by no more, in their unit or as a part of the larger one, are equal: single precision
@@ -25,7 +25,7 @@ class ComparedStep:
 
     inputs: Mapping[str, Value]
     expected: Mapping[str, Value]
-    fired: tuple[Fired, ...]
+    fired: tuple[FiredTransition, ...]
 
 
 @dataclass(frozen=True)
@@ -55,7 +55,7 @@ class StepMismatch:
         return len(self.steps)
 
     @property
-    def transitions(self) -> tuple[Fired, ...]:
+    def transitions(self) -> tuple[FiredTransition, ...]:
         """The transitions that the charts took in that step, those of the chart at fault first."""
         author = author_of(self.board, self.differences[0].name)
         return tuple(sorted(self.steps[-1].fired, key=lambda fired: fired.chart != author))

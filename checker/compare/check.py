@@ -10,14 +10,14 @@ from checker.adapters import start
 from checker.adapters.implementation import Implementation, Value, Values
 from checker.compare.beside import ComparedStep, StepMismatch, compared, differences, differs, played, rerun
 from checker.compare.environment import Environment
-from checker.compare.fixed import fixed
-from checker.compare.recorded import counterexamples, tests
+from checker.compare.fixed_runs import fixed
+from checker.compare.recorded_runs import counterexamples, tests
 from checker.compare.result import ALLOWED, Allowance, CompareResult
 from checker.compare.search import CompareEffort, CompareSearch, Progress, Run, effort
 from checker.compare.smaller import BUDGET
 from checker.compare.stimulus import Stimulus
 from checker.compare.strategy import ENVIRONMENTS
-from checker.compare.varied import named
+from checker.compare.variants import named
 from checker.testgen import kept
 from spec_model.abstraction import Board
 
@@ -209,7 +209,7 @@ def _known(env: Environment, folder: Path | None) -> Iterable[Run]:
     return chain(ours, tests(folder, env.board) if folder else ())
 
 
-class Remembered:
+class RunCache:
     """Runs that the charts go through once in a process, however often they are wanted."""
 
     def __init__(self, runs: Callable[[], Iterator[Run]]) -> None:
@@ -233,8 +233,8 @@ class Remembered:
 
 
 @cache
-def _of_the_project(board: str) -> Remembered:
-    return Remembered(lambda: known_runs(ENVIRONMENTS[board]))
+def _of_the_project(board: str) -> RunCache:
+    return RunCache(lambda: known_runs(ENVIRONMENTS[board]))
 
 
 def known_runs(env: Environment) -> Iterator[Run]:

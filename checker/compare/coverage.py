@@ -10,8 +10,8 @@ from checker.compare.beside import ComparedStep
 from spec_model.abstraction import Board
 from spec_model.lang.chart import Chart, Path, Transition
 from spec_model.lang.expr import Const
-from spec_model.lang.interpret import Fired
-from spec_model.lang.interpret.fired import path_label
+from spec_model.lang.interpret import FiredTransition
+from spec_model.lang.interpret.fired_transition import path_label
 
 NEAR_SHARE = Fraction(1, 100)
 """The share of a signal's range within which a value counts as beside a boundary."""
@@ -19,7 +19,10 @@ NEAR_SHARE = Fraction(1, 100)
 
 @dataclass(frozen=True, order=True)
 class CoveredTransition:
-    """A complete path of a chart from state to state, with its label as drawn; ``order`` as in ``Fired``."""
+    """A complete path of a chart from state to state, with its label as drawn.
+
+    ``order`` is that of ``FiredTransition``.
+    """
 
     chart: str
     source: Path
@@ -33,7 +36,7 @@ class CoveredTransition:
         return f"{self.chart}: {start}{'.'.join(self.target)}{number}{' ' + self.label if self.label else ''}"
 
 
-def taken(fired: Fired) -> CoveredTransition:
+def taken(fired: FiredTransition) -> CoveredTransition:
     """The transition that fired."""
     return CoveredTransition(fired.chart, fired.source, fired.order, fired.target, fired.label)
 
@@ -83,7 +86,7 @@ class TransitionCoverage:
     taken: set[CoveredTransition] = field(default_factory=set)
     steps: int = 0
     runs: int = 0
-    _fired: set[Fired] = field(default_factory=set)
+    _fired: set[FiredTransition] = field(default_factory=set)
     _values: dict[str, set[float]] = field(default_factory=dict)
 
     def add(self, steps: list[ComparedStep]) -> None:

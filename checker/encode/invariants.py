@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from checker.encode.cone import Slice
-from checker.encode.simulate import Column, Columns, Vectorised, column
+from checker.encode.simulate import ArrayProgram, Column, Columns, column
 from checker.encode.terms import Terms
 from checker.system.intervals import postorder
 from spec_model.lang.domain import Bool, Enum, Num
@@ -248,7 +248,7 @@ class TemplatePool:
         if not inside:
             return []
         at = {name: np.asarray([value]) for name, value in cube.valuation.items()}
-        truth = Vectorised(inside)(_as_truth(inside, at))
+        truth = ArrayProgram(inside)(_as_truth(inside, at))
         found = [c for c, holds in zip(inside, truth, strict=True) if not np.all(holds)]
         for candidate in found:
             del self._left[id(candidate)]

@@ -14,6 +14,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import accumulate, pairwise, takewhile
 
+from checker.encode.code_motion import sunk
 from checker.encode.path_statements import (
     Branch,
     Choose,
@@ -28,7 +29,6 @@ from checker.encode.path_statements import (
     chooses,
     weight,
 )
-from checker.encode.sinking import sunk
 from checker.system.partition import Partition, conjuncts, expressions, partitions
 from checker.system.slice import names
 from spec_model.lang.action import Action, Assign, If

@@ -36,7 +36,7 @@ _TRIES = 12
 """Attempts to draw inputs that satisfy the assumption; a run that has none waits for a tick."""
 
 
-class Vectorised:
+class ArrayProgram:
     """Formulas compiled to a list of array operations; equal nodes are computed once.
 
     Where a value may leave the 64-bit numbers all are computed with Python's numbers, slowly.
@@ -201,12 +201,12 @@ class Simulator:
         self._random = np.random.default_rng(seed)
         self._names = [v.name for v in part.variables]
         self._kept = {v.name: _storage(v) for v in (*part.variables, *part.frozen)}
-        self._step = Vectorised([part.next[n] for n in self._names])
+        self._step = ArrayProgram([part.next[n] for n in self._names])
         mentioned = _constants([*part.next.values(), *part.assume])
         drawn = {v.name: _allowed(v, _interesting(v, mentioned), _alone(part, v)) for v in part.inputs}
         self._inputs = [_Input(v, drawn[v.name]) for v in part.inputs]
         assumed = [*part.assume, *(Apply(Op.NOT, (e,), Bool()) for e in never)]
-        self._assume = Vectorised(assumed)
+        self._assume = ArrayProgram(assumed)
         self._about = [[i for i in self._inputs if i.var.name in variables(e)] for e in assumed]
 
     def start(self) -> dict[str, Column]:
@@ -331,7 +331,7 @@ def _allowed(var: Var, values: Sequence[int], conditions: Sequence[Expr]) -> Col
     for tried in (values, var.domain.values[:_MANY]):
         drawn = column(var, tried)
         fine = np.ones(len(drawn), dtype=np.bool_)
-        for holds in Vectorised(conditions)({var.name: drawn}):
+        for holds in ArrayProgram(conditions)({var.name: drawn}):
             fine &= holds
         if fine.any():
             return drawn[fine]

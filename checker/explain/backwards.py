@@ -15,8 +15,8 @@ from checker.encode.bits.order import orders
 from checker.engines import Progress
 from checker.engines.bdd.relation import relation
 from checker.engines.bdd.space import DDMemoryError, Function, NodeStore, Overdrawn, Space, meets
-from checker.explain.unrolled import Over, Place, never
-from checker.explain.widening import widest
+from checker.explain.unrolled_run import Over, Place, never
+from checker.explain.value_ranges import widest
 from checker.results.verdict import Run
 from checker.system.partition import Partition
 from checker.verify.runs.replay import ReplayError

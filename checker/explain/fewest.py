@@ -16,7 +16,7 @@ from pysat.solvers import Minisat22
 
 from checker.encode.bits import Circuit
 from checker.encode.bits.simulate import BitSimulation, Values
-from checker.explain.unrolled import CONFLICTS, LANES, Over, Place, Unrolled
+from checker.explain.unrolled_run import CONFLICTS, LANES, Over, Place, Unrolled
 from checker.results.verdict import Run
 from checker.system.partition import Partition
 

@@ -1,8 +1,8 @@
 """Logs recorded on a board, checked against the properties and against the charts."""
 
-from checker.logs.against import Against
 from checker.logs.check import LogResult, as_on_record, examine
 from checker.logs.errors import LogError
 from checker.logs.mapping import ColumnMap, read_map
+from checker.logs.reference import LogReference
 
-__all__ = ["Against", "ColumnMap", "LogError", "LogResult", "as_on_record", "examine", "read_map"]
+__all__ = ["ColumnMap", "LogError", "LogReference", "LogResult", "as_on_record", "examine", "read_map"]

@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from checker.logs.belief import BeliefOutcome
 from checker.logs.cells import Raw
 from checker.logs.cones import LogCone
+from checker.logs.estimator import BeliefOutcome
 from checker.logs.program import Known
 from spec_model.abstraction import Output
 from spec_model.lang.chart import Chart

@@ -6,12 +6,12 @@ from fractions import Fraction
 
 import numpy as np
 
-from checker.logs.choosing import Choice, Chosen, Wires
 from checker.logs.cones import measured
+from checker.logs.form_monitors import Judge
 from checker.logs.formula import Array, FormulaRows
-from checker.logs.judge import Judge
 from checker.logs.log import Cells, LogBlock
 from checker.logs.mismatch import shown
+from checker.logs.selection import MonitoredProperty, PropertySelection, Wires
 from checker.logs.signals import Vocabulary
 from properties.forms import (
     Always,
@@ -34,7 +34,7 @@ from spec_model.lang.walk import plain, variables
 
 
 @dataclass(frozen=True)
-class BrokenAt:
+class FirstViolation:
     """Where a property was first broken (or reached): its parts that are false, and the values there."""
 
     tick: int
@@ -52,7 +52,7 @@ class Verdict:
     """
 
     prop: Property
-    first: BrokenAt | None = None
+    first: FirstViolation | None = None
     count: int = 0
     tested: int = 0
     judged: int = 0
@@ -70,7 +70,7 @@ class LogMonitors:
     """All monitors of one log."""
 
     def __init__(
-        self, vocabulary: Vocabulary, choice: Choice, known: frozenset[str], from_power_up: bool
+        self, vocabulary: Vocabulary, choice: PropertySelection, known: frozenset[str], from_power_up: bool
     ) -> None:
         self._judges = [(c, Judge(c.property), Verdict(c.property)) for c in choice.monitored]
         self._wires = Wires(vocabulary).of(known)
@@ -157,7 +157,7 @@ class _Stretch:
         self._columns, self._unknown = columns, unknown
         self._rows: dict[int, tuple[FormulaRows, Array]] = {}
 
-    def runs(self, chosen: Chosen) -> list[tuple[bool, FormulaRows, Array]]:
+    def runs(self, chosen: MonitoredProperty) -> list[tuple[bool, FormulaRows, Array]]:
         """The steps in which the charts of a property execute, cut where something it reads is not known.
 
         Each run tells whether there is such a hole in front of it; the last may be empty.
@@ -213,12 +213,12 @@ _NOTHING = Property("", "", Never(FALSE), (), "")
 # --- what is false ---------------------------------------------------------------------------------
 
 
-def _broken(judge: Judge, rows: FormulaRows, row: int, block: LogBlock, place: int) -> BrokenAt:
+def _broken(judge: Judge, rows: FormulaRows, row: int, block: LogBlock, place: int) -> FirstViolation:
     wanted, negated = required(judge.property.form)
     false = [p for p in _conjuncts(wanted) if bool(rows.truth(p, judge.past)[row]) == negated]
     read = variables(wanted)
     values = {name: _shown(var, rows.columns[name][row]) for name, var in read.items()}
-    return BrokenAt(block.ticks[place], block.lines[place], tuple(text(p) for p in false), values)
+    return FirstViolation(block.ticks[place], block.lines[place], tuple(text(p) for p in false), values)
 
 
 def required(form: Form) -> tuple[Expr, bool]:

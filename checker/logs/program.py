@@ -32,14 +32,14 @@ class NeededInputs(Exception):
 
 
 @dataclass(frozen=True)
-class Shown:
+class ProgramOutput:
     """A variable whose value after the step is asked for, unless a condition holds then."""
 
     var: Var
     unless: Expr
 
 
-def compiled(system: TransitionSystem, outputs: Sequence[Shown]) -> Step:
+def compiled(system: TransitionSystem, outputs: Sequence[ProgramOutput]) -> Step:
     """The step of a system.  Values between those of a domain are stored like the others."""
     state, inputs = system.variables, system.inputs
     names = _Names(_copied(system.step))

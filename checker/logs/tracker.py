@@ -5,9 +5,9 @@ from dataclasses import dataclass
 from itertools import product
 from math import prod
 
-from checker.logs.belief import FIRST_RUNS, MORE_RUNS, BeliefOutcome, Follower, TooMany
 from checker.logs.cells import Raw
 from checker.logs.cones import LogCone
+from checker.logs.estimator import FIRST_RUNS, MORE_RUNS, BeliefOutcome, StateEstimator, TooMany
 from checker.logs.mismatch import LogMismatch, differences, moves, shown
 from checker.logs.program import Known
 
@@ -51,7 +51,7 @@ class Tracker:
         self.cone = cone
         self.undecided: UndecidedRow | None = None
         self.given_up = False
-        self._follow = Follower(cone, tolerance)
+        self._follow = StateEstimator(cone, tolerance)
         self._now = self._follow.power_up() if from_power_up else self._follow.anything({})
         self._own: tuple[Known, ...] | None = self._now if from_power_up else None
         self._lost = False

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 from checker.results.verdict import Run
-from checker.system.lowered import lowered
+from checker.system.lowering_cache import lowered
 from spec_model.lang.evaluate import step
 from spec_model.lang.system import System
 

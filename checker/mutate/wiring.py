@@ -5,7 +5,7 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from checker.system.lowered import lowered
+from checker.system.lowering_cache import lowered
 from checker.system.slice import sliced
 from spec_model.lang.action import Action, Assign, If
 from spec_model.lang.chart import Block, Chart, Component, Enabled, parts

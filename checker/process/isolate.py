@@ -32,7 +32,7 @@ _WINDOWS_FAULTS = 0xC0000000
 _MAIN = "from rovercheck import claim; claim(); from checker.process.child import child; child()"
 
 
-class Stopped(Exception):
+class ChildStopped(Exception):
     """The work did not come to its end; the message says why, for a person."""
 
 
@@ -200,7 +200,7 @@ def messages(
 ) -> Generator[Any, None, None]:
     """Run ``work(send, *args)`` in a child; yield what it sends, and None after ``beat`` quiet seconds.
 
-    Work and arguments must be picklable, messages never None.  Raises ``Stopped`` when the time or
+    Work and arguments must be picklable, messages never None.  Raises ``ChildStopped`` when the time or
     the memory (bytes of address space) is used up, when the work raises and when the child dies.
     Closing the generator kills the child.
     """
@@ -212,7 +212,7 @@ def messages(
         while True:
             left = beat if end is None else end - monotonic()
             if left <= 0:
-                raise Stopped(f"the time limit of {seconds:g} s is reached")
+                raise ChildStopped(f"the time limit of {seconds:g} s is reached")
             message = _next(inbox, min(beat, left))
             if isinstance(message, End):
                 break
@@ -222,7 +222,7 @@ def messages(
     if message.error and heard():
         tell(Fault("", "", message.error))
     if message.failure is not None:
-        raise Stopped(message.failure)
+        raise ChildStopped(message.failure)
 
 
 def _itself(work: Callable[..., None]) -> Callable[..., None]:
@@ -257,4 +257,4 @@ def _is_child() -> bool:
     return sys.orig_argv[-1] == _MAIN
 
 
-__all__ = ["Child", "End", "Send", "Stopped", "messages", "prepared"]
+__all__ = ["Child", "ChildStopped", "End", "Send", "messages", "prepared"]

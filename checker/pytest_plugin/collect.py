@@ -13,7 +13,7 @@ from checker.model import Model
 from checker.model.execute import files_of
 from checker.model.load import load
 from checker.model.rover import rover
-from checker.pytest_plugin.deciding import Decider
+from checker.pytest_plugin.decisions import Decider
 from checker.pytest_plugin.item import PropertyItem
 from properties.forms import Property
 from rovercheck import own

@@ -7,11 +7,11 @@ from typing import Any
 import pytest
 
 from checker.commands.check.ci import finding
-from checker.commands.check.run import Compared, evidence, recorded
+from checker.commands.check.run import ComparedResult, evidence, recorded
 from checker.commands.shared.failure import told
-from checker.commands.trace.explain import Explaining
+from checker.commands.trace.explain import ExplanationOptions
 from checker.model import Model
-from checker.pytest_plugin.deciding import Decider, NoVerdict
+from checker.pytest_plugin.decisions import Decider, NoVerdict
 from checker.render.ci import explained
 from checker.results.trace import Trace
 from checker.results.verdict import Violated
@@ -21,13 +21,13 @@ from rovercheck import own
 # --- what the report of a property says ----------------------------------------------------------------
 
 
-def on_record(compared: Compared) -> str:
+def on_record(compared: ComparedResult) -> str:
     """One line on a verdict that is no proof and was expected."""
     prop, because = compared.result.property, compared.expected.because
     return f"{prop.id} is {compared.verdict.word}, as expected: {because}"
 
 
-def shown(compared: Compared, model: Model) -> str:
+def shown(compared: ComparedResult, model: Model) -> str:
     """A verdict that is not the expected one, with its cause as far as that is found."""
     try:
         return _why(_with_reasons(compared, model), model)
@@ -36,7 +36,7 @@ def shown(compared: Compared, model: Model) -> str:
         return f"{id} is {compared.word}; expected: {expected}\n{told(error)}"
 
 
-def _with_reasons(compared: Compared, model: Model) -> Compared:
+def _with_reasons(compared: ComparedResult, model: Model) -> ComparedResult:
     """A counterexample with its cause, as far as that is found in the time that ``trace`` takes for it.
 
     Raises ``ReplayError`` if a run with the same needed inputs ends otherwise.
@@ -44,11 +44,11 @@ def _with_reasons(compared: Compared, model: Model) -> Compared:
     result = compared.result
     if not isinstance(result.verdict, Violated) or not isinstance(result.verdict.because, Trace):
         return compared
-    trace = Explaining(quiet=True)(result.verdict.because, result.property, model.systems)
+    trace = ExplanationOptions(quiet=True)(result.verdict.because, result.property, model.systems)
     return replace(compared, result=replace(result, verdict=replace(result.verdict, because=trace)))
 
 
-def _why(compared: Compared, model: Model) -> str:
+def _why(compared: ComparedResult, model: Model) -> str:
     """A verdict that is not the expected one: what it rests on, and what to do."""
     found = finding(compared, model.systems, model.options)
     lines = [found.headline, explained(found)]
@@ -59,7 +59,7 @@ def _why(compared: Compared, model: Model) -> str:
     return "\n".join(lines)
 
 
-class Different(Exception):
+class VerdictMismatch(Exception):
     """The verdict is not the expected one; the message shows why."""
 
 
@@ -78,18 +78,18 @@ class PropertyItem(pytest.Item):
 
     @own()
     def runtest(self) -> None:
-        """Raises ``Different``, or ``NoVerdict`` if there is no verdict at all."""
+        """Raises ``VerdictMismatch``, or ``NoVerdict`` if there is no verdict at all."""
         compared = self.decider.compared(self)
         for name, value in _properties(compared):
             self.user_properties.append((name, value))
         if not compared.as_expected:
-            raise Different(shown(compared, self.model))
+            raise VerdictMismatch(shown(compared, self.model))
         if compared.verdict.word != "proved":
             self.add_report_section("call", "verdict", on_record(compared))
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """What there is to read instead of a traceback of ours."""
-        if isinstance(excinfo.value, Different | NoVerdict):
+        if isinstance(excinfo.value, VerdictMismatch | NoVerdict):
             return str(excinfo.value)
         return super().repr_failure(excinfo, style)
 
@@ -100,7 +100,7 @@ class PropertyItem(pytest.Item):
         return *where, f"{self.prop.id} of {self.prop.on}"
 
 
-def _properties(compared: Compared) -> list[tuple[str, str]]:
+def _properties(compared: ComparedResult) -> list[tuple[str, str]]:
     """What a JUnit file says of the property."""
     prop, verdict = compared.result.property, compared.verdict
     said = {

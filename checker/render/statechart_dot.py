@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from checker.render.drawing.scheme import (
+from checker.render.drawing.labels import (
     ChartArrow,
     action_lines,
     arrows,

@@ -4,7 +4,7 @@ from io import BytesIO
 
 import networkx as nx
 
-from checker.render.drawing.scheme import arrows, execution_order, label
+from checker.render.drawing.labels import arrows, execution_order, label
 from spec_model.lang.chart import Chart, Path
 
 NAME = "graphml"

@@ -7,7 +7,7 @@ is refused rather than drawn wrong.  Names of regions are not shown.
 
 from collections.abc import Iterator
 
-from checker.render.drawing.scheme import ChartArrow, action_lines, arrows, identifiers, label
+from checker.render.drawing.labels import ChartArrow, action_lines, arrows, identifiers, label
 from spec_model.lang.chart import Chart, Path
 from spec_model.lang.errors import ModelError
 

@@ -4,10 +4,10 @@ from collections.abc import Collection, Sequence
 from functools import lru_cache
 
 from checker.render.drawing import svg
-from checker.render.drawing.highlight import Emphasis, emphasis
-from checker.render.drawing.nested import picture
+from checker.render.drawing.emphasis import Emphasis, emphasis
+from checker.render.drawing.labels import arrows, explained
+from checker.render.drawing.nested_layout import picture
 from checker.render.drawing.picture import Box, PicturePiece, Spot
-from checker.render.drawing.scheme import arrows, explained
 from checker.render.drawing.text import LINE, width, wrap
 from checker.results.trace import TakenTransition
 from spec_model.lang.chart import Chart

@@ -2,7 +2,7 @@
 
 from xml.sax.saxutils import escape
 
-from checker.render.again import Again, folded
+from checker.render.again import RepeatedTicks, folded
 from checker.render.reasons import cause, meaning, reasons
 from checker.render.story import (
     OMITTED,
@@ -55,11 +55,11 @@ def reasons_told(trace: Trace) -> list[str]:
     return [*(["| Ticks | ms | Input |", "|---|---:|---|", *rows, ""] if rows else []), _plain(said)]
 
 
-def _row(trace: Trace, row: Row | Again) -> str:
+def _row(trace: Trace, row: Row | RepeatedTicks) -> str:
     match row:
         case StoryEvent():
             return _event(trace, row)
-        case Quiet() | Again():
+        case Quiet() | RepeatedTicks():
             return f"| … | | | *{_plain(row.what)}* | |"
         case Repeats():
             return f"| ↻ | | | **{_plain(row.what)}** | |"

@@ -7,7 +7,7 @@ from rich.text import Text
 
 from checker.io.console import UnmarkedConsole
 from checker.render.again import folded
-from checker.render.hanging import hanging
+from checker.render.hanging_indent import hanging
 from checker.render.reasons import cause, meaning, reasons
 from checker.render.story import (
     OMITTED,

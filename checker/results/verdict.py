@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Union
 from checker.results.trace import Trace
 
 if TYPE_CHECKING:
-    from checker.results.closed import ClosedSet
+    from checker.results.closed_set import ClosedSet
     from checker.results.diagram import Diagram
     from spec_model.lang.expr import Expr
 

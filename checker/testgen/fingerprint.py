@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from hashlib import sha256
 
 from checker.encode.python_text import text_of
-from checker.testgen.compiled import source
+from checker.testgen.compiled_charts import source
 from spec_model.abstraction import Board
 from spec_model.lang.expr import Var
 from spec_model.lang.lower import lower

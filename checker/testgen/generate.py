@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from checker.system.instrument.goals import CoverGoal, GoalKind
 from checker.system.instrument.watch import watched
 from checker.testgen.formats import FORMATS, ExpectedTest
-from checker.testgen.formats.expected import expected
+from checker.testgen.formats.expected_outputs import expected
 from checker.testgen.keep import KeptTests
 from spec_model.abstraction import Board, boards
 from spec_model.lang.chart import parts

@@ -11,7 +11,7 @@ from checker.results.verdict import Proved, Unknown, Verdict, Violated
 from checker.system.instrument.goals import CoverGoal, GoalKind, Watched
 from checker.system.instrument.watch import watched
 from checker.testgen.scripts import Script, script
-from checker.verify.searches import Over, SearchDoing, Warned, searches
+from checker.verify.searches import MachineWarning, SearchActivity, SearchEnd, searches
 from checker.verify.tasks import Task
 from properties.forms import Property, reachable
 from spec_model.abstraction import Board
@@ -132,11 +132,11 @@ def _verdicts(
     with closing(searches(todo, {system.name: looked.system}, AUTO, limits, jobs)) as heard:
         for one in heard:
             match one:
-                case SearchDoing(task, line):
+                case SearchActivity(task, line):
                     yield "", f"{task.title}: {line}"
-                case Warned(text):
+                case MachineWarning(text):
                     yield "", text
-                case Over():
+                case SearchEnd():
                     pass
                 case _:
                     yield one.property.id, one.verdict

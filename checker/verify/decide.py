@@ -9,9 +9,9 @@ from checker.process.faults import Failed, attempted
 from checker.results.verdict import Open, Reached, Unknown, Unreachable
 from checker.system.formula_json import Tree, readable
 from checker.system.initial import check_starts
-from checker.system.lowered import lowered
+from checker.system.lowering_cache import lowered
 from checker.verify.liveness.verdicts import unbounded
-from checker.verify.portfolio import Callbacks, Disagreement, Hint, PortfolioQuestion, answers, as_found
+from checker.verify.portfolio import Callbacks, Disagreement, PortfolioQuestion, Prior, answers, as_found
 from checker.verify.portfolio.shape import shape
 from checker.verify.result import Answers, Result, check_domains, result
 from checker.verify.runs.replay import ReplayError
@@ -107,9 +107,9 @@ class EngineCall:
     deadline: float | None = None
     recorded: Sequence[Tree] | None = None
 
-    def __call__(self, system: TransitionSystem, goals: Sequence[Var], hint: Hint = Hint.NONE) -> Answers:
+    def __call__(self, system: TransitionSystem, goals: Sequence[Var], hint: Prior = Prior.NONE) -> Answers:
         """An answer for each goal and for each check of the system."""
-        engine = AUTO if hint is Hint.CONCRETE and self.engine != ALL else self.engine
+        engine = AUTO if hint is Prior.CONCRETE and self.engine != ALL else self.engine
         question = PortfolioQuestion(system, tuple(goals), hint, self._candidates(system))
         return self._late(question) or answers(question, engine, self._left(system), self.told)
 

@@ -6,7 +6,7 @@ from typing import Protocol
 
 from checker.certify.outcome import Outcome
 from checker.results.verdict import Answer, Open, Proved, Reached, Unknown, Unreachable, Verdict, Violated
-from checker.verify.portfolio.question import Found, Hint
+from checker.verify.portfolio.question import Found, Prior
 from checker.verify.runs.domains import leaves, stray
 from properties.forms import Property
 from properties.reduce import Goal
@@ -17,10 +17,10 @@ Answers = Found
 """An answer for each goal and the name of the engine that gave it."""
 
 
-class Ask(Protocol):
+class EngineQuery(Protocol):
     """Asks the engines that the user chose; the hint tells what is known of the answer."""
 
-    def __call__(self, system: TransitionSystem, goals: Sequence[Var], hint: Hint = Hint.NONE) -> Answers:
+    def __call__(self, system: TransitionSystem, goals: Sequence[Var], hint: Prior = Prior.NONE) -> Answers:
         """An answer for each goal and for each check of the system."""
         ...
 
@@ -51,7 +51,7 @@ def result(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Res
 def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Verdict:
     match answer:
         case Reached(run, shortest):
-            from checker.verify.runs.calm import calmed
+            from checker.verify.runs.minimise import calmed
             from checker.verify.runs.replay import replay
 
             trace = replace(replay(system, goal, calmed(system, goal.var, run)), shortest=shortest)

@@ -7,17 +7,17 @@ from dataclasses import dataclass, replace
 from time import monotonic
 from typing import TYPE_CHECKING
 
+from checker.cache.listeners import CachedCodeUse, CacheRefused, listening
 from checker.cache.places import VARIABLE, chosen
-from checker.cache.telling import CacheRefused, Taken, listening
 from checker.certify.outcome import Outcome, Undecided
 from checker.engines import Engine, Limits, Stage
 from checker.process.faults import Fault, described, is_fault, tell
 from checker.process.faults import listening as attending
 from checker.process.isolate import Send
-from checker.process.pool import Granted, Order, Pool, PoolEvent
+from checker.process.pool import GrantedTime, Order, Pool, PoolEvent
 from checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
 from checker.system.formula_json import Tree
-from checker.system.lowered import lowered
+from checker.system.lowering_cache import lowered
 from checker.verify.result import Result
 from checker.verify.tasks import Task
 from properties.forms import Property
@@ -26,7 +26,7 @@ from spec_model.lang.system import System
 
 if TYPE_CHECKING:
     from checker.certify.certificate import Certificate
-    from checker.verify.certificates import Certifying
+    from checker.verify.certificates import Certification
     from checker.verify.portfolio.question import Found, PortfolioQuestion
 
 SLACK = 2 << 30
@@ -35,7 +35,7 @@ _PAUSE = 0.5
 
 
 @dataclass(frozen=True)
-class SearchDoing:
+class SearchActivity:
     """One line on what the search of a task is doing."""
 
     task: Task
@@ -43,7 +43,7 @@ class SearchDoing:
 
 
 @dataclass(frozen=True)
-class Over:
+class SearchEnd:
     """The search of a task is over."""
 
     task: Task
@@ -72,13 +72,13 @@ class _Certified:
 
 
 @dataclass(frozen=True)
-class Warned:
+class MachineWarning:
     """What the user should know of the machine: no verdict is other for it."""
 
     text: str
 
 
-Heard = SearchDoing | Over | Warned | Result
+Heard = SearchActivity | SearchEnd | MachineWarning | Result
 
 
 def cores() -> int:
@@ -92,7 +92,7 @@ def searches(
     engine: str | Engine,
     limits: Limits,
     jobs: int | None = None,
-    certifying: "Certifying | None" = None,
+    certifying: "Certification | None" = None,
 ) -> Generator[Heard, None, None]:
     """Search the tasks in order, as many at once as there are ``jobs`` (by default processors).
 
@@ -117,9 +117,9 @@ def searches(
             for event in events:
                 back = returns[event.number]
                 for one in _passed(gates, back.task.system.name, back.heard(event)):
-                    if isinstance(one, Warned) and one.text in warned:
+                    if isinstance(one, MachineWarning) and one.text in warned:
                         continue
-                    if isinstance(one, Warned):
+                    if isinstance(one, MachineWarning):
                         warned.add(one.text)
                     yield one
         except BaseException as error:
@@ -155,7 +155,7 @@ class _Gate:
                     yield from self._opened()
                 case _:
                     yield one
-            if isinstance(one, Over):
+            if isinstance(one, SearchEnd):
                 self._left -= 1
         if not self._left:
             yield from self._opened()
@@ -197,7 +197,7 @@ class _Returns:
         if event.done:
             return self.rest(event)
         if event.failure:
-            return iter([Warned(_crashed(self.task, event.failure))])
+            return iter([MachineWarning(_crashed(self.task, event.failure))])
         return self.hear(event.message)
 
     def hear(self, message: object) -> Iterator[Heard | _Stays]:
@@ -207,15 +207,15 @@ class _Returns:
                 raise error
             case str(line):
                 self._doing = line
-                yield SearchDoing(self.task, line)
+                yield SearchActivity(self.task, line)
             case _Stays():
                 yield message
             case Fault():
                 tell(message)
-            case Taken():
+            case CachedCodeUse():
                 self._taken = True
             case CacheRefused(why):
-                yield Warned(f"Compiled searches are compiled every time: there is no cache. {why}")
+                yield MachineWarning(f"Compiled searches are compiled every time: there is no cache. {why}")
             case _Certified(id, outcome) if id in self._held:
                 yield self._tell(replace(self._held.pop(id), certificate=outcome))
             case _Decided(id, verdict) if id in self._told:
@@ -254,7 +254,7 @@ class _Returns:
             reason = f"{end.failure}, with code compiled anew after a crash with code from the cache"
         yield from (replace(r, certificate=Undecided(reason)) for r in self._held.values())
         yield from (Result(p, Unknown(reason, 0, "none"), p.on) for p in self._left.values())
-        yield Over(self.task)
+        yield SearchEnd(self.task)
 
 
 def _crashed(task: Task, failure: str) -> str:
@@ -293,7 +293,7 @@ class _Deciding:
         systems: Mapping[str, System],
         engine: str | Engine,
         limits: Limits,
-        certifying: "Certifying | None",
+        certifying: "Certification | None",
     ) -> None:
         self._systems = systems
         self._engine = engine
@@ -331,7 +331,7 @@ class _Deciding:
         from checker.verify.portfolio.question import stays
 
         recorder, results, deadline = Recorder(), list[Result](), self._limits.deadline()
-        send(Granted(self._limits.seconds, firm=True))
+        send(GrantedTime(self._limits.seconds, firm=True))
         send(Stage(f"lowering {task.system.name}"))
         if not any(
             lowered(self._systems[name]).checks for name in (task.system.name, task.system.concrete) if name
@@ -348,7 +348,7 @@ class _Deciding:
             ):
                 send(_Stays())
 
-        told = Callbacks(_Calm(send), lambda seconds: send(Granted(seconds)), answered)
+        told = Callbacks(_Calm(send), lambda seconds: send(GrantedTime(seconds)), answered)
         for one in decide(task, self._systems, self._engine, self._limits, told.progress, told, deadline):
             results.append(replace(one, verdict=_light(one.verdict)))
             send(_Decided(one.property.id, results[-1].verdict, one.system))
@@ -359,7 +359,7 @@ class _Deciding:
     def _certify(
         self,
         send: Send,
-        certifying: "Certifying",
+        certifying: "Certification",
         task: Task,
         results: Sequence[Result],
         made: Sequence["Certificate"],

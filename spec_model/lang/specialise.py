@@ -21,7 +21,7 @@ from spec_model.lang.walk import variables
 T = TypeVar("T")
 
 
-class Fixing:
+class Specialiser:
     """Replaces variables by constants in formulas, charts and systems; what does not change stays itself."""
 
     def __init__(self, values: Mapping[str, Const]) -> None:

@@ -1,7 +1,7 @@
 """A system without inputs: its counterexample was calmed to no tick at all, and could not be replayed."""
 
 from checker.results.verdict import Run
-from checker.verify.runs.calm import calmed
+from checker.verify.runs.minimise import calmed
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block
 from spec_model.lang.domain import integer

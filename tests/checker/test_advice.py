@@ -4,7 +4,7 @@ import re
 
 import pytest
 
-from checker.encode.counting import counters
+from checker.encode.counters import counters
 from checker.encode.native import NativeSearch, NativeTask, layout, shifts
 from checker.engines import Limits, Timers, explicit, quiet
 from checker.engines.explicit.advice import Advisor

@@ -12,7 +12,7 @@ import pytest
 
 from checker import cache
 from checker.encode import native
-from checker.encode.counting import counters
+from checker.encode.counters import counters
 from checker.encode.native import NativeSearch, NativeTask, fingerprint, jit, layout, shifts
 from checker.encode.native.jit import OptimisationLevel
 from checker.engines import Limits, explicit, quiet

@@ -12,7 +12,7 @@ from checker.certify.check import check
 from checker.certify.diagram import CertifiedDiagram, CertifiedNode, Nodes
 from checker.certify.outcome import Accepted, Rejected
 from checker.certify.reduction import diagram
-from checker.results.closed import ClosedSet
+from checker.results.closed_set import ClosedSet
 from checker.results.verdict import Exhausted, Unreachable
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import integer

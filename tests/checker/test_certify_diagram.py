@@ -8,7 +8,7 @@ from hypothesis.strategies import DrawFn
 
 from checker.certify import reduction
 from checker.certify.diagram import CertifiedDiagram, Nodes, count, members
-from checker.results.closed import BitPlace, ClosedSet
+from checker.results.closed_set import BitPlace, ClosedSet
 from spec_model.lang.expr import Var
 from tests.certifying import closed_set
 from tests.naive import vectors

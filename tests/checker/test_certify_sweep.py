@@ -12,7 +12,7 @@ import checker.certify.check as checking
 from checker.certify import diagram as diagrams
 from checker.certify import enumeration, sweep
 from checker.certify.certificate import Certificate
-from checker.certify.check import By, check
+from checker.certify.check import CheckMethod, check
 from checker.certify.diagram import TRUE as END
 from checker.certify.diagram import CertifiedDiagram, CertifiedNode, Nodes
 from checker.certify.enumeration import enumerated
@@ -143,7 +143,7 @@ def test_no_solver_is_asked_about_a_large_diagram_that_is_too_much_to_try() -> N
         patch.setattr(sweep, "MOST", 0)
         too_many = "4 states and 1 vectors of inputs are too many to try"
         assert check(one, system, BOTH) == Undecided(too_many)
-        assert isinstance(check(one, system, replace(BOTH, by=By.SOLVER)), Accepted)
+        assert isinstance(check(one, system, replace(BOTH, by=CheckMethod.SOLVER)), Accepted)
 
 
 def test_work_is_counted_as_often_as_it_is_done() -> None:

@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from checker.results.verdict import Run
-from checker.verify.runs.compiled import CompiledStep, TooDeep
-from checker.verify.runs.known import reached
+from checker.verify.runs.compiled_step import CompiledStep, TooDeep
+from checker.verify.runs.known_runs import reached
 from spec_model.lang.action import Assign, If
 from spec_model.lang.domain import integer
 from spec_model.lang.evaluate import admissible, step
@@ -96,6 +96,6 @@ def test_branches_beyond_all_measure_are_told() -> None:
 
 
 def test_what_only_compiled_code_finds_is_a_bug_of_ours(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("checker.verify.runs.known._first", lambda _: lambda run: {"LIT": 1})
+    monkeypatch.setattr("checker.verify.runs.known_runs._first", lambda _: lambda run: {"LIT": 1})
     with pytest.raises(AssertionError, match="LIT: a run of 1 ticks reaches it only as compiled"):
         reached(lamps, [LIT], [Run({}, ({"press": 0, "level": 0},))])

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from benchmarks.roverlite import roverlite
 from checker.encode.native import OutsideDomain
 from checker.engines import Limits, explicit, quiet
-from checker.results.closed import ClosedSet
+from checker.results.closed_set import ClosedSet
 from checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
 from checker.system.slice import sliced
 from spec_model.lang.action import Assign

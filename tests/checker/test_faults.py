@@ -7,7 +7,7 @@ import pytest
 
 from checker.engines import ALL, AUTO, Engine, Limits, Progress
 from checker.process.faults import Fault, InternalError, attempted, listening, tell
-from checker.process.isolate import Send, Stopped, messages
+from checker.process.isolate import ChildStopped, Send, messages
 from checker.results.verdict import Answer, Inductive, Open, Reached, Run, Unreachable
 from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers, turns
 from checker.verify.portfolio.order import ORDERS, Turn
@@ -118,7 +118,7 @@ def test_an_error_in_a_process_of_an_engine_is_told(monkeypatch: pytest.MonkeyPa
         ) -> Mapping[str, Answer]:
             try:
                 return super().check(system, goals, limits, progress)
-            except Stopped as stopped:
+            except ChildStopped as stopped:
                 return {g.name: Open(str(stopped), 2) for g in goals}
 
     found, faults = asked(monkeypatch, Patient("middle", ValueError("deep inside")))

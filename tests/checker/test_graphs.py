@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.engines import Limits
-from checker.explore.graphs.making import LIMITS, Made, made
-from checker.explore.graphs.projecting import exact_with
+from checker.explore.graphs.construction import LIMITS, BuiltGraph, made
+from checker.explore.graphs.projection import exact_with
 from checker.results.graph import ProjectionKind, StateGraph
 from checker.system.slice import sliced
 from spec_model.lang.errors import ModelError
@@ -99,7 +99,7 @@ def check_against(found: Naive, graph: StateGraph) -> None:
     assert graph.valuations == len(found.following)
 
 
-def check_ways(system: TransitionSystem, one: Made) -> None:
+def check_ways(system: TransitionSystem, one: BuiltGraph) -> None:
     """Each way replays by the reference semantics, in as few ticks as can be, and ends behind its node."""
     graph = one.with_ways()
     assert set(graph.ways) == {n.number for n in graph.nodes}
@@ -111,7 +111,7 @@ def check_ways(system: TransitionSystem, one: Made) -> None:
         assert len(graph.ways[node.number].trace) == node.depth
 
 
-def check_examples(system: TransitionSystem, one: Made) -> None:
+def check_examples(system: TransitionSystem, one: BuiltGraph) -> None:
     """From some state behind its source, every tick with the example inputs of an edge takes it."""
     explored, graph = one.exploration.explored, one.graph
     shown = {v.name: {v.domain.show(raw): raw for raw in v.domain.values} for v in system.inputs}

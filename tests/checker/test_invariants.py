@@ -6,7 +6,7 @@ from hypothesis import given, settings
 
 from checker.encode.cone import Slice, cone
 from checker.encode.invariants import Candidates, TemplateCube, TemplatePool
-from checker.encode.simulate import Columns, Simulator, Vectorised
+from checker.encode.simulate import ArrayProgram, Columns, Simulator
 from checker.encode.symbolic import transition
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Expr
@@ -31,7 +31,7 @@ def everything(candidates: Candidates) -> list[Expr]:
 def test_every_candidate_holds_in_the_sample(system: TransitionSystem) -> None:
     part, sample = sampled(system, 30)
     made = everything(Candidates(part, sample))
-    assert all(np.all(holds) for holds in Vectorised(made)(sample))
+    assert all(np.all(holds) for holds in ArrayProgram(made)(sample))
 
 
 @pytest.mark.parametrize(
@@ -55,7 +55,7 @@ def test_a_clause_that_excludes_a_cube() -> None:
     never = TemplateCube({"on": 1, "hold": 5, "since": 3, "goal": 0}, frozenset({"on", "hold", "since"}))
     clause = Candidates(part, sample).excluding(never, np.random.default_rng(0))
     assert clause is not None and not evaluate(clause, never.valuation)
-    assert np.all(Vectorised([clause])(sample)[0])
+    assert np.all(ArrayProgram([clause])(sample)[0])
 
 
 def test_a_cube_that_runs_visit_is_not_excluded() -> None:

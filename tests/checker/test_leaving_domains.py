@@ -11,15 +11,15 @@ from typing import get_args
 import pytest
 
 from checker.engines import Engine, Limits, Progress, engines, explicit, quiet
-from checker.explore.graphs.making import made
+from checker.explore.graphs.construction import made
 from checker.results.graph import ProjectionKind
 from checker.results.trace import Trace
 from checker.results.verdict import Answer, Exhausted, Open, Proved, Reached, Run, Unknown, Violated
-from checker.system.lowered import lowered
+from checker.system.lowering_cache import lowered
 from checker.verify.decide import ALL, AUTO, Task, decide
 from checker.verify.result import Result
-from checker.verify.runs.calm import calmed
 from checker.verify.runs.domains import LeavesDomain, stray
+from checker.verify.runs.minimise import calmed
 from checker.verify.runs.replay import replay
 from checker.verify.searches import Heard, searches
 from properties import forms

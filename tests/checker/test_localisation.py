@@ -10,10 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.engines import Limits, engines, localisation, quiet
-from checker.engines.localisation.bounded import BoundedEngine, BoundedHit, Core
+from checker.engines.localisation.bounded_search import BoundedEngine, BoundedHit, Core
 from checker.engines.localisation.cuts import with_cuts, with_switches, written
 from checker.engines.localisation.orders import Orders
-from checker.process.isolate import Stopped
+from checker.process.isolate import ChildStopped
 from checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
 from spec_model.lang.action import If, assign, when
 from spec_model.lang.domain import integer
@@ -163,7 +163,7 @@ def test_no_time_is_told() -> None:
 
 
 def test_a_child_that_dies_is_told() -> None:
-    with Orders(board(2), None, 1) as asked, pytest.raises(Stopped):  # a byte of memory
+    with Orders(board(2), None, 1) as asked, pytest.raises(ChildStopped):  # a byte of memory
         asked.why(GOAL.name, 2, frozenset())
 
 

@@ -10,7 +10,7 @@ from checker.encode.bits import circuit
 from checker.encode.bits.aig import Aig, Literal
 from checker.encode.bits.cnf import Cnf
 from checker.engines import Limits, engines, pdr, quiet
-from checker.engines.pdr.events import Decided, PdrBound, PdrUndefined
+from checker.engines.pdr.events import PdrAnswer, PdrBound, PdrUndefined
 from checker.engines.pdr.groups import decisions
 from checker.process.isolate import Send
 from checker.results.verdict import Inductive, Open, Reached, Unreachable
@@ -33,7 +33,7 @@ def decided(
     found: dict[str, Reached | Unreachable] = {}
     for event in decisions(system, names, None, candidates):
         match event:
-            case Decided(goal, answer):
+            case PdrAnswer(goal, answer):
                 found[goal] = answer
             case PdrUndefined():
                 raise AssertionError(event)

@@ -12,7 +12,7 @@ import pytest
 from checker.encode.bits import Circuit, Literal
 from checker.engines.pdr import groups, search, seeds
 from checker.engines.pdr.cubes import Cube, cube
-from checker.engines.pdr.events import Decided, PdrBound
+from checker.engines.pdr.events import PdrAnswer, PdrBound
 from checker.engines.pdr.frames import Frames
 from checker.engines.pdr.groups import decisions
 from checker.engines.pdr.lemmas import Lemma, LemmaStep
@@ -90,7 +90,7 @@ def wrong() -> Iterator[str]:
                 events += 1
                 if isinstance(event, PdrBound) and event.depth >= shortest.get(event.goal, event.depth + 1):
                     yield f"{event.goal} is said not to be reached within {event.depth} ticks"
-                if isinstance(event, Decided):
+                if isinstance(event, PdrAnswer):
                     answers[event.goal] = event.answer
                 if events > PATIENCE:
                     yield f"{system.name} is not decided"

@@ -14,8 +14,8 @@ from checker.verify.portfolio import (
     Callbacks,
     Disagreement,
     Found,
-    Hint,
     PortfolioQuestion,
+    Prior,
     answers,
     as_found,
     turns,
@@ -152,7 +152,7 @@ def test_one_engine_may_be_given_as_it_is() -> None:
 def test_a_short_run_is_enough_for_who_wants_one(using) -> None:
     first, second = Fake("first", {"on": run(1), "off": run(2)}), Fake("second", {})
     using(first, second)
-    answers(PortfolioQuestion(system(STRAY), (ON, OFF), Hint.SHORT), AUTO, Limits(), Callbacks())
+    answers(PortfolioQuestion(system(STRAY), (ON, OFF), Prior.SHORT), AUTO, Limits(), Callbacks())
     assert second.asked == []
 
 
@@ -226,8 +226,8 @@ def test_every_turn_of_the_table_can_be_taken() -> None:
 
 
 @pytest.mark.parametrize("bits", [0, WIDE, WIDE + 1, VAST, VAST + 1])
-@pytest.mark.parametrize("hint", Hint)
-def test_every_question_has_an_order(bits: int, hint: Hint) -> None:
+@pytest.mark.parametrize("hint", Prior)
+def test_every_question_has_an_order(bits: int, hint: Prior) -> None:
     assert ORDERS[Shape(bits, hint).kind]
 
 

@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
-from checker.encode.counting import counters
+from checker.encode.counters import counters
 from checker.encode.native import Layout, layout, moved_on, shifts
 from checker.engines import Limits, Timers, explicit, quiet
 from checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable

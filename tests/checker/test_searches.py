@@ -12,7 +12,7 @@ from checker.engines import Limits, Progress, explicit
 from checker.process.faults import Fault, listening
 from checker.results.verdict import Answer, Proved, Unknown, Violated
 from checker.verify.result import Result
-from checker.verify.searches import Over, searches
+from checker.verify.searches import SearchEnd, searches
 from checker.verify.tasks import MOST, Task, tasks
 from properties.catalogue import catalogue
 from properties.forms import Always, Never, Property
@@ -82,7 +82,7 @@ def decided(what: str, seconds: float | None = None) -> dict[str, Result]:
     with listening(faults.append):
         heard = list(searches(work(), KNOWN, Erratic("two", what), limits, 2))
     assert [(f.who, f.system) for f in faults] == ([("erratic", "two")] if what == "raise" else [])
-    assert sum(isinstance(one, Over) for one in heard) == len(KNOWN)
+    assert sum(isinstance(one, SearchEnd) for one in heard) == len(KNOWN)
     return {one.property.id: one for one in heard if isinstance(one, Result)}
 
 

@@ -4,7 +4,7 @@ from checker.encode.bits import circuit
 from checker.encode.bits.simulate import BitSimulation
 from checker.engines import quiet
 from checker.verify.liveness.loops import LoopHunt, hunt, looped
-from checker.verify.liveness.settling import settled
+from checker.verify.liveness.repetition import settled
 from properties.forms import settles
 from properties.reduce import reduce
 from spec_model.lang.action import assign

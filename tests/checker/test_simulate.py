@@ -5,7 +5,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from checker.encode.cone import cone
-from checker.encode.simulate import OPERATIONS, Simulator, Trail, Vectorised, column
+from checker.encode.simulate import OPERATIONS, ArrayProgram, Simulator, Trail, column
 from checker.encode.symbolic import transition
 from checker.encode.unrolling import Outside
 from spec_model.lang.action import Assign
@@ -45,7 +45,7 @@ def test_formulas_on_arrays(system: TransitionSystem) -> None:
     random = np.random.default_rng(0)
     places = [{v.name: int(random.choice(v.domain.values)) for v in everything} for _ in range(20)]
     columns = {v.name: column(v, [at[v.name] for at in places]) for v in everything}
-    for expr, values in zip(exprs, Vectorised(exprs)(columns), strict=True):
+    for expr, values in zip(exprs, ArrayProgram(exprs)(columns), strict=True):
         found = np.broadcast_to(values, len(places)).tolist()
         assert [int(f) for f in found] == [evaluate(expr, at) for at in places]
 

@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.strategies import DataObject
 
+from checker.encode.code_motion import sunk
 from checker.encode.native import NativeTask, OutsideDomain, layout, search
 from checker.encode.path_statements import Branch, Choose, Complete, Each, PathProgram, PathStatement, Require
-from checker.encode.sinking import sunk
 from checker.engines import Limits, Timers
 from checker.results.verdict import Open, Reached
 from checker.system.slice import sliced

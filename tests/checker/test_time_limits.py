@@ -9,9 +9,9 @@ import pytest
 
 from checker.engines import AUTO, Limits
 from checker.results.verdict import Unknown
-from checker.verify.certificates import Certifying
+from checker.verify.certificates import Certification
 from checker.verify.result import Result
-from checker.verify.searches import Over, searches
+from checker.verify.searches import SearchEnd, searches
 from checker.verify.tasks import Task
 from properties.forms import Always, Property
 from spec_model.lang.action import assign
@@ -55,20 +55,20 @@ def heard(*functions: str, certify: bool = False) -> tuple[Result, float]:
     plain = in_order("lamp", LAMP, notes=functions)
     system = Slow(**{f.name: getattr(plain, f.name) for f in fields(plain)})
     prop = Property("LAMP", "", Always(lamp | ~lamp), (), "lamp")
-    certifying = Certifying(again=True) if certify else None
+    certifying = Certification(again=True) if certify else None
     began = time.monotonic()
     work = searches([Task(system, (prop,))], {"lamp": system}, AUTO, Limits(seconds=SECONDS), 1, certifying)
     found = list(work)
     took = time.monotonic() - began
     [result] = [one for one in found if isinstance(one, Result)]
-    assert isinstance(found[-1], Over)
+    assert isinstance(found[-1], SearchEnd)
     return result, took
 
 
 @pytest.mark.parametrize(
     ("function", "stage"),
     [
-        ("checker.system.lowered.lower", "while lowering lamp"),
+        ("checker.system.lowering_cache.lower", "while lowering lamp"),
         ("checker.verify.decide.check_starts", "while lowering lamp"),
         ("checker.verify.portfolio.shape.sliced", "while slicing lamp"),
         ("checker.encode.native.search.partitions", "while compiling 2 variables in 3 bits (explicit)"),

@@ -13,7 +13,7 @@ from unittest.mock import patch
 from checker.cli import run
 from checker.commands.generate_tests import run as generating
 from checker.commands.reports import run as reporting
-from checker.compare import check, recorded
+from checker.compare import check, recorded_runs
 from checker.compare.environment import Environment
 from checker.compare.search import Run
 from checker.system.instrument.watch import watched
@@ -43,7 +43,7 @@ COMMANDS = (
 
 
 def _known(env: Environment, folder: Path | None) -> Iterator[Run]:
-    yield from islice(recorded.counterexamples(env.board), 9)
+    yield from islice(recorded_runs.counterexamples(env.board), 9)
 
 
 def _few() -> dict[str, object]:

@@ -13,7 +13,7 @@ from checker.certify.record import Recorder
 from checker.cli import run
 from checker.commands.shared.codes import Exit
 from checker.engines import Limits, quiet
-from checker.verify.certificates import Certifying
+from checker.verify.certificates import Certification
 from checker.verify.decide import decide
 from checker.verify.portfolio.question import Callbacks
 from checker.verify.result import Result
@@ -67,7 +67,7 @@ def test_a_proof_stands_that_is_too_large_for_a_certificate(
     found = list(decide(task, systems(), "explicit", Limits(), quiet, told))
     [result] = found
     assert result.verdict.word == "proved" and recorder.made == []
-    outcomes = Certifying(again=True).outcomes(task, systems(), Limits(), found, recorder.made, quiet)
+    outcomes = Certification(again=True).outcomes(task, systems(), Limits(), found, recorder.made, quiet)
     assert isinstance(outcome := outcomes["PB1-11"], Undecided)
     assert "explicit wrote no certificate of all" in outcome.reason and "too many" in outcome.reason
 
@@ -83,7 +83,7 @@ def test_certifying_within_little_memory(monkeypatch: pytest.MonkeyPatch) -> Non
     recorder = Recorder()
     told = Callbacks(answered=recorder.answered)
     found = list(decide(task, systems(), "explicit", Limits(), quiet, told))
-    outcome = Certifying(again=True).outcomes(task, systems(), Limits(), found, recorder.made, quiet)[
+    outcome = Certification(again=True).outcomes(task, systems(), Limits(), found, recorder.made, quiet)[
         "PB1-11"
     ]
     assert outcome == Undecided("the memory limit is reached")

@@ -6,10 +6,10 @@ from dataclasses import replace
 import pytest
 
 from checker.cli import run
-from checker.commands.check import standing
-from checker.commands.check.further import Further
-from checker.commands.check.run import Compared, check, results
-from checker.commands.check.standing import Chains
+from checker.commands.check import chain_status
+from checker.commands.check.chain_status import Chains
+from checker.commands.check.further import CheckExtras
+from checker.commands.check.run import ComparedResult, check, results
 from checker.commands.shared.codes import Exit
 from checker.commands.shared.variant import Variant
 from checker.engines import AUTO, Limits
@@ -40,7 +40,7 @@ RELAY = next(promise for promise in promises() if promise.id == "RELAY")
 def test_a_hole_and_a_circle_are_told_with_place_before_anything_is_searched(
     promise: Promise, hole: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(standing, "promises", lambda: (promise,))
+    monkeypatch.setattr(chain_status, "promises", lambda: (promise,))
     assert run(["check", "--repair", "wheel-by-feedback"]) == Exit.USAGE
     shown = capsys.readouterr()
     said = " ".join(shown.err.split())
@@ -67,7 +67,7 @@ def test_a_link_that_a_repair_breaks_breaks_its_chain() -> None:
     variant = Variant({}, repairs()["safety-critical-first"])
     prop = variant.properties()["PSY-10m"]
     [found] = results([prop], variant.systems(), AUTO, Limits())
-    told = Chains(variant).standings([Compared(found, variant.expected(prop.id), variant.name)])
+    told = Chains(variant).standings([ComparedResult(found, variant.expected(prop.id), variant.name)])
     [stop] = [one for one in told if one.chain.across == "PSY-10e"]
     assert stop.holds is False and stop.text == "STOP over PSY-10e does not hold: PSY-10m is violated."
 
@@ -76,7 +76,7 @@ def test_what_becomes_of_chains_is_told_after_the_verdicts(capsys: pytest.Captur
     chains = Chains(Variant({}))
     [first, *others] = chains.standings([])
     broken = replace(first, holds=False, failing=("PSY-10m",))
-    further = Further(chains=lambda _: [broken, *(replace(o, holds=True, failing=()) for o in others)])
+    further = CheckExtras(chains=lambda _: [broken, *(replace(o, holds=True, failing=()) for o in others)])
     for as_json in (False, True):
         capsys.readouterr()
         prop = chains.variant.properties()["PB1-12"]

@@ -13,7 +13,7 @@ from checker.certify.outcome import Rejected
 from checker.cli import run
 from checker.commands.check import run as checking
 from checker.commands.check.ci import finding, level
-from checker.commands.check.run import Compared
+from checker.commands.check.run import ComparedResult
 from checker.commands.shared.codes import Exit
 from checker.render.ci import FindingLevel
 from checker.results.trace import Trace
@@ -158,12 +158,12 @@ def test_levels_are_those_of_the_exit_codes() -> None:
     rejected = replace(one, certificate=Rejected("step", "no"))
     violated = result("PB1-11", Violated(trace(), "bmc"))
     levels = [
-        level(Compared(one, Expected())),
-        level(Compared(rejected, Expected())),
-        level(Compared(violated, Expected("violated", 8))),
-        level(Compared(violated, Expected("violated", 9))),
-        level(Compared(result("PB1-11", OPEN), Expected())),
-        level(Compared(violated, Expected(), "with a repair")),
+        level(ComparedResult(one, Expected())),
+        level(ComparedResult(rejected, Expected())),
+        level(ComparedResult(violated, Expected("violated", 8))),
+        level(ComparedResult(violated, Expected("violated", 9))),
+        level(ComparedResult(result("PB1-11", OPEN), Expected())),
+        level(ComparedResult(violated, Expected(), "with a repair")),
     ]
     assert levels == [
         FindingLevel.PASSED,
@@ -176,7 +176,7 @@ def test_levels_are_those_of_the_exit_codes() -> None:
 
 
 def test_a_finding_of_changed_charts_says_so() -> None:
-    compared = Compared(result("PB1-11", Violated(trace(), "bmc")), expected("PB1-11"), "with repair X")
+    compared = ComparedResult(result("PB1-11", Violated(trace(), "bmc")), expected("PB1-11"), "with repair X")
     found = finding(compared, systems(), "--repair X")
     assert found.headline == "PB1-11 is violated with repair X; as specified it is proved"
     assert found.shown_with == "rovercheck trace PB1-11 --repair X"

@@ -10,7 +10,7 @@ import pytest
 
 from checker.cli import run
 from checker.commands.shared.codes import Exit
-from checker.compare import check, recorded
+from checker.compare import check, recorded_runs
 from checker.compare.environment import Environment
 from checker.compare.search import Run
 from spec_model.abstraction import boards
@@ -25,8 +25,8 @@ def _on_counterexamples_alone(monkeypatch: pytest.MonkeyPatch) -> None:
     """On the recorded counterexamples and the tests of a folder; tests/conform has the other runs."""
 
     def known(env: Environment, folder: Path | None) -> Iterator[Run]:
-        yield from recorded.counterexamples(env.board)
-        yield from recorded.tests(folder, env.board) if folder else ()
+        yield from recorded_runs.counterexamples(env.board)
+        yield from recorded_runs.tests(folder, env.board) if folder else ()
 
     monkeypatch.setattr(check, "_known", known)
 

@@ -11,7 +11,7 @@ import pytest
 from checker.cli import run
 from checker.commands.explore.run import COMMANDS, named
 from checker.commands.shared.codes import Exit
-from checker.explore.by_hand.written import RefusedInput
+from checker.explore.by_hand.value_syntax import RefusedInput
 from tests.cli.terminal import Terminal
 
 COMMAND = [sys.executable, "-m", "checker", "explore"]

@@ -10,9 +10,9 @@ import pytest
 from checker.cli import app, run
 from checker.commands.check import findings
 from checker.commands.check.findings import SHOWN, Guide, gravest, listed, program, read_on, totals
-from checker.commands.check.run import Compared
+from checker.commands.check.run import ComparedResult
 from checker.commands.shared.codes import Exit
-from checker.commands.shared.wrapping import plain
+from checker.commands.shared.text_wrap import plain
 from checker.model.rover import rover
 from checker.results.trace import Trace
 from checker.results.verdict import Exhausted, Proved, Unknown, Verdict, Violated
@@ -43,15 +43,17 @@ def run_of(ticks: int) -> Trace:
     return told(long_trace(ticks - 3))
 
 
-def on(prop: Property, verdict: Verdict, in_part: bool = False) -> Compared:
-    return Compared(Result(prop, verdict, "toy", in_part), Expected(verdict.word))
+def on(prop: Property, verdict: Verdict, in_part: bool = False) -> ComparedResult:
+    return ComparedResult(Result(prop, verdict, "toy", in_part), Expected(verdict.word))
 
 
-def broken(id: str, *covers: str, ticks: int = 8, system: str = "toy") -> Compared:
-    return Compared(Result(demand(id, *covers), Violated(run_of(ticks), "bmc"), system), Expected("violated"))
+def broken(id: str, *covers: str, ticks: int = 8, system: str = "toy") -> ComparedResult:
+    return ComparedResult(
+        Result(demand(id, *covers), Violated(run_of(ticks), "bmc"), system), Expected("violated")
+    )
 
 
-def ids(found: Sequence[Compared]) -> list[str]:
+def ids(found: Sequence[ComparedResult]) -> list[str]:
     return [one.result.property.id for one in found]
 
 
@@ -71,7 +73,7 @@ REACHED = on(situation("S-1"), Proved(run_of(5), "bmc"))
          "2 demands: 1 proved for a restricted model, 1 unknown; 1 situation: unknown."),
     ],
 )  # fmt: skip
-def test_demands_and_situations_are_counted_apart(found: list[Compared], said: str) -> None:
+def test_demands_and_situations_are_counted_apart(found: list[ComparedResult], said: str) -> None:
     assert totals(found) == said
 
 

@@ -12,8 +12,8 @@ import checker
 from checker.cli import run
 from checker.commands.mutate import judge as mutating_judging
 from checker.commands.shared.codes import Exit
-from checker.mutate import planning
-from checker.mutate.running import MutantJudged, fates
+from checker.mutate import plan
+from checker.mutate.workers import MutantJudged, fates
 from tests.cli.test_widths import at_terminal, too_long
 from tests.mutate import lamp
 
@@ -138,7 +138,7 @@ def test_what_a_search_has_killed_once_needs_none_again(
     monkeypatch: pytest.MonkeyPatch, searched: list[str],
 ) -> None:  # fmt: skip
     """Also where it was killed in a system too large to try every mutant in."""
-    monkeypatch.setattr(planning, "SMALL", 0)
+    monkeypatch.setattr(plan, "SMALL", 0)
     file = tmp_path / "lock_model.py"
     file.write_text(RARE.replace("THAT", text) + OPENED, encoding="utf-8")
     command = ["mutate", "--model", str(file), "--part", "Lock", "--record-mutants", "--json"]

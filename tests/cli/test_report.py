@@ -7,7 +7,7 @@ import pytest
 
 from checker.cli import run
 from checker.commands.check.premises import told
-from checker.commands.check.run import Compared
+from checker.commands.check.run import ComparedResult
 from checker.commands.report import command
 from checker.commands.report import graphs as reviewing_graphs
 from checker.commands.report import report as verb
@@ -18,7 +18,7 @@ from checker.commands.report.rover import coverage
 from checker.commands.shared.codes import Exit
 from checker.engines import Limits
 from checker.model.rover import rover
-from checker.render.review.model import Seen
+from checker.render.review.model import StateGraphView
 from checker.results.verdict import Unknown, Violated
 from checker.verify.result import Result
 from properties.catalogue import catalogue, expected
@@ -225,13 +225,13 @@ def test_a_proof_about_nothing_is_a_finding(tmp_path: Path) -> None:
     assert 'It never does for <a class="violated" href="#EMPTY">EMPTY</a>.' in document
 
 
-def on_relay(limits: Limits) -> tuple[list[Seen], dict[str, str]]:
+def on_relay(limits: Limits) -> tuple[list[StateGraphView], dict[str, str]]:
     """The state graphs of two systems, one of them with a finding whose run is of neither."""
     finding = Result(catalogue()["PB1-15"], Violated(replace(long_trace(), variables={}), "bmc"), "relay")
     both = [systems()["relay"], systems()["board1"]]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(reviewing_graphs, "LIMITS", limits)
-        graphs, undrawn = state_graphs([Compared(finding, expected("PB1-15"))], both, " --x")
+        graphs, undrawn = state_graphs([ComparedResult(finding, expected("PB1-15"))], both, " --x")
     return list(graphs), dict(undrawn)
 
 

@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.check.run import Compared, results
-from checker.commands.report.forced import with_reasons
+from checker.commands.check.run import ComparedResult, results
+from checker.commands.report.causes import with_reasons
 from checker.commands.reports.run import CAUSE, NOT_ASKED, differences, pages_of_verdicts
 from checker.commands.requirements.run import DECIDED, EXPECTED, because, counts, page, show, words
 from checker.commands.shared.codes import Exit
@@ -162,12 +162,12 @@ def test_a_reason_says_which_kind_it_is_and_names_what_exists(id: str) -> None:
 
 
 @pytest.fixture(scope="module")
-def found() -> list[Compared]:
+def found() -> list[ComparedResult]:
     some = [catalogue()[id] for id in ("PB1-11", "PB2-12-first", "REACH-WHEEL-DEG")]
-    return [Compared(r, expected(r.property.id)) for r in results(some, systems(), AUTO, Limits())]
+    return [ComparedResult(r, expected(r.property.id)) for r in results(some, systems(), AUTO, Limits())]
 
 
-def test_the_page_links_a_violation_to_its_finding(found: list[Compared]) -> None:
+def test_the_page_links_a_violation_to_its_finding(found: list[ComparedResult]) -> None:
     rows = {line.split(" | ")[0].strip("| "): line for line in page(found).splitlines() if " | " in line}
     assert rows["B2-OBS-04"].endswith("| violated | [PB2-12-first](findings/PB2-12-first.md) |")
     assert rows["B1-REL-02"].endswith("| proved | PB1-11 |")
@@ -176,7 +176,7 @@ def test_the_page_links_a_violation_to_its_finding(found: list[Compared]) -> Non
     assert words(found)["PB2-12-first"] == "violated"
 
 
-def test_the_reports_say_what_is_checked(found: list[Compared]) -> None:
+def test_the_reports_say_what_is_checked(found: list[ComparedResult]) -> None:
     made = pages_of_verdicts(found)
     said = "Formally: In every step in which “nearest &lt;= 300” holds, B2DecDegraded is 6."
     meant = "“nearest &lt;= 300” means: d1 is at most 300 cm or d2 is at most 300 cm or d3 is at most 300 cm."
@@ -186,7 +186,7 @@ def test_the_reports_say_what_is_checked(found: list[Compared]) -> None:
 
 
 def test_a_finding_names_its_cause_and_that_is_not_looked_for_again(
-    found: list[Compared], tmp_path: Path
+    found: list[ComparedResult], tmp_path: Path
 ) -> None:
     name, without = "findings/PB2-12-first.md", pages_of_verdicts(found)
     made = pages_of_verdicts(with_reasons(found, systems()))

@@ -254,7 +254,7 @@ def test_an_error_in_the_middle_leaves_the_screen_clean(error: str, code: Exit, 
 def test_what_was_decided_is_a_document_in_its_file_when_a_result_is_interrupted(tmp_path: Path) -> None:
     """And not on the terminal, where the progress line was."""
     program = RAISING.format(error="KeyboardInterrupt").replace(
-        "check.line = broken", "check.Compared = broken"
+        "check.line = broken", "check.ComparedResult = broken"
     )
     program = program.replace("def broken(compared)", "def broken(*_)").replace(
         "'check',", "'check', '--json',"

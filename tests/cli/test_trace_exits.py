@@ -23,7 +23,7 @@ from checker.commands.check.run import results
 from checker.commands.shared.codes import Exit
 from checker.commands.trace.board_steps import concrete
 from checker.commands.trace.formats import exit_written
-from checker.commands.trace.run import Showing
+from checker.commands.trace.run import TraceDisplay
 from checker.engines import AUTO, Limits
 from checker.render import renderers, trace_itf, trace_json
 from checker.results.trace import Trace
@@ -90,7 +90,7 @@ def pb1_15() -> Trace:
 def written(name: str, folder: Path) -> Path:
     """The run in a format, as ``rovercheck trace --format NAME --output FILE`` writes it."""
     file = folder / f"run{renderers('trace')[name].SUFFIX}"
-    exit_written(renderers("trace")[name], Showing(name).cut(pb1_15()), systems(), file)
+    exit_written(renderers("trace")[name], TraceDisplay(name).cut(pb1_15()), systems(), file)
     return file
 
 

@@ -8,8 +8,8 @@ import pytest
 from checker.cli import run
 from checker.commands.shared.codes import Exit
 from checker.commands.trace.examples import TraceRequest
-from checker.commands.trace.explain import Explaining
-from checker.commands.trace.run import Showing, trace
+from checker.commands.trace.explain import ExplanationOptions
+from checker.commands.trace.run import TraceDisplay, trace
 from checker.engines import Limits
 from checker.results.trace import Trace
 from properties.catalogue import Expected
@@ -70,7 +70,7 @@ def test_a_transition_is_taken_on_the_chart_as_drawn(capfd: pytest.CaptureFixtur
     assert "goal" not in shown and "Cause:" not in shown
 
 
-def trace_of(explanation: Explaining) -> Trace:
+def trace_of(explanation: ExplanationOptions) -> Trace:
     return explanation(first(), ENDS, {"way": SYSTEM})
 
 
@@ -80,20 +80,20 @@ def test_when_interrupted_the_run_is_shown_all_the_same(
     def interrupted(*_: object) -> Trace:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("checker.explain.explained.explained", interrupted)
-    assert trace_of(Explaining()).needed is None
+    monkeypatch.setattr("checker.explain.explanation.explained", interrupted)
+    assert trace_of(ExplanationOptions()).needed is None
     assert "Interrupted: the run is shown without its cause." in capfd.readouterr().err
 
 
 def test_an_explanation_that_takes_too_long_is_left_out(capfd: pytest.CaptureFixture[str]) -> None:
-    assert trace_of(Explaining(seconds=-1)).needed is None
+    assert trace_of(ExplanationOptions(seconds=-1)).needed is None
     assert "Wait for it with --explain." in capfd.readouterr().err
-    assert trace_of(Explaining.chosen(True)).needed
+    assert trace_of(ExplanationOptions.chosen(True)).needed
 
 
 def test_a_run_without_end_says_why_it_is_not_explained(capfd: pytest.CaptureFixture[str]) -> None:
     looped = replace(first(), loop=1)
-    assert Explaining()(looped, ENDS, systems()) is looped
+    assert ExplanationOptions()(looped, ENDS, systems()) is looped
     assert "it repeats for ever" in capfd.readouterr().err
 
 
@@ -105,7 +105,7 @@ def test_several_runs_are_told_apart_until_there_is_no_more(
     tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     file = tmp_path / "runs.txt"
-    assert trace(wanted(ENDS), "bdd", Limits(), Showing(runs=3, output=file)) == Exit.AS_EXPECTED
+    assert trace(wanted(ENDS), "bdd", Limits(), TraceDisplay(runs=3, output=file)) == Exit.AS_EXPECTED
     told = " ".join(file.read_text(encoding="utf-8").split())
     assert "--- Run 2 --- Unlike run 1 it takes Way: Start -> " in told
     assert (
@@ -117,19 +117,19 @@ def test_several_runs_are_told_apart_until_there_is_no_more(
 
 def test_several_runs_are_told_apart_by_what_forces_them(capfd: pytest.CaptureFixture[str]) -> None:
     both = replace(wanted(ENDS), systems={"way": BOTH})
-    assert trace(both, "bdd", Limits(), Showing(runs=3, by="reason")) == Exit.AS_EXPECTED
+    assert trace(both, "bdd", Limits(), TraceDisplay(runs=3, by="reason")) == Exit.AS_EXPECTED
     told = " ".join(capfd.readouterr().out.split())
     assert "--- Run 2 --- Unlike run 1 it needs right; does not need left." in told
     assert "--- No run 3 --- Whenever another run first comes to this end, its last ticks are as" in told
 
 
 def test_a_reason_that_is_not_known_cannot_be_told_from_another(capfd: pytest.CaptureFixture[str]) -> None:
-    hurried = Showing(runs=3, by="reason", explaining=Explaining(seconds=-1))
+    hurried = TraceDisplay(runs=3, by="reason", explaining=ExplanationOptions(seconds=-1))
     assert trace(wanted(ENDS), "bdd", Limits(), hurried) == Exit.AS_EXPECTED
     assert "--- No run 2 ---\nThe cause of run 1 is not known, so that no other" in capfd.readouterr().out
 
 
 def test_what_no_run_reaches_is_said_with_the_proof(capfd: pytest.CaptureFixture[str]) -> None:
     nowhere = reachable("state Way.Nowhere", "", that=left & ~left, covers=["R"], on="way")
-    assert trace(wanted(nowhere, example=True), "bdd", Limits(), Showing()) == Exit.AS_EXPECTED
+    assert trace(wanted(nowhere, example=True), "bdd", Limits(), TraceDisplay()) == Exit.AS_EXPECTED
     assert "state Way.Nowhere is in no run: bdd: in none of all " in capfd.readouterr().err

@@ -9,16 +9,16 @@ from checker.commands.shared.codes import Exit
 from checker.commands.shared.variant import pick_variant
 from checker.commands.trace import run as tracing
 from checker.commands.trace.examples import TraceRequest, asked, of_state, of_transition
-from checker.commands.trace.explain import Explaining
+from checker.commands.trace.explain import ExplanationOptions
 from checker.commands.trace.formats import exit_written
-from checker.commands.trace.run import Showing, trace
+from checker.commands.trace.run import TraceDisplay, trace
 from checker.engines import Limits
 from checker.render import renderers
 from checker.render.ci import FindingLevel, of_trace
 from checker.render.waves import outcome
 from checker.results.trace import Trace
 from checker.results.verdict import Reached, Run, Unknown, Violated
-from checker.system.lowered import lowered
+from checker.system.lowering_cache import lowered
 from checker.verify.result import Result, result
 from properties.catalogue import Expected
 from properties.forms import Property, reachable
@@ -28,7 +28,7 @@ from tests.explain.test_others import CHART, ENDS, SYSTEM, first, left
 
 PARTLESS = replace(first(), false_parts=(), parts=(), truths=())
 """Of a violated property of which no part is false after the last tick, such as one about several ticks."""
-QUIET = Explaining(wanted=False)
+QUIET = ExplanationOptions(wanted=False)
 
 
 def test_a_counterexample_without_a_false_part_is_one_in_every_exit() -> None:
@@ -70,7 +70,7 @@ def test_an_example_that_may_not_be_shortest_says_so(
     for shortest in (True, False):
         found = Result(ENDS, Violated(replace(first(), shortest=shortest), ""), "way")
         monkeypatch.setattr(tracing, "results", lambda *_, found=found: [found])
-        trace(example(ENDS), "bdd", Limits(), Showing(explaining=QUIET))
+        trace(example(ENDS), "bdd", Limits(), TraceDisplay(explaining=QUIET))
         assert ("Not known to be a shortest run" in capfd.readouterr().err) is not shortest
 
 
@@ -82,7 +82,7 @@ def test_what_only_some_runs_were_searched_for_is_said_to_be_so(capfd: pytest.Ca
     nowhere = reachable("state Way.Nowhere", "", that=left & ~left, covers=["R"], on="way")
     some = "way has only some of the runs there are: this says nothing of the others."
     for system in (SYSTEM, replace(SYSTEM, under=True)):
-        assert trace(example(nowhere, system), "bdd", Limits(), Showing()) == Exit.AS_EXPECTED
+        assert trace(example(nowhere, system), "bdd", Limits(), TraceDisplay()) == Exit.AS_EXPECTED
         assert (some in capfd.readouterr().err) is system.under
 
 
@@ -90,7 +90,7 @@ def test_that_there_is_no_other_among_some_runs_is_no_word_on_the_rest(
     capfd: pytest.CaptureFixture[str],
 ) -> None:
     part = replace(SYSTEM, under=True)
-    trace(example(ENDS, part), "bdd", Limits(), Showing(runs=3, explaining=QUIET))
+    trace(example(ENDS, part), "bdd", Limits(), TraceDisplay(runs=3, explaining=QUIET))
     told = " ".join(capfd.readouterr().out.split())
     assert "No run 3" in told and "way has only some of the runs there are" in told
 
@@ -99,7 +99,7 @@ def test_several_runs_through_a_transition_are_shown_on_the_chart_as_drawn(
     capfd: pytest.CaptureFixture[str],
 ) -> None:
     wanted = of_transition("Way: Right -> End", {"way": SYSTEM}, None)
-    assert trace(wanted, "bdd", Limits(), Showing(runs=2, explaining=QUIET)) == Exit.AS_EXPECTED
+    assert trace(wanted, "bdd", Limits(), TraceDisplay(runs=2, explaining=QUIET)) == Exit.AS_EXPECTED
     told = capfd.readouterr().out
     assert "--- Run 1 ---" in told and "--- No run 2 ---" in told
     assert "goal" not in told

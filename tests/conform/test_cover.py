@@ -8,7 +8,7 @@ import pytest
 from checker.system.instrument.goals import CoverGoal, GoalKind
 from checker.system.instrument.watch import watched
 from checker.testgen.coverage import NOT_TRIED, GenerationEffort, GoalCoverage, chosen, cover
-from checker.testgen.explore import RandomMachine, TriedPlace, Weather, explored, first_reached, shortened
+from checker.testgen.explore import RandomInputs, RandomMachine, TriedRun, explored, first_reached, shortened
 from checker.testgen.fingerprint import fingerprint
 from checker.testgen.keep import KeptTests, kept_of, written
 from checker.testgen.replay import first_reached as replayed
@@ -29,7 +29,7 @@ BOTH = ["board1", "board2"]
 
 
 def random_script(name: str, ticks: int, seed: int = 0) -> Script:
-    return tuple(Weather(boards()[name]).run(Random(seed), ticks, lambda: {}))
+    return tuple(RandomInputs(boards()[name]).run(Random(seed), ticks, lambda: {}))
 
 
 def texts(*kinds: GoalKind) -> list[str]:
@@ -108,7 +108,7 @@ def test_looking_changes_nothing(name: str) -> None:
 def test_compiled_charts_reach_what_the_interpreter_reaches(name: str) -> None:
     board, looked = boards()[name], watched(boards()[name].system)
     machine, moments = RandomMachine(board, looked), random_script(name, 120, seed=1)
-    place = TriedPlace.power_up(machine)
+    place = TriedRun.power_up(machine)
     for moment, step in zip(moments, played(board, looked, steps(board, moments)), strict=True):
         assert set(place.step(moment)) == step.reached
         assert board.expected(place.at) == step.outputs

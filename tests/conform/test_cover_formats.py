@@ -10,7 +10,7 @@ import pytest
 
 from checker.testgen import kept_text
 from checker.testgen.formats import FORMATS
-from checker.testgen.formats.expected import ExpectedTest, expected, rows
+from checker.testgen.formats.expected_outputs import ExpectedTest, expected, rows
 from checker.testgen.keep import kept_of
 from checker.testgen.scripts import Script, unfolded
 from spec_model.abstraction import boards

@@ -7,7 +7,7 @@ from checker.system.instrument.goals import GoalKind
 from checker.system.instrument.watch import watched
 from checker.testgen import kept, kept_text
 from checker.testgen.fingerprint import fingerprint
-from checker.testgen.formats.expected import required
+from checker.testgen.formats.expected_outputs import required
 from checker.testgen.keep import kept_of
 from checker.testgen.replay import first_reached
 from spec_model.abstraction import boards

@@ -11,9 +11,9 @@ from checker.adapters import python
 from checker.adapters.implementation import Implementation, ImplementationError, Values
 from checker.compare import Allowance, StepMismatch, cross_check, effort, quick_check, replay
 from checker.compare.beside import rerun
-from checker.compare.check import Remembered, recorded_suite
+from checker.compare.check import RunCache, recorded_suite
 from checker.compare.coverage import transitions
-from checker.compare.recorded import counterexamples
+from checker.compare.recorded_runs import counterexamples
 from checker.compare.reproduce import file_name, pytest_file, stimulus_of
 from checker.compare.result import ALLOWED, FIXED, RANDOM
 from checker.compare.search import CompareSearch, Run
@@ -194,7 +194,7 @@ def test_ctrl_c_while_runs_are_made_leaves_none_out_the_next_time() -> None:
             raise ends.pop()
         yield "second", []
 
-    remembered = Remembered(runs)
+    remembered = RunCache(runs)
     with pytest.raises(KeyboardInterrupt):
         list(remembered)
     assert [name for name, _ in remembered] == [name for name, _ in remembered] == ["first", "second"]

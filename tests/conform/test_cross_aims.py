@@ -8,7 +8,7 @@ import pytest
 from checker.compare.aims import aims
 from checker.compare.beside import SteppedCharts, played, rerun
 from checker.compare.environment import AROUND
-from checker.compare.fixed import fixed
+from checker.compare.fixed_runs import fixed
 from checker.compare.smaller import columns
 from checker.compare.stimulus import SILENT, Every, InputBlock, Stimulus, StimulusPlayer, Toward
 from checker.compare.strategy import ENVIRONMENTS

@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from checker.logs import ColumnMap, as_on_record, examine
 from checker.logs.cells import converter
 from checker.logs.check import LogResult
-from checker.logs.choosing import choose
+from checker.logs.form_monitors import Judge
 from checker.logs.formula import FormulaRows
-from checker.logs.judge import Judge
 from checker.logs.mapping import Column
+from checker.logs.selection import choose
 from checker.logs.signals import Vocabulary
 from properties.catalogue import catalogue
 from properties.forms import (

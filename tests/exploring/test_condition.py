@@ -4,7 +4,7 @@ import pytest
 
 from checker.explore.by_hand.condition import condition
 from checker.explore.by_hand.names import Names
-from checker.explore.by_hand.written import RefusedInput
+from checker.explore.by_hand.value_syntax import RefusedInput
 from spec_model.lang.domain import enumeration, integer
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import flag, var

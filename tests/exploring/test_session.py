@@ -4,7 +4,7 @@ import pytest
 
 from checker.explore.by_hand import session
 from checker.explore.by_hand.session import Session
-from checker.explore.by_hand.written import RefusedInput
+from checker.explore.by_hand.value_syntax import RefusedInput
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block
 from spec_model.lang.expr import flag

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.explore.by_hand import simulation
-from checker.explore.by_hand.admitted import broken, drawn
+from checker.explore.by_hand.admissible_inputs import broken, drawn
 from checker.explore.by_hand.simulation import HandSimulation
-from checker.explore.by_hand.written import RefusedInput, value
+from checker.explore.by_hand.value_syntax import RefusedInput, value
 from checker.verify.runs.replay import ReplayError
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Block, Chart, State, to

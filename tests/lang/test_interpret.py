@@ -2,7 +2,7 @@
 
 from spec_model.lang.action import assign, send, when
 from spec_model.lang.chart import Chart, Enabled, Junction, State, to
-from spec_model.lang.interpret import Fired
+from spec_model.lang.interpret import FiredTransition
 from tests.lang.bench import Bench, a, b, c, n, note, state
 
 # --- executions and the order of states (G1 to G5) ---------------------------------------------
@@ -100,7 +100,7 @@ def test_g6_a_transition_with_an_event_needs_that_event() -> None:
         bench.tick(*true)
         if true:
             assert bench.at("C.R2") == place
-    assert bench.fired == (Fired("C", ("R2", "X"), ("R2", "Y"), "go [b]", 1, "go"),)
+    assert bench.fired == (FiredTransition("C", ("R2", "X"), ("R2", "Y"), "go [b]", 1, "go"),)
 
 
 def test_g7_backtracking_to_the_previous_point_and_to_the_next_transition() -> None:
@@ -131,7 +131,7 @@ def test_g8_condition_actions_run_at_once_transition_actions_only_on_a_complete_
     assert bench.tick() == "19"
     assert bench.tick(a) == "124576"
     label = "{log := log*10 + 1} / log := log*10 + 5 → [a] {log := log*10 + 2} / log := log*10 + 7"
-    assert bench.fired == (Fired("C", ("A",), ("B",), label, 1, None),)
+    assert bench.fired == (FiredTransition("C", ("A",), ("B",), label, 1, None),)
 
 
 def test_g9_exit_inside_out_transition_action_entry_outside_in() -> None:

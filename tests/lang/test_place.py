@@ -15,7 +15,7 @@ from spec_model.lang.expr import FALSE, TRUE, Const, flag
 from spec_model.lang.interpret import Interpreter
 from spec_model.lang.lower import lower
 from spec_model.lang.place import Place, here
-from spec_model.lang.specialise import Fixing
+from spec_model.lang.specialise import Specialiser
 from spec_model.lang.system import in_order
 from spec_model.rover import systems
 
@@ -80,9 +80,9 @@ def test_every_transition_and_property_of_the_rover_has_a_place() -> None:
 
 def test_places_survive_what_is_done_to_charts() -> None:
     assert lines(pickle.loads(pickle.dumps(lamp))) == lines(lamp)
-    fixed = Fixing({"elsewhere": Const(1, TRUE.sort)}).chart(lamp)
+    fixed = Specialiser({"elsewhere": Const(1, TRUE.sort)}).chart(lamp)
     assert lines(fixed) == lines(lamp)
-    assert lines(Fixing({"go": Const(1, TRUE.sort)}).chart(lamp)) == [1, 1, 4, 9]
+    assert lines(Specialiser({"go": Const(1, TRUE.sort)}).chart(lamp)) == [1, 1, 4, 9]
     assert lines(drop(lamp, "On", 1)) == [1, 1, 4, 9]
     assert lines(guard(lamp, "On", 1, lambda g: g | FALSE)) == lines(lamp)
     assert lines(lamp.with_local_data([])) == lines(lamp)

@@ -8,7 +8,7 @@ from spec_model.lang.chart import Block, Chart, Enabled, Junction, State, to
 from spec_model.lang.domain import integer
 from spec_model.lang.expr import Const, Expr, flag, ite, var
 from spec_model.lang.interpret import Interpreter
-from spec_model.lang.specialise import Fixing
+from spec_model.lang.specialise import Specialiser
 from spec_model.lang.system import in_order
 from spec_model.lang.time import tick
 from spec_model.lang.walk import variables
@@ -18,8 +18,8 @@ switch, a, b = flag("switch"), flag("a"), flag("b")
 n, log = var("n", integer(0, 3)), var("log", integer(0, 99))
 
 
-def fixing(value: int) -> Fixing:
-    return Fixing({"switch": Const(value, switch.sort)})
+def fixing(value: int) -> Specialiser:
+    return Specialiser({"switch": Const(value, switch.sort)})
 
 
 def folded(expr: Expr, value: int) -> str:

@@ -10,8 +10,8 @@ from checker.model.kept_runs import PREMISES, KeptRun, file_of, read, text
 from checker.model.kept_runs import SCHEMA as SCHEMAS
 from checker.model.rover import rover
 from checker.results.verdict import Run
-from checker.system.lowered import lowered
-from checker.verify.runs.known import reached
+from checker.system.lowering_cache import lowered
+from checker.verify.runs.known_runs import reached
 from checker.verify.runs.replay import replay
 from properties.premise import premise
 from properties.reduce import reduce

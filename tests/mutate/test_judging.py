@@ -6,13 +6,13 @@ from functools import cache
 import pytest
 
 from checker.engines import Limits, quiet
-from checker.mutate.asked import as_it_is, cones
-from checker.mutate.judging import DOMAINS, Fate, Judged, MutantCase, judged
+from checker.mutate.fate import DOMAINS, Fate, MutantCase, MutantFate, judged
 from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.observing import observable
-from checker.mutate.planning import Plan, homes
+from checker.mutate.observation import observable
+from checker.mutate.plan import Plan, homes
+from checker.mutate.relevance import as_it_is, cones
 from checker.verify.decide import decide
-from checker.verify.runs.known import reached, run_of
+from checker.verify.runs.known_runs import reached, run_of
 from checker.verify.tasks import Task
 from properties.forms import Reachable
 from properties.reduce import reduce
@@ -36,7 +36,7 @@ MUTANTS = mutants(lamps)
 
 
 @cache
-def fate(mutant: Mutant) -> Judged:
+def fate(mutant: Mutant) -> MutantFate:
     return judged(PLAN.own(mutant, "lamps").cases, Limits(), quiet)
 
 

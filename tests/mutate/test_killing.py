@@ -15,13 +15,13 @@ from checker.commands.shared.codes import Exit
 from checker.model.kept_runs import KILLS, file_of, read
 from checker.model.load import load
 from checker.model.rover import rover
-from checker.mutate.asked import as_it_is, changed
-from checker.mutate.killing import kills, noticed, searched, still
+from checker.mutate.kills import kills, noticed, searched, still
 from checker.mutate.mutants import Mutant, mutants
+from checker.mutate.relevance import as_it_is, changed
 from checker.mutate.tries import BACK, COUNT, ON, TICKS, RandomRuns, spread, tried
 from checker.results.verdict import Run
-from checker.system.lowered import lowered
-from checker.verify.runs.known import reached
+from checker.system.lowering_cache import lowered
+from checker.verify.runs.known_runs import reached
 from properties.coverage import matrix
 from properties.forms import Always, always
 from spec_model.lang.evaluate import admissible, step

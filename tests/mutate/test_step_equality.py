@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given, settings
 
 from checker.engines import Limits, quiet
-from checker.mutate.judging import EQUAL_STEPS, OVERWRITTEN, Fate, MutantCase, judged
+from checker.mutate.fate import EQUAL_STEPS, OVERWRITTEN, Fate, MutantCase, judged
 from checker.mutate.mutants import mutants
 from checker.mutate.step_equality import equal_in_every_step
-from checker.system.lowered import lowered
+from checker.system.lowering_cache import lowered
 from spec_model.lang.action import assign
 from spec_model.lang.chart import Chart, State, to
 from spec_model.lang.domain import integer

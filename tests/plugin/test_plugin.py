@@ -11,10 +11,10 @@ from xml.etree import ElementTree
 import pytest
 
 from checker.commands.check import run as check
-from checker.commands.trace.explain import Explaining
+from checker.commands.trace.explain import ExplanationOptions
 from checker.process.faults import Fault, tell
-from checker.pytest_plugin import deciding
-from checker.pytest_plugin.deciding import Decider
+from checker.pytest_plugin import decisions
+from checker.pytest_plugin.decisions import Decider
 from checker.pytest_plugin.item import PropertyItem
 from checker.verify.result import Result
 from checker.verify.runs.replay import ReplayError
@@ -170,7 +170,7 @@ def test_an_error_is_one_message(
     def results(*_: object, **__: object) -> NoReturn:
         raise error
 
-    monkeypatch.setattr(deciding, "results", results)
+    monkeypatch.setattr(decisions, "results", results)
     result = project.runpytest_inprocess(*PLUGIN, "-k", "HEAT-1 or HEAT-2")
     result.assert_outcomes(failed=2, deselected=2)
     result.stdout.fnmatch_lines(["*HEAT-1 of Heater*", message, "*HEAT-2 of Heater*", message])
@@ -186,7 +186,7 @@ def test_an_engine_that_fails_is_told_with_the_verdict_of_another(
         tell(Fault("pdr", "Heater", "AssertionError: of ours"))
         yield from real(*args, **options)
 
-    monkeypatch.setattr(deciding, "results", results)
+    monkeypatch.setattr(decisions, "results", results)
     result = project.runpytest_inprocess(*PLUGIN, "-k", "HEAT-2")
     result.assert_outcomes(failed=1, deselected=3)
     verdict = "HEAT-2 is proved; expected: proved: explicit: all 752 reachable states of Heater*"
@@ -200,7 +200,7 @@ def test_a_verdict_is_told_although_its_explanation_fails(
     def explained(*_: object) -> NoReturn:
         raise ReplayError("another run with the same needed inputs ends otherwise.")
 
-    monkeypatch.setattr(Explaining, "__call__", explained)
+    monkeypatch.setattr(ExplanationOptions, "__call__", explained)
     (project.path / "baseline.toml").unlink()
     result = project.runpytest_inprocess(*PLUGIN, "-k", "HEAT-3")
     result.assert_outcomes(failed=1, deselected=3)

@@ -6,7 +6,7 @@ import pytest
 
 from checker.cli import run
 from checker.commands.shared.codes import Exit
-from checker.commands.shared.wording import formally
+from checker.commands.shared.property_text import formally
 from properties import forms
 from properties.catalogue import catalogue
 from properties.english import definitions, sentence

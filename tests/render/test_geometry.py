@@ -9,7 +9,7 @@ import pytest
 
 from checker.render import statechart_svg
 from checker.render.drawing.graph import Point
-from checker.render.drawing.nested import picture
+from checker.render.drawing.nested_layout import picture
 from checker.render.drawing.picture import Box, DrawnPicture, PicturePiece
 from checker.render.drawing.text import LINE, SIZE, block, width, wrap
 from spec_model.rover import charts_of, systems

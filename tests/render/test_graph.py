@@ -10,9 +10,9 @@ import pytest
 from jsonschema import validate
 
 from checker.engines import Limits
-from checker.explore.graphs.explored import tabulated
-from checker.explore.graphs.making import made
-from checker.explore.graphs.projecting import project
+from checker.explore.graphs.construction import made
+from checker.explore.graphs.projection import project
+from checker.explore.graphs.reachable_ticks import tabulated
 from checker.render import graph_json
 from checker.render.stategraph.findings import findings, told
 from checker.render.stategraph.fragment import document, rows

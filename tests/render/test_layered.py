@@ -6,9 +6,9 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from checker.render.drawing.graph import DrawnNode, Edge
-from checker.render.drawing.layered import layered
-from checker.render.drawing.ranking import backward
-from checker.render.drawing.solve import least_stretch
+from checker.render.drawing.layered_layout import layered
+from checker.render.drawing.min_cost_flow import least_stretch
+from checker.render.drawing.ranks import backward
 
 SIZE = 4
 bounds = st.lists(

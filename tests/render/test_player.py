@@ -11,14 +11,14 @@ import pytest
 
 from checker.render import player, trace_play
 from checker.render.drawing.activity import active, followed
-from checker.render.drawing.scheme import arrows
+from checker.render.drawing.labels import arrows
 from checker.render.page import page
 from checker.render.player.steps import script, shown_charts
 from checker.render.statechart_svg import inline
 from checker.results.trace import Needed, TakenTransition, Tick, Trace
 from spec_model.lang.action import assign, send
 from spec_model.lang.chart import Chart, Junction, State, to
-from spec_model.lang.interpret import Fired, Interpreter
+from spec_model.lang.interpret import FiredTransition, Interpreter
 from spec_model.lang.system import System
 from spec_model.rover import charts_of, systems
 from tests.render.conformance import Suite
@@ -41,7 +41,7 @@ lamp = Chart("Lamp", [
 TOY = System("lamp", (lamp, relay))
 
 
-def fired(made: Sequence[Fired]) -> tuple[TakenTransition, ...]:
+def fired(made: Sequence[FiredTransition]) -> tuple[TakenTransition, ...]:
     return tuple(
         TakenTransition(f.chart, ".".join(f.source), ".".join(f.target), f.label, f.order, f.event)
         for f in made

@@ -12,7 +12,7 @@ from urllib.parse import unquote
 import pytest
 
 from checker.render.review import grouped, render, title_of
-from checker.render.review.packed import TOGETHER, Packed
+from checker.render.review.fragments import TOGETHER, PackedFragments
 from checker.render.review.traces import shared
 from tests.render.test_page import Reader
 from tests.render.toy_review import ALL, BROKEN, CHANGED, EVIL, FINE, GRAPH, OPEN, RUN, SAME, checked, review
@@ -134,7 +134,7 @@ def test_many_fragments_are_kept_in_several_parcels() -> None:
     many = tuple(checked(f"T-{i}", "proved", trace=RUN) for i in range(TOGETHER + 2))
     document = render(review(many))
     assert set(unpacked(document)) == {"*", "graph toy", *(p.id for p in many)}
-    assert len(Packed().parts()) == 0
+    assert len(PackedFragments().parts()) == 0
 
 
 def test_a_state_graph_says_how_far_to_trust_it_without_scripts(document: str) -> None:

@@ -18,7 +18,7 @@ from spec_model.lang.edit import in_system
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expiry import free_timers
 from spec_model.lang.expr import TRUE, flag, var
-from spec_model.lang.specialise import Fixing
+from spec_model.lang.specialise import Specialiser
 from spec_model.lang.system import System, in_order
 from spec_model.lang.words import minimum
 from tests.render.conformance import Suite
@@ -120,7 +120,7 @@ class TestFlow:
     def test_a_subsystem_keeps_its_name_when_the_system_changes(self) -> None:
         system = in_order("door", *BOARDS)
         changed = in_system(system, "Panel", lambda part: part)
-        for made in (changed, free_timers(changed), Fixing({"press": TRUE}).system(system)):
+        for made in (changed, free_timers(changed), Specialiser({"press": TRUE}).system(system)):
             assert flow(_of(made)).lifelines[1:3] == ("Front", "Back")
 
     def test_a_chain_through_both_boards(self) -> None:

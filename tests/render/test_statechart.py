@@ -8,7 +8,7 @@ import networkx as nx
 import pytest
 
 from checker.render import statechart_svg
-from checker.render.drawing.scheme import arrows
+from checker.render.drawing.labels import arrows
 from checker.results.trace import TakenTransition
 from spec_model.lang.errors import ModelError
 from tests.render.conformance import Suite

@@ -15,7 +15,7 @@ from checker.render.timeline import timeline, told
 from checker.render.timeline.axis import fit, labelled
 from checker.render.timeline.drawing import place
 from checker.render.timeline.limits import thresholds, time_limits
-from checker.render.timeline.model import Lane, LaneGroup, LaneKind, Need, Timeline
+from checker.render.timeline.model import Lane, LaneGroup, LaneKind, NeededTicks, Timeline
 from checker.render.timeline.shapes import fitting
 from checker.render.timeline.tones import tone
 from checker.results.trace import Needed, Tick, Trace
@@ -85,7 +85,7 @@ class TestLanes:
 
     def test_needed_inputs_come_first_and_are_marked(self) -> None:
         shown = timeline(drawn())
-        assert shown.lanes[0].name == "level" and shown.lanes[0].needed == (Need(2, 2, "level = 100"),)
+        assert shown.lanes[0].name == "level" and shown.lanes[0].needed == (NeededTicks(2, 2, "level = 100"),)
         assert shown.cause.startswith("Determined by tick 2: level = 100. Whatever the other inputs are,")
         assert timeline(long_trace()).cause == ""
 
@@ -300,7 +300,7 @@ class TestNeeds:
     def test_ticks_in_a_row_are_marked_once(self) -> None:
         same = tuple(Needed(k, "level", frozenset({0})) for k in (3, 4, 6))
         shown = lane(timeline(replace(drawn(), needed=same)), "level")
-        assert shown.needed == (Need(3, 4, "level = 0"), Need(6, 6, "level = 0"))
+        assert shown.needed == (NeededTicks(3, 4, "level = 0"), NeededTicks(6, 6, "level = 0"))
 
     def test_reasons_are_told_by_tick(self) -> None:
         page = told(drawn()).body

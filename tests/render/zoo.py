@@ -1,7 +1,7 @@
 """Toy charts, graphs and traces that every renderer must be able to show."""
 
-from checker.explore.graphs.explored import tabulated
-from checker.explore.graphs.projecting import project
+from checker.explore.graphs.projection import project
+from checker.explore.graphs.reachable_ticks import tabulated
 from checker.results.graph import StateGraph, with_trace
 from checker.results.trace import TakenTransition, Tick, Trace
 from spec_model.lang.action import assign, send, when

@@ -40,12 +40,12 @@ class CertificationOptions:
 @gathered(CertificationOptions, "options")
 def certify(paths: tuple[Path, ...], options: CertificationOptions, model: Path | None) -> Exit:
     """Check the certificates of proofs again, by other means than found them."""
-    from checker.certify.check import By, CheckEffort
+    from checker.certify.check import CheckEffort, CheckMethod
     from checker.commands.certify.run import certify as run
 
     return run(
         paths,
-        CheckEffort(By(options.solver), options.timeout),
+        CheckEffort(CheckMethod(options.solver), options.timeout),
         options.smt2,
         options.verbose,
         model,

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from checker.certify.certificate import Certificate, meaningful
 from checker.certify.check import CheckEffort, check, rebuilt
-from checker.certify.file import CertificateOrigin, Unwritable, Written
+from checker.certify.file import CertificateFile, CertificateOrigin, Unwritable
 from checker.certify.obligations import obligations, too_long
 from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from checker.certify.reader import CertificateReader
@@ -16,8 +16,8 @@ from checker.certify.terms import Malformed
 from checker.certify.tick import executed
 from checker.commands.shared.codes import UsageError
 from checker.commands.shared.select import pick
+from checker.commands.shared.text_wrap import whole
 from checker.commands.shared.variant import Variant, pick_variant
-from checker.commands.shared.wrapping import whole
 from checker.engines import Limits, Timers, quiet
 from checker.io.files import replaced
 from checker.process.isolate import Send
@@ -40,7 +40,7 @@ class DerivedVerdict:
 
 
 @dataclass(frozen=True)
-class Deriving:
+class VerdictDerivation:
     """Derives the verdicts of files, in a child process; with a folder, writes their obligations first.
 
     ``model`` is where the model is that they are about, None for the rover.
@@ -50,17 +50,17 @@ class Deriving:
     folder: Path | None
     model: Path | None = None
 
-    def __call__(self, send: Send, stem: str, written: Written) -> None:
+    def __call__(self, send: Send, stem: str, written: CertificateFile) -> None:
         """Send a ``DerivedVerdict`` for each property that the file is to prove, or ``Unwritable``."""
         try:
-            for one in told_of(written, Checking(stem, self.effort, self.folder), self.model):
+            for one in told_of(written, CertificateCheck(stem, self.effort, self.folder), self.model):
                 send(one)
         except Unwritable as error:
             send(error)
 
 
 @dataclass
-class Checking:
+class CertificateCheck:
     """Checks the certificates of one file; with a folder, writes their obligations there first."""
 
     stem: str
@@ -95,7 +95,9 @@ class Checking:
                 ) from error
 
 
-def told_of(written: Written, checking: Checking, model: Path | None = None) -> list[DerivedVerdict]:
+def told_of(
+    written: CertificateFile, checking: CertificateCheck, model: Path | None = None
+) -> list[DerivedVerdict]:
     """What the certificates of a file show of each property that it is to prove.
 
     ``model`` is the path of a model of the user's own.  Raises ``Unwritable``.

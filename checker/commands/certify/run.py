@@ -8,14 +8,14 @@ from pathlib import Path
 from shlex import quote
 
 from checker.certify.check import CheckEffort
-from checker.certify.file import Unwritable, Written, read
+from checker.certify.file import CertificateFile, Unwritable, read
 from checker.certify.outcome import Accepted, Rejected, Undecided
 from checker.certify.terms import Malformed
-from checker.commands.certify.derive import DerivedVerdict, Deriving
+from checker.commands.certify.derive import DerivedVerdict, VerdictDerivation
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import counted, out, wrapped
 from checker.commands.shared.progress import ProgressLine
-from checker.commands.shared.wrapping import whole
+from checker.commands.shared.text_wrap import whole
 from checker.engines import Limits
 from checker.io.printable import json_text
 from checker.model.load import load
@@ -51,7 +51,7 @@ def certify(
     if smt2 is not None:
         _folder(smt2)
     found: list[DerivedVerdict] = []
-    deriving = Deriving(effort, smt2, model)
+    deriving = VerdictDerivation(effort, smt2, model)
     with ProgressLine() as progress, closing(_told(written, deriving, progress)) as heard:
         for told in heard:
             if not as_json:
@@ -84,7 +84,7 @@ def _inside(folder: Path) -> list[Path]:
         raise UsageError(f"Cannot read {whole(folder)}: {error.strerror}.") from error
 
 
-def _read(path: Path) -> Written:
+def _read(path: Path) -> CertificateFile:
     try:
         return read(path)
     except Malformed as error:
@@ -101,7 +101,7 @@ def _folder(place: Path) -> None:
 
 
 def _told(
-    written: Sequence[tuple[Path, Written]], deriving: Deriving, progress: ProgressLine
+    written: Sequence[tuple[Path, CertificateFile]], deriving: VerdictDerivation, progress: ProgressLine
 ) -> Generator[DerivedVerdict, None, None]:
     """What is said of each property that some file is to prove, as it is found."""
     left = [dict.fromkeys(found.origin.proved) for _, found in written]
@@ -129,7 +129,7 @@ def _told(
                 yield from (DerivedVerdict(id, Undecided(reason), file=file) for id in left[event.number])
 
 
-def _itself(deriving: Deriving) -> Deriving:
+def _itself(deriving: VerdictDerivation) -> VerdictDerivation:
     return deriving
 
 

@@ -19,9 +19,9 @@ from checker.commands.shared.options import (
 from checker.engines import ALL, AUTO, LOADED, Limits
 
 if TYPE_CHECKING:
-    from checker.commands.check.further import Further
+    from checker.commands.check.chain_status import Chains
+    from checker.commands.check.further import CheckExtras
     from checker.commands.check.premises import PremiseSearch
-    from checker.commands.check.standing import Chains
     from checker.commands.shared.variant import Variant
 
 
@@ -178,9 +178,9 @@ def check(options: CheckOptions, charts: VariantOptions, search: SearchOptions) 
             chains,
         )
         if options.record_invariants:
-            from checker.commands.check.invariants import Recording
+            from checker.commands.check.invariants import InvariantRecorder
 
-            further = replace(further, keep=Recording(variant.model, variant.name))
+            further = replace(further, keep=InvariantRecorder(variant.model, variant.name))
         return run(
             properties,
             systems,
@@ -209,16 +209,16 @@ def _chains(variant: "Variant") -> "Chains | None":
     """The chains of the rover's promises, checked for holes; a model of a user's own has none."""
     if variant.own is not None:
         return None
-    from checker.commands.check.standing import Chains
+    from checker.commands.check.chain_status import Chains
 
     return Chains(variant)
 
 
-def _further(variant: "Variant", premises: "PremiseSearch | None", chains: "Chains | None") -> "Further":
+def _further(variant: "Variant", premises: "PremiseSearch | None", chains: "Chains | None") -> "CheckExtras":
     """What is asked of the verdicts; faults are kept of the charts as they are."""
-    from checker.commands.check.further import Further, noticing
+    from checker.commands.check.further import CheckExtras, noticing
 
-    further = Further(noticing=None if variant.name else noticing(variant.model))
+    further = CheckExtras(noticing=None if variant.name else noticing(variant.model))
     if premises is not None:
         further = replace(further, heard=premises.heard, cases=premises)
     return further if chains is None else replace(further, chains=chains.standings)

@@ -8,7 +8,7 @@ from tempfile import TemporaryFile
 from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from checker.commands.shared.codes import UsageError
 from checker.commands.shared.output import err, out
-from checker.commands.shared.wrapping import whole
+from checker.commands.shared.text_wrap import whole
 from checker.verify.result import Result
 
 

@@ -8,11 +8,11 @@ from pathlib import Path
 from secrets import token_hex
 
 from checker.certify.outcome import Rejected
-from checker.commands.check.run import Compared, evidence, length, recorded
+from checker.commands.check.run import ComparedResult, evidence, length, recorded
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import possible, write
-from checker.commands.shared.wording import formally
-from checker.commands.shared.wrapping import whole
+from checker.commands.shared.property_text import formally
+from checker.commands.shared.text_wrap import whole
 from checker.render.ci import CiFinding, CiReport, FindingLevel
 from checker.render.ci.github import annotations, summary
 from checker.render.ci.junit import junit
@@ -58,7 +58,7 @@ class Reports:
         if self._in_log:
             print(f"::stop-commands::{self._token}", flush=True)
 
-    def write(self, found: Sequence[Compared], wanted: int, ended: str = "") -> None:
+    def write(self, found: Sequence[ComparedResult], wanted: int, ended: str = "") -> None:
         """Write all of them.  Raises ``UsageError`` for a place that cannot be written."""
         findings = tuple(finding(c, self.systems, self.options) for c in found)
         report = CiReport(findings, wanted, self.variant, ended)
@@ -86,7 +86,7 @@ def _summarised(report: CiReport) -> None:
             raise UsageError(f"Cannot write {whole(file)}: {error.strerror}. Unset {SUMMARY}.") from error
 
 
-def finding(compared: Compared, systems: Mapping[str, System], options: str = "") -> CiFinding:
+def finding(compared: ComparedResult, systems: Mapping[str, System], options: str = "") -> CiFinding:
     """A verdict as every report shows it."""
     prop, verdict = compared.result.property, compared.verdict
     because = verdict.reason if isinstance(verdict, Unknown) else verdict.because
@@ -111,12 +111,12 @@ def finding(compared: Compared, systems: Mapping[str, System], options: str = ""
     )
 
 
-def _rejected(compared: Compared) -> str:
+def _rejected(compared: ComparedResult) -> str:
     found = compared.result.certificate
     return f"{found.obligation}: {found.shown}" if isinstance(found, Rejected) else ""
 
 
-def level(compared: Compared) -> FindingLevel:
+def level(compared: ComparedResult) -> FindingLevel:
     """How the verdict counts: as the exit code has it."""
     if isinstance(compared.result.certificate, Rejected):
         return FindingLevel.REJECTED
@@ -132,7 +132,7 @@ def level(compared: Compared) -> FindingLevel:
     return FindingLevel.FAILED
 
 
-def _details(compared: Compared) -> dict[str, str]:
+def _details(compared: ComparedResult) -> dict[str, str]:
     """Engine, states and bound."""
     verdict, found = compared.verdict, {"engine": compared.verdict.engine}
     if isinstance(verdict, Unknown):

@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from checker.commands.check.certificates import outcome
-from checker.commands.check.run import Compared, evidence, length, worst
+from checker.commands.check.run import ComparedResult, evidence, length, worst
 from checker.commands.shared.codes import Exit
 
 if TYPE_CHECKING:
-    from checker.commands.check.standing import Standing
+    from checker.commands.check.chain_status import ChainStatus
 
 SCHEMA = 1
 CASE = {True: "occurs", False: "never", None: "unknown"}
@@ -16,10 +16,10 @@ CASE = {True: "occurs", False: "never", None: "unknown"}
 
 
 def document(
-    found: Sequence[Compared],
+    found: Sequence[ComparedResult],
     ended: Exit | None = None,
     faulty: bool = False,
-    chains: Sequence["Standing"] = (),
+    chains: Sequence["ChainStatus"] = (),
 ) -> dict[str, object]:
     """The verdicts as JSON; ``ended`` is the exit code of what ended the command before it was complete.
 
@@ -44,7 +44,7 @@ def document(
     }
 
 
-def _row(compared: Compared) -> dict[str, object]:
+def _row(compared: ComparedResult) -> dict[str, object]:
     prop, verdict = compared.result.property, compared.verdict
     return {
         "id": prop.id,

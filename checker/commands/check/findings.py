@@ -11,13 +11,13 @@ from shutil import which
 from typing import TYPE_CHECKING
 
 from checker.commands.shared.output import counted
-from checker.commands.shared.wrapping import whole
+from checker.commands.shared.text_wrap import whole
 from properties.forms import Property, Reachable
 from spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from checker.commands.check.run import Compared
-    from checker.commands.check.standing import Standing
+    from checker.commands.check.chain_status import ChainStatus
+    from checker.commands.check.run import ComparedResult
     from checker.commands.shared.variant import Variant
 
 REPORTS = Path("reports/README.md")
@@ -69,7 +69,7 @@ def causes(variant: "Variant") -> str:
     return str(REPORTS) if there else ""
 
 
-def totals(found: Sequence["Compared"]) -> str:
+def totals(found: Sequence["ComparedResult"]) -> str:
     """``337 demands: 244 proved, 93 violated; 156 situations: all reached.``"""
     kinds = [(one, isinstance(one.result.property.form, Reachable)) for one in found]
     demands = [_word(one) for one, situation in kinds if not situation]
@@ -85,7 +85,7 @@ def totals(found: Sequence["Compared"]) -> str:
     return "; ".join(parts) + "."
 
 
-def _word(one: "Compared") -> str:
+def _word(one: "ComparedResult") -> str:
     return RESTRICTED if one.result.in_part else one.verdict.word
 
 
@@ -96,7 +96,7 @@ def _shares(words: Sequence[str], called: Mapping[str, str]) -> str:
     return ", ".join(f"{counts[word]} {said}" for word, said in called.items() if word in counts)
 
 
-def about_cases(found: Sequence["Compared"]) -> Iterator[str]:
+def about_cases(found: Sequence["ComparedResult"]) -> Iterator[str]:
     """Which proofs have a premise that never occurs, or of which that is unknown."""
     told = [(one.result.property, one.case.occurs) for one in found if one.case is not None]
     empty = [prop for prop, occurs in told if occurs is False]
@@ -111,7 +111,7 @@ def about_cases(found: Sequence["Compared"]) -> Iterator[str]:
         yield f"Proved, unknown whether the premise occurs: {', '.join(unknown)}."
 
 
-def about_faults(found: Sequence["Compared"]) -> Iterator[str]:
+def about_faults(found: Sequence["ComparedResult"]) -> Iterator[str]:
     """Which proofs kill no known mutant."""
     idle = sorted(one.result.property.id for one in found if one.idle)
     noticing = sum(one.noticed is True for one in found)
@@ -123,7 +123,7 @@ def about_faults(found: Sequence["Compared"]) -> Iterator[str]:
         yield f"Proved, and no mutant of the charts is known that they kill: {', '.join(idle[:SHOWN])}{more}."
 
 
-def about_chains(told: Sequence["Standing"]) -> Iterator[str]:
+def about_chains(told: Sequence["ChainStatus"]) -> Iterator[str]:
     """How many chains across the link hold, and which do not."""
     if told:
         good = sum(one.holds is True for one in told)
@@ -131,7 +131,7 @@ def about_chains(told: Sequence["Standing"]) -> Iterator[str]:
         yield from (f"  {one.text}" for one in told if not one.holds)
 
 
-def read_on(found: Sequence["Compared"], systems: Mapping[str, System], guide: Guide) -> Iterator[str]:
+def read_on(found: Sequence["ComparedResult"], systems: Mapping[str, System], guide: Guide) -> Iterator[str]:
     """The gravest findings that are not explained already, and where all are; nothing if there is none."""
     known = gravest([one for one in found if one.as_expected or one.variant], systems, guide.gravest)
     number = sum(one.verdict.word == "violated" for one in found)
@@ -143,7 +143,7 @@ def read_on(found: Sequence["Compared"], systems: Mapping[str, System], guide: G
         yield from _commands(known, number, guide)
 
 
-def listed(ordered: Sequence["Compared"]) -> Iterator[str]:
+def listed(ordered: Sequence["ComparedResult"]) -> Iterator[str]:
     """The first findings, each in a line."""
     if len(ordered) > SHOWN:
         yield f"Violated, the gravest first, one for each requirement ({SHOWN} of {len(ordered)}):"
@@ -155,7 +155,7 @@ def listed(ordered: Sequence["Compared"]) -> Iterator[str]:
         yield f"  {prop.id}, {one.result.system}: {out_of_reach}{prop.text}"
 
 
-def _commands(known: Sequence["Compared"], number: int, guide: Guide) -> Iterator[str]:
+def _commands(known: Sequence["ComparedResult"], number: int, guide: Guide) -> Iterator[str]:
     """What to type, or to read, to see more of so many findings."""
     if runs := [one.result.property.id for one in known if one.length is not None]:
         yield f"Tick by tick: {guide.command('trace', runs[0])}"
@@ -166,8 +166,8 @@ def _commands(known: Sequence["Compared"], number: int, guide: Guide) -> Iterato
 
 
 def gravest(
-    found: Sequence["Compared"], systems: Mapping[str, System], order: Sequence[str]
-) -> list["Compared"]:
+    found: Sequence["ComparedResult"], systems: Mapping[str, System], order: Sequence[str]
+) -> list["ComparedResult"]:
     """What is violated: for each requirement the gravest finding, in the order of the requirements, then for
     each the next, and so on.
 
@@ -185,7 +185,7 @@ def gravest(
     return [one for _, one in sorted(keyed, key=lambda pair: pair[0])]
 
 
-def _within(one: "Compared", systems: Mapping[str, System]) -> tuple[bool, int, int, str]:
+def _within(one: "ComparedResult", systems: Mapping[str, System]) -> tuple[bool, int, int, str]:
     """What is graver of two findings about one requirement."""
     prop: Property = one.result.property
     charts = len(systems[one.result.system].charts) if one.result.system in systems else 0

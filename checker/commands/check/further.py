@@ -10,29 +10,29 @@ from checker.results.verdict import Proved
 from properties.forms import Property, Reachable, Unbounded
 
 if TYPE_CHECKING:
+    from checker.commands.check.chain_status import ChainStatus
     from checker.commands.check.premises import PremiseCase
-    from checker.commands.check.run import Compared
-    from checker.commands.check.standing import Standing
+    from checker.commands.check.run import ComparedResult
 
 
-def _unheard(_: "Compared") -> None:
+def _unheard(_: "ComparedResult") -> None:
     """Nothing is asked while others are searched for."""
 
 
-def _no_cases(_: Sequence["Compared"]) -> Mapping[str, "PremiseCase"]:
+def _no_cases(_: Sequence["ComparedResult"]) -> Mapping[str, "PremiseCase"]:
     return {}
 
 
-def _nothing_kept(_: Sequence["Compared"]) -> None:
+def _nothing_kept(_: Sequence["ComparedResult"]) -> None:
     """No proof is recorded."""
 
 
-def _no_chains(_: Sequence["Compared"]) -> Sequence["Standing"]:
+def _no_chains(_: Sequence["ComparedResult"]) -> Sequence["ChainStatus"]:
     return ()
 
 
 @dataclass(frozen=True)
-class Further:
+class CheckExtras:
     """What is asked of the verdicts; by default nothing.
 
     ``heard`` is told each result while others are searched for.  ``cases`` says of each proof that speaks of
@@ -41,13 +41,13 @@ class Further:
     record.
     """
 
-    heard: Callable[["Compared"], None] = _unheard
-    cases: Callable[[Sequence["Compared"]], Mapping[str, "PremiseCase"]] = _no_cases
-    chains: Callable[[Sequence["Compared"]], Sequence["Standing"]] = _no_chains
+    heard: Callable[["ComparedResult"], None] = _unheard
+    cases: Callable[[Sequence["ComparedResult"]], Mapping[str, "PremiseCase"]] = _no_cases
+    chains: Callable[[Sequence["ComparedResult"]], Sequence["ChainStatus"]] = _no_chains
     noticing: Collection[str] | None = None
-    keep: Callable[[Sequence["Compared"]], None] = _nothing_kept
+    keep: Callable[[Sequence["ComparedResult"]], None] = _nothing_kept
 
-    def noticed(self, one: "Compared") -> bool | None:
+    def noticed(self, one: "ComparedResult") -> bool | None:
         """Whether a fault is known that a proof notices; None of what no fault is looked for."""
         prop = one.result.property
         if self.noticing is None or not isinstance(one.verdict, Proved) or not asks_for_fault(prop):
@@ -71,6 +71,6 @@ def noticing(model: Model) -> frozenset[str] | None:
     return frozenset(broken | read(place, KILLS).keys())
 
 
-NOTHING_FURTHER = Further()
+NOTHING_FURTHER = CheckExtras()
 
-__all__ = ["NOTHING_FURTHER", "Further", "asks_for_fault", "noticing"]
+__all__ = ["NOTHING_FURTHER", "CheckExtras", "asks_for_fault", "noticing"]

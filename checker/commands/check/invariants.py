@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from checker.commands.check.premises import recordable
-from checker.commands.check.run import Compared
+from checker.commands.check.run import ComparedResult
 from checker.commands.shared.output import counted, err, wrapped, write
 from checker.model import Model
 from checker.model.kept_invariants import MOST_NODES, invariants_of, row, text
@@ -13,7 +13,7 @@ from checker.results.verdict import Inductive, Unknown
 
 
 @dataclass(frozen=True)
-class Recording:
+class InvariantRecorder:
     """Keeps the invariants of what was asked; those of other properties stay as they are.
 
     Raises ``UsageError`` where none can be kept, before anything is searched.
@@ -25,7 +25,7 @@ class Recording:
     def __post_init__(self) -> None:
         recordable(self.model, self.variant, INVARIANTS)
 
-    def __call__(self, found: Sequence[Compared]) -> None:
+    def __call__(self, found: Sequence[ComparedResult]) -> None:
         """Keep them.  Raises ``UsageError`` where the file cannot be written."""
         asked = {one.result.property.id for one in found}
         before = invariants_of(self.model)

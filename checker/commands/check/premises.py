@@ -4,17 +4,17 @@ import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
-from checker.commands.check.run import Compared, evidence, results
+from checker.commands.check.run import ComparedResult, evidence, results
 from checker.commands.shared.codes import UsageError
 from checker.commands.shared.output import write
-from checker.commands.shared.wrapping import whole
+from checker.commands.shared.text_wrap import whole
 from checker.engines import Limits
 from checker.model import Model
 from checker.model.kept_runs import INVARIANTS, PREMISES, KeptRun, file_of, read, text
 from checker.results.trace import counted_ticks
 from checker.results.verdict import Proved, Unknown
 from checker.verify.result import Result
-from checker.verify.runs.known import reached, run_of
+from checker.verify.runs.known_runs import reached, run_of
 from properties.forms import Property
 from properties.premise import premise
 from spec_model.lang.system import System
@@ -36,7 +36,7 @@ class PremiseCase:
 
 
 def cases(
-    found: Sequence[Compared],
+    found: Sequence[ComparedResult],
     systems: Mapping[str, System],
     known: Mapping[str, KeptRun],
     engine: str,
@@ -79,11 +79,11 @@ class PremiseSearch:
     keep: bool
     _shown: dict[str, PremiseCase] = field(default_factory=dict)
 
-    def heard(self, one: Compared) -> None:
+    def heard(self, one: ComparedResult) -> None:
         """Go through the recorded run of a proof that speaks of a case."""
         self._shown |= _again(_wanted([one]), self.known, self.systems)
 
-    def __call__(self, found: Sequence[Compared]) -> Mapping[str, PremiseCase]:
+    def __call__(self, found: Sequence[ComparedResult]) -> Mapping[str, PremiseCase]:
         """For each proof that speaks of a case, by id, whether it occurs on its system."""
         asked = self.systems, self.known, self.engine, self.limits, self.jobs, self.quiet
         told = cases(found, *asked, LONG if self.keep else PATIENCE, self._shown)
@@ -115,7 +115,7 @@ def recordable(model: Model, variant: str, kind: str = PREMISES) -> None:
         raise UsageError(f"Cannot write {whole(file)}: it is no file in a folder that exists.")
 
 
-def _wanted(found: Sequence[Compared]) -> dict[str, Property]:
+def _wanted(found: Sequence[ComparedResult]) -> dict[str, Property]:
     """The cases that proofs speak of, by id."""
     proved = (c.result.property for c in found if isinstance(c.verdict, Proved))
     return {prop.id: case for prop in proved if (case := premise(prop)) is not None}

@@ -16,12 +16,12 @@ from checker.commands.check.findings import (
     read_on,
     totals,
 )
-from checker.commands.check.further import NOTHING_FURTHER, Further
+from checker.commands.check.further import NOTHING_FURTHER, CheckExtras
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.failure import alarm, code_of, told
 from checker.commands.shared.output import err, out, wrapped
 from checker.commands.shared.progress import Watch
-from checker.commands.shared.wrapping import plain
+from checker.commands.shared.text_wrap import plain
 from checker.engines import Limits
 from checker.io.printable import json_text
 from checker.model.kept_invariants import Recorded
@@ -31,7 +31,7 @@ from checker.results.trace import Trace, counted_ticks
 from checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
 from checker.system.formula_json import Tree
 from checker.verify.result import Result
-from checker.verify.searches import Over, SearchDoing, Warned, searches
+from checker.verify.searches import MachineWarning, SearchActivity, SearchEnd, searches
 from checker.verify.tasks import Task, tasks
 from properties.catalogue import Expected, expected
 from properties.forms import Property, Reachable
@@ -39,7 +39,7 @@ from spec_model.lang.system import System
 
 if TYPE_CHECKING:
     from checker.commands.check.premises import PremiseCase
-    from checker.verify.certificates import Certifying
+    from checker.verify.certificates import Certification
 
 NONE_RECORDED: Recorded = {}
 EVIDENCE = 33
@@ -48,7 +48,7 @@ SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
 
 
 @dataclass(frozen=True)
-class Compared:
+class ComparedResult:
     """A result beside the expected verdict; ``variant`` says how the charts differ from those specified.
 
     ``case``: whether the case occurs that a proof speaks of, ``noticed``: whether a fault is known that it
@@ -121,7 +121,7 @@ def results(
     engine: str,
     limits: Limits,
     jobs: int | None = None,
-    certifying: "Certifying | None" = None,
+    certifying: "Certification | None" = None,
     quiet: bool = False,
     invariants: Recorded = NONE_RECORDED,
 ) -> Generator[Result, None, None]:
@@ -138,11 +138,11 @@ def results(
     with Watch(err, len(todo), quiet) as watch, closing(heard):
         for one in heard:
             match one:
-                case SearchDoing(task, line):
+                case SearchActivity(task, line):
                     watch.say(task.title, line)
-                case Over(task):
+                case SearchEnd(task):
                     watch.finished(task.title)
-                case Warned(text):
+                case MachineWarning(text):
                     err.print(text, markup=False)
                 case Result():
                     system = systems.get(one.system, systems[one.property.on])
@@ -168,13 +168,13 @@ def _limited_to(result: Result, system: System) -> str:
     return system.limited_to if rests_on_all else ""
 
 
-class Deliver(Protocol):
+class ResultDelivery(Protocol):
     """Takes what was decided, how many properties were asked for, and the error that ended it early."""
 
-    def __call__(self, found: Sequence[Compared], wanted: int, ended: str = "") -> None: ...
+    def __call__(self, found: Sequence[ComparedResult], wanted: int, ended: str = "") -> None: ...
 
 
-def undelivered(found: Sequence[Compared], wanted: int, ended: str = "") -> None:
+def undelivered(found: Sequence[ComparedResult], wanted: int, ended: str = "") -> None:
     """No report beside what is printed."""
 
 
@@ -187,11 +187,11 @@ def check(
     variant: str = "",
     expect: Callable[[str], Expected] = expected,
     jobs: int | None = None,
-    certifying: "Certifying | None" = None,
+    certifying: "Certification | None" = None,
     guide: Guide = ALONE,
-    deliver: Deliver = undelivered,
+    deliver: ResultDelivery = undelivered,
     quiet: bool = False,
-    further: Further = NOTHING_FURTHER,
+    further: CheckExtras = NOTHING_FURTHER,
     strict: bool = False,
     invariants: Recorded = NONE_RECORDED,
 ) -> Exit:
@@ -205,7 +205,7 @@ def check(
         err.print("Nothing to check: the selection holds no property.")
         deliver([], 0)
         return Exit.NOTHING
-    found: list[Compared] = []
+    found: list[ComparedResult] = []
     faults: list[Fault] = []
     try:
         with (
@@ -215,7 +215,7 @@ def check(
             ) as coming,
         ):
             for result in coming:
-                found.append(Compared(result, expect(result.property.id), variant))
+                found.append(ComparedResult(result, expect(result.property.id), variant))
                 if not as_json and not (quiet and found[-1].code is Exit.AS_EXPECTED):
                     out.print(wrapped(line(found[-1]), EVIDENCE), markup=False)
                 further.heard(found[-1])
@@ -281,7 +281,7 @@ def _why(error: BaseException) -> str:
     return plain(str(error)) if code_of(error) is Exit.USAGE else told(error)
 
 
-def worst(found: Sequence[Compared]) -> Exit:
+def worst(found: Sequence[ComparedResult]) -> Exit:
     """An internal error outweighs a change, and that an inconclusive search."""
     codes = {c.code for c in found}
     for code in (Exit.INTERNAL, Exit.FAILED, Exit.INCONCLUSIVE):
@@ -290,7 +290,7 @@ def worst(found: Sequence[Compared]) -> Exit:
     return Exit.AS_EXPECTED
 
 
-def line(compared: Compared) -> str:
+def line(compared: ComparedResult) -> str:
     """One verdict in one line of 80 columns: sign, id, verdict, evidence."""
     verdict = compared.verdict
     sign = "≈" if compared.result.in_part else SIGNS[verdict.word]
@@ -302,7 +302,7 @@ def line(compared: Compared) -> str:
     return text + f"\n    {_other(compared)} {recorded(compared.expected)}"
 
 
-def _other(compared: Compared) -> str:
+def _other(compared: ComparedResult) -> str:
     """What the verdict is compared with, in front of the expected verdict."""
     return f"{compared.variant}; as specified it is" if compared.variant else "CHANGED: expected"
 
@@ -359,7 +359,7 @@ def ticks(trace: Trace) -> str:
     return f"{counted_ticks(len(trace))} = {seconds:g} s{repeating(trace)}"
 
 
-def summary(found: Sequence[Compared], guide: Guide) -> None:
+def summary(found: Sequence[ComparedResult], guide: Guide) -> None:
     """Counts, and for each change what to do next."""
     changed = [c for c in found if not c.as_expected]
     out.print(totals(found), markup=False)
@@ -377,7 +377,7 @@ def summary(found: Sequence[Compared], guide: Guide) -> None:
         _explain(compared, guide)
 
 
-def _explain(compared: Compared, guide: Guide) -> None:
+def _explain(compared: ComparedResult, guide: Guide) -> None:
     prop, verdict = compared.result.property, compared.verdict
     out.print(f"\n{prop.id} is {verdict.word}; expected: {recorded(compared.expected)}.", markup=False)
     out.print(f"  {prop.text}", markup=False)
@@ -388,4 +388,4 @@ def _explain(compared: Compared, guide: Guide) -> None:
         out.print(f"  See it whole: {guide.command('trace', prop.id)}", markup=False)
 
 
-__all__ = ["Compared", "check", "evidence", "length", "results", "ticks"]
+__all__ = ["ComparedResult", "check", "evidence", "length", "results", "ticks"]

@@ -11,9 +11,9 @@ from checker.commands.shared.failure import told
 from checker.commands.shared.output import err, out
 from checker.commands.shared.progress import ProgressLine
 from checker.commands.shared.variant import Variant, pick_variant
-from checker.compare.varied import varied
+from checker.compare.variants import varied
 from checker.io.printable import json_text
-from checker.logs import Against, ColumnMap, LogError, LogResult, examine, read_map
+from checker.logs import ColumnMap, LogError, LogReference, LogResult, examine, read_map
 
 SCHEMA = "rovercheck/conform/1"
 """The format of the JSON documents, and its version."""
@@ -32,7 +32,7 @@ class ConformOptions:
     as_json: bool
     verbose: bool
     charts: str = ""
-    against: Against | None = None
+    against: LogReference | None = None
 
     def examined(self, path: Path) -> LogResult:
         """What one log says.  Raises ``LogError``."""
@@ -82,11 +82,11 @@ def _log(place: Path, asked: ConformOptions) -> Exit:
     return code
 
 
-def _against(variant: Variant) -> Against:
+def _against(variant: Variant) -> LogReference:
     """The boards, properties and expected verdicts of a variant."""
     found = varied(variant.choices, variant.repair)
     properties, systems = variant.properties(), variant.systems()
-    return Against(found, properties, systems, lambda id: variant.expected(id).verdict)
+    return LogReference(found, properties, systems, lambda id: variant.expected(id).verdict)
 
 
 def _map(file: Path | None) -> ColumnMap:

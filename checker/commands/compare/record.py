@@ -11,7 +11,7 @@ from pathlib import Path
 
 import checker.compare
 from checker.commands.check.run import results
-from checker.compare.recorded import COUNTEREXAMPLES, KeptSuite, encoded, kept
+from checker.compare.recorded_runs import COUNTEREXAMPLES, KeptSuite, encoded, kept
 from checker.engines import AUTO, Limits
 from checker.io.files import replaced
 from checker.results.trace import Trace

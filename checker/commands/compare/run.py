@@ -11,13 +11,13 @@ from checker.commands.compare.text import CrosscheckReport, report, row, shown
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import counted, err, out, write
 from checker.commands.shared.progress import ProgressLine
+from checker.commands.shared.text_wrap import whole
 from checker.commands.shared.variant import Variant, pick_variant
-from checker.commands.shared.wrapping import whole
 from checker.compare import Allowance, CompareResult, cross_check, effort
 from checker.compare.reproduce import file_name, pytest_file
 from checker.compare.result import ALLOWED, RANDOM
 from checker.compare.search import CompareSearch
-from checker.compare.varied import varied
+from checker.compare.variants import varied
 from checker.io.printable import json_text
 from spec_model.abstraction import Board
 from spec_model.lang.errors import did_you_mean

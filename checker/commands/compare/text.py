@@ -6,7 +6,7 @@ from pathlib import Path
 from shlex import quote
 
 from checker.commands.shared.output import counted, text_width
-from checker.commands.shared.wrapping import filled, whole
+from checker.commands.shared.text_wrap import filled, whole
 from checker.compare.beside import StepMismatch, SteppedCharts, author_of
 from checker.compare.coverage import taken
 from checker.compare.reproduce import stimulus_of

@@ -2,7 +2,7 @@
 
 from checker.commands.explore.explorer import Commands, Explorer
 from checker.commands.explore.words import pairs, split
-from checker.explore.by_hand.written import RefusedInput
+from checker.explore.by_hand.value_syntax import RefusedInput
 
 
 def _set(explorer: Explorer, rest: str) -> None:

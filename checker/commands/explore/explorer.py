@@ -6,9 +6,9 @@ from rich.console import Console
 
 from checker.commands.explore.text import changes
 from checker.commands.shared.output import counted
+from checker.commands.shared.text_wrap import filled
 from checker.commands.shared.variant import Variant
-from checker.commands.shared.wrapping import filled
-from checker.explore.by_hand.session import Ran, Session
+from checker.explore.by_hand.session import ExecutedTicks, Session
 
 
 class Explorer:
@@ -42,7 +42,7 @@ class Explorer:
         first = f" Frozen: {frozen} (see help fixed)." if frozen else ""
         self.say(f"{inputs}, ticks of {sim.lowered.tick_ms} ms.{first} Write help for commands.")
 
-    def moved(self, ran: Ran) -> None:
+    def moved(self, ran: ExecutedTicks) -> None:
         """What an advance did."""
         if ran.forgotten:
             ticks = counted(ran.forgotten, "tick", "ticks")

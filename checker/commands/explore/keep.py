@@ -7,10 +7,10 @@ from checker.commands.explore.text import show
 from checker.commands.explore.words import split
 from checker.commands.shared.output import write
 from checker.commands.shared.select import pick
+from checker.commands.shared.text_wrap import whole
 from checker.commands.shared.variant import Variant
-from checker.commands.shared.wrapping import whole
 from checker.explore.by_hand.session import Session
-from checker.explore.by_hand.written import RefusedInput
+from checker.explore.by_hand.value_syntax import RefusedInput
 from checker.results.trace import Trace
 from properties.forms import Property
 

@@ -11,8 +11,8 @@ from checker.commands.explore.text import listed, show, timers, where
 from checker.commands.explore.words import split
 from checker.commands.shared.tables import beside, laid
 from checker.explore.by_hand.session import Session
-from checker.explore.by_hand.simulation import Tested
-from checker.explore.by_hand.written import RefusedInput, variable
+from checker.explore.by_hand.simulation import TestedTransition
+from checker.explore.by_hand.value_syntax import RefusedInput, variable
 from checker.results.trace import Trace
 from spec_model.lang.chart import Chart, Transition
 from spec_model.lang.errors import did_you_mean
@@ -42,7 +42,7 @@ def why(console: Console, session: Session, charts: Sequence[str]) -> None:
                 laid(console, _conjuncts(one, trace, at))
 
 
-def _test(chart: Chart, one: Tested) -> tuple[Text, Text]:
+def _test(chart: Chart, one: TestedTransition) -> tuple[Text, Text]:
     through = next((j.name for j in chart.junctions.values() if _has(j.transitions, one.segment)), "")
     start = through or (".".join(one.source) if one.source else "default")
     event = f" on {one.segment.event}" if one.segment.event else ""
@@ -56,7 +56,7 @@ def _has(transitions: Sequence[Transition], wanted: Transition) -> bool:
     return any(transition is wanted for transition in transitions)
 
 
-def _conjuncts(one: Tested, trace: Trace, at: Mapping[str, int]) -> Table:
+def _conjuncts(one: TestedTransition, trace: Trace, at: Mapping[str, int]) -> Table:
     grid = Table.grid(padding=(0, 1))
     grid.add_column(width=6)
     grid.add_column(width=5)

@@ -4,7 +4,7 @@ from checker.commands.explore.explorer import Commands, Explorer
 from checker.commands.explore.text import changes, show
 from checker.commands.explore.words import count
 from checker.explore.by_hand.session import MOST_TICKS
-from checker.explore.by_hand.written import RefusedInput
+from checker.explore.by_hand.value_syntax import RefusedInput
 from spec_model.lang.expr import Expr
 
 

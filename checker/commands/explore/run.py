@@ -22,10 +22,10 @@ from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import out
 from checker.commands.shared.select import pick
 from checker.commands.shared.tables import laid
+from checker.commands.shared.text_wrap import filled, whole
 from checker.commands.shared.variant import Variant
-from checker.commands.shared.wrapping import filled, whole
 from checker.explore.by_hand.session import Session
-from checker.explore.by_hand.written import RefusedInput
+from checker.explore.by_hand.value_syntax import RefusedInput
 from spec_model.lang.chart import Chart
 from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.system import System, in_order

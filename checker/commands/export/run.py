@@ -6,10 +6,10 @@ from pathlib import Path
 
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import err, write, wrote
+from checker.commands.shared.property_text import formally
 from checker.commands.shared.select import pick, pick_properties
+from checker.commands.shared.text_wrap import whole
 from checker.commands.shared.variant import Variant
-from checker.commands.shared.wording import formally
-from checker.commands.shared.wrapping import whole
 from checker.export import Exporter, exporters, problem
 from properties.forms import Property
 from spec_model.lang.errors import ModelError

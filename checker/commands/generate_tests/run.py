@@ -8,7 +8,7 @@ from time import monotonic
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import counted, out, write
 from checker.commands.shared.progress import ProgressLine
-from checker.commands.shared.wrapping import filled, whole
+from checker.commands.shared.text_wrap import filled, whole
 from checker.io.printable import json_text
 from checker.system.instrument.goals import CoverGoal, GoalKind
 from checker.system.instrument.watch import watched

@@ -10,11 +10,11 @@ from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import err, out, text_width, wrapped, write, wrote
 from checker.commands.shared.progress import Watch
 from checker.commands.shared.select import pick
+from checker.commands.shared.text_wrap import whole
 from checker.commands.shared.variant import Variant
-from checker.commands.shared.wrapping import whole
 from checker.engines import AUTO, Limits
-from checker.explore.graphs.making import Made, made
-from checker.explore.graphs.suggesting import Offer, Suggestions, among, suggestions
+from checker.explore.graphs.construction import BuiltGraph, made
+from checker.explore.graphs.suggestions import Offer, Suggestions, among, suggestions
 from checker.model import names_of
 from checker.render import Renderer, renderers
 from checker.render.stategraph.findings import told
@@ -240,14 +240,16 @@ def _trace(prop: Property, systems: Mapping[str, System]) -> Trace | None:
     return because
 
 
-def _shown(found: Made, trace: Trace | None, renderer: Renderer, view: View) -> StateGraph:
+def _shown(found: BuiltGraph, trace: Trace | None, renderer: Renderer, view: View) -> StateGraph:
     """The graph with all that the format shows."""
     ways = getattr(renderer, "WAYS", False) and not view.summary and len(found.graph.nodes) <= view.most
     graph = found.with_ways() if ways else found.graph
     return with_trace(graph, trace) if trace else graph
 
 
-def _picture(renderer: Renderer, found: Made, graph: StateGraph, view: View, options: str) -> str | bytes:
+def _picture(
+    renderer: Renderer, found: BuiltGraph, graph: StateGraph, view: View, options: str
+) -> str | bytes:
     """What the renderer makes of it.  Raises ``UsageError`` that shows how to project a graph too large."""
     if not getattr(renderer, "PICTURE", False):
         return renderer.render(graph)

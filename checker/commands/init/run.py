@@ -6,7 +6,7 @@ from shlex import quote
 
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import err, write
-from checker.commands.shared.wrapping import whole
+from checker.commands.shared.text_wrap import whole
 from checker.model import shown
 
 WRITTEN = {

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 
-from checker.commands.shared.wording import formally
+from checker.commands.shared.property_text import formally
 from checker.engines import ALL, AUTO, engines
 from checker.model import Model
 from properties.forms import Property

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import out
 from checker.commands.shared.tables import listed
-from checker.commands.shared.wrapping import filled
+from checker.commands.shared.text_wrap import filled
 from checker.engines import ALL, AUTO, engines
 from checker.io.printable import json_text
 
@@ -145,7 +145,7 @@ def listing(
     elif what in LISTS:
         LISTS[what](model)
     elif english:
-        from checker.commands.shared.wording import in_english
+        from checker.commands.shared.property_text import in_english
 
         in_english(chosen, model)
     else:

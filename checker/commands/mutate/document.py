@@ -2,11 +2,11 @@
 
 from collections import Counter
 
-from checker.commands.mutate.found import MutationResults, One
+from checker.commands.mutate.results import MutationResults, One
 from checker.commands.mutate.text import sketch
 from checker.commands.shared.codes import Exit
-from checker.mutate.judging import Fate
-from checker.mutate.observing import MutantDifference
+from checker.mutate.fate import Fate
+from checker.mutate.observation import MutantDifference
 
 SCHEMA = 1
 

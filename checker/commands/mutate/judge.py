@@ -5,18 +5,18 @@ from contextlib import closing
 from dataclasses import dataclass, field, replace
 
 from checker.commands.check.run import results
-from checker.commands.mutate.found import MutationResults
+from checker.commands.mutate.results import MutationResults
 from checker.commands.shared.output import err
 from checker.commands.shared.progress import Watch
 from checker.engines import AUTO, Limits
 from checker.model import Model
 from checker.model.kept_invariants import Recorded, invariants_of
 from checker.model.kept_runs import KILLS, MUTANTS, PREMISES, KeptRun, file_of, read
-from checker.mutate.asked import as_it_is
-from checker.mutate.judging import DOMAINS, NOT_SEARCHED, REFUSED, Fate, Judged
+from checker.mutate.fate import DOMAINS, NOT_SEARCHED, REFUSED, Fate, MutantFate
 from checker.mutate.mutants import Mutant
-from checker.mutate.planning import Plan, Planned, rounds
-from checker.mutate.running import MutantJudged, MutantProgress, fates
+from checker.mutate.plan import Plan, PlannedMutant, rounds
+from checker.mutate.relevance import as_it_is
+from checker.mutate.workers import MutantJudged, MutantProgress, fates
 from checker.results.verdict import Run
 from properties.forms import Property, Reachable, Unbounded
 
@@ -24,7 +24,7 @@ UNKILLED = (Fate.SURVIVOR, Fate.NOTICED, Fate.UNKNOWN)
 """What a mutant may be in its own system that properties of other systems may still kill."""
 WORTH_RUNS = 40
 """Such mutants from which on the runs of other systems are searched once, to be tried on each of them."""
-OPEN = Judged(Fate.UNKNOWN, why=NOT_SEARCHED)
+OPEN = MutantFate(Fate.UNKNOWN, why=NOT_SEARCHED)
 
 
 def judge(
@@ -113,9 +113,9 @@ class _Stages:
         if asked:
             self.decide(asked)
 
-    def at_home(self, todo: Sequence[Mutant], alone: bool) -> dict[str, Judged]:
+    def at_home(self, todo: Sequence[Mutant], alone: bool) -> dict[str, MutantFate]:
         """Search the systems that they are at home in; what is not killed, unless it is judged ``alone``."""
-        unkilled: dict[str, Judged] = {}
+        unkilled: dict[str, MutantFate] = {}
         planned = [self.plan.own(mutant, self.at[mutant.id]) for mutant in todo]
         try:
             for told in self._told(planned, {}):
@@ -128,7 +128,7 @@ class _Stages:
             raise
         return unkilled
 
-    def elsewhere(self, todo: Sequence[Mutant], unkilled: dict[str, Judged]) -> None:
+    def elsewhere(self, todo: Sequence[Mutant], unkilled: dict[str, MutantFate]) -> None:
         """Search the other systems for what kills them after all."""
         try:
             again = [self.plan.elsewhere(mutant, self.at[mutant.id]) for mutant in todo]
@@ -146,14 +146,14 @@ class _Stages:
             self._interrupted(todo, unkilled)
             raise
 
-    def _interrupted(self, todo: Sequence[Mutant], unkilled: Mapping[str, Judged]) -> None:
+    def _interrupted(self, todo: Sequence[Mutant], unkilled: Mapping[str, MutantFate]) -> None:
         why = "interrupted before other systems were looked at"
         for mutant in todo:
             if mutant.id in unkilled:
                 judged = unkilled[mutant.id]
                 self._keep(mutant, replace(judged, fate=Fate.UNKNOWN, why=judged.why or why))
 
-    def _keep(self, mutant: Mutant, judged: Judged, searched: bool = False) -> None:
+    def _keep(self, mutant: Mutant, judged: MutantFate, searched: bool = False) -> None:
         self.found.told.append((self.at[mutant.id], mutant, judged))
         if searched:
             self.found.searched.add(mutant.id)
@@ -166,8 +166,8 @@ class _Stages:
 
     def _told(
         self,
-        planned: Sequence[Planned],
-        before: Mapping[str, Judged],
+        planned: Sequence[PlannedMutant],
+        before: Mapping[str, MutantFate],
         search: bool = True,
         drawn: bool = True,
     ) -> Generator[MutantJudged, None, None]:

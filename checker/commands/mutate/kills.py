@@ -11,7 +11,7 @@ from checker.commands.shared.select import pick
 from checker.engines import Limits
 from checker.model import Model
 from checker.model.kept_runs import KILLS, KeptRun, file_of, read, text
-from checker.mutate.killing import Kill, kills, still
+from checker.mutate.kills import Kill, kills, still
 from checker.process.isolate import Send
 from checker.process.pool import Order, Pool
 from checker.results.verdict import Run

@@ -7,8 +7,8 @@ from random import Random
 from checker.commands.check.premises import recordable
 from checker.commands.mutate import MutateOptions
 from checker.commands.mutate.document import document
-from checker.commands.mutate.found import MutationResults, One
 from checker.commands.mutate.judge import judge
+from checker.commands.mutate.results import MutationResults, One
 from checker.commands.mutate.text import report
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import counted, err, out, wrapped, write
@@ -18,10 +18,10 @@ from checker.engines import Limits
 from checker.io.printable import json_text
 from checker.model import Model
 from checker.model.kept_runs import MUTANTS, KeptRun, file_of, read, text
-from checker.mutate.asked import as_it_is
-from checker.mutate.judging import Fate
+from checker.mutate.fate import Fate
 from checker.mutate.mutants import Mutant, mutants
-from checker.mutate.planning import homes
+from checker.mutate.plan import homes
+from checker.mutate.relevance import as_it_is
 from spec_model.lang.chart import parts
 from spec_model.lang.system import System
 

@@ -3,10 +3,10 @@
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
-from checker.commands.mutate.found import MutationResults, One
+from checker.commands.mutate.results import MutationResults, One
 from checker.commands.shared.output import counted
-from checker.mutate.judging import Fate
-from checker.mutate.observing import MutantDifference
+from checker.mutate.fate import Fate
+from checker.mutate.observation import MutantDifference
 from checker.results.trace import counted_ticks
 
 Line = tuple[str, int]

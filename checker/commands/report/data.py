@@ -7,20 +7,20 @@ from dataclasses import dataclass, field, fields
 from checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from checker.commands.check.further import noticing
 from checker.commands.check.premises import PremiseCase
-from checker.commands.check.run import Compared, evidence, recorded
-from checker.commands.shared.wording import formally
+from checker.commands.check.run import ComparedResult, evidence, recorded
+from checker.commands.shared.property_text import formally
 from checker.model import Model
 from checker.render.review.model import (
-    About,
     Ambiguity,
-    Checked,
+    CheckedProperty,
     Covered,
-    Demand,
     Remedy,
+    RequirementRow,
     Review,
     ReviewAssumption,
     ReviewOrigin,
-    Seen,
+    StateGraphView,
+    SystemSummary,
 )
 from checker.results.trace import Trace
 from checker.results.verdict import Exhausted, Unknown
@@ -53,12 +53,12 @@ class Extras:
     coverage: tuple[Covered, ...] = ()
     reasons: Mapping[str, str] = field(default_factory=dict)
     premises: Mapping[str, PremiseCase] = field(default_factory=dict)
-    graphs: tuple[Seen, ...] = ()
+    graphs: tuple[StateGraphView, ...] = ()
     undrawn: tuple[tuple[str, str], ...] = ()
 
 
 def reviewed(
-    model: Model, found: Sequence[Compared], origin: ReviewOrigin, extras: Extras, whole: bool = True
+    model: Model, found: Sequence[ComparedResult], origin: ReviewOrigin, extras: Extras, whole: bool = True
 ) -> Review:
     """All that the page shows.  ``whole``: no selection was made among the properties of the model."""
     shown = sorted(found, key=lambda c: (c.result.property.area, by_number(c.result.property.id)))
@@ -89,7 +89,7 @@ def reviewed(
     )
 
 
-def checked(compared: Compared, model: Model, extras: Extras) -> Checked:
+def checked(compared: ComparedResult, model: Model, extras: Extras) -> CheckedProperty:
     """A property with its verdict."""
     prop, verdict, entry = compared.result.property, compared.verdict, compared.expected
     system = model.systems[prop.on]
@@ -97,7 +97,7 @@ def checked(compared: Compared, model: Model, extras: Extras) -> Checked:
     proof = compared.result.certificate
     on_record = entry.verdict == verdict.word
     case = extras.premises.get(prop.id)
-    return Checked(
+    return CheckedProperty(
         prop.id,
         prop.text,
         prop.area,
@@ -176,9 +176,9 @@ def named(form: Form) -> Iterator[tuple[str, str]]:
     yield from {n.name: (f"{n.name} =", text(n, unfold=True)) for n in found}.values()
 
 
-def about(system: System) -> About:
+def about(system: System) -> SystemSummary:
     """What a reader needs to know of a system."""
-    return About(
+    return SystemSummary(
         system.name,
         system.text,
         system.tick_ms,
@@ -208,7 +208,7 @@ def drawn(shown: Iterable[System], model: Model) -> dict[str, Chart]:
 
 def demands(
     properties: Sequence[Property], verdicts: Mapping[str, str], model: Model, whole: bool
-) -> tuple[Demand, ...]:
+) -> tuple[RequirementRow, ...]:
     """The rows of the requirement matrix, uncovered ones first and then the worst verdicts.
 
     ``whole``: all requirements; otherwise only those that one of the properties names.
@@ -224,13 +224,13 @@ ORDER = ("open", "reached", "stated", "reason", "violated", "unknown", "proved")
 """What a reviewer wants to see first."""
 
 
-def _demand(row: RequirementCoverage, state: str) -> Demand:
+def _demand(row: RequirementCoverage, state: str) -> RequirementRow:
     item = row.requirement
     ids = tuple(p.id for p in row.properties)
-    return Demand(item.id, item.text, item.source, state, item.reason, ids, row.covered)
+    return RequirementRow(item.id, item.text, item.source, state, item.reason, ids, row.covered)
 
 
-def concerned(results: Iterable[Compared], model: Model) -> list[System]:
+def concerned(results: Iterable[ComparedResult], model: Model) -> list[System]:
     """The systems that the verdicts are about, in the order of the model."""
     names = {c.result.property.on for c in results} | {c.result.system for c in results}
     with_runs = {model.systems[n].concrete for n in names if n in model.systems}

@@ -4,15 +4,15 @@ from collections.abc import Iterator, Sequence
 from contextlib import suppress
 from functools import partial
 
-from checker.commands.check.run import Compared
+from checker.commands.check.run import ComparedResult
 from checker.commands.shared.output import counted, err
 from checker.commands.shared.progress import Watch
 from checker.engines import Limits, Progress
-from checker.explore.graphs.explored import Explored
-from checker.explore.graphs.making import seen
-from checker.explore.graphs.projecting import projection
+from checker.explore.graphs.construction import seen
+from checker.explore.graphs.projection import projection
+from checker.explore.graphs.reachable_ticks import ReachableTicks
 from checker.explore.graphs.search import Exploration, explore
-from checker.render.review.model import Seen
+from checker.render.review.model import StateGraphView
 from checker.results.graph import StateGraph, with_trace
 from checker.results.trace import Trace
 from checker.results.verdict import Violated
@@ -34,15 +34,15 @@ Undrawn = tuple[str, str]
 
 
 def state_graphs(
-    found: Sequence[Compared], systems: Sequence[System], options: str
-) -> tuple[tuple[Seen, ...], tuple[Undrawn, ...]]:
+    found: Sequence[ComparedResult], systems: Sequence[System], options: str
+) -> tuple[tuple[StateGraphView, ...], tuple[Undrawn, ...]]:
     """A graph of each system with few charts and of its own findings, else one for all of the same charts.
 
     Systems with the real runs come before those with more or fewer, and marked graphs before others.  Also
     why some charts have no graph; ``options`` is what a command needs besides.
     """
     wanted = sorted((s for s in systems if s.charts), key=lambda s: s.over or s.under)
-    graphs: dict[str, Seen] = {}
+    graphs: dict[str, StateGraphView] = {}
     undrawn: dict[str, str] = {}
     drawn: set[frozenset[str]] = set()
     with Watch(err, len(wanted)) as watch:
@@ -50,7 +50,7 @@ def state_graphs(
             asked = [c.result.property for c in found if _marked(c, system)]
             if asked or _charts(system) not in drawn:
                 one = _state_graph(system, asked, found, options, partial(watch.say, system.name))
-                if isinstance(one, Seen):
+                if isinstance(one, StateGraphView):
                     graphs[system.name] = one
                     drawn.add(_charts(system))
                 else:
@@ -68,10 +68,10 @@ def _charts(system: System) -> frozenset[str]:
 def _state_graph(
     system: System,
     asked: Sequence[Property],
-    found: Sequence[Compared],
+    found: Sequence[ComparedResult],
     options: str,
     progress: Progress,
-) -> Seen | str:
+) -> StateGraphView | str:
     """The graph, or why there is none."""
     if len(system.charts) > CHARTS:
         return f"{len(system.charts)} charts"
@@ -90,10 +90,12 @@ def _state_graph(
     says = f"{', '.join(marked)} {'is' if len(marked) == 1 else 'are'} broken" if marked else ""
     graph = seen(exploration, onto, wanted, says).with_ways()
     runs = dict(_paths(graph, found, system))
-    return Seen(system.name, graph, marked, runs, f"rovercheck graph {system.name}{options}", unmarked)
+    return StateGraphView(
+        system.name, graph, marked, runs, f"rovercheck graph {system.name}{options}", unmarked
+    )
 
 
-def _marked(compared: Compared, system: System) -> bool:
+def _marked(compared: ComparedResult, system: System) -> bool:
     """Whether it is broken by single states of the system."""
     prop, word = compared.result.property, compared.verdict.word
     return prop.on == system.name and word == "violated" and not isinstance(prop.form, Reachable | Unbounded)
@@ -119,7 +121,7 @@ def _places(system: System) -> list[str]:
     return [v.name for c in system.charts for v in c.locations]
 
 
-def _onto(system: System, explored: Explored) -> tuple[str, ...] | None:
+def _onto(system: System, explored: ReachableTicks) -> tuple[str, ...] | None:
     """As many locations as give a picture with few nodes and lines, without those that tell no more.
 
     All of them if that is possible, else the outermost of all charts, those of the last chart, which executes
@@ -136,17 +138,17 @@ def _onto(system: System, explored: Explored) -> tuple[str, ...] | None:
     return None
 
 
-def _fits(explored: Explored, names: Sequence[str]) -> bool:
+def _fits(explored: ReachableTicks, names: Sequence[str]) -> bool:
     found = projection(explored, [explored.column(name) for name in names])
     lines = int((found.ends[0] != found.ends[1]).sum())
     return 1 < len(found.first) <= NODES and lines <= LINES
 
 
-def _nodes(explored: Explored, names: Sequence[str]) -> int:
+def _nodes(explored: ReachableTicks, names: Sequence[str]) -> int:
     return len(projection(explored, [explored.column(name) for name in names]).first)
 
 
-def _without_idle(explored: Explored, names: tuple[str, ...]) -> tuple[str, ...]:
+def _without_idle(explored: ReachableTicks, names: tuple[str, ...]) -> tuple[str, ...]:
     """The names without those whose values follow from the others."""
     count = _nodes(explored, names)
     for name in reversed(names):
@@ -157,7 +159,7 @@ def _without_idle(explored: Explored, names: tuple[str, ...]) -> tuple[str, ...]
 
 
 def _paths(
-    graph: StateGraph, found: Sequence[Compared], system: System
+    graph: StateGraph, found: Sequence[ComparedResult], system: System
 ) -> Iterator[tuple[str, tuple[int, ...]]]:
     """The counterexamples about the system that can be followed in the graph.
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 
-from checker.commands.check.run import Compared, evidence, results
+from checker.commands.check.run import ComparedResult, evidence, results
 from checker.commands.report.data import Extras
 from checker.commands.reports.repairs import LIMITS, Proof
 from checker.commands.shared.variant import Variant
@@ -22,7 +22,7 @@ from spec_model.readings import Reading, readings
 from spec_model.repairs import Repair, repairs
 
 
-def extras(variant: Variant, found: Sequence[Compared], with_repairs: bool) -> Extras:
+def extras(variant: Variant, found: Sequence[ComparedResult], with_repairs: bool) -> Extras:
     """All of it; repairs, which are decided now, only if wanted and for the charts as specified."""
     mended = tuple(remedies(found)) if with_repairs and not variant.name else ()
     taken = tuple(ambiguity(one, variant.choices.get(one.id, one.default)) for one in readings().values())
@@ -43,7 +43,7 @@ def _meaning(one: Reading, choice: str) -> str:
     return f"{one.choices[choice]} (not modelled: {why})".strip() if why else one.choices[choice]
 
 
-def remedies(found: Sequence[Compared]) -> Iterator[Remedy]:
+def remedies(found: Sequence[ComparedResult]) -> Iterator[Remedy]:
     """The repairs of what was found violated, the properties that they repair decided now."""
     violated = {c.result.property.id for c in found if c.verdict.word == "violated"}
     for repair in repairs().values():

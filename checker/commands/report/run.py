@@ -11,22 +11,22 @@ from pathlib import Path
 from checker.certify.file import Unwritable
 from checker.commands.check.findings import Guide
 from checker.commands.check.premises import LONG, PremiseCase, cases
-from checker.commands.check.run import Compared, results, summary, worst
+from checker.commands.check.run import ComparedResult, results, summary, worst
+from checker.commands.report.causes import with_reasons
 from checker.commands.report.data import Extras, concerned, reviewed
-from checker.commands.report.forced import with_reasons
 from checker.commands.report.graphs import state_graphs
 from checker.commands.report.rover import extras
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import counted, err, out, write
+from checker.commands.shared.text_wrap import whole
 from checker.commands.shared.variant import Variant
-from checker.commands.shared.wrapping import whole
 from checker.engines import AUTO, Limits
 from checker.model import Model
 from checker.model.kept_invariants import invariants_of
 from checker.model.kept_runs import file_of, read
 from checker.render.review import render
 from checker.render.review.model import ReviewOrigin
-from checker.verify.certificates import Certifying
+from checker.verify.certificates import Certification
 from properties.forms import Property
 
 PACKAGES = ("rovercheck", "z3-solver", "bitwuzla", "llvmlite", "python-sat", "oxidd", "numpy", "networkx")
@@ -64,7 +64,7 @@ def report(
     engine: str = AUTO,
     limits: Limits = NO_LIMITS,
     jobs: int | None = None,
-    certifying: Certifying | None = None,
+    certifying: Certification | None = None,
 ) -> Exit:
     """Decide the properties and write the page, all of it or nothing.
 
@@ -79,12 +79,12 @@ def report(
         )
     model = replace(variant.model, systems=variant.systems())
     known = read(file_of(variant.model)) if asked.premises else {}
-    found: list[Compared] = []
+    found: list[ComparedResult] = []
     try:
         for result in results(
             properties, model.systems, engine, limits, jobs, certifying, invariants=invariants_of(model)
         ):
-            found.append(Compared(result, variant.expected(result.property.id), variant.name))
+            found.append(ComparedResult(result, variant.expected(result.property.id), variant.name))
         if asked.explain:
             found = with_reasons(found, model.systems)
         told = (
@@ -104,7 +104,7 @@ def report(
 def page(
     model: Model,
     variant: Variant,
-    found: Sequence[Compared],
+    found: Sequence[ComparedResult],
     asked: ReportOptions,
     told: Mapping[str, PremiseCase] | None = None,
 ) -> str:

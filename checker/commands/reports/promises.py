@@ -4,7 +4,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 
 from checker.commands.check.chains import check
-from checker.commands.check.run import Compared
+from checker.commands.check.run import ComparedResult
 from properties.catalogue import catalogue, expected, promises
 from properties.forms import Property
 from properties.promises.promise import Chain, Promise
@@ -37,11 +37,11 @@ Repaired = Mapping[tuple[str, str], str]
 """The same of each repair and property that was decided with it."""
 
 
-def page(found: Sequence[Compared], proved: Sequence["Proof"] = ()) -> str:
+def page(found: Sequence[ComparedResult], proved: Sequence["Proof"] = ()) -> str:
     """The promises, with the verdicts that were found, or else with the expected ones; ``proved``: repairs."""
     words = {c.result.property.id: c.word for c in found}
     repaired = {
-        (proof.repair.name, r.property.id): Compared(r, proof.variant.expected(r.property.id)).word
+        (proof.repair.name, r.property.id): ComparedResult(r, proof.variant.expected(r.property.id)).word
         for proof in proved
         for r in proof.results
     }

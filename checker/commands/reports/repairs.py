@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from html import escape
 
-from checker.commands.check.run import Compared, evidence, results
+from checker.commands.check.run import ComparedResult, evidence, results
 from checker.commands.shared.variant import Variant
 from checker.engines import AUTO, Limits, Timers
 from checker.model.kept_invariants import invariants_of_rover
@@ -118,7 +118,7 @@ def _cell(text: str) -> str:
 def _verdicts(proof: Proof) -> list[str]:
     name, count = proof.repair.name, proof.others
     lines = [f"With {name}:", ""]
-    lines += [f"- {r.property.id}: {Compared(r, Expected()).word}, {evidence(r)}" for r in proof.results]
+    lines += [f"- {r.property.id}: {ComparedResult(r, Expected()).word}, {evidence(r)}" for r in proof.results]
     lines += [
         f"- {id}: only in the full profile; `rovercheck check --repair {name} {id}` decides it"
         for id in _costly(proof.repair)

@@ -7,17 +7,17 @@ from html import escape
 from pathlib import Path
 
 from checker.commands.check.findings import totals
-from checker.commands.check.run import Compared, evidence, results
-from checker.commands.report.forced import with_reasons
+from checker.commands.check.run import ComparedResult, evidence, results
+from checker.commands.report.causes import with_reasons
 from checker.commands.reports.promises import page as promises_page
 from checker.commands.reports.repairs import Proof, proofs, repair_pages, sections
 from checker.commands.requirements.run import page as matrix_page
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import err, out, write
-from checker.commands.shared.wording import formally
-from checker.commands.shared.wrapping import whole
+from checker.commands.shared.property_text import formally
+from checker.commands.shared.text_wrap import whole
 from checker.engines import AUTO, Limits
-from checker.explain.explained import unexplained
+from checker.explain.explanation import unexplained
 from checker.model.kept_invariants import invariants_of_rover
 from checker.render import renderers
 from checker.render.trace_markdown import reasons_told
@@ -51,7 +51,7 @@ def reports(folder: Path, stale: bool) -> Exit:
     """
     affordable = [prop for prop in catalogue().values() if not prop.costly]
     decided = results(affordable, systems(), AUTO, Limits(), invariants=invariants_of_rover())
-    found = [Compared(r, expected(r.property.id)) for r in decided]
+    found = [ComparedResult(r, expected(r.property.id)) for r in decided]
     made = pages(found if stale else with_reasons(found, systems()))
     different = list(differences(folder, made))
     if stale:
@@ -122,7 +122,7 @@ def _put(folder: Path, name: str, made: Pages) -> None:
     write(made[name], target)
 
 
-def pages(found: Sequence[Compared]) -> Pages:
+def pages(found: Sequence[ComparedResult]) -> Pages:
     """Every file of the report, from the verdicts; the repairs are decided here."""
     proved = proofs()
     made = pages_of_verdicts(found, proved) | repair_pages(proved)
@@ -133,7 +133,7 @@ def pages(found: Sequence[Compared]) -> Pages:
     return made
 
 
-def pages_of_verdicts(found: Sequence[Compared], proved: Sequence[Proof] = ()) -> Pages:
+def pages_of_verdicts(found: Sequence[ComparedResult], proved: Sequence[Proof] = ()) -> Pages:
     """The files on properties, requirements and systems, without the charts; ``proved``: the repairs."""
     ordered = sorted(found, key=lambda c: (c.result.property.area, c.result.property.id))
     made = {
@@ -149,7 +149,7 @@ def pages_of_verdicts(found: Sequence[Compared], proved: Sequence[Proof] = ()) -
     return made
 
 
-def _picture(compared: Compared) -> Pages:
+def _picture(compared: ComparedResult) -> Pages:
     """The run over time, for what is violated by a run."""
     verdict = compared.verdict
     if isinstance(verdict, Unknown) or not isinstance(verdict.because, Trace):
@@ -162,11 +162,11 @@ def _text(content: str | bytes) -> str:
     return content if isinstance(content, str) else content.decode()
 
 
-def _page(compared: Compared) -> str:
+def _page(compared: ComparedResult) -> str:
     return f"findings/{compared.result.property.id}.md"
 
 
-def _index(found: Sequence[Compared]) -> str:
+def _index(found: Sequence[ComparedResult]) -> str:
     lines = ["# Verdicts", "", totals(found), ""]
     lines += [
         "- [Promises](promises.md)",
@@ -202,7 +202,7 @@ def _index(found: Sequence[Compared]) -> str:
     return HEADER + "\n".join(lines) + "\n"
 
 
-def _table(found: Sequence[Compared]) -> list[str]:
+def _table(found: Sequence[ComparedResult]) -> list[str]:
     rows = [
         "| property | verdict | what it says | requirements | about | evidence |",
         "|---|---|---|---|---|---|",
@@ -237,7 +237,7 @@ def _cell(text: str) -> str:
     return text.replace("|", "\\|")
 
 
-def _finding(compared: Compared, proved: Sequence[Proof]) -> str:
+def _finding(compared: ComparedResult, proved: Sequence[Proof]) -> str:
     prop, verdict = compared.result.property, compared.verdict
     assert not isinstance(verdict, Unknown)
     known = requirements()

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 
 from checker.commands.check.further import noticing
-from checker.commands.check.run import Compared, results, worst
+from checker.commands.check.run import ComparedResult, results, worst
 from checker.commands.shared.codes import Exit
 from checker.commands.shared.output import out
 from checker.commands.shared.tables import listed
@@ -51,7 +51,7 @@ def requirements(decide: bool, as_json: bool, path: Path | None = None) -> Exit:
     if not decide:
         return show(rows, {id: model.expected(id).verdict for id in stated}, EXPECTED, as_json)
     found = [
-        Compared(r, model.expected(r.property.id))
+        ComparedResult(r, model.expected(r.property.id))
         for r in results(
             list(stated.values()), model.systems, AUTO, Limits(), invariants=invariants_of(model)
         )
@@ -60,7 +60,7 @@ def requirements(decide: bool, as_json: bool, path: Path | None = None) -> Exit:
     return code if code != Exit.AS_EXPECTED else worst(found)
 
 
-def words(found: Sequence[Compared]) -> Verdicts:
+def words(found: Sequence[ComparedResult]) -> Verdicts:
     return {c.result.property.id: c.verdict.word for c in found}
 
 
@@ -160,7 +160,7 @@ def _row(row: RequirementCoverage, verdicts: Verdicts) -> dict[str, object]:
 # --- the page of the reports ---------------------------------------------------------------------
 
 
-def page(found: Sequence[Compared]) -> str:
+def page(found: Sequence[ComparedResult]) -> str:
     """The matrix in Markdown, from the verdicts found."""
     rows = matrix((c.result.property for c in found), noticing=noticing(rover()))
     verdicts = words(found)

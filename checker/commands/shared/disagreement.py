@@ -10,7 +10,7 @@ from pathlib import Path
 
 from checker.commands.shared.codes import UsageError
 from checker.commands.shared.output import write
-from checker.commands.shared.wrapping import whole
+from checker.commands.shared.text_wrap import whole
 from checker.results.verdict import Reached, Run
 from checker.verify.decide import Disagreement
 from checker.verify.portfolio.disagreement import Statement

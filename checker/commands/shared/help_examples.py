@@ -5,7 +5,7 @@ from shutil import get_terminal_size
 
 import click
 
-from checker.commands.shared.wrapping import filled
+from checker.commands.shared.text_wrap import filled
 
 COLUMNS, WIDE, NARROWEST, INDENT = 80, 60, 20, 4
 """Of help at most; from which on options stand beside what they do; at least; of what stands below."""

@@ -10,7 +10,7 @@ from rich.console import Console, ConsoleDimensions
 
 from checker.commands.shared.codes import UsageError
 from checker.commands.shared.silence import silent
-from checker.commands.shared.wrapping import fitted, plain, whole
+from checker.commands.shared.text_wrap import fitted, plain, whole
 from checker.io.console import UnmarkedConsole
 from checker.io.files import replaced
 

@@ -9,8 +9,8 @@ from rich.table import Table
 from rich.text import Text
 
 from checker.commands.shared.output import at_terminal, out
-from checker.commands.shared.wrapping import filled
-from checker.render.hanging import hanging
+from checker.commands.shared.text_wrap import filled
+from checker.render.hanging_indent import hanging
 
 GAP = "  "
 NARROWEST = 24

@@ -24,7 +24,7 @@ from spec_model.repairs import Repair, proposals, repaired, touches
 from spec_model.rover import systems
 
 if TYPE_CHECKING:
-    from checker.verify.certificates import Certifying
+    from checker.verify.certificates import Certification
 
 
 @dataclass(frozen=True)
@@ -112,12 +112,12 @@ class Variant:
                 asked.append(prop)
         return asked
 
-    def certifying(self, folder: Path | None, again: bool) -> "Certifying":
+    def certifying(self, folder: Path | None, again: bool) -> "Certification":
         """What to do with the proofs, with a note of how the charts are changed."""
-        from checker.verify.certificates import Certifying
+        from checker.verify.certificates import Certification
 
         repair = self.repair.name if self.repair else ""
-        return Certifying(folder, again, dict(self.choices), repair, tuple(sorted(self.without)))
+        return Certification(folder, again, dict(self.choices), repair, tuple(sorted(self.without)))
 
     def expected(self, id: str) -> Expected:
         """The verdict to compare with: what the repair promises, else the expected verdict."""

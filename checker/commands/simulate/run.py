@@ -12,7 +12,7 @@ from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import counted, err, out, write
 from checker.commands.shared.progress import ProgressLine
 from checker.commands.shared.silence import silent
-from checker.commands.shared.wrapping import whole
+from checker.commands.shared.text_wrap import whole
 from checker.commands.simulate.story import heading, story, traffic, verdicts
 from checker.io.files import replaced
 from checker.render.lanes import Band, ChartLane, Curve, LaneLimit, LaneRow, LaneRows, Lanes, Mark, Tone

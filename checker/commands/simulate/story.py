@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from checker.commands.shared.output import text_width
-from checker.commands.shared.wrapping import filled
+from checker.commands.shared.text_wrap import filled
 from supervisor.bench import Outcome, Record, Scenario
 from supervisor.bench.changes import Change, changes
 from supervisor.bench.record import Traffic

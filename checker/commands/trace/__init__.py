@@ -85,17 +85,17 @@ def trace(options: TraceOptions, charts: VariantOptions, search: SearchOptions) 
     """
     from checker.commands.shared.select import pick_engine
     from checker.commands.trace.examples import asked
-    from checker.commands.trace.explain import Explaining
-    from checker.commands.trace.run import Showing
+    from checker.commands.trace.explain import ExplanationOptions
+    from checker.commands.trace.run import TraceDisplay
     from checker.commands.trace.run import trace as run
 
     variant = charts.variant()
     wanted = asked(variant, options.id, options.state, options.transition, options.system)
-    showing = Showing(
+    showing = TraceDisplay(
         options.format,
         options.everything,
         options.output,
-        Explaining.chosen(options.explain),
+        ExplanationOptions.chosen(options.explain),
         options.witnesses,
         options.by,
     )

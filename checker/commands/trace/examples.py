@@ -10,7 +10,7 @@ from checker.commands.shared.select import pick
 from checker.commands.shared.variant import Variant
 from checker.results.trace import Trace
 from checker.results.verdict import Run
-from checker.system.lowered import lowered
+from checker.system.lowering_cache import lowered
 from checker.verify.runs.replay import followed
 from checker.verify.tasks import Task
 from properties.catalogue import Expected

@@ -15,7 +15,7 @@ SECONDS = 10.0
 
 
 @dataclass(frozen=True)
-class Explaining:
+class ExplanationOptions:
     """Whether the cause of a violation is looked for, and for how long (None: as long as it takes).
 
     With ``quiet`` there is no progress line.
@@ -26,16 +26,16 @@ class Explaining:
     quiet: bool = False
 
     @staticmethod
-    def chosen(asked: bool | None) -> "Explaining":
+    def chosen(asked: bool | None) -> "ExplanationOptions":
         """From what a user wrote: --explain, --no-explain or neither."""
-        return Explaining(asked is not False, None if asked else SECONDS)
+        return ExplanationOptions(asked is not False, None if asked else SECONDS)
 
     def __call__(self, trace: Trace, prop: Property, systems: Mapping[str, System]) -> Trace:
         """The trace with its cause, or as it is, with a word on why, after Ctrl-C too."""
         if not self.wanted:
             return trace
-        from checker.explain.explained import explained, unexplained  # by solvers, loaded for this alone
-        from checker.explain.unrolled import OutOfTime
+        from checker.explain.explanation import explained, unexplained  # by solvers, loaded for this alone
+        from checker.explain.unrolled_run import OutOfTime
 
         if why := unexplained(trace):
             err.print(f"The cause is not looked for: {why}.", markup=False)

@@ -11,9 +11,9 @@ from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.output import err, out, possible, text_width, write, wrote
 from checker.commands.shared.progress import Watch
 from checker.commands.shared.select import pick
-from checker.commands.shared.wrapping import filled
+from checker.commands.shared.text_wrap import filled
 from checker.commands.trace.examples import TraceRequest
-from checker.commands.trace.explain import Explaining
+from checker.commands.trace.explain import ExplanationOptions
 from checker.commands.trace.formats import exit_written, fitted
 from checker.engines import Limits
 from checker.render import Renderer, named, renderers
@@ -25,7 +25,7 @@ from properties.forms import Property, Unbounded
 from spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from checker.explain.others import NoMore
+    from checker.explain.other_runs import NoOtherRun
 
 FOR_READERS = ("table", "markdown")
 SECONDS = 30.0
@@ -33,7 +33,7 @@ SECONDS = 30.0
 
 
 @dataclass(frozen=True)
-class Showing:
+class TraceDisplay:
     """How a run is shown, and how many runs.
 
     What people read shows only what the property depends on, unless ``everything`` is wanted.
@@ -42,7 +42,7 @@ class Showing:
     format: str = "table"
     everything: bool = False
     output: Path | None = None
-    explaining: Explaining = field(default_factory=Explaining)
+    explaining: ExplanationOptions = field(default_factory=ExplanationOptions)
     runs: int = 1
     by: str = "transitions"
     """In what several runs differ: the ``transitions`` that they take, or the ``reason`` of their end."""
@@ -87,7 +87,7 @@ def trace(
     wanted: TraceRequest,
     engine: str,
     limits: Limits,
-    showing: Showing,
+    showing: TraceDisplay,
 ) -> Exit:
     """Decide a property and show its trace; say so when its verdict rests on none."""
     prop, systems = wanted.property, wanted.systems
@@ -130,7 +130,9 @@ def _print_heading(wanted: TraceRequest, verdict: str) -> None:
         out.print(filled(f"Why: {on_record.because}", text_width()), markup=False)
 
 
-def _show_several(wanted: TraceRequest, first: Trace, engine: str, limits: Limits, showing: Showing) -> None:
+def _show_several(
+    wanted: TraceRequest, first: Trace, engine: str, limits: Limits, showing: TraceDisplay
+) -> None:
     """Show runs as they are found; into a file all of them together."""
     told: list[str] = []
     for text in _several(wanted, first, engine, limits, showing):
@@ -143,18 +145,18 @@ def _show_several(wanted: TraceRequest, first: Trace, engine: str, limits: Limit
 
 
 def _several(
-    wanted: TraceRequest, first: Trace, engine: str, limits: Limits, showing: Showing
+    wanted: TraceRequest, first: Trace, engine: str, limits: Limits, showing: TraceDisplay
 ) -> Iterator[str]:
     """The text of several runs, each with what makes it different."""
-    from checker.explain.others import NoMore, Others
-    from checker.explain.unlike import Unlike
+    from checker.explain.other_causes import OtherCauses
+    from checker.explain.other_runs import NoOtherRun, OtherRuns
 
     prop, system = wanted.property, wanted.systems[first.system]
     limits = limits if limits.seconds is not None else replace(limits, seconds=SECONDS)
     runs = [showing.explaining(first, prop, wanted.systems)]
     yield _heading("Run 1", [], showing) + _rendered(wanted.drawn(runs[0]), showing)
-    by_transitions = Others(first, prop, system, wanted.watched) if showing.by == "transitions" else None
-    by_reason = Unlike(prop, system)
+    by_transitions = OtherRuns(first, prop, system, wanted.watched) if showing.by == "transitions" else None
+    by_reason = OtherCauses(prop, system)
     for number in range(2, showing.runs + 1):
         if by_transitions is None and runs[-1].needed is None:
             unknown = (
@@ -169,7 +171,7 @@ def _several(
                 if by_transitions is not None
                 else by_reason.next(runs, engine, limits, say)
             )
-        if isinstance(other, NoMore):
+        if isinstance(other, NoOtherRun):
             yield _heading(f"No run {number}", _no_more(other, system, showing.by), showing)
             return
         trace, differences = (other, ()) if isinstance(other, Trace) else (other.trace, other.differences)
@@ -192,7 +194,7 @@ NO_MORE = {
 """What is said when there is no further run: not proved, and proved."""
 
 
-def _no_more(found: "NoMore", system: System, by: str) -> list[str]:
+def _no_more(found: "NoOtherRun", system: System, by: str) -> list[str]:
     unproved, proved = NO_MORE[by]
     if not found.proved:
         return [f"{unproved}; that there is none is not proved: {found.reason}."]
@@ -200,13 +202,13 @@ def _no_more(found: "NoMore", system: System, by: str) -> list[str]:
     return [every, _only_some(system.name)] if system.under else [every]
 
 
-def _rendered(trace: Trace, showing: Showing) -> str:
+def _rendered(trace: Trace, showing: TraceDisplay) -> str:
     shown = fitted(showing.renderer, showing.output)(showing.cut(trace))
     assert isinstance(shown, str), "formats for readers are text"
     return shown
 
 
-def _heading(title: str, lines: Sequence[str], showing: Showing) -> str:
+def _heading(title: str, lines: Sequence[str], showing: TraceDisplay) -> str:
     if showing.format == "markdown":
         return "\n\n".join([f"### {title}", *(line.translate(SPECIAL) for line in lines)]) + "\n\n"
     return "\n".join(["", f"--- {title} ---", *(filled(line, text_width()) for line in lines)]) + "\n"

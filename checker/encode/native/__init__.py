@@ -17,7 +17,7 @@ from checker.encode.native.layout import Field, Layout, OutsideDomain, layout
 from checker.encode.native.quiet import Shift, moved_on, shifts
 from checker.encode.native.retrace import LEAVE_DOMAIN, REACH_TARGET, UNREAD, add_retrace
 from checker.encode.native.search import BATCH, NativeTask, Status, add_search
-from checker.encode.native.successors import Ended, add_successors
+from checker.encode.native.successors import ExpansionEnd, add_successors
 from checker.encode.native.table import CONTEXT, StateTable
 
 Words = NDArray[np.uint64]
@@ -29,7 +29,7 @@ __all__ = [
     "LEAVE_DOMAIN",
     "REACH_TARGET",
     "UNREAD",
-    "Ended",
+    "ExpansionEnd",
     "Field",
     "Layout",
     "NativeRetrace",
@@ -146,7 +146,7 @@ class NativeSuccessors:
         """Compile for a task.  Raises ``TooWide`` where 64 bits do not suffice."""
         return NativeSuccessors(task, _library("successors", task, _level(task))[0])
 
-    def __call__(self, words: Words, room: int) -> tuple[Ended, int, Words, NDArray[np.int64]]:
+    def __call__(self, words: Words, room: int) -> tuple[ExpansionEnd, int, Words, NDArray[np.int64]]:
         """Why it ended, how many of the states are expanded, where their ticks lead, and from which."""
         found = np.empty((room + 1, self.task.layout.words), dtype=np.uint64)
         origins = np.empty(room + 1, dtype=np.int64)
@@ -155,7 +155,7 @@ class NativeSuccessors:
         call = self.library.function("successors", ctypes.c_int64, types)
         rows = np.ascontiguousarray(words)
         ended = call(_address(rows), len(rows), room, *map(_address, (found, origins, state)))
-        return Ended(ended), int(state[0]), found[: state[1]], origins[: state[1]]
+        return ExpansionEnd(ended), int(state[0]), found[: state[1]], origins[: state[1]]
 
 
 # --- compiling, or not again -------------------------------------------------------------------------

@@ -8,7 +8,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from checker.encode.counting import Counter
+from checker.encode.counters import Counter
 from checker.encode.native.expressions import BIT, INT
 from checker.encode.native.layout import Layout
 

@@ -13,7 +13,7 @@ MOST_PATHS = 1 << 25
 """Ways through one tick beyond which its state is given up: the code could not be interrupted."""
 
 
-class Ended(IntEnum):
+class ExpansionEnd(IntEnum):
     """Why ``successors`` came back."""
 
     DONE = 0
@@ -27,7 +27,7 @@ def add_successors(module: Any, task: NativeTask) -> None:
 
     Each path ends in a row of ``found``, which has ``room`` + 1 of them, with the place of its origin in
     ``origins``; rows that repeat the one before are left out.  ``state`` becomes how many states are
-    expanded and how many rows belong to them.  Returns an ``Ended``.
+    expanded and how many rows belong to them.  Returns an ``ExpansionEnd``.
     """
     _Successors(module, task).emit()
 
@@ -68,10 +68,10 @@ class _Successors:
         build.store(INT(0), self.tried)
         build.cbranch(build.icmp_signed("<", build.load(self.at), self.a["count"]), expand, done)
         build.position_at_end(done)
-        self._leave(Ended.DONE)
+        self._leave(ExpansionEnd.DONE)
         build.position_at_end(expand)
 
-    def _leave(self, why: Ended) -> None:
+    def _leave(self, why: ExpansionEnd) -> None:
         """Back to Python; what was found of the current state does not count."""
         build = self.build
         for number, place in enumerate((self.at, self.first)):
@@ -83,9 +83,9 @@ class _Successors:
         tried = build.add(build.load(self.tried), INT(1))
         build.store(tried, self.tried)
         with build.if_then(build.icmp_signed(">", tried, INT(MOST_PATHS)), likely=False):
-            self._leave(Ended.TOO_MANY)
+            self._leave(ExpansionEnd.TOO_MANY)
         with build.if_then(outside(self.body, self.task.layout), likely=False):
-            self._leave(Ended.OUTSIDE)
+            self._leave(ExpansionEnd.OUTSIDE)
         after = packed(self.body, self.task, self.task.paths, before)
         with build.if_then(build.not_(self._as_before(after))):
             self._keep(after)
@@ -102,7 +102,7 @@ class _Successors:
     def _keep(self, after: list[Any]) -> None:
         build, filled = self.build, self.build.load(self.filled)
         with build.if_then(build.icmp_signed(">=", filled, self.a["room"]), likely=False):
-            self._leave(Ended.NO_ROOM)
+            self._leave(ExpansionEnd.NO_ROOM)
         self.table.save(build, self.a["found"], filled, after)
         build.store(build.load(self.at), build.gep(self.a["origins"], [filled]))
         build.store(build.add(filled, INT(1)), self.filled)

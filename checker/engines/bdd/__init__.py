@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 from checker.engines import Limits, Progress
 from checker.engines.bdd.events import BddBound, BddClosed, BddFound, BddStuck, Event
-from checker.process.isolate import Send, Stopped, messages
+from checker.process.isolate import ChildStopped, Send, messages
 from checker.results.trace import counted_ticks
 from checker.results.verdict import Answer, Open, Reached, Unreachable
 
@@ -41,7 +41,7 @@ def check(
             for event in events:
                 known.note(event)
                 progress(known.line())
-    except Stopped as stopped:
+    except ChildStopped as stopped:
         reason = str(stopped)
     return {n: known.answers.get(n) or Open(reason, known.deep[n]) for n in names}
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from checker.engines import Limits, Progress
 from checker.engines.bmc.events import BmcBound, BmcFound, BmcUndefined, Event
-from checker.process.isolate import Send, Stopped, messages
+from checker.process.isolate import ChildStopped, Send, messages
 from checker.results.trace import counted_ticks
 from checker.results.verdict import Answer, Open, Reached
 
@@ -39,7 +39,7 @@ def check(
             for event in events:
                 _note(event, found, deep)
                 progress(_line(deep, found))
-    except Stopped as stopped:
+    except ChildStopped as stopped:
         reason = str(stopped)
     done = _searched(limits.depth)
     return {n: found.get(n) or Open(done if deep[n] >= depth else reason, deep[n]) for n in names}

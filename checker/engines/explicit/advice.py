@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from checker.encode.counting import counters
+from checker.encode.counters import counters
 from checker.encode.native import Field, NativeSearch, NativeSuccessors, NativeTask, moved_on, shifts
 from checker.encode.native.quiet import NOTHING
 from spec_model.lang.errors import ModelError

@@ -7,16 +7,16 @@ from itertools import product
 from math import prod
 from time import monotonic
 
-from checker.encode.counting import counters
+from checker.encode.counters import counters
 from checker.encode.gather import bits, gathered
 from checker.encode.native import Field, Layout, NativeSearch, NativeTask, TooWide, layout, shifts
 from checker.encode.native.layout import WORD_BITS
 from checker.encode.values import possible, values
 from checker.engines import Limits, Progress, Stage, Timers
-from checker.engines.explicit.levels import ExplicitFound, LevelSearch, Spent
+from checker.engines.explicit.levels import ExplicitFound, LevelSearch, SearchUsage
 from checker.engines.explicit.lines import LineSearch
 from checker.engines.explicit.runs import Runs
-from checker.results.closed import BitPlace, ClosedSet, union
+from checker.results.closed_set import BitPlace, ClosedSet, union
 from checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
 from checker.system.slice import sliced
 from spec_model.lang.domain import Enum
@@ -123,7 +123,7 @@ def answers(
 ) -> Mapping[str, Answer]:
     """An answer for each goal, by name; raises what ``check`` of the engine raises."""
     _check_goals(system, goals)
-    deadline, spent = limits.deadline(), Spent()
+    deadline, spent = limits.deadline(), SearchUsage()
     answered: dict[str, Answer] = {}
     for wanted in _groups(system, goals):
         if answered and deadline is not None and monotonic() > deadline:
@@ -167,7 +167,7 @@ class _Within:
     deadline: float | None
     progress: Progress
 
-    def over(self, spent: Spent) -> str:
+    def over(self, spent: SearchUsage) -> str:
         """Which limit leaves nothing for another search; empty if none does."""
         limits = self.limits
         if self.deadline is not None and monotonic() > self.deadline:
@@ -178,8 +178,8 @@ class _Within:
 
 
 def _by_cases(
-    system: TransitionSystem, goals: Sequence[Var], within: _Within, spent: Spent
-) -> tuple[Mapping[str, Answer], Spent]:
+    system: TransitionSystem, goals: Sequence[Var], within: _Within, spent: SearchUsage
+) -> tuple[Mapping[str, Answer], SearchUsage]:
     """An answer for each goal, and what is spent after it; a wide system is searched case by case.
 
     A limit of transitions is shared by the cases, so that the largest does not keep the others from a run.
@@ -201,7 +201,7 @@ def _by_cases(
     return joined(part, found), spent
 
 
-def _shared(most: int | None, spent: Spent, cases: int) -> Spent:
+def _shared(most: int | None, spent: SearchUsage, cases: int) -> SearchUsage:
     """What counts as spent for a case, so that each of some cases may spend as much as this one."""
     return spent if most is None else replace(spent, transitions=most - (most - spent.transitions) // cases)
 
@@ -216,8 +216,12 @@ def _said(progress: Progress, case: str, line: str) -> None:
 
 
 def _searched(
-    system: TransitionSystem, part: TransitionSystem, goals: Sequence[Var], within: _Within, spent: Spent
-) -> tuple[Mapping[str, Answer], Spent]:
+    system: TransitionSystem,
+    part: TransitionSystem,
+    goals: Sequence[Var],
+    within: _Within,
+    spent: SearchUsage,
+) -> tuple[Mapping[str, Answer], SearchUsage]:
     """One search of a slice: an answer for each goal, and what is spent after it."""
     limits = within.limits
     try:
@@ -237,7 +241,7 @@ def _searched(
         raise runs.left_domain(found.outside)
     answers = {g.name: _answer(found, runs, number, g) for number, g in enumerate(goals)}
     kept = search.store.words.nbytes if any(isinstance(a, Unreachable) for a in answers.values()) else 0
-    return answers, Spent(spent.transitions + found.transitions, spent.bytes + kept)
+    return answers, SearchUsage(spent.transitions + found.transitions, spent.bytes + kept)
 
 
 def _layout(part: TransitionSystem, limits: Limits) -> Layout:

@@ -56,14 +56,14 @@ class ExplicitFound:
 
 
 @dataclass(frozen=True)
-class Spent:
+class SearchUsage:
     """What earlier searches under the same limits have used, and bytes that their answers hold."""
 
     transitions: int = 0
     bytes: int = 0
 
 
-NOTHING = Spent()
+NOTHING = SearchUsage()
 
 
 class LevelSearch:
@@ -78,7 +78,7 @@ class LevelSearch:
         limits: Limits,
         deadline: float | None,
         progress: Progress,
-        spent: Spent = NOTHING,
+        spent: SearchUsage = NOTHING,
     ) -> None:
         self.native, self.limits, self.deadline, self.progress = native, limits, deadline, progress
         self.spent = spent

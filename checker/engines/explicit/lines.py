@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from checker.encode.native import NativeSearch
 from checker.engines import Limits, Progress
-from checker.engines.explicit.levels import NOTHING, LevelSearch, Spent
+from checker.engines.explicit.levels import NOTHING, LevelSearch, SearchUsage
 
 
 class LineSearch(LevelSearch):
@@ -25,7 +25,7 @@ class LineSearch(LevelSearch):
         limits: Limits,
         deadline: float | None,
         progress: Progress,
-        spent: Spent = NOTHING,
+        spent: SearchUsage = NOTHING,
     ) -> None:
         super().__init__(native, limits, deadline, progress, spent)
         self.current, self.anchors = self._room(0)

@@ -19,7 +19,7 @@ from checker.engines.kinduction.events import (
     InductionProgress,
     InductionStuck,
 )
-from checker.process.isolate import Send, Stopped, messages
+from checker.process.isolate import ChildStopped, Send, messages
 from checker.results.verdict import Answer, Open, Reached, Unreachable
 
 if TYPE_CHECKING:  # `list engines` reads this file for two lines
@@ -66,7 +66,7 @@ def _answered(
             for event in events:
                 state.note(event)
                 progress(state.line())
-    except Stopped as stopped:
+    except ChildStopped as stopped:
         reason = str(stopped)
     return {n: state.found.get(n) or Open(state.stuck.get(n, reason), state.deep[n]) for n in names}
 

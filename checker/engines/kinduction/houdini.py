@@ -13,7 +13,7 @@ import z3
 
 from checker.encode.bitvector import Encoder, Term
 from checker.encode.invariants import TemplateCube
-from checker.encode.simulate import Columns, Simulator, Vectorised
+from checker.encode.simulate import ArrayProgram, Columns, Simulator
 from checker.encode.unrolling import Unrolling, literal, satisfiable
 from checker.engines.kinduction.ticks import Scope, TickReading, Ticks
 from spec_model.lang.evaluate import evaluate
@@ -114,7 +114,7 @@ def of_given(scope: Scope, candidates: Sequence[Expr]) -> Consecution:
 
 def unbroken(conditions: Sequence[Expr], at: Columns) -> list[Expr]:
     """The conditions that hold in all the states."""
-    truth = Vectorised(conditions)(at)
+    truth = ArrayProgram(conditions)(at)
     return [c for c, holds in zip(conditions, truth, strict=True) if np.all(holds)]
 
 

@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from checker.engines import Engine, Limits, Progress, engines
-from checker.process.isolate import Stopped
+from checker.process.isolate import ChildStopped
 from checker.results.trace import counted_ticks
 from checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
 
@@ -46,7 +46,7 @@ def check(
             told = _Told(progress, goal.name, len(goals) - len(found))
             try:
                 found[goal.name] = _decided(own, goal, limits.until(deadline), orders, told)
-            except Stopped as stopped:
+            except ChildStopped as stopped:
                 found[goal.name] = Open(str(stopped), 0)
     return found
 
@@ -65,7 +65,7 @@ def _decided(
     system: "TransitionSystem", goal: "Var", limits: Limits, orders: "Orders", told: _Told
 ) -> Answer:
     """Refine until a proof of the system with cuts or a run of the system itself is found."""
-    from checker.engines.localisation.bounded import BoundedHit
+    from checker.engines.localisation.bounded_search import BoundedHit
     from checker.engines.localisation.cuts import with_cuts
 
     depth, kept, asked, deadline = FIRST, frozenset[str](), False, limits.deadline()

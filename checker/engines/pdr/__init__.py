@@ -9,8 +9,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from checker.engines import Limits, Progress
-from checker.engines.pdr.events import Decided, Event, PdrBound, PdrUndefined
-from checker.process.isolate import Send, Stopped, messages
+from checker.engines.pdr.events import Event, PdrAnswer, PdrBound, PdrUndefined
+from checker.process.isolate import ChildStopped, Send, messages
 from checker.results.trace import counted_ticks
 from checker.results.verdict import Answer, Open
 
@@ -38,7 +38,7 @@ def check(
             for event in events:
                 state.note(event)
                 progress(state.line())
-    except Stopped as stopped:
+    except ChildStopped as stopped:
         reason = str(stopped)
     return {n: state.found.get(n) or _open(state.deep[n], limits.depth, reason) for n in names}
 
@@ -64,7 +64,7 @@ class _State:
     def note(self, event: Event | None) -> None:
         """Take down what an event says; None only shows that time has passed."""
         match event:
-            case Decided(goal, answer):
+            case PdrAnswer(goal, answer):
                 self.found[goal] = answer
             case PdrUndefined(goals, variables, tick):
                 names = ", ".join(variables)

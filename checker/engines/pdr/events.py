@@ -7,7 +7,7 @@ from checker.results.verdict import Reached, Unreachable
 
 
 @dataclass(frozen=True)
-class Decided:
+class PdrAnswer:
     """The answer about a goal, with its evidence."""
 
     goal: str
@@ -32,4 +32,4 @@ class PdrUndefined:
     tick: int
 
 
-Event = Union[Decided, PdrBound, PdrUndefined]
+Event = Union[PdrAnswer, PdrBound, PdrUndefined]

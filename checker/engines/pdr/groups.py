@@ -12,9 +12,9 @@ from checker.encode.bits.model import cut
 from checker.encode.cone import as_written, by_cone, cone, constants, folded, straying
 from checker.encode.symbolic import SymbolicTransition, transition
 from checker.engines.pdr.cubes import Cube
-from checker.engines.pdr.events import Decided, Event, PdrBound, PdrUndefined
+from checker.engines.pdr.events import Event, PdrAnswer, PdrBound, PdrUndefined
 from checker.engines.pdr.machine import LEAVES, machine
-from checker.engines.pdr.search import BoundedDepth, Excluded, PdrSearch, Traced
+from checker.engines.pdr.search import BoundedDepth, PdrInvariant, PdrRun, PdrSearch
 from checker.engines.pdr.seeds import LARGE, Seed, mined, proved
 from checker.engines.pdr.support import needed
 from checker.results.verdict import Inductive, Reached, Run, Unreachable
@@ -38,7 +38,7 @@ def others(circuit: Circuit) -> dict[Literal, int] | None:
     return {bit: int(x > 0) for bit, x in zip(bits, solver.get_model(), strict=False)}
 
 
-def run_of(traced: Traced, circuit: Circuit, outside: dict[Literal, int]) -> Run:
+def run_of(traced: PdrRun, circuit: Circuit, outside: dict[Literal, int]) -> Run:
     """The run of the whole system that a trace stands for."""
     leaves = [*(latch.literal for latch in circuit.latches), *(bit.literal for bit in circuit.inputs)]
 
@@ -216,7 +216,7 @@ class _Group:
         outside = others(self.circuit)
         if outside is None:  # there is no run at all
             because = Inductive(tuple(self._fixed))
-            yield from (Decided(goal, Unreachable(because)) for goal in self.circuit.goals)
+            yield from (PdrAnswer(goal, Unreachable(because)) for goal in self.circuit.goals)
         elif not self.circuit.leaves or (yield from self._stays(outside)):
             yield from _in_turns([_Goal(self, goal, outside) for goal in self.circuit.goals])
 
@@ -225,7 +225,7 @@ class _Group:
         goals, system = tuple(self.circuit.goals), self.circuit.system
         for event in self.search.decide(LEAVES):
             match event:
-                case Traced():
+                case PdrRun():
                     at = replayed(system, run_of(event, self.circuit, outside))
                     yield PdrUndefined(goals, _leavers(system, at[-1]), len(at) - 1)
                     return False
@@ -252,11 +252,11 @@ class _Goal:
         for event in group.search.decide(goal):
             self.spent += group.spent - before
             match event:
-                case Traced():
+                case PdrRun():
                     run = _reaching(run_of(event, group.circuit, outside), goal, group.circuit.system)
-                    yield Decided(goal, Reached(run, shortest=len(run) == bound + 1))
-                case Excluded(cubes):
-                    yield Decided(goal, Unreachable(Inductive(group.invariant(goal, cubes))))
+                    yield PdrAnswer(goal, Reached(run, shortest=len(run) == bound + 1))
+                case PdrInvariant(cubes):
+                    yield PdrAnswer(goal, Unreachable(Inductive(group.invariant(goal, cubes))))
                 case BoundedDepth(bound):
                     yield PdrBound(goal, bound, group.search.frames.size)
                     if group.depth is not None and bound >= group.depth:

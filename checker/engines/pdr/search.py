@@ -104,7 +104,7 @@ class PdrObligation:
 
 
 @dataclass(frozen=True)
-class Traced:
+class PdrRun:
     """A run: the latches before the first tick and the inputs of every tick, as literals."""
 
     latches: tuple[int, ...]
@@ -112,7 +112,7 @@ class Traced:
 
 
 @dataclass(frozen=True)
-class Excluded:
+class PdrInvariant:
     """The goal is never reached: the cubes of an inductive invariant, whose negations are its clauses."""
 
     cubes: tuple[Cube, ...]
@@ -125,7 +125,7 @@ class BoundedDepth:
     depth: int
 
 
-Event = Traced | Excluded | BoundedDepth
+Event = PdrRun | PdrInvariant | BoundedDepth
 
 
 class PdrSearch:
@@ -147,19 +147,19 @@ class PdrSearch:
             while frames.top < max(level, 1):
                 frames.open()
             while (run := self._one_less(goal, level)) is not None:
-                if isinstance(run, Traced):
+                if isinstance(run, PdrRun):
                     yield run
                     return
                 yield BoundedDepth(level)
             yield BoundedDepth(level + 1)
             self._propagate()
             if frames.hits(goal, ALWAYS) is None:
-                yield Excluded(tuple(lemma.cube for lemma in frames.always))
+                yield PdrInvariant(tuple(lemma.cube for lemma in frames.always))
                 return
 
     # --- obligations -----------------------------------------------------------------------------
 
-    def _one_less(self, goal: str, level: int) -> Traced | LemmaStep | None:
+    def _one_less(self, goal: str, level: int) -> PdrRun | LemmaStep | None:
         """Exclude a state of the frame from which the goal is reached: the step is such a one, unless
         it begins a run; None when there is none left."""
         step = self.frames.hits(goal, level)
@@ -168,7 +168,7 @@ class PdrSearch:
         first = PdrObligation(self._lifter.onto(step, goal), step.inputs, None)
         return self._discharged(first, level) or step
 
-    def _discharged(self, first: PdrObligation, level: int) -> Traced | None:
+    def _discharged(self, first: PdrObligation, level: int) -> PdrRun | None:
         frames = self.frames
         heap: list[tuple[int, int, PdrObligation]] = []
         self._push(heap, level, first)
@@ -195,12 +195,12 @@ class PdrSearch:
         self._made += 1
         heappush(heap, (level, self._made, wanted))
 
-    def _run(self, first: PdrObligation) -> Traced:
+    def _run(self, first: PdrObligation) -> PdrRun:
         inputs, obligation = list[tuple[int, ...]](), first
         while True:
             inputs.append(obligation.inputs)
             if obligation.next is None:
-                return Traced(self.frames.started(first.cube), tuple(inputs))
+                return PdrRun(self.frames.started(first.cube), tuple(inputs))
             obligation = obligation.next
 
     # --- propagation -----------------------------------------------------------------------------

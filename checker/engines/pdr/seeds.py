@@ -16,7 +16,7 @@ from checker.encode.bits.blast import Value, as_word
 from checker.encode.bits.cnf import Cnf
 from checker.encode.cone import Slice
 from checker.encode.invariants import Candidates
-from checker.encode.simulate import Simulator, Vectorised
+from checker.encode.simulate import ArrayProgram, Simulator
 from spec_model.lang.expr import Expr, Var
 from spec_model.lang.walk import variables
 
@@ -48,7 +48,7 @@ def mined(part: Slice, escapes: Sequence[Expr]) -> list[Expr]:
     if len(found) + len(more) <= MANY:
         found += more
     for block in trail.blocks():
-        truth = Vectorised(found)(block)
+        truth = ArrayProgram(found)(block)
         found = [c for c, holds in zip(found, truth, strict=True) if np.all(holds)]
     return found
 

@@ -9,7 +9,7 @@ from operator import add, eq, ge, gt, le, lt, mul, ne, sub
 from typing import Any
 
 from checker.explore.by_hand.names import Names
-from checker.explore.by_hand.written import RefusedInput
+from checker.explore.by_hand.value_syntax import RefusedInput
 from spec_model.lang.chart import Chart
 from spec_model.lang.domain import Bool, Enum
 from spec_model.lang.errors import ModelError, did_you_mean

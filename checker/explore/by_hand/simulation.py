@@ -3,21 +3,21 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from checker.explore.by_hand.admitted import broken, conjuncts
-from checker.explore.by_hand.written import RefusedInput, outside
+from checker.explore.by_hand.admissible_inputs import broken, conjuncts
+from checker.explore.by_hand.value_syntax import RefusedInput, outside
 from checker.results.trace import Tick, Trace
 from checker.verify.runs.replay import ReplayError, ends, transition_of
 from spec_model.lang.chart import Path, Transition
 from spec_model.lang.evaluate import step
 from spec_model.lang.expr import Expr
-from spec_model.lang.interpret import Fired, Interpreter
+from spec_model.lang.interpret import FiredTransition, Interpreter
 from spec_model.lang.interpret.run import Testing, ValueOf
 from spec_model.lang.lower import lower
 from spec_model.lang.system import System
 
 
 @dataclass(frozen=True)
-class Tested:
+class TestedTransition:
     """A transition that was tested in a tick: whether it was valid, and the truth of each conjunct of its
     guard.
 
@@ -37,7 +37,7 @@ class _Moment:
 
     inputs: tuple[int, ...]
     after: tuple[int, ...]
-    fired: tuple[Fired, ...]
+    fired: tuple[FiredTransition, ...]
 
 
 class HandSimulation:
@@ -130,7 +130,7 @@ class HandSimulation:
             self._executed = self.at
         return self._ahead
 
-    def _replayed(self, ticks: int, tested: list[Tested] | None = None) -> Interpreter:
+    def _replayed(self, ticks: int, tested: list[TestedTransition] | None = None) -> Interpreter:
         interpreter = Interpreter(self.system, self.frozen, tested=None if tested is None else _into(tested))
         for number in range(1, ticks + 1):
             if tested is not None:
@@ -146,13 +146,13 @@ class HandSimulation:
         measured = ends(self.lowered, tuple(self._ticks(1)))
         return measured[-1] if measured else self.at * self.lowered.tick_ms
 
-    def tested(self) -> tuple[Tested, ...]:
+    def tested(self) -> tuple[TestedTransition, ...]:
         """Every transition that was tested in the tick that is looked at, in order."""
-        found: list[Tested] = []
+        found: list[TestedTransition] = []
         self._replayed(self.at, found)
         return tuple(found)
 
-    def fired(self, tick: int | None = None) -> tuple[Fired, ...]:
+    def fired(self, tick: int | None = None) -> tuple[FiredTransition, ...]:
         """The transitions taken in a tick, by default in the one that is looked at; before the first none."""
         tick = self.at if tick is None else tick
         return self._moments[tick - 1].fired if tick else ()
@@ -182,11 +182,11 @@ def _agree(read: Mapping[str, int], lowered: Mapping[str, int], tick: int) -> No
             )
 
 
-def _into(found: list[Tested]) -> Testing:
+def _into(found: list[TestedTransition]) -> Testing:
     """Keeps every transition that an interpreter tests, with the truth of its conjuncts at that moment."""
 
     def keep(chart: str, source: Path | None, segment: Transition, valid: bool, value: ValueOf) -> None:
         truths = tuple((part, bool(value(part))) for part in conjuncts(segment.guard))
-        found.append(Tested(chart, source, segment, valid, truths))
+        found.append(TestedTransition(chart, source, segment, valid, truths))
 
     return keep

@@ -14,7 +14,7 @@ import numpy as np
 
 from checker.encode.native import (
     REACH_TARGET,
-    Ended,
+    ExpansionEnd,
     NativeSuccessors,
     NativeTask,
     OutsideDomain,
@@ -25,8 +25,8 @@ from checker.encode.native import Words as Packed
 from checker.engines import Limits, Progress
 from checker.engines.explicit.levels import ExplicitFound, initial_valuations
 from checker.engines.explicit.runs import Runs
-from checker.explore.graphs.explored import Explored
-from checker.explore.graphs.numbering import Numbers, numbered
+from checker.explore.graphs.reachable_ticks import ReachableTicks
+from checker.explore.graphs.row_numbers import Numbers, numbered
 from checker.results.verdict import Run
 from checker.system.slice import sliced
 from checker.verify.runs.domains import leaves, stray
@@ -141,12 +141,14 @@ class Exploration:
             self._store(rows, origins + self.expanded)
             done += count
             self.expanded += count
-            if ended is Ended.OUTSIDE:
+            if ended is ExpansionEnd.OUTSIDE:
                 raise self._outside(words[done])
-            if ended is Ended.TOO_MANY or (ended is Ended.NO_ROOM and not count and room >= MOST_ROOM):
+            if ended is ExpansionEnd.TOO_MANY or (
+                ended is ExpansionEnd.NO_ROOM and not count and room >= MOST_ROOM
+            ):
                 self.stopped = f"one state has more than {MOST_ROOM:,} ticks"
                 return
-            room = min(4 * room, MOST_ROOM) if ended is Ended.NO_ROOM and not count else room
+            room = min(4 * room, MOST_ROOM) if ended is ExpansionEnd.NO_ROOM and not count else room
 
     def _store(self, rows: Packed, origins: Numbers) -> None:
         """Keep each pair once; rows come by origin."""
@@ -211,7 +213,7 @@ class Exploration:
         return np.concatenate(self.found)
 
     @cached_property
-    def explored(self) -> Explored:
+    def explored(self) -> ReachableTicks:
         """The states and their ticks."""
         columns = np.empty((len(self.fields), len(self.words)), dtype=np.int64)
         for row, f in zip(columns, self.fields, strict=True):
@@ -219,7 +221,7 @@ class Exploration:
             row[:] = code.astype(np.int64) * f.stride + f.low
         none = np.zeros(0, dtype=np.int64)
         sources, targets = (np.concatenate([none, *(p[i] for p in self.pairs)]) for i in (0, 1))
-        return Explored(
+        return ReachableTicks(
             tuple(f.var for f in self.fields), columns, self.initial, tuple(self.levels),
             np.concatenate([none, *self.parents]), sources, targets, self.expanded, self.stopped,
         )  # fmt: skip

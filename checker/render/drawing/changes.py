@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from checker.render.drawing.scheme import ChartArrow, action_lines, arrows, label
+from checker.render.drawing.labels import ChartArrow, action_lines, arrows, label
 from spec_model.lang.chart import Block, Chart
 
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from checker.render.drawing.graph import Edge
-from checker.render.drawing.scheme import ChartArrow, label_parts
+from checker.render.drawing.labels import ChartArrow, label_parts
 from checker.render.drawing.text import block, wrap
 from spec_model.lang.chart import Path
 

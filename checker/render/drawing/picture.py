@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from checker.render.drawing.graph import Point
-from checker.render.drawing.scheme import ChartArrow
+from checker.render.drawing.labels import ChartArrow
 from spec_model.lang.chart import Path
 
 

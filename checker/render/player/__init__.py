@@ -7,8 +7,8 @@ from typing import Any
 
 from markupsafe import Markup
 
-from checker.render.drawing.highlight import segments
-from checker.render.drawing.scheme import arrows
+from checker.render.drawing.emphasis import segments
+from checker.render.drawing.labels import arrows
 from checker.render.page import Part, data, templates
 from checker.render.player.steps import PlayerStep, Script, States, script, shown_charts
 from checker.render.statechart_svg import LEGEND, STYLE, inline, size

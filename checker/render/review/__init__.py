@@ -16,8 +16,8 @@ from markupsafe import Markup
 from checker.render import renderers
 from checker.render.page import Part, page, templates
 from checker.render.review import traces
-from checker.render.review.model import PROVED, Checked, Review, Seen
-from checker.render.review.packed import Packed
+from checker.render.review.fragments import PackedFragments
+from checker.render.review.model import PROVED, CheckedProperty, Review, StateGraphView
 from checker.render.statechart_svg import size
 from checker.render.stategraph.fragment import part as stategraph
 from checker.render.stategraph.fragment import shows, trust
@@ -79,7 +79,7 @@ def own(name: str) -> str:
     return files(__name__).joinpath(name).read_text(encoding="utf-8")
 
 
-def sign(prop: Checked) -> str:
+def sign(prop: CheckedProperty) -> str:
     """One character for a verdict."""
     return "≈" if prop.in_part else SIGNS[prop.verdict]
 
@@ -94,15 +94,15 @@ def title_of(area: str) -> str:
     return re.sub(r"(?<=[a-z])(?=\d)", " ", area.replace("_", " ")).capitalize()
 
 
-def _area(prop: Checked) -> str:
+def _area(prop: CheckedProperty) -> str:
     return prop.area or prop.system
 
 
-Group = tuple[str, list[tuple[str, list[Checked]]]]
+Group = tuple[str, list[tuple[str, list[CheckedProperty]]]]
 """A heading, and under it the findings with the same cause together."""
 
 
-def grouped(findings: Iterable[Checked]) -> list[Group]:
+def grouped(findings: Iterable[CheckedProperty]) -> list[Group]:
     """What is not as expected first, then area by area; findings with one cause are together."""
     shown = list(findings)
     surprising = [p for p in shown if not p.as_expected]
@@ -113,8 +113,8 @@ def grouped(findings: Iterable[Checked]) -> list[Group]:
     return groups
 
 
-def _causes(findings: Iterable[Checked]) -> Iterator[tuple[str, list[Checked]]]:
-    by: dict[str, list[Checked]] = {}
+def _causes(findings: Iterable[CheckedProperty]) -> Iterator[tuple[str, list[CheckedProperty]]]:
+    by: dict[str, list[CheckedProperty]] = {}
     for one in findings:
         by.setdefault(one.cause or one.id, []).append(one)
     yield from by.items()
@@ -128,12 +128,14 @@ def _by_property(review: Review) -> Mapping[str, list[Any]]:
     return found
 
 
-def _pictures(runs: Mapping[str, Trace], told: Collection[str], graphs: Iterable[Seen]) -> Packed:
+def _pictures(
+    runs: Mapping[str, Trace], told: Collection[str], graphs: Iterable[StateGraphView]
+) -> PackedFragments:
     """The moving pictures of traces, kept for when they are asked for; charts lie there once.
 
     So do the stories that are not ``told`` in the page itself.
     """
-    packed = Packed()
+    packed = PackedFragments()
     for id, trace in runs.items():
         packed.add(id, [*traces.moving(trace), *([] if id in told else [traces.story(trace)])])
     if runs:

@@ -15,7 +15,7 @@ PROVED, VIOLATED, UNKNOWN = "proved", "violated", "unknown"
 
 
 @dataclass(frozen=True)
-class Checked:
+class CheckedProperty:
     """A property and its verdict.
 
     ``english`` is what is checked in words, ``formula`` the same as written, part by part with its name.
@@ -68,7 +68,7 @@ class Checked:
 
 
 @dataclass(frozen=True)
-class Demand:
+class RequirementRow:
     """A row of the requirement matrix: ``state`` is the worst verdict, or why there is none."""
 
     id: str
@@ -81,7 +81,7 @@ class Demand:
 
 
 @dataclass(frozen=True)
-class About:
+class SystemSummary:
     """A system: what it is, how its runs compare with those of what it stands for, what it assumes."""
 
     name: str
@@ -164,7 +164,7 @@ class Covered:
 
 
 @dataclass(frozen=True)
-class Seen:
+class StateGraphView:
     """The reachable states of a system, seen through some variables.
 
     ``asked`` are the properties whose breaking is marked, ``unmarked`` those for which that would take too
@@ -204,16 +204,16 @@ class Review:
 
     title: str
     subject: str
-    properties: tuple[Checked, ...]
+    properties: tuple[CheckedProperty, ...]
     origin: ReviewOrigin
-    systems: Mapping[str, About]
+    systems: Mapping[str, SystemSummary]
     charts: Mapping[str, Chart]
-    demands: tuple[Demand, ...] = ()
+    demands: tuple[RequirementRow, ...] = ()
     readings: tuple[Ambiguity, ...] = ()
     assumptions: tuple[ReviewAssumption, ...] = ()
     repairs: tuple[Remedy, ...] = ()
     coverage: tuple[Covered, ...] = ()
-    graphs: tuple[Seen, ...] = ()
+    graphs: tuple[StateGraphView, ...] = ()
     undrawn: tuple[tuple[str, str], ...] = ()
     """Systems with charts that have no state graph here, and why."""
     how_to_read: str = ""
@@ -222,6 +222,6 @@ class Review:
     """Properties that were not decided, and why."""
 
     @property
-    def findings(self) -> tuple[Checked, ...]:
+    def findings(self) -> tuple[CheckedProperty, ...]:
         """What a reviewer has to look at."""
         return tuple(p for p in self.properties if p.finding)

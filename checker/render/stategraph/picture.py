@@ -8,8 +8,8 @@ from math import ceil, hypot
 from checker.render.drawing import svg
 from checker.render.drawing.cuts import padded
 from checker.render.drawing.graph import DrawnNode, Edge, PlacedNode, Point
-from checker.render.drawing.layered import layered
-from checker.render.drawing.ranking import backward
+from checker.render.drawing.layered_layout import layered
+from checker.render.drawing.ranks import backward
 from checker.render.drawing.text import LINE, block, wrap
 from checker.render.stategraph.words import behind, brief, example, short, ticks
 from checker.results.graph import GraphEdge, GraphNode, StateGraph

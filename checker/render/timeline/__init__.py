@@ -3,6 +3,6 @@
 from checker.render.timeline.build import determined_by, timeline
 from checker.render.timeline.fragment import part
 from checker.render.timeline.picture import picture
-from checker.render.timeline.told import told
+from checker.render.timeline.story_table import told
 
 __all__ = ["determined_by", "part", "picture", "timeline", "told"]

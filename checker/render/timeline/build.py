@@ -8,7 +8,16 @@ from checker.render.lanes import Tone
 from checker.render.reasons import meaning, reasons
 from checker.render.story import TIMER, Quiet, ending, false_parts, heading, of_model, rows, value
 from checker.render.timeline.limits import Limits, thresholds, time_limits
-from checker.render.timeline.model import Lane, LaneGroup, LaneKind, Limit, Need, Shot, Timeline, TimelineRun
+from checker.render.timeline.model import (
+    Lane,
+    LaneGroup,
+    LaneKind,
+    Limit,
+    NeededTicks,
+    Shot,
+    Timeline,
+    TimelineRun,
+)
 from checker.render.timeline.runs import Values, runs, stretches
 from checker.results.trace import Trace
 from spec_model.lang.action import expressions
@@ -176,11 +185,11 @@ def _flat(trace: Trace, name: str, values: Values, limits: Sequence[Limit]) -> b
     }
 
 
-def _needs(trace: Trace, name: str) -> Iterator[Need]:
+def _needs(trace: Trace, name: str) -> Iterator[NeededTicks]:
     """Where an input had to be so, in the words of the story."""
     mine = tuple(needed for needed in trace.needed or () if needed.name == name)
     for reason in reasons(replace(trace, needed=mine)):
-        yield Need(reason.first, reason.last, reason.what)
+        yield NeededTicks(reason.first, reason.last, reason.what)
 
 
 def _kind(trace: Trace, name: str) -> LaneKind:

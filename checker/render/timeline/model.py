@@ -59,7 +59,7 @@ class Shot:
 
 
 @dataclass(frozen=True)
-class Need:
+class NeededTicks:
     """Ticks ``first`` to ``last`` in which an input had to be so, as in ``d1 >= 71 cm``."""
 
     first: int
@@ -81,7 +81,7 @@ class Lane:
     group: LaneGroup
     runs: tuple[TimelineRun, ...]
     limits: tuple[Limit, ...] = ()
-    needed: tuple[Need, ...] = ()
+    needed: tuple[NeededTicks, ...] = ()
     shots: tuple[Shot, ...] = ()
     doc: str = ""
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from spec_model.lang.chart import Chart, Path, Transition
-from spec_model.lang.interpret.fired import path_label
+from spec_model.lang.interpret.fired_transition import path_label
 from spec_model.lang.wellformed.places import common_composite
 
 

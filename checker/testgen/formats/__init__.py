@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from checker.testgen.formats import csv_files, pytest_files
 from checker.testgen.formats.c_files import c_files
-from checker.testgen.formats.expected import ExpectedTest
+from checker.testgen.formats.expected_outputs import ExpectedTest
 from spec_model.abstraction import Board
 
 Write = Callable[[Board, Sequence[ExpectedTest]], Mapping[str, str]]

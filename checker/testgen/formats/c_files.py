@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from checker.testgen.formats.expected import ExpectedRow, ExpectedTest, rows
+from checker.testgen.formats.expected_outputs import ExpectedRow, ExpectedTest, rows
 from checker.testgen.scripts import CLOCK
 from spec_model.abstraction import Board, BoardSignal, Value
 from spec_model.lang.domain import Bool, Num

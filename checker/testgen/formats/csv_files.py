@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from io import StringIO
 
 from checker.io.files import csv_cell
-from checker.testgen.formats.expected import ExpectedTest
+from checker.testgen.formats.expected_outputs import ExpectedTest
 from checker.testgen.scripts import CLOCK
 from spec_model.abstraction import Board, Value
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 
-from checker.testgen.formats.expected import ExpectedRow, ExpectedTest, rows
+from checker.testgen.formats.expected_outputs import ExpectedRow, ExpectedTest, rows
 from spec_model.abstraction import Board
 
 OURS = {"board1": "python:supervisor.board1:Board1", "board2": "python:supervisor.board2.board:Board2"}

@@ -6,7 +6,7 @@ from checker.results.trace import Trace
 from checker.results.verdict import Run
 from checker.system.slice import sliced
 from checker.verify.liveness.lasso import Lasso, lasso
-from checker.verify.runs.calm import calmed
+from checker.verify.runs.minimise import calmed
 from checker.verify.runs.replay import ReplayError, replay
 from properties.reduce import Goal, Question
 from spec_model.lang.expr import Var

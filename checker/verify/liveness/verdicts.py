@@ -22,15 +22,15 @@ from checker.results.verdict import (
     Verdict,
     Violated,
 )
-from checker.system.lowered import lowered
+from checker.system.lowering_cache import lowered
 from checker.system.slice import check_way_back, sliced
 from checker.verify.liveness.loops import LoopHunt, hunt, looped
-from checker.verify.liveness.settling import settled
-from checker.verify.portfolio.question import Hint, PortfolioQuestion
+from checker.verify.liveness.repetition import settled
+from checker.verify.portfolio.question import PortfolioQuestion, Prior
 from checker.verify.portfolio.shape import VAST, shape
 from checker.verify.reachable import ReachableSearch, TooLarge
-from checker.verify.result import Ask, Result, check_domains
-from checker.verify.runs.calm import calmed
+from checker.verify.result import EngineQuery, Result, check_domains
+from checker.verify.runs.minimise import calmed
 from checker.verify.runs.replay import replay
 from checker.verify.runs.reproduce import only_there
 from properties.forms import Form, HoldsAfter, LeadsTo, Property, Recoverable, Responds, Settles
@@ -57,7 +57,7 @@ class Trap:
     leads_to: int
 
 
-def recovered(prop: Property, system: System, ask: Ask, progress: Progress) -> Verdict:
+def recovered(prop: Property, system: System, ask: EngineQuery, progress: Progress) -> Verdict:
     """The verdict on a ``Recoverable``: proved, a run into a trap, or unknown for a large system."""
     question = reduce(lowered(system), [prop])
     open_ = left_open(question.system, ask)
@@ -76,7 +76,7 @@ def recovered(prop: Property, system: System, ask: Ask, progress: Progress) -> V
     return shown(question, found, ask)
 
 
-def left_open(system: TransitionSystem, ask: Ask) -> Unknown | None:
+def left_open(system: TransitionSystem, ask: EngineQuery) -> Unknown | None:
     """Unknown, unless every run stays in all domains: a graph of states goes on where a run does not.
 
     Raises ``LeavesDomain`` if some run is known to leave one.
@@ -138,7 +138,7 @@ def _reached(start: Iterable[Values], following: Mapping[Values, set[Values]]) -
     return found
 
 
-def shown(question: Question, trap: Trap, ask: Ask) -> Verdict:
+def shown(question: Question, trap: Trap, ask: EngineQuery) -> Verdict:
     """A shortest run into the trap, replayed."""
     [goal] = question.goals
     entered = Var(f"{goal.var.name} trap", boolean, 0, "the run is in a state without a way back")
@@ -167,7 +167,7 @@ SETTLING = "settling"
 """What finds loops by chance, in the place of an engine's name."""
 
 
-def unbounded(prop: Property, systems: Systems, ask: Ask, progress: Progress) -> Result:
+def unbounded(prop: Property, systems: Systems, ask: EngineQuery, progress: Progress) -> Result:
     """The result of one property about infinite runs.
 
     Raises ``ModelError`` when the model leaves a domain, ``ReplayError`` when a run cannot be replayed.
@@ -183,7 +183,7 @@ def unbounded(prop: Property, systems: Systems, ask: Ask, progress: Progress) ->
 # --- a bounded property that is stronger -----------------------------------------------------------
 
 
-def _by_bound(prop: Property, systems: Systems, ask: Ask) -> Proved | None:
+def _by_bound(prop: Property, systems: Systems, ask: EngineQuery) -> Proved | None:
     """A proof by the bounded property that implies this one, if there is one and it holds."""
     bounded = _bounded(prop, systems)
     if bounded is None:
@@ -214,7 +214,7 @@ def _bounded(prop: Property, systems: Systems) -> tuple[Form, Span] | None:
 # --- loops -----------------------------------------------------------------------------------------
 
 
-def _by_loop(prop: Property, systems: Systems, ask: Ask, progress: Progress) -> Result:
+def _by_loop(prop: Property, systems: Systems, ask: EngineQuery, progress: Progress) -> Result:
     system = systems[prop.on]
     hunted, answer, by = _hunted(prop, system, ask, progress)
     if not (isinstance(answer, Reached) and system.over):
@@ -233,7 +233,9 @@ def _by_loop(prop: Property, systems: Systems, ask: Ask, progress: Progress) -> 
     return result
 
 
-def _hunted(prop: Property, system: System, ask: Ask, progress: Progress) -> tuple[LoopHunt, Answer, str]:
+def _hunted(
+    prop: Property, system: System, ask: EngineQuery, progress: Progress
+) -> tuple[LoopHunt, Answer, str]:
     question = reduce(lowered(system), [prop])
     hunted = hunt(question, question.goals[0])
     loop = attempted(SETTLING, system.name, lambda: settled(hunted, progress)) if _vast(hunted) else None
@@ -241,7 +243,7 @@ def _hunted(prop: Property, system: System, ask: Ask, progress: Progress) -> tup
         if question.system.checks and shape(PortfolioQuestion(question.system, ())).enumerable:
             check_domains(question.system, ask(question.system, []))
         return hunted, loop, SETTLING
-    found = ask(hunted.lasso.system, [hunted.lasso.goal], Hint.SHORT)
+    found = ask(hunted.lasso.system, [hunted.lasso.goal], Prior.SHORT)
     check_domains(hunted.lasso.system, found)
     return hunted, *found[hunted.lasso.goal.name]
 

@@ -62,6 +62,6 @@ def said(system: TransitionSystem, goal: Var, each: Iterable[tuple[Answer, str]]
 
 def _replays(system: TransitionSystem, goal: Var, answer: Answer) -> bool | None:
     """Whether the run of an answer reaches the goal by the reference semantics."""
-    from checker.verify.runs.calm import transferred
+    from checker.verify.runs.minimise import transferred
 
     return transferred(answer.run, system, goal) is not None if isinstance(answer, Reached) else None

@@ -24,7 +24,7 @@ def conclusive(answer: Answer) -> bool:
     return isinstance(answer, Unreachable) or (isinstance(answer, Reached) and answer.shortest)
 
 
-class Hint(StrEnum):
+class Prior(StrEnum):
     """What whoever asks knows of the answer."""
 
     NONE = ""
@@ -44,7 +44,7 @@ class PortfolioQuestion:
 
     system: TransitionSystem
     wanted: tuple[Var, ...]
-    hint: Hint = Hint.NONE
+    hint: Prior = Prior.NONE
     candidates: tuple[Expr, ...] | None = None
 
     @property

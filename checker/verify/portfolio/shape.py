@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from checker.system.slice import sliced
-from checker.verify.portfolio.question import Hint, PortfolioQuestion
+from checker.verify.portfolio.question import PortfolioQuestion, Prior
 from spec_model.lang.chart import Chart, Path
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
@@ -34,7 +34,7 @@ class Shape:
     """
 
     bits: int
-    hint: Hint = Hint.NONE
+    hint: Prior = Prior.NONE
     at_once: int | None = None
     free: int | None = None
 

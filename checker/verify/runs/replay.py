@@ -15,7 +15,7 @@ from properties.reduce import Goal
 from spec_model.lang.chart import Chart, Path
 from spec_model.lang.errors import ModelError
 from spec_model.lang.evaluate import admissible, evaluate, step
-from spec_model.lang.interpret import Fired, Interpreter
+from spec_model.lang.interpret import FiredTransition, Interpreter
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables
 
@@ -104,7 +104,7 @@ def _visible(system: TransitionSystem, after: Mapping[str, int]) -> dict[str, in
 
 def _interpreted(
     interpreter: Interpreter, inputs: Mapping[str, int], after: Mapping[str, int], number: int
-) -> tuple[Fired, ...]:
+) -> tuple[FiredTransition, ...]:
     try:
         fired = interpreter.step(inputs)
     except ModelError as error:
@@ -117,7 +117,7 @@ def _interpreted(
     return fired
 
 
-def transition_of(fired: Fired) -> TakenTransition:
+def transition_of(fired: FiredTransition) -> TakenTransition:
     """A transition taken by the interpreter, as traces hold it."""
     return TakenTransition(
         fired.chart,

@@ -5,11 +5,11 @@ from dataclasses import replace
 
 from checker.results.trace import counted_ticks
 from checker.results.verdict import Reached, Unknown
-from checker.system.lowered import lowered
-from checker.verify.portfolio.question import Hint, PortfolioQuestion
+from checker.system.lowering_cache import lowered
+from checker.verify.portfolio.question import PortfolioQuestion, Prior
 from checker.verify.portfolio.shape import shape
-from checker.verify.result import Ask, Result, check_domains, result
-from checker.verify.runs.calm import calmed, transferred
+from checker.verify.result import EngineQuery, Result, check_domains, result
+from checker.verify.runs.minimise import calmed, transferred
 from properties.reduce import Goal, Question, reduce
 from spec_model.lang.system import System
 
@@ -17,7 +17,7 @@ Runs = Mapping[str, tuple[Reached, str]]
 """The goals that were reached, with the engine that did."""
 
 
-def reproduced(question: Question, runs: Runs, concrete: System, ask: Ask) -> list[Result]:
+def reproduced(question: Question, runs: Runs, concrete: System, ask: EngineQuery) -> list[Result]:
     """A result about ``concrete`` for each goal reached on the over-approximation in ``question``.
 
     The same inputs are tried first: a run of the concrete system as short as the shortest of the
@@ -73,9 +73,9 @@ def _searched(
     runs: Runs,
     there: Question,
     left: list[tuple[Goal, Goal]],
-    ask: Ask,
+    ask: EngineQuery,
 ) -> list[Result]:
-    answers = ask(there.system, [same.var for _, same in left], Hint.CONCRETE)
+    answers = ask(there.system, [same.var for _, same in left], Prior.CONCRETE)
     check_domains(there.system, answers)
     found = []
     for goal, same in left:

@@ -9,7 +9,7 @@ from spec_model.lang.chart import NOWHERE, Chart, Path, State, Transition
 from spec_model.lang.domain import Bool, Enum, Num
 from spec_model.lang.errors import ModelError
 from spec_model.lang.expr import Expr, Var
-from spec_model.lang.interpret.fired import Fired, path_label
+from spec_model.lang.interpret.fired_transition import FiredTransition, path_label
 from spec_model.lang.interpret.words import InterpretedWords
 
 Values = MutableMapping[str, int]
@@ -40,7 +40,7 @@ class ChartRun:
         self,
         chart: Chart,
         at: Values,
-        fired: list[Fired],
+        fired: list[FiredTransition],
         tick_ms: int,
         admits: Admits | None = None,
         tested: Testing | None = None,
@@ -165,7 +165,7 @@ class ChartRun:
         if label is None:
             label = self._labels[key] = path_label(route.segments)
         place = route.segments[0].place
-        self._fired.append(Fired(self.chart.name, source, route.target, label, order, event, place))
+        self._fired.append(FiredTransition(self.chart.name, source, route.target, label, order, event, place))
 
     def _leave(self, path: Path, event: str | None) -> None:
         """Leave an active state and everything active in it; regions in reverse order."""

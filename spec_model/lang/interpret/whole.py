@@ -8,7 +8,7 @@ from spec_model.lang.domain import Bool, Enum
 from spec_model.lang.errors import ModelError, did_you_mean
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Var
-from spec_model.lang.interpret.fired import Fired
+from spec_model.lang.interpret.fired_transition import FiredTransition
 from spec_model.lang.interpret.run import Admits, ChartRun, Testing, contains, store, within
 from spec_model.lang.system import System
 from spec_model.lang.wellformed import check_system
@@ -37,7 +37,7 @@ class Interpreter:
         self._inputs = system.inputs
         self._at: dict[str, int] = {n: v.init for n, v in system.written.items()}
         self._at |= {v.name: v.init for v in system.frozen} | _checked("frozen", system.frozen, frozen)
-        self._fired: list[Fired] = []
+        self._fired: list[FiredTransition] = []
         self._places = {v.name for c in system.charts for v in (*c.locations, c.entered)}
         self._runs = {
             id(c): ChartRun(c, self._at, self._fired, system.step_ms, self._admits, tested, system.elapsed)
@@ -53,7 +53,7 @@ class Interpreter:
         """The data, the location variables of every chart, and whether each chart was entered."""
         return dict(self._at)
 
-    def step(self, inputs: Mapping[str, int]) -> tuple[Fired, ...]:
+    def step(self, inputs: Mapping[str, int]) -> tuple[FiredTransition, ...]:
         """One tick: all components in order.  Returns the transitions taken, in order.
 
         Raises ``ModelError`` for a missing or foreign input and for a value outside its domain.
