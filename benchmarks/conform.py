@@ -70,7 +70,7 @@ def monitors(board: str, file: Path) -> tuple[float, float, float, int]:
     choice = choose(vocabulary, known, catalogue().values(), systems().__getitem__)
     made = LogMonitors(vocabulary, choice, known, True)
     start = process_time()
-    columns = [made.columns(block, eyes.look(block)) for block in blocks]
+    columns = [made.columns(block, eyes.decode(block)) for block in blocks]
     seeing = process_time() - start
     start = process_time()
     for block, values in zip(blocks, columns, strict=True):
@@ -87,7 +87,7 @@ def inference(board: str, file: Path) -> tuple[float, str]:
     parts = cones(vocabulary.board, eyes.seen, layout.signals - vocabulary.inputs)
     follow = BoardFollower([replace(part) for part in parts], {}, eyes.seen, True)
     for block in blocks:
-        follow.block(block, eyes.look(block))
+        follow.block(block, eyes.decode(block))
     found = follow.end()
     seconds = process_time() - start
     return seconds, f"{len(found.deviations)} deviations, {len(found.undecided)} parts undecided"

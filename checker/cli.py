@@ -15,7 +15,7 @@ from checker import commands
 from checker.commands.shared.aliases import current
 from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.shared.completion import completed
-from checker.commands.shared.failure import alarm, no_room, told
+from checker.commands.shared.failure import alarm, error_message, no_room
 from checker.commands.shared.help_examples import helped
 from checker.process.faults import Fault, listening
 from checker.process.garbage import collect_seldom
@@ -82,7 +82,7 @@ def run(arguments: list[str]) -> Exit:
     with listening(met.append):
         code = _run(arguments)
     for text in dict.fromkeys(map(alarm, met)):
-        _say(text, Exit.INTERNAL)
+        _end(text, Exit.INTERNAL)
     return Exit.INTERNAL if met and code is not Exit.INTERRUPTED else code
 
 
@@ -93,22 +93,22 @@ def _run(arguments: list[str]) -> Exit:
             sys.stdout.flush()
         return code if isinstance(code, Exit) else Exit.AS_EXPECTED
     except click.ClickException as error:
-        return _say(error.format_message(), Exit.USAGE)
+        return _end(error.format_message(), Exit.USAGE)
     except (UsageError, ModelError) as error:
-        return _say(str(error), Exit.INCONCLUSIVE if no_room(error) else Exit.USAGE)
+        return _end(str(error), Exit.INCONCLUSIVE if no_room(error) else Exit.USAGE)
     except (KeyboardInterrupt, click.Abort):
-        return _say("Interrupted; nothing was written.", Exit.INTERRUPTED)
+        return _end("Interrupted; nothing was written.", Exit.INTERRUPTED)
     except (BrokenPipeError, SystemExit):  # click makes some of the first into the second
         # Nobody has seen all verdicts: this is no pass, and no violation either.
         _write_no_more()
         return Exit.INTERRUPTED
     except OSError as error:
         _write_no_more()
-        return _say(told(error), Exit.INCONCLUSIVE)
+        return _end(error_message(error), Exit.INCONCLUSIVE)
     except MemoryError as error:
-        return _say(told(error), Exit.INCONCLUSIVE)
+        return _end(error_message(error), Exit.INCONCLUSIVE)
     except Exception as error:
-        return _say(_internal(error, arguments), Exit.INTERNAL)
+        return _end(_internal(error, arguments), Exit.INTERNAL)
 
 
 def _internal(error: Exception, arguments: list[str]) -> str:
@@ -116,17 +116,17 @@ def _internal(error: Exception, arguments: list[str]) -> str:
     from checker.verify.portfolio import Disagreement
 
     if not isinstance(error, Disagreement):
-        return told(error)
+        return error_message(error)
     from checker.commands.shared.disagreement import again, bundle
 
     try:
         kept = f"All of it is in {bundle(error, again(error, arguments), Path())}; please report it."
     except UsageError as problem:
         kept = str(problem)
-    return f"{told(error)} {kept}"
+    return f"{error_message(error)} {kept}"
 
 
-def _say(message: str, code: Exit) -> Exit:
+def _end(message: str, code: Exit) -> Exit:
     _note(message)
     return code
 

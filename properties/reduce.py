@@ -39,7 +39,7 @@ from spec_model.lang.words import maximum, minimum
 
 @dataclass(frozen=True)
 class Goal:
-    """What an engine is asked: is ``var`` ever 1 after a tick?
+    """What an engine decides: is ``var`` ever 1 after a tick?
 
     ``reach`` tells that reaching it is what the property wants.  ``parts`` pairs each conjunct of
     the property, as written, with its formula over the monitored system's variables.

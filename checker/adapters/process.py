@@ -114,7 +114,7 @@ class Process:
 
 
 def check_names(found: Mapping[str, Value], names: Collection[str]) -> None:
-    """Raise ``ReportedFault`` unless these are outputs of the board: others would be compared with nothing."""
+    """Raise ``ReportedFault`` unless these are outputs of the board: no others can be compared."""
     for name in found:
         if name not in names:
             raise ReportedFault(

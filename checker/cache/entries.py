@@ -12,7 +12,7 @@ from contextlib import suppress
 from pathlib import Path
 
 from checker.cache import run_marks
-from checker.cache.listeners import CachedCodeUse, CacheRefused, anew, heard, tell
+from checker.cache.listeners import CachedCodeUse, CacheRefused, anew, has_listener, notify
 from checker.cache.places import UnsafePlace, carefully, chosen, usable
 from checker.cache.secret_file import secret
 
@@ -48,15 +48,15 @@ def read(name: str) -> bytes | None:
             return None
         contents = opened(name, carefully(path, MOST_BYTES)[1], key)
     except UnsafePlace as unsafe:
-        tell(CacheRefused(str(unsafe)))
+        notify(CacheRefused(str(unsafe)))
         return None
     except OSError:
         return None
     if contents is not None:
         with suppress(OSError):  # where files are read only, too, they may be used
             os.utime(path)  # used now: the last to be removed
-        if heard():
-            tell(CachedCodeUse(name))
+        if has_listener():
+            notify(CachedCodeUse(name))
         else:
             run_marks.mark(path)
     return contents
@@ -77,7 +77,7 @@ def write(name: str, contents: bytes) -> None:
             raise
         _written(folder, len(whole))
     except UnsafePlace as unsafe:
-        tell(CacheRefused(str(unsafe)))
+        notify(CacheRefused(str(unsafe)))
     except OSError:
         pass
 

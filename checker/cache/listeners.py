@@ -19,12 +19,12 @@ class CacheRefused:
     why: str
 
 
-Hear = Callable[[CachedCodeUse | CacheRefused], None]
+Listener = Callable[[CachedCodeUse | CacheRefused], None]
 
 
 @dataclass
 class _Listening:
-    hear: Hear | None = None
+    listener: Listener | None = None
     anew: bool = False
     refused: set[str] = field(default_factory=set)
 
@@ -32,18 +32,18 @@ class _Listening:
 _now = _Listening()
 
 
-def tell(what: CachedCodeUse | CacheRefused) -> None:
+def notify(what: CachedCodeUse | CacheRefused) -> None:
     """Say it to who listens; why the cache is refused is said once."""
-    if _now.hear is None or (isinstance(what, CacheRefused) and what.why in _now.refused):
+    if _now.listener is None or (isinstance(what, CacheRefused) and what.why in _now.refused):
         return
     if isinstance(what, CacheRefused):
         _now.refused.add(what.why)
-    _now.hear(what)
+    _now.listener(what)
 
 
-def heard() -> bool:
+def has_listener() -> bool:
     """Whether somebody listens."""
-    return _now.hear is not None
+    return _now.listener is not None
 
 
 def anew() -> bool:
@@ -52,14 +52,14 @@ def anew() -> bool:
 
 
 @contextmanager
-def listening(hear: Hear, *, anew: bool = False) -> Iterator[None]:
+def listening(listener: Listener, *, anew: bool = False) -> Iterator[None]:
     """Have this process tell what its cache does.
 
     With ``anew``, entries that are asked for are removed instead of read: code like it has crashed.
     """
-    before = _now.hear, _now.anew
-    _now.hear, _now.anew = hear, anew
+    before = _now.listener, _now.anew
+    _now.listener, _now.anew = listener, anew
     try:
         yield
     finally:
-        _now.hear, _now.anew = before
+        _now.listener, _now.anew = before

@@ -10,7 +10,7 @@ from checker.certify.diagram import CertifiedDiagram, size
 from checker.certify.enumeration import enumerated
 from checker.certify.invariant import Invariant
 from checker.certify.obligations import Obligation, obligations, too_long
-from checker.certify.outcome import Accepted, Outcome, Rejected, TooMuch, Undecided, told
+from checker.certify.outcome import Accepted, Outcome, Rejected, TooMuch, Undecided, assignment_text
 from checker.certify.question import CertifyQuestion, question
 from checker.certify.sweep import swept
 from checker.certify.terms import Malformed
@@ -95,7 +95,7 @@ def _tried(
 ) -> Accepted | Rejected | TooMuch:
     """By enumeration, slow and obvious, or on all states at once where that is what is left."""
     if effort.by is CheckMethod.SOLVER:
-        return TooMuch("only the solver is asked")
+        return TooMuch("only the solver is queried")
     tried = enumerated(system, asked, invariant)
     fast = isinstance(invariant, CertifiedDiagram) and (
         effort.by is CheckMethod.ENUMERATION or _large(invariant)
@@ -143,7 +143,11 @@ def _words(asked: CertifyQuestion, ticks: int, values: solver.Values) -> str:
     parts = []
     for at in range(ticks + 1):
         found = {name: values[s] for name, s in asked.symbols(at).items() if s in values}
-        parts.append(f"after {at} ticks {told(asked.state, found)}" if at else told(asked.state, found))
+        parts.append(
+            f"after {at} ticks {assignment_text(asked.state, found)}"
+            if at
+            else assignment_text(asked.state, found)
+        )
         if at < ticks and asked.tick.inputs:
-            parts.append(f"inputs {told(asked.tick.inputs, found)}")
+            parts.append(f"inputs {assignment_text(asked.tick.inputs, found)}")
     return "; ".join(parts)

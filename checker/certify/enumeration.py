@@ -9,7 +9,7 @@ from math import prod
 
 from checker.certify.diagram import CertifiedDiagram, count, members
 from checker.certify.invariant import Conjuncts, Invariant
-from checker.certify.outcome import Accepted, Rejected, TooMuch, told
+from checker.certify.outcome import Accepted, Rejected, TooMuch, assignment_text
 from checker.certify.question import CertifyQuestion
 from checker.certify.smtlib import width
 from checker.certify.terms import Value, definitions, evaluate
@@ -43,7 +43,7 @@ def enumerated(system: TransitionSystem, asked: CertifyQuestion, invariant: Inva
     for frozen in _vectors(asked.tick.frozen):
         initial = {v.name: v.init for v in asked.tick.variables} | frozen
         if not member(initial):
-            return Rejected("initiation", told(asked.state, initial))
+            return Rejected("initiation", assignment_text(asked.state, initial))
     tried = 0
     for before in filter(member, _valuations(asked, invariant)):
         for inputs in _vectors(asked.tick.inputs):
@@ -64,7 +64,9 @@ def _broken(
     if not all(value_of(assume[i], {**at, **given}) for i in asked.kept):
         return None
     after = step(system, at, given)
-    words = "; after 1 ticks ".join((_words(asked, before, inputs), told(asked.tick.variables, after)))
+    words = "; after 1 ticks ".join(
+        (_words(asked, before, inputs), assignment_text(asked.tick.variables, after))
+    )
     if any(after[v.name] not in v.domain for v in asked.tick.variables):
         return Rejected("domains", words)
     if any(after[claim] for claim in asked.claims):
@@ -73,8 +75,8 @@ def _broken(
 
 
 def _words(asked: CertifyQuestion, before: Valuation, inputs: Valuation) -> str:
-    here = told(asked.state, before)
-    return f"{here}; inputs {told(asked.tick.inputs, inputs)}" if inputs else here
+    here = assignment_text(asked.state, before)
+    return f"{here}; inputs {assignment_text(asked.tick.inputs, inputs)}" if inputs else here
 
 
 # --- the states of an invariant ----------------------------------------------------------------

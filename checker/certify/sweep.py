@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from checker.certify.diagram import CertifiedDiagram, count, positions
-from checker.certify.outcome import Accepted, Rejected, TooMuch, told
+from checker.certify.outcome import Accepted, Rejected, TooMuch, assignment_text
 from checker.certify.question import CertifyQuestion
 from checker.system.intervals import intervals, postorder
 from spec_model.lang.domain import Bool, Domain
@@ -58,7 +58,7 @@ def swept(asked: CertifyQuestion, diagram: CertifiedDiagram) -> Accepted | Rejec
         initial = {v.name: v.init for v in asked.tick.variables}
         initial |= dict(zip((v.name for v in asked.tick.frozen), frozen, strict=True))
         if initial not in diagram:
-            return Rejected("initiation", told(asked.state, initial))
+            return Rejected("initiation", assignment_text(asked.state, initial))
     try:
         rows = SweepRows(diagram, domains, size)
     except DeadEnd:
@@ -81,8 +81,8 @@ def _broken(asked: CertifyQuestion, formulas: "Formulas", member: Member, at: Co
             if len(found):
                 values = {n: int(np.broadcast_to(c, rows)[found[0]]) for n, c in here.items()}
                 reached = {n: int(c[found[0]]) for n, c in after.items()}
-                words = told((*asked.state, *asked.tick.inputs), values)
-                return Rejected(obligation, f"{words}; after 1 ticks {told(asked.state, reached)}")
+                words = assignment_text((*asked.state, *asked.tick.inputs), values)
+                return Rejected(obligation, f"{words}; after 1 ticks {assignment_text(asked.state, reached)}")
     return None
 
 

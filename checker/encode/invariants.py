@@ -22,7 +22,7 @@ from spec_model.lang.operators import Op
 from spec_model.lang.walk import variables
 
 _MOST_MEMBERS = 12
-"""Members of an enumeration, or values of a number, that are told apart one by one."""
+"""Members of an enumeration, or values of a number, that are distinguished one by one."""
 
 _TELLING = 3
 """Different values of a number at which a bound of a difference must have been met."""
@@ -172,19 +172,19 @@ class Candidates:
     def _differences(self, x: Var, y: Var, a: Column, b: Column) -> Iterator[Expr]:
         """``x - y <= c``, and ``x - y <= c`` where ``y`` has not reached its greatest value."""
         gap, difference = a - b, self._made(Op.SUB, x, y)
-        if _telling(gap, a):
+        if _informative(gap, a):
             yield self.terms.at_most(difference, self._constant(int(gap.max()), x))
             return
         below = b < b.max()
-        if below.any() and _telling(gap[below], a[below]):
+        if below.any() and _informative(gap[below], a[below]):
             capped = self.terms.at_most(difference, self._constant(int(gap[below].max()), x))
             yield self.terms.disjunction((self._equals(y, int(b.max())), capped))
 
     def _sums(self, x: Var, y: Var, a: Column, b: Column) -> Iterator[Expr]:
         both, total = a + b, self._made(Op.ADD, x, y)
-        if _telling(both, a):
+        if _informative(both, a):
             yield self.terms.at_most(total, self._constant(int(both.max()), x))
-        if _telling(-both, a):
+        if _informative(-both, a):
             yield self.terms.at_most(self._constant(int(both.min()), x), total)
 
     def _made(self, op: Op, x: Var, y: Var) -> Expr:
@@ -260,7 +260,7 @@ def _as_truth(exprs: Sequence[Expr], at: Mapping[str, Column]) -> dict[str, Colu
     return {name: column(var, at[name]) for name, var in variables(*exprs).items()}
 
 
-def _telling(values: Column, beside: Column) -> bool:
+def _informative(values: Column, beside: Column) -> bool:
     """Whether the greatest value is met beside several values of another column: hardly by accident."""
     return len(np.unique(beside[values == values.max()])) >= _TELLING
 

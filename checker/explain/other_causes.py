@@ -1,7 +1,7 @@
 """Other runs that end alike for another reason: what the runs before needed does not explain their end.
 
 While a run goes on, it is watched whether its last ticks are as an earlier run needs them, which may have
-begun in any tick.  The engines are asked for a run that first comes to the goal when, for no earlier run,
+begun in any tick.  The engines are run for a run that first comes to the goal when, for no earlier run,
 they are.
 """
 
@@ -13,7 +13,7 @@ from checker.explain.other_runs import NoOtherRun, answered
 from checker.results.trace import Trace
 from checker.results.verdict import Open, Reached, Unreachable
 from checker.system.lowering_cache import lowered
-from checker.verify.runs.minimise import calmed
+from checker.verify.runs.minimise import minimise_inputs
 from checker.verify.runs.replay import replay
 from properties.forms import Property
 from properties.reduce import Question, reduce
@@ -40,7 +40,9 @@ class OtherCauses:
         goal = question.goals[0].var
         match answered(question.system, goal, engine, limits, progress):
             case Reached(run):
-                return replay(self._plain.system, self._plain.goals[0], calmed(question.system, goal, run))
+                return replay(
+                    self._plain.system, self._plain.goals[0], minimise_inputs(question.system, goal, run)
+                )
             case Unreachable(because):
                 return NoOtherRun(True, because.how)
             case Open() as left:

@@ -19,7 +19,7 @@ from checker.verify.decide import EngineCall
 from checker.verify.portfolio import Callbacks, Prior
 from checker.verify.portfolio.question import light
 from checker.verify.result import check_domains
-from checker.verify.runs.minimise import calmed
+from checker.verify.runs.minimise import minimise_inputs
 from checker.verify.runs.replay import followed, replay
 from checker.verify.searches import SLACK
 from properties.forms import Property
@@ -72,7 +72,7 @@ class OtherRuns:
         self._question, self._memories = _remembering(question, self.transitions)
         run = _run_of(first, self._plain)
         self._taken = [self._transitions_of(run)]
-        self._told = [_told(first)]
+        self._told = [_transitions_shown(first)]
 
     def next(self, engine: str, limits: Limits, progress: Progress = quiet) -> OtherRun | NoOtherRun:
         """A further run, or why there is none."""
@@ -103,10 +103,10 @@ class OtherRuns:
 
     def _shown(self, question: Question, run: Run) -> OtherRun:
         """The run on the charts as drawn, replayed there."""
-        calm = calmed(question.system, question.goals[0].var, run)
+        calm = minimise_inputs(question.system, question.goals[0].var, run)
         taken = self._transitions_of(calm)
         trace = replay(self._plain.system, self._plain.goals[0], calm)
-        told = _told(trace)
+        told = _transitions_shown(trace)
         before = zip(self._taken, self._told, strict=True)
         differences = tuple(_difference(told, own) or self._parts(taken, flags) for flags, own in before)
         self._taken.append(taken)
@@ -124,7 +124,7 @@ class OtherRuns:
         return _difference([n for i, n in names.items() if i in taken], [names[i] for i in earlier])
 
 
-def _told(trace: Trace) -> list[str]:
+def _transitions_shown(trace: Trace) -> list[str]:
     """The transitions that fired, as a trace shows them, in order of their first time."""
     return list(dict.fromkeys(str(a) for t in trace.ticks for a in t.transitions if a.chart in trace.charts))
 

@@ -265,8 +265,8 @@ class _Run:
         self._log, self._against = log, against
         layout, from_power_up = log.layout, log.start == "power-up"
         vocabulary = against.vocabulary(layout.board)
-        self._eyes = InputDecoder(vocabulary, layout.signals, from_power_up)
-        seen, logged = self._eyes.seen, layout.signals - vocabulary.inputs
+        self._decoder = InputDecoder(vocabulary, layout.signals, from_power_up)
+        seen, logged = self._decoder.seen, layout.signals - vocabulary.inputs
         known = seen | {o.var.name for o in vocabulary.board.outputs if o.name in logged}
         self._choice = against.choice(layout.board, known)
         self._monitors = LogMonitors(vocabulary, self._choice, known, from_power_up)
@@ -276,7 +276,7 @@ class _Run:
         self._gaps: list[Gap] = []
 
     def block(self, block: LogBlock) -> None:
-        seen = self._eyes.look(block)
+        seen = self._decoder.decode(block)
         self._monitors.block(block, self._monitors.columns(block, seen))
         self._follow.block(block, seen)
         self._rows += len(block)

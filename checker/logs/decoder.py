@@ -27,7 +27,7 @@ class InputDecoder:
         """The inputs of the charts that are known."""
         return frozenset(self._see)
 
-    def look(self, block: LogBlock) -> dict[str, Cells]:
+    def decode(self, block: LogBlock) -> dict[str, Cells]:
         """The raw values of the known inputs, row by row; ``None`` where they are not known."""
         return {name: see(block) for name, see in self._see.items()}
 

@@ -1,4 +1,4 @@
-"""What a user's model must satisfy before anything is searched; what is wrong is told with file and line."""
+"""What a user's model must satisfy before anything is searched; faults are reported with file and line."""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace

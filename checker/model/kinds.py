@@ -68,7 +68,7 @@ def kind_faults(thing: object, file: str) -> Iterator[str]:
                 if fits(value, hint):
                     todo.append((value, place, owner))
                 else:
-                    yield f"{place}: {owner}: {_told(one, name, value, hint)}"
+                    yield f"{place}: {owner}: {_described(one, name, value, hint)}"
 
 
 def _hints(thing: object) -> Mapping[str, Any]:
@@ -105,7 +105,7 @@ def fits(value: object, hint: Any) -> bool:
     return isinstance(value, origin or hint)
 
 
-def _told(thing: object, name: str, value: object, hint: Any) -> str:
+def _described(thing: object, name: str, value: object, hint: Any) -> str:
     of = ARGUMENTS.get(name, name)
     if isinstance(thing, Property) and name == "on":
         return f"on is {brief(value)}, {_kind(value)}; write a system, its name, or a chart that runs alone."

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from checker.mutate.product import Product
 from checker.results.trace import Tick
 from checker.results.verdict import Run
-from checker.verify.runs.minimise import calmed
+from checker.verify.runs.minimise import minimise_inputs
 from checker.verify.runs.replay import ReplayError, followed
 from spec_model.lang.chart import Chart, parts
 from spec_model.lang.evaluate import admissible
@@ -64,7 +64,7 @@ def difference(
 
     Raises ``ReplayError`` if they do the same, and if the interpreter of the charts does something else.
     """
-    run = calmed(both.system, both.goal, run)
+    run = minimise_inputs(both.system, both.goal, run)
     ours, theirs = _own(original, run), _own(mutant, run)
     allowed = [_allows(system, own) for system, own in ((original, ours), (mutant, theirs))]
     if not any(allowed):

@@ -9,7 +9,7 @@ from checker.engines import Limits
 from checker.mutate.fate import Fate, MutantCase, MutantFate
 from checker.mutate.mutants import Mutant
 from checker.mutate.plan import PlannedMutant
-from checker.process.faults import Fault, described, is_fault, tell
+from checker.process.faults import Fault, described, is_fault, report
 from checker.process.faults import listening as attending
 from checker.process.isolate import Send
 from checker.process.pool import GrantedTime, Order, Pool, PoolEvent
@@ -60,7 +60,7 @@ def fates(
                 case Exception() as error:
                     raise error
                 case Fault() as fault:
-                    tell(fault)
+                    report(fault)
                 case MutantFate() as heard:
                     found[event.number] = heard
                 case str(line):

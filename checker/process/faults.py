@@ -41,37 +41,37 @@ class InternalError(Exception):
 
 
 T = TypeVar("T")
-Hear = Callable[[Fault], None]
+Listener = Callable[[Fault], None]
 
 
 @dataclass
 class _Listening:
-    hear: list[Hear] = field(default_factory=list)
+    listeners: list[Listener] = field(default_factory=list)
 
 
 _now = _Listening()
 
 
 @contextmanager
-def listening(hear: Hear) -> Iterator[None]:
-    """Have the faults of this process told to ``hear`` alone."""
-    _now.hear.append(hear)
+def listening(listener: Listener) -> Iterator[None]:
+    """Have the faults of this process told to ``listener`` alone."""
+    _now.listeners.append(listener)
     try:
         yield
     finally:
-        _now.hear.pop()
+        _now.listeners.pop()
 
 
-def heard() -> bool:
+def has_listener() -> bool:
     """Whether somebody listens."""
-    return bool(_now.hear)
+    return bool(_now.listeners)
 
 
-def tell(fault: Fault) -> None:
+def report(fault: Fault) -> None:
     """Say it to who listens.  Raises ``InternalError`` if nobody does: no fault is lost."""
-    if not heard():
+    if not has_listener():
         raise InternalError(str(fault))
-    _now.hear[-1](fault)
+    _now.listeners[-1](fault)
 
 
 def attempted(who: str, system: str, work: Callable[[], T], *known: type[Exception]) -> T | Failed:
@@ -80,7 +80,7 @@ def attempted(who: str, system: str, work: Callable[[], T], *known: type[Excepti
     What is no internal error is raised: mistakes of the model, no memory, what the operating system refuses,
     and ``known`` kinds of errors, which have a meaning.  So is everything where nobody listens.
     """
-    if not heard():
+    if not has_listener():
         return work()
     within: list[Fault] = []
     try:
@@ -95,7 +95,7 @@ def attempted(who: str, system: str, work: Callable[[], T], *known: type[Excepti
         return Failed(f"{who} failed with {in_short(error)}")
     finally:
         for fault in within:
-            tell(replace(fault, who=fault.who or who, system=fault.system or system))
+            report(replace(fault, who=fault.who or who, system=fault.system or system))
 
 
 def is_fault(error: BaseException) -> bool:

@@ -20,7 +20,7 @@ from queue import Empty, SimpleQueue
 from time import monotonic
 from typing import IO, Any
 
-from checker.process.faults import Fault, heard, tell
+from checker.process.faults import Fault, has_listener, report
 
 Send = Callable[[object], None]
 DEEP = 100_000
@@ -54,18 +54,18 @@ class Child:
     """A process that carries out orders one after the other until it is killed.
 
     ``make(*args)`` is called once in the child and gives the function that is called for each order,
-    as ``do(send, *order)``.  What it sends reaches ``tell`` (in a thread of the parent), after each
+    as ``do(send, *order)``.  What it sends reaches ``report`` (in a thread of the parent), after each
     order an ``End``.  ``memory`` limits the address space, in bytes.  All must be picklable.
     """
 
     def __init__(
         self,
-        tell: Callable[[object], None],
+        report: Callable[[object], None],
         make: Callable[..., Callable[..., None]],
         *args: object,
         memory: int | None = None,
     ) -> None:
-        self._tell = tell
+        self._tell = report
         started = _ready.pop() if _ready else _started()
         self._process, self._errors, self._group = started.process, started.errors, started.group
         self._orders: SimpleQueue[bytes | None] = SimpleQueue()
@@ -219,8 +219,8 @@ def messages(
             yield message
     finally:
         child.kill()
-    if message.error and heard():
-        tell(Fault("", "", message.error))
+    if message.error and has_listener():
+        report(Fault("", "", message.error))
     if message.failure is not None:
         raise ChildStopped(message.failure)
 

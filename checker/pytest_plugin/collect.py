@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from checker.commands.shared.failure import told
+from checker.commands.shared.failure import error_message
 from checker.model import Model
 from checker.model.execute import files_of
 from checker.model.load import load
@@ -37,7 +37,7 @@ class ModelSource:
             model = rover() if self.path is None else load(self.path)
             model.stated()
         except Exception as error:
-            return error if isinstance(error, ModelError) else ModelError(told(error))
+            return error if isinstance(error, ModelError) else ModelError(error_message(error))
         return model
 
     @cached_property

@@ -8,7 +8,7 @@ import pytest
 
 from checker.commands.check.run import ComparedResult, evidence, recorded, results
 from checker.commands.shared.codes import UsageError
-from checker.commands.shared.failure import alarm, told
+from checker.commands.shared.failure import alarm, error_message
 from checker.commands.shared.select import pick_engine
 from checker.engines import Limits
 from checker.model.kept_invariants import invariants_of
@@ -78,7 +78,7 @@ class Decider:
                     item = left.pop(one.property.id)
                     self._found[_key(item)] = ComparedResult(one, model.expected(item.prop.id))
         except Exception as error:
-            self._found |= {_key(item): NoVerdict(told(error)) for item in left.values()}
+            self._found |= {_key(item): NoVerdict(error_message(error)) for item in left.values()}
         if faults:
             self._found |= {_key(item): self._faulty(item, faults) for item in items}
 

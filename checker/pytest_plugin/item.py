@@ -8,7 +8,7 @@ import pytest
 
 from checker.commands.check.ci import finding
 from checker.commands.check.run import ComparedResult, evidence, recorded
-from checker.commands.shared.failure import told
+from checker.commands.shared.failure import error_message
 from checker.commands.trace.explain import ExplanationOptions
 from checker.model import Model
 from checker.pytest_plugin.decisions import Decider, NoVerdict
@@ -33,7 +33,7 @@ def shown(compared: ComparedResult, model: Model) -> str:
         return _why(_with_reasons(compared, model), model)
     except Exception as error:  # the verdict stands
         id, expected = compared.result.property.id, recorded(compared.expected)
-        return f"{id} is {compared.word}; expected: {expected}\n{told(error)}"
+        return f"{id} is {compared.word}; expected: {expected}\n{error_message(error)}"
 
 
 def _with_reasons(compared: ComparedResult, model: Model) -> ComparedResult:

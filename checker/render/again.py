@@ -1,4 +1,4 @@
-"""What a run does again and again is told once: a story in which the same rows follow each other, folded."""
+"""What a run does again and again is shown once: a story in which the same rows follow each other, folded."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass

@@ -138,7 +138,7 @@ def rows(trace: Trace) -> Iterator[Row]:
         last = i == len(trace.ticks) - 1
         transitions = tuple(a for a in tick.transitions if not _repeats(a, trace.ticks[i - 1] if i else None))
         told = {a.chart for a in transitions}
-        news = [n for n in _changed(trace, at[i], at[i + 1]) if not _tells(trace, n, told)]
+        news = [n for n in _changed(trace, at[i], at[i + 1]) if not _implies(trace, n, told)]
         news = [n for n in news if last or not _counts(trace, at, n, i)]
         if not news and not transitions and not last:
             start = i if start is None else start
@@ -164,7 +164,7 @@ def _repeats(transition: TakenTransition, before: Tick | None) -> bool:
     )
 
 
-def _tells(trace: Trace, name: str, told: set[str]) -> bool:
+def _implies(trace: Trace, name: str, told: set[str]) -> bool:
     """Whether a transition that is told implies this change of a location."""
     sort = trace.variables[name].sort
     if not isinstance(sort, Enum) or not sort.name.startswith("states of "):

@@ -42,12 +42,12 @@ def render(trace: Trace) -> str:
             continue
         lines += ["", f"which stands for {_code(part.formula)}"] if part.name else []
         lines += ["", "with " + ", ".join(_code(f"{n} = {v}") for n, v in part.values)] if part.values else []
-    if said := reasons_told(trace):
+    if said := reasons_table(trace):
         lines += ["", *([f"**{cause(trace)}**", ""] if trace.needed else []), *said]
     return "\n".join([*lines, ""])
 
 
-def reasons_told(trace: Trace) -> list[str]:
+def reasons_table(trace: Trace) -> list[str]:
     """The inputs that determine the end as a table, and what that means; none if not examined."""
     if not (said := meaning(trace)):
         return []

@@ -181,10 +181,10 @@ def explored(
     """
     left = set(wanted)
     places = [TriedRun.power_up(machine), *(_end(machine, script) for script in known)]
-    weather = RandomInputs(machine.board)
+    source = RandomInputs(machine.board)
     while ticks > 0 and left:
         place = (places[0] if random.random() < FROM_START else _recent(random, places)).copy()
-        for moment in weather.run(random, random.randint(1, LONGEST), place.now):
+        for moment in source.run(random, random.randint(1, LONGEST), place.now):
             ticks -= 1
             new = left.intersection(place.step(moment))
             if new:

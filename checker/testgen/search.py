@@ -79,7 +79,7 @@ class SearchProgress:
 def searched(
     board: Board, system: System, goals: Sequence[CoverGoal], limits: Limits, jobs: int | None = None
 ) -> Iterator[Answer | SearchProgress]:
-    """Ask the engines for goals on a system whose runs the board has: those of its model."""
+    """Run the engines for goals on a system whose runs the board has: those of its model."""
     for goal, verdict in _verdicts(system, goals, limits, jobs):
         match verdict:
             case Proved(Trace() as trace, engine):

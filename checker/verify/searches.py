@@ -11,7 +11,7 @@ from checker.cache.listeners import CachedCodeUse, CacheRefused, listening
 from checker.cache.places import VARIABLE, chosen
 from checker.certify.outcome import Outcome, Undecided
 from checker.engines import Engine, Limits, Stage
-from checker.process.faults import Fault, described, is_fault, tell
+from checker.process.faults import Fault, described, is_fault, report
 from checker.process.faults import listening as attending
 from checker.process.isolate import Send
 from checker.process.pool import GrantedTime, Order, Pool, PoolEvent
@@ -78,7 +78,7 @@ class MachineWarning:
     text: str
 
 
-Heard = SearchActivity | SearchEnd | MachineWarning | Result
+SearchEvent = SearchActivity | SearchEnd | MachineWarning | Result
 
 
 def cores() -> int:
@@ -93,14 +93,14 @@ def searches(
     limits: Limits,
     jobs: int | None = None,
     certifying: "Certification | None" = None,
-) -> Generator[Heard, None, None]:
+) -> Generator[SearchEvent, None, None]:
     """Search the tasks in order, as many at once as there are ``jobs`` (by default processors).
 
-    A child that dies, or that does not stop within a time limit, makes what it had not yet decided
-    unknown, with the reason.  If it crashes after it took compiled code from the cache, all of the task is
-    first searched once more with code compiled anew.  Raises what ``decide`` raises, and ``Unwritable``.
-    Internal errors in a child are told to who listens (``checker.process.faults``), or raised where nobody
-    does.  Closing the generator ends all children.
+    A child that dies, or that does not stop within a time limit, makes what it had not yet decided unknown,
+    with the reason.  If it crashes after it took compiled code from the cache, all of the task is first
+    searched once more with code compiled anew.  Raises what ``decide`` raises, and ``Unwritable``.  Internal
+    errors in a child are reported to who listens (``checker.process.faults``), or raised where nobody does.
+    Closing the generator ends all children.
 
     A proof waits until it is known that its system leaves no domain, or not found out by any of its searches:
     nothing is proved of a system that is then refused.
@@ -116,7 +116,7 @@ def searches(
         try:
             for event in events:
                 back = returns[event.number]
-                for one in _passed(gates, back.task.system.name, back.heard(event)):
+                for one in _passed(gates, back.task.system.name, back.on_event(event)):
                     if isinstance(one, MachineWarning) and one.text in warned:
                         continue
                     if isinstance(one, MachineWarning):
@@ -128,9 +128,11 @@ def searches(
             raise
 
 
-def _passed(gates: Mapping[str, "_Gate"], asked: str, heard: Iterable["Heard | _Stays"]) -> Iterator[Heard]:
+def _passed(
+    gates: Mapping[str, "_Gate"], asked: str, events: Iterable["SearchEvent | _Stays"]
+) -> Iterator[SearchEvent]:
     """What passes the gate of the system that was asked about, and of the one that a verdict is about."""
-    for one in gates[asked].passed(heard):
+    for one in gates[asked].passed(events):
         if isinstance(one, Result) and one.system != asked and one.system in gates:
             yield from gates[one.system].passed([one])
         else:
@@ -145,9 +147,9 @@ class _Gate:
         self._left = searches
         self._open = False
 
-    def passed(self, heard: Iterable[Heard | _Stays]) -> Iterator[Heard]:
-        """What may go on of what is heard, and what is no longer held back after it."""
-        for one in heard:
+    def passed(self, events: Iterable[SearchEvent | _Stays]) -> Iterator[SearchEvent]:
+        """What may go on of what is events, and what is no longer held back after it."""
+        for one in events:
             match one:
                 case Result(verdict=Proved()) if not self._open:
                     self.held.append(one)
@@ -175,7 +177,7 @@ class _Returns:
         self._doing = ""
         self._left = {p.id: p for p in task.properties}
         self._held: dict[str, Result] = {}
-        self._told: dict[str, str] = {}
+        self._reported: dict[str, str] = {}
         self._taken = False
         self._anew = False
 
@@ -187,20 +189,20 @@ class _Returns:
         """
         if self._anew or not self._taken:
             return None
-        self._left = {p.id: p for p in self.task.properties if p.id not in self._told}
+        self._left = {p.id: p for p in self.task.properties if p.id not in self._reported}
         self._anew, self._held = True, {}
         asked = self.task.system.name, self.task.properties, self.task.recorded, True
         return Order(asked, self.task.system.name)
 
-    def heard(self, event: PoolEvent) -> Iterator[Heard | _Stays]:
+    def on_event(self, event: PoolEvent) -> Iterator[SearchEvent | _Stays]:
         """What an event brings.  Raises the error that is one."""
         if event.done:
             return self.rest(event)
         if event.failure:
             return iter([MachineWarning(_crashed(self.task, event.failure))])
-        return self.hear(event.message)
+        return self.on_message(event.message)
 
-    def hear(self, message: object) -> Iterator[Heard | _Stays]:
+    def on_message(self, message: object) -> Iterator[SearchEvent | _Stays]:
         """What a message brings.  Raises the error that is one."""
         match message:
             case Exception() as error:
@@ -211,31 +213,31 @@ class _Returns:
             case _Stays():
                 yield message
             case Fault():
-                tell(message)
+                report(message)
             case CachedCodeUse():
                 self._taken = True
             case CacheRefused(why):
                 yield MachineWarning(f"Compiled searches are compiled every time: there is no cache. {why}")
             case _Certified(id, outcome) if id in self._held:
-                yield self._tell(replace(self._held.pop(id), certificate=outcome))
-            case _Decided(id, verdict) if id in self._told:
+                yield self._report(replace(self._held.pop(id), certificate=outcome))
+            case _Decided(id, verdict) if id in self._reported:
                 self._same(id, verdict)
             case _Decided(id, verdict, system):
                 result = Result(self._left.pop(id), verdict, system)
                 if self._waiting and self._certified(verdict):
                     self._held[id] = result
                 else:
-                    yield self._tell(result)
+                    yield self._report(result)
 
-    def _tell(self, result: Result) -> Result:
-        self._told[result.property.id] = result.verdict.word
+    def _report(self, result: Result) -> Result:
+        self._reported[result.property.id] = result.verdict.word
         return result
 
     def _same(self, id: str, verdict: Verdict) -> None:
         """What was told before a crash must be so after it."""
-        if {self._told[id], verdict.word} == {"proved", "violated"}:
+        if {self._reported[id], verdict.word} == {"proved", "violated"}:
             raise AssertionError(
-                f"{id} was {self._told[id]}, said a search that then crashed over code from the cache "
+                f"{id} was {self._reported[id]}, said a search that then crashed over code from the cache "
                 f"{chosen()}; with code compiled anew it is {verdict.word}. Delete the files *.o there."
             )
 
@@ -245,7 +247,7 @@ class _Returns:
 
         return rests_on_answers(verdict)
 
-    def rest(self, end: PoolEvent) -> Iterator[Heard]:
+    def rest(self, end: PoolEvent) -> Iterator[SearchEvent]:
         """What is left of a search that is over."""
         reason = end.failure or "the search ended without a word on it"
         if end.late and self._seconds is not None and self._doing:
@@ -348,11 +350,13 @@ class _Deciding:
             ):
                 send(_Stays())
 
-        told = Callbacks(_Calm(send), lambda seconds: send(GrantedTime(seconds)), answered)
-        for one in decide(task, self._systems, self._engine, self._limits, told.progress, told, deadline):
+        callbacks = Callbacks(_Calm(send), lambda seconds: send(GrantedTime(seconds)), answered)
+        for one in decide(
+            task, self._systems, self._engine, self._limits, callbacks.progress, callbacks, deadline
+        ):
             results.append(replace(one, verdict=_light(one.verdict)))
             send(_Decided(one.property.id, results[-1].verdict, one.system))
-        told.granted(None)
+        callbacks.on_budget(None)
         if self._certifying is not None:
             self._certify(send, self._certifying, task, results, recorder.made)
 

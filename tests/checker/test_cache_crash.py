@@ -19,7 +19,7 @@ from checker.engines import Engine, Limits, Progress, explicit
 from checker.process.pool import PoolEvent
 from checker.results.verdict import Answer, Exhausted, Proved, Unknown, Violated
 from checker.verify.result import Result
-from checker.verify.searches import Heard, MachineWarning, SearchEnd, _Decided, _Returns, searches
+from checker.verify.searches import MachineWarning, SearchEnd, SearchEvent, _Decided, _Returns, searches
 from spec_model.lang.expr import Var
 from spec_model.lang.system import TransitionSystem
 from tests.checker.test_cache import folder
@@ -49,7 +49,7 @@ class Late(Erratic):
         return {}
 
 
-def heard(engine: str | Engine = "explicit", tasks: int = 1) -> list[Heard]:
+def heard(engine: str | Engine = "explicit", tasks: int = 1) -> list[SearchEvent]:
     """What is heard of a search in a child."""
     known = {task.system.name: task.system for task in work()[:tasks]}
     todo = work()[:tasks]
@@ -57,11 +57,11 @@ def heard(engine: str | Engine = "explicit", tasks: int = 1) -> list[Heard]:
         return [one for one in said if isinstance(one, Result | MachineWarning | SearchEnd)]
 
 
-def words(said: list[Heard]) -> dict[str, str]:
+def words(said: list[SearchEvent]) -> dict[str, str]:
     return {one.property.id: one.verdict.word for one in said if isinstance(one, Result)}
 
 
-def warnings(said: list[Heard]) -> list[str]:
+def warnings(said: list[SearchEvent]) -> list[str]:
     return [one.text for one in said if isinstance(one, MachineWarning)]
 
 
@@ -137,13 +137,13 @@ def test_what_was_said_before_a_crash_is_searched_again_and_must_be_so(folder: P
     visited = Exhausted(1, 1, 1, ("a",))
     proved, run = Proved(visited, "explicit"), Unknown("late", 0, "none")
     told = [_Decided("one-a", proved, "one"), CachedCodeUse("key"), _Decided("one-b", proved, "one")]
-    assert [len(list(back.heard(PoolEvent(0, message)))) for message in told] == [1, 0, 1]
+    assert [len(list(back.on_event(PoolEvent(0, message)))) for message in told] == [1, 0, 1]
     order = back.again()
     assert order is not None and order.args == ("one", task.properties, task.recorded, True)
-    assert not list(back.heard(PoolEvent(0, _Decided("one-a", proved, "one"))))
-    assert not list(back.heard(PoolEvent(0, _Decided("one-a", run, "one"))))
+    assert not list(back.on_event(PoolEvent(0, _Decided("one-a", proved, "one"))))
+    assert not list(back.on_event(PoolEvent(0, _Decided("one-a", run, "one"))))
     with pytest.raises(AssertionError, match="with code compiled anew it is violated"):
-        list(back.heard(PoolEvent(0, _Decided("one-b", Violated(visited, "explicit"), "one"))))
+        list(back.on_event(PoolEvent(0, _Decided("one-b", Violated(visited, "explicit"), "one"))))
     assert back.again() is None, "once"
 
 

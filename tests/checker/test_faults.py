@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import pytest
 
 from checker.engines import ALL, AUTO, Engine, Limits, Progress
-from checker.process.faults import Fault, InternalError, attempted, listening, tell
+from checker.process.faults import Fault, InternalError, attempted, listening, report
 from checker.process.isolate import ChildStopped, Send, messages
 from checker.results.verdict import Answer, Inductive, Open, Reached, Run, Unreachable
 from checker.verify.portfolio import Callbacks, PortfolioQuestion, answers, turns
@@ -143,7 +143,7 @@ def test_a_fault_to_which_nobody_listens_is_raised() -> None:
     with pytest.raises(ValueError, match="no such"):
         answers(PortfolioQuestion(SYSTEM, (ON,)), Broken("start", ValueError("no such")), LIMITS, Callbacks())
     with pytest.raises(InternalError, match="one failed on two with three"):
-        tell(Fault("one", "two", "three"))
+        report(Fault("one", "two", "three"))
 
 
 def test_only_the_innermost_listener_hears() -> None:
@@ -151,7 +151,7 @@ def test_only_the_innermost_listener_hears() -> None:
     inner: list[Fault] = []
     with listening(outer.append):
         with listening(inner.append):
-            tell(Fault("one", "two", "three"))
+            report(Fault("one", "two", "three"))
         assert outer == [] and len(inner) == 1
-        attempted("all", "toggle", lambda: tell(Fault("", "", "three")))
+        attempted("all", "toggle", lambda: report(Fault("", "", "three")))
     assert outer == [Fault("all", "toggle", "three")]

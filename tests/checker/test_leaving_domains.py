@@ -19,9 +19,9 @@ from checker.system.lowering_cache import lowered
 from checker.verify.decide import ALL, AUTO, Task, decide
 from checker.verify.result import Result
 from checker.verify.runs.domains import LeavesDomain, stray
-from checker.verify.runs.minimise import calmed
+from checker.verify.runs.minimise import minimise_inputs
 from checker.verify.runs.replay import replay
-from checker.verify.searches import Heard, searches
+from checker.verify.searches import SearchEvent, searches
 from properties import forms
 from properties.forms import Form, Property
 from properties.reduce import reduce
@@ -175,7 +175,7 @@ def test_a_run_is_not_calmed_into_an_exit() -> None:
     )
     question = reduce(lowered(system), [prop(system, forms.Never((Y == 7) & ON))])
     run = Run({}, ({"push": 1, "stop": 1},) * 7)
-    calm = calmed(question.system, question.goals[0].var, run)
+    calm = minimise_inputs(question.system, question.goals[0].var, run)
     assert stray(question.system, calm) is None and stray(question.system, run) is None
     assert len(calm) == 7 and any(tick["stop"] for tick in calm.inputs)
 
@@ -238,7 +238,7 @@ def test_a_proof_waits_for_the_searches_of_the_system_that_it_is_about() -> None
     assert not results
 
 
-def heard(system: System, engine: Engine, *properties: Property) -> Iterator[Heard]:
+def heard(system: System, engine: Engine, *properties: Property) -> Iterator[SearchEvent]:
     todo = [Task(system, (p,)) for p in properties]
     yield from searches(todo, {system.name: system}, engine, Limits(memory=1 << 30), jobs=1)
 

@@ -117,7 +117,7 @@ def test_time_is_shared_out(using) -> None:
     using(first, second)
     granted: list[float | None] = []
     answers(
-        PortfolioQuestion(system(), (ON, OFF)), AUTO, Limits(seconds=100), Callbacks(granted=granted.append)
+        PortfolioQuestion(system(), (ON, OFF)), AUTO, Limits(seconds=100), Callbacks(on_budget=granted.append)
     )
     [(_, early)], [(_, late)] = first.asked, second.asked
     assert early.seconds is not None and late.seconds is not None and late.seconds <= early.seconds <= 100
@@ -137,7 +137,7 @@ def test_that_a_goal_is_never_reached_counts_only_if_the_model_stays_in_its_doma
 def test_answers_are_given_once_as_they_are_found(using) -> None:
     using(Fake("first", {"on": run(4)}), Fake("second", {"off": NEVER}), Fake("third", {STRAY.name: NEVER}))
     heard: list[set[str]] = []
-    told = Callbacks(answered=lambda _, found: heard.append(set(found)))
+    told = Callbacks(on_answer=lambda _, found: heard.append(set(found)))
     given = [
         set(found) for found in as_found(PortfolioQuestion(system(STRAY), (ON, OFF)), AUTO, Limits(), told)
     ]

@@ -167,13 +167,13 @@ def test_a_run_is_left_to_engines_that_find_plainer_ones() -> None:
 
 def test_what_a_record_leaves_open_is_enumerated_next(monkeypatch: pytest.MonkeyPatch) -> None:
     """It was not proved with the rest: k-induction is not asked to prove a broad question once more."""
-    order, asked_by = list[str](), turns.asked
+    order, asked_by = list[str](), turns.run_turn
 
     def noted(engine: Engine, *rest: Any) -> dict[str, tuple[Answer, str]]:
         order.append(engine.SUMMARY if isinstance(engine, RecordedInvariants) else engine.NAME)
         return asked_by(engine, *rest)
 
-    monkeypatch.setattr(turns, "asked", noted)
+    monkeypatch.setattr(turns, "run_turn", noted)
     monkeypatch.setattr(
         "checker.verify.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, (SOON, ORDERS["narrow"][0]))
     )

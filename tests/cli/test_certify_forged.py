@@ -11,7 +11,7 @@ from checker.certify.file import CertificateFile, CertificateOrigin, read, write
 from checker.certify.outcome import Rejected
 from checker.certify.terms import Malformed
 from checker.commands.certify import derive as deriving
-from checker.commands.certify.derive import CertificateCheck, DerivedVerdict, told_of
+from checker.commands.certify.derive import CertificateCheck, DerivedVerdict, derived_verdicts
 from checker.commands.certify.run import certify
 from checker.commands.shared.codes import Exit
 from checker.process.pool import Order, Pool, PoolEvent
@@ -86,7 +86,7 @@ def test_properties_with_and_without_a_bound_are_never_searched_together(tmp_pat
     ids = "PB1-25-turned", "PSY-12"
     for order in (ids, ids[::-1]):
         path = write(tmp_path, CertificateOrigin("references_executed", order, order, {}), [])
-        told = told_of(read(path), CertificateCheck("", SOLVER, None))
+        told = derived_verdicts(read(path), CertificateCheck("", SOLVER, None))
         assert [type(one.outcome) for one in told] == [Rejected, Rejected]
 
 
@@ -118,7 +118,7 @@ def test_a_file_that_kills_its_reader_is_undecided(
     ) -> list[DerivedVerdict]:
         raise MemoryError if written.origin.system == "counters" else AssertionError("what is this")
 
-    monkeypatch.setattr(deriving, "told_of", told)
+    monkeypatch.setattr(deriving, "derived_verdicts", told)
     monkeypatch.setattr(Pool, "run", here)
     assert certify([made], SOLVER, None, False) is Exit.INCONCLUSIVE
     said = capsys.readouterr().out

@@ -63,7 +63,7 @@ def test_a_proof_stands_that_is_too_large_for_a_certificate(
         monkeypatch.setattr("checker.certify.certificate.diagram", no_room)
     [task] = tasks([catalogue()["PB1-11"]], systems())
     recorder = Recorder()
-    told = Callbacks(answered=recorder.answered)
+    told = Callbacks(on_answer=recorder.answered)
     found = list(decide(task, systems(), "explicit", Limits(), quiet, told))
     [result] = found
     assert result.verdict.word == "proved" and recorder.made == []
@@ -81,7 +81,7 @@ def test_certifying_within_little_memory(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr("checker.verify.certificates.check", no_room)
     [task] = tasks([catalogue()["PB1-11"]], systems())
     recorder = Recorder()
-    told = Callbacks(answered=recorder.answered)
+    told = Callbacks(on_answer=recorder.answered)
     found = list(decide(task, systems(), "explicit", Limits(), quiet, told))
     outcome = Certification(again=True).outcomes(task, systems(), Limits(), found, recorder.made, quiet)[
         "PB1-11"

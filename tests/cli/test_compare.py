@@ -129,7 +129,7 @@ def test_a_crash_is_a_finding_that_becomes_a_test(
     code = compare("--system", "board2", "--impl", fault, "--examples", "0", "-o", str(tmp_path))
     said = capsys.readouterr().out
     assert code is Exit.FAILED
-    assert "nobody steers" in said and "inputs that are not calm" in said
+    assert "nobody steers" in said and "inputs that are not at rest" in said
     assert "does not conform (3 runs not survived, then the search gave up)" in " ".join(said.split())
     [written] = tmp_path.glob("crosscheck_board2_*.py")
     assert f"pytest {written}" in said

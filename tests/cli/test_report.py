@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from checker.cli import run
-from checker.commands.check.premises import told
+from checker.commands.check.premises import premise_case
 from checker.commands.check.run import ComparedResult
 from checker.commands.report import command
 from checker.commands.report import graphs as reviewing_graphs
@@ -144,11 +144,11 @@ def test_of_a_case_that_nobody_reproduced_the_limits_are_not_listed() -> None:
     reason = "reached after 2 ticks on x_free; not reproduced on x: bmc: the time limit of 11.9 s is reached"
     case = Result(catalogue()["PB1-11"], Unknown(reason, 3, "bmc"), "x")
     assert (
-        told(case, {}).said
+        premise_case(case, {}).said
         == "not known: reached after 2 ticks on x_free; not reproduced on x within the limits"
     )
     gave_up = replace(case, verdict=Unknown("gave up", 3, "bmc"))
-    assert told(gave_up, {}).said == "not known: gave up"
+    assert premise_case(gave_up, {}).said == "not known: gave up"
 
 
 def test_the_reason_of_another_finding_is_followed_to_the_first() -> None:

@@ -8,7 +8,7 @@ import pytest
 from checker.commands.shared.codes import Exit
 from checker.commands.shared.variant import pick_variant
 from checker.commands.trace import run as tracing
-from checker.commands.trace.examples import TraceRequest, asked, of_state, of_transition
+from checker.commands.trace.examples import TraceRequest, of_state, of_transition, trace_request
 from checker.commands.trace.explain import ExplanationOptions
 from checker.commands.trace.formats import exit_written
 from checker.commands.trace.run import TraceDisplay, trace
@@ -133,7 +133,7 @@ def test_what_a_property_does_not_depend_on_is_shown_by_exits_that_can(tmp_path:
     ],
 )
 def test_a_file_says_how_its_run_was_asked_for(named: tuple[str | None, ...], again: str) -> None:
-    wanted = asked(pick_variant(["S43=AND"], None, []), *named)
+    wanted = trace_request(pick_variant(["S43=AND"], None, []), *named)
     [finding] = of_trace(wanted.drawn(first())).findings
     assert finding.shown_with == f"{again} --reading S43=AND"
 

@@ -12,7 +12,7 @@ import pytest
 
 from checker.commands.check import run as check
 from checker.commands.trace.explain import ExplanationOptions
-from checker.process.faults import Fault, tell
+from checker.process.faults import Fault, report
 from checker.pytest_plugin import decisions
 from checker.pytest_plugin.decisions import Decider
 from checker.pytest_plugin.item import PropertyItem
@@ -183,7 +183,7 @@ def test_an_engine_that_fails_is_told_with_the_verdict_of_another(
     real = check.results
 
     def results(*args: Any, **options: Any) -> Iterator[Result]:
-        tell(Fault("pdr", "Heater", "AssertionError: of ours"))
+        report(Fault("pdr", "Heater", "AssertionError: of ours"))
         yield from real(*args, **options)
 
     monkeypatch.setattr(decisions, "results", results)

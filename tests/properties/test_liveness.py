@@ -270,7 +270,7 @@ def test_a_search_for_a_way_back_that_fails_costs_no_other_verdict(monkeypatch: 
 
 
 def test_random_runs_that_fail_leave_the_engines_their_turns(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(verdicts, "settled", _faulty)
+    monkeypatch.setattr(verdicts, "repeating_loop", _faulty)
     monkeypatch.setattr(verdicts, "_vast", lambda _: True)
     [leads], faults = _heard(LeadsTo(busy, ~busy))
     assert isinstance(leads.verdict, Violated) and [f.who for f in faults] == [verdicts.SETTLING]

@@ -14,7 +14,7 @@ from checker.explore.graphs.construction import made
 from checker.explore.graphs.projection import project
 from checker.explore.graphs.reachable_ticks import tabulated
 from checker.render import graph_json
-from checker.render.stategraph.findings import findings, told
+from checker.render.stategraph.findings import findings, findings_text
 from checker.render.stategraph.fragment import document, rows
 from checker.render.stategraph.picture import LABELLED, drawn, in_rows, too_long
 from checker.render.stategraph.words import brief, several, short, spans
@@ -128,8 +128,8 @@ class TestWords:
         [node, *_] = GRAPHS["toy"].nodes
         assert short(GRAPHS["toy"], node) == ("SAFE",)
         chart = replace(GRAPHS["toy"], variables=("Run", "Run.Fast", "a.level", "b.level"))
-        told = short(chart, replace(node, shown=("Fast", "Deep", "3", "4")))
-        assert told == ("Fast = Deep", "a.level = 3", "b.level = 4")
+        findings_text = short(chart, replace(node, shown=("Fast", "Deep", "3", "4")))
+        assert findings_text == ("Fast = Deep", "a.level = 3", "b.level = 4")
         assert short(chart, replace(node, shown=("-",) * 4)) == ("-",)
 
     def test_many_nodes_are_counted(self) -> None:
@@ -153,9 +153,9 @@ class TestWords:
         assert said["dead ends"] == "2: 1 of ×1 admit no input."
 
     def test_a_cut_graph_says_so_first_and_loudly(self) -> None:
-        assert findings(CUT)[0][0] == "CUT" and "Not all that is reachable is here" in told(CUT)
-        assert "is never" not in told(CUT)
-        assert max(map(len, told(CUT).splitlines())) <= 80
+        assert findings(CUT)[0][0] == "CUT" and "Not all that is reachable is here" in findings_text(CUT)
+        assert "is never" not in findings_text(CUT)
+        assert max(map(len, findings_text(CUT).splitlines())) <= 80
 
     def test_marks(self) -> None:
         graph = made(toys.filling(3), ["count"], wanted=("full",), looked_for="P is broken").graph

@@ -11,7 +11,7 @@ import pytest
 
 from checker.render import trace_html, trace_svg
 from checker.render.lanes import Tone
-from checker.render.timeline import timeline, told
+from checker.render.timeline import story_part, timeline
 from checker.render.timeline.axis import fit, labelled
 from checker.render.timeline.drawing import place
 from checker.render.timeline.limits import thresholds, time_limits
@@ -246,8 +246,10 @@ class TestSvg(Suite):
         root = self.parse(self.shown("labelled"))
         classes = {e.get("class") for e in root.iter() if e.get("class")}
         assert {"tl-is-critical", "tl-fail", "tl-limit", "tl-needed", "tl-shot"} <= classes
-        told = [e.text for e in root.iter(f"{SVG}text")]
-        assert {"Ours", "Theirs", "false", "3 s", "critical, or false part of the property"} <= set(told)
+        story_part = [e.text for e in root.iter(f"{SVG}text")]
+        assert {"Ours", "Theirs", "false", "3 s", "critical, or false part of the property"} <= set(
+            story_part
+        )
 
     def test_a_loop_repeats(self) -> None:
         assert "repeats for ever" in self.shown("loop")
@@ -303,13 +305,15 @@ class TestNeeds:
         assert shown.needed == (NeededTicks(3, 4, "level = 0"), NeededTicks(6, 6, "level = 0"))
 
     def test_reasons_are_told_by_tick(self) -> None:
-        page = told(drawn()).body
+        page = story_part(drawn()).body
         assert "<li>tick 2 (40 ms): <code>level = 100</code></li>" in page
-        assert "Not minimised" in page and "Not minimised" not in told(replace(drawn(), minimal=True)).body
+        assert (
+            "Not minimised" in page and "Not minimised" not in story_part(replace(drawn(), minimal=True)).body
+        )
 
     def test_not_examined_is_not_nothing(self) -> None:
-        assert "Cause: the inputs" not in told(long_trace()).body
-        assert "whatever its inputs" in told(replace(drawn(), needed=())).body
+        assert "Cause: the inputs" not in story_part(long_trace()).body
+        assert "whatever its inputs" in story_part(replace(drawn(), needed=())).body
 
 
 class TestTruths:

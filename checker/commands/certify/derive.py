@@ -53,7 +53,9 @@ class VerdictDerivation:
     def __call__(self, send: Send, stem: str, written: CertificateFile) -> None:
         """Send a ``DerivedVerdict`` for each property that the file is to prove, or ``Unwritable``."""
         try:
-            for one in told_of(written, CertificateCheck(stem, self.effort, self.folder), self.model):
+            for one in derived_verdicts(
+                written, CertificateCheck(stem, self.effort, self.folder), self.model
+            ):
                 send(one)
         except Unwritable as error:
             send(error)
@@ -95,7 +97,7 @@ class CertificateCheck:
                 ) from error
 
 
-def told_of(
+def derived_verdicts(
     written: CertificateFile, checking: CertificateCheck, model: Path | None = None
 ) -> list[DerivedVerdict]:
     """What the certificates of a file show of each property that it is to prove.

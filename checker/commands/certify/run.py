@@ -52,7 +52,7 @@ def certify(
         _folder(smt2)
     found: list[DerivedVerdict] = []
     deriving = VerdictDerivation(effort, smt2, model)
-    with ProgressLine() as progress, closing(_told(written, deriving, progress)) as heard:
+    with ProgressLine() as progress, closing(_report(written, deriving, progress)) as heard:
         for told in heard:
             if not as_json:
                 out.print(wrapped(line(told, verbose, several=len(written) > 1), WHY), markup=False)
@@ -100,7 +100,7 @@ def _folder(place: Path) -> None:
         raise UsageError(f"Cannot write {whole(place)}: {error.strerror}. Choose another --smt2.") from error
 
 
-def _told(
+def _report(
     written: Sequence[tuple[Path, CertificateFile]], deriving: VerdictDerivation, progress: ProgressLine
 ) -> Generator[DerivedVerdict, None, None]:
     """What is said of each property that some file is to prove, as it is found."""

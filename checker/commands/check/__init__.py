@@ -145,7 +145,7 @@ def check(options: CheckOptions, charts: VariantOptions, search: SearchOptions) 
             other = "--strict" if options.strict else "--record-premises"
             raise UsageError(f"--no-premises leaves out what {other} needs; write one of them.")
         limits = search.limits(options.memory)
-        asked = _asked(pick_engine(search.engine), options.all_engines)
+        asked = _engine_choice(pick_engine(search.engine), options.all_engines)
         if options.certificates:
             writable(options.certificates)
         certifying = (
@@ -220,7 +220,7 @@ def _further(variant: "Variant", premises: "PremiseSearch | None", chains: "Chai
 
     further = CheckExtras(noticing=None if variant.name else noticing(variant.model))
     if premises is not None:
-        further = replace(further, heard=premises.heard, cases=premises)
+        further = replace(further, on_result=premises.on_result, cases=premises)
     return further if chains is None else replace(further, chains=chains.standings)
 
 
@@ -243,7 +243,7 @@ def _again(options: str, chosen: tuple[str, ...], repair: str | None, dropped: t
     return " ".join(filter(None, [options, *readings, f"--repair {repair}" if repair else "", *without]))
 
 
-def _asked(engine: str, every: bool) -> str:
+def _engine_choice(engine: str, every: bool) -> str:
     """The engines to ask.  Raises ``UsageError`` when one is named and every engine wanted."""
     if every and engine not in (AUTO, ALL):
         raise UsageError(f"--engine {engine} asks one engine and --all-engines every one; write one of them.")

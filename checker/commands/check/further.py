@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from checker.commands.check.run import ComparedResult
 
 
-def _unheard(_: "ComparedResult") -> None:
+def _ignore(_: "ComparedResult") -> None:
     """Nothing is asked while others are searched for."""
 
 
@@ -35,13 +35,13 @@ def _no_chains(_: Sequence["ComparedResult"]) -> Sequence["ChainStatus"]:
 class CheckExtras:
     """What is asked of the verdicts; by default nothing.
 
-    ``heard`` is told each result while others are searched for.  ``cases`` says of each proof that speaks of
-    a case, by id, whether the case occurs, ``chains`` what becomes of chains of properties.  ``noticing`` are
-    the properties that notice a recorded fault; None where none are kept.  ``keep`` records proofs in
-    record.
+    ``on_result`` receives each result while others are searched for.  ``cases`` says of each proof that
+    speaks of a case, by id, whether the case occurs, ``chains`` what becomes of chains of properties.
+    ``noticing`` are the properties that notice a recorded fault; None where none are kept.  ``keep`` records
+    proofs in record.
     """
 
-    heard: Callable[["ComparedResult"], None] = _unheard
+    on_result: Callable[["ComparedResult"], None] = _ignore
     cases: Callable[[Sequence["ComparedResult"]], Mapping[str, "PremiseCase"]] = _no_cases
     chains: Callable[[Sequence["ComparedResult"]], Sequence["ChainStatus"]] = _no_chains
     noticing: Collection[str] | None = None
@@ -50,12 +50,12 @@ class CheckExtras:
     def noticed(self, one: "ComparedResult") -> bool | None:
         """Whether a fault is known that a proof notices; None of what no fault is looked for."""
         prop = one.result.property
-        if self.noticing is None or not isinstance(one.verdict, Proved) or not asks_for_fault(prop):
+        if self.noticing is None or not isinstance(one.verdict, Proved) or not needs_mutant(prop):
             return None
         return prop.id in self.noticing
 
 
-def asks_for_fault(prop: Property) -> bool:
+def needs_mutant(prop: Property) -> bool:
     """Whether a fault is looked for that a property notices: not of those that take long, nor of situations
     and of what happens some day.
     """
@@ -73,4 +73,4 @@ def noticing(model: Model) -> frozenset[str] | None:
 
 NOTHING_FURTHER = CheckExtras()
 
-__all__ = ["NOTHING_FURTHER", "CheckExtras", "asks_for_fault", "noticing"]
+__all__ = ["NOTHING_FURTHER", "CheckExtras", "needs_mutant", "noticing"]

@@ -58,7 +58,7 @@ def cases(
     left = [case for id, case in wanted.items() if id not in found_out]
     brief = replace(limits, seconds=min(patience, limits.seconds or patience))
     for one in _searched(left, systems, engine, brief, jobs, quiet):
-        found_out[one.property.id] = told(one, systems)
+        found_out[one.property.id] = premise_case(one, systems)
     return found_out
 
 
@@ -79,17 +79,17 @@ class PremiseSearch:
     keep: bool
     _shown: dict[str, PremiseCase] = field(default_factory=dict)
 
-    def heard(self, one: ComparedResult) -> None:
+    def on_result(self, one: ComparedResult) -> None:
         """Go through the recorded run of a proof that speaks of a case."""
         self._shown |= _again(_wanted([one]), self.known, self.systems)
 
     def __call__(self, found: Sequence[ComparedResult]) -> Mapping[str, PremiseCase]:
         """For each proof that speaks of a case, by id, whether it occurs on its system."""
         asked = self.systems, self.known, self.engine, self.limits, self.jobs, self.quiet
-        told = cases(found, *asked, LONG if self.keep else PATIENCE, self._shown)
+        premise_case = cases(found, *asked, LONG if self.keep else PATIENCE, self._shown)
         if self.keep:
-            record(told, self.model)
-        return told
+            record(premise_case, self.model)
+        return premise_case
 
 
 def record(known: Mapping[str, PremiseCase], model: Model) -> None:
@@ -155,7 +155,7 @@ def _searched(
         yield from results(again, free, engine, limits, jobs, quiet=quiet)
 
 
-def told(one: Result, systems: Mapping[str, System]) -> PremiseCase:
+def premise_case(one: Result, systems: Mapping[str, System]) -> PremiseCase:
     """What came of the search for a case."""
     match one.verdict:
         case Unknown(reason):
@@ -173,4 +173,13 @@ def _occurs(ticks: int, system: System) -> str:
     return f"it occurs: after {counted_ticks(ticks)} of {system.name}{more}"
 
 
-__all__ = ["LONG", "PATIENCE", "PremiseCase", "PremiseSearch", "cases", "record", "recordable", "told"]
+__all__ = [
+    "LONG",
+    "PATIENCE",
+    "PremiseCase",
+    "PremiseSearch",
+    "cases",
+    "premise_case",
+    "record",
+    "recordable",
+]

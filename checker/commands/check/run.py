@@ -18,14 +18,14 @@ from checker.commands.check.findings import (
 )
 from checker.commands.check.further import NOTHING_FURTHER, CheckExtras
 from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.failure import alarm, code_of, told
+from checker.commands.shared.failure import alarm, code_of, error_message
 from checker.commands.shared.output import err, out, wrapped
 from checker.commands.shared.progress import Watch
 from checker.commands.shared.text_wrap import plain
 from checker.engines import Limits
 from checker.io.printable import json_text
 from checker.model.kept_invariants import Recorded
-from checker.process.faults import Fault, heard, listening, tell
+from checker.process.faults import Fault, has_listener, listening, report
 from checker.render.story import repeating
 from checker.results.trace import Trace, counted_ticks
 from checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
@@ -134,9 +134,9 @@ def results(
     # The largest first, so that no long search is left for the end; those of one system together.
     asked = (replace(task, recorded=_on_record(task, invariants)) for task in tasks(properties, systems))
     todo = sorted(asked, key=lambda t: (-t.size, t.system.name, t.title))
-    heard = searches(todo, systems, engine, limits, jobs, certifying)
-    with Watch(err, len(todo), quiet) as watch, closing(heard):
-        for one in heard:
+    has_listener = searches(todo, systems, engine, limits, jobs, certifying)
+    with Watch(err, len(todo), quiet) as watch, closing(has_listener):
+        for one in has_listener:
             match one:
                 case SearchActivity(task, line):
                     watch.say(task.title, line)
@@ -218,7 +218,7 @@ def check(
                 found.append(ComparedResult(result, expect(result.property.id), variant))
                 if not as_json and not (quiet and found[-1].code is Exit.AS_EXPECTED):
                     out.print(wrapped(line(found[-1]), EVIDENCE), markup=False)
-                further.heard(found[-1])
+                further.on_result(found[-1])
         further.keep(found)
         cases, chains = further.cases(found), further.chains(found)
         found = [
@@ -267,8 +267,8 @@ def check(
 def _alarmed(faults: Sequence[Fault]) -> str:
     """Pass on every internal error that the search went on without; all of them in one text."""
     for fault in faults:
-        if heard():
-            tell(fault)
+        if has_listener():
+            report(fault)
         else:
             err.print(alarm(fault), markup=False)
     return " ".join(dict.fromkeys(map(alarm, faults)))
@@ -278,7 +278,7 @@ def _why(error: BaseException) -> str:
     """What those are told who read no terminal; nothing of an interruption."""
     if not isinstance(error, Exception):
         return ""
-    return plain(str(error)) if code_of(error) is Exit.USAGE else told(error)
+    return plain(str(error)) if code_of(error) is Exit.USAGE else error_message(error)
 
 
 def worst(found: Sequence[ComparedResult]) -> Exit:

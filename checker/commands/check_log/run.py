@@ -7,7 +7,7 @@ from pathlib import Path
 from checker.commands.check_log.document import as_json
 from checker.commands.check_log.text import LogFault, Outcome, page, summary
 from checker.commands.shared.codes import Exit, UsageError
-from checker.commands.shared.failure import told
+from checker.commands.shared.failure import error_message
 from checker.commands.shared.output import err, out
 from checker.commands.shared.progress import ProgressLine
 from checker.commands.shared.variant import Variant, pick_variant
@@ -47,7 +47,7 @@ class ConformOptions:
         except MemoryError:
             return LogError("takes more memory than there is; cut it into several logs.")
         except Exception as error:
-            return LogFault(told(error))
+            return LogFault(error_message(error))
 
 
 def check_log(

@@ -48,7 +48,7 @@ def report(of: CrosscheckReport) -> str:
 
 
 def shown(result: CompareResult) -> Sequence[StepMismatch | Failure]:
-    """What is told with inputs and a test: the small mismatches, then each way to fail, at its shortest."""
+    """What is reported with inputs and a test: small mismatches, then each way to fail, at its shortest."""
     causes: dict[str, Failure] = {}
     for failure in result.failures:
         if failure.steps:
@@ -101,15 +101,15 @@ def _failure(number: int, failure: Failure) -> Iterator[str]:
 
 
 def _inputs(mismatch: StepMismatch | Failure) -> Iterator[str]:
-    """The inputs that are not calm in the step, and since when; then how the run got there."""
+    """The inputs that are not at rest in the step, and since when; then how the run got there."""
     board = mismatch.board
     run = columns(board, [step.inputs for step in mismatch.steps])
-    calm = dict(ENVIRONMENTS[board.name].at_rest)
+    resting = dict(ENVIRONMENTS[board.name].at_rest)
     signals = {s.name: s for s in board.inputs}
-    yield "   inputs that are not calm in that step:"
+    yield "   inputs that are not at rest in that step:"
     told = False
     for name, column in run.columns.items():
-        last, rest = column[-1], calm[name]
+        last, rest = column[-1], resting[name]
         at_rest = last == 0 if isinstance(rest, Every) else last == rest
         if not at_rest:
             since = next((k for k in range(len(column), 0, -1) if column[k - 1] != last), 0) + 1
@@ -132,7 +132,7 @@ def _stamped(lag: Value | None) -> str:
 
 
 def _history(mismatch: StepMismatch | Failure) -> Iterator[str]:
-    """What changes when, from calm inputs on."""
+    """What changes when, from inputs at rest on."""
     board = mismatch.board
     signals = {s.name: s for s in board.inputs}
     known: dict[str, Change] = dict(ENVIRONMENTS[board.name].at_rest)
@@ -144,7 +144,7 @@ def _history(mismatch: StepMismatch | Failure) -> Iterator[str]:
                 changed.append(f"{name} = {_shown(signals, name, change)}")
             known[name] = change
         if changed or step == 1:
-            yield _wrapped(f"step {step}: {', '.join(changed) or 'everything calm'}", "     ")
+            yield _wrapped(f"step {step}: {', '.join(changed) or 'everything at rest'}", "     ")
         step += block.steps
 
 

@@ -102,7 +102,7 @@ def doctor(as_json: bool, quiet: bool = False) -> Exit:
         }
         print(json_text(document, ascii=True))
     else:
-        _tell([f for f in found if not (quiet and f.ok)], broken)
+        _print_findings([f for f in found if not (quiet and f.ok)], broken)
     return Exit.FAILED if broken else Exit.AS_EXPECTED
 
 
@@ -255,7 +255,7 @@ def properties() -> tuple[Property, Property]:
     )
 
 
-def _tell(found: Sequence[DoctorFinding], broken: Sequence[DoctorFinding]) -> None:
+def _print_findings(found: Sequence[DoctorFinding], broken: Sequence[DoctorFinding]) -> None:
     titles = {
         "package": "Packages",
         "machine": "This machine",

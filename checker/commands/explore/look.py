@@ -76,12 +76,12 @@ def _conjuncts(one: TestedTransition, trace: Trace, at: Mapping[str, int]) -> Ta
 def _show(explorer: Explorer, rest: str) -> None:
     if rest not in ("", "all"):
         for name in split(rest):
-            _told(explorer, name)
+            _describe(explorer, name)
         return
     show(explorer.console, explorer.session, rest == "all")
 
 
-def _told(explorer: Explorer, name: str) -> None:
+def _describe(explorer: Explorer, name: str) -> None:
     sim = explorer.session.simulation
     var = variable(name, sim.variables, "variable")
     at = {**explorer.session.standing, **sim.state(), **sim.given()}

@@ -113,7 +113,7 @@ def explore(name: str | None, variant: Variant, traced: str | None, script: Path
     if script is not None:
         return _scripted(explorer, _read(script))
     if sys.stdin is not None and sys.stdin.isatty():
-        return _asked(explorer)
+        return _from_terminal(explorer)
     return _scripted(explorer, sys.stdin or ())
 
 
@@ -168,10 +168,10 @@ def _scripted(explorer: Explorer, lines: Iterable[str]) -> Exit:
     return Exit.AS_EXPECTED
 
 
-def _asked(explorer: Explorer) -> Exit:
+def _from_terminal(explorer: Explorer) -> Exit:
     """Obey commands from a terminal until there are no more, or somebody wants the program to end."""
     _line_editing(partial(completions, explorer))
-    _end_when_told()
+    _end_on_signal()
     while True:
         try:
             obey(explorer, input(explorer.prompt))
@@ -184,7 +184,7 @@ def _asked(explorer: Explorer) -> Exit:
             explorer.say(str(error), "red")
 
 
-def _end_when_told() -> None:
+def _end_on_signal() -> None:
     """A request to end is no Ctrl-C here, which only clears the line."""
     for name in ("SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)

@@ -17,7 +17,7 @@ from checker.explore.graphs.construction import BuiltGraph, made
 from checker.explore.graphs.suggestions import Offer, Suggestions, among, suggestions
 from checker.model import names_of
 from checker.render import Renderer, renderers
-from checker.render.stategraph.findings import told
+from checker.render.stategraph.findings import findings_text
 from checker.results.graph import MOST_NODES, StateGraph, drawable, with_trace
 from checker.results.trace import Trace
 from checker.results.verdict import Unknown
@@ -173,8 +173,8 @@ def _offer(system: System, limits: Limits, output: Path | None, options: str) ->
     with Watch(err, 1) as watch:
         found = suggestions(lower(system), limits, lambda line: watch.say(system.name, line))
     charts = "".join(f"{_command(c.name, options)} draws its chart.\n" for c in system.charts[:4])
-    told = offered(system.name, found, options) + ("\n" + charts if charts else "")
-    write(wrapped(told), None)
+    findings_text = offered(system.name, found, options) + ("\n" + charts if charts else "")
+    write(wrapped(findings_text), None)
     if output is not None:
         raise UsageError(
             f"Nothing is written to {whole(output)}: a state graph needs --project, as in the commands above."
@@ -199,11 +199,11 @@ def _states(system: System, view: View, format: str | None, variant: Variant, ou
         found = made(lowered, view.onto, view.limits, lambda line: watch.say(system.name, line), wanted, says)
         shown = _shown(found, trace, renderer, view)
     if view.summary:
-        write(told(shown, min(out.width, 100)), output)
+        write(findings_text(shown, min(out.width, 100)), output)
     else:
         write(_picture(renderer, found, shown, view, _options(variant)), output)
         wrote(output)
-        err.print(told(shown, min(err.width, 100)), markup=False, end="")
+        err.print(findings_text(shown, min(err.width, 100)), markup=False, end="")
     return Exit.INCONCLUSIVE if shown.cut else Exit.AS_EXPECTED
 
 

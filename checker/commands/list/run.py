@@ -124,8 +124,8 @@ def listing(
 ) -> Exit:
     """Print one of the lists, of the rover or the model at a path; of the properties those of ``ids``.
 
-    With ``english`` these are told in words, which JSON has in any case.  Raises ``UsageError`` for ids or
-    ``english`` with another list, and for a list that only the rover has.
+    With ``english`` these are written in words, which JSON has in any case.  Raises ``UsageError`` if ``ids``
+    or ``english`` is given for anything but properties, or if the list exists only for the rover.
     """
     if what != "properties" and (ids or english):
         raise UsageError(

@@ -56,7 +56,7 @@ def judge(
         stages.elsewhere([mutant for mutant in left if mutant.id in unkilled], unkilled)
     finally:
         order = {mutant.id: number for number, (_, mutant) in enumerate(todo)}
-        found.told.sort(key=lambda one: order[one[1].id])
+        found.judged.sort(key=lambda one: order[one[1].id])
 
 
 @dataclass
@@ -82,7 +82,7 @@ class _Stages:
         """Judge by runs that are known and by one query, without a search; the mutants that are left."""
         left = []
         planned = [self.plan.own(mutant, self.at[mutant.id]) for mutant in todo]
-        for told in self._told(planned, {}, search=False):
+        for told in self._fates(planned, {}, search=False):
             if told.judged.fate is Fate.UNKNOWN:
                 left.append(told.mutant)
             else:
@@ -100,7 +100,7 @@ class _Stages:
         for name in (*small, *sorted(set(where.values()) & self.plan.systems.keys() - set(small))):
             here = [m for id, m in left.items() if name in small or where.get(id) == name]
             planned = [one for m in here if (one := self.plan.tried_in(name, m, self.at[m.id]))]
-            told = list(self._told(planned, dict.fromkeys(left, OPEN), search=False, drawn=False))
+            told = list(self._fates(planned, dict.fromkeys(left, OPEN), search=False, drawn=False))
             kills = {one.mutant.id: one.judged for one in told if one.judged.fate is Fate.KILLED}
             self._find_out({judged.killer for judged in kills.values()})
             for id, judged in kills.items():
@@ -118,7 +118,7 @@ class _Stages:
         unkilled: dict[str, MutantFate] = {}
         planned = [self.plan.own(mutant, self.at[mutant.id]) for mutant in todo]
         try:
-            for told in self._told(planned, {}):
+            for told in self._fates(planned, {}):
                 if told.judged.fate in UNKILLED and not alone:
                     unkilled[told.mutant.id] = told.judged
                 else:
@@ -139,7 +139,7 @@ class _Stages:
             if len(again) >= WORTH_RUNS:
                 asked = {p.id: p for one in again for case in one.cases for p in case.properties}
                 self.decide([p for p in asked.values() if p.id not in self._asked and self._has_run(p)])
-            for told in self._told(again, unkilled, drawn=False):
+            for told in self._fates(again, unkilled, drawn=False):
                 unkilled.pop(told.mutant.id)
                 self._keep(told.mutant, told.judged, searched=True)
         except KeyboardInterrupt:
@@ -154,7 +154,7 @@ class _Stages:
                 self._keep(mutant, replace(judged, fate=Fate.UNKNOWN, why=judged.why or why))
 
     def _keep(self, mutant: Mutant, judged: MutantFate, searched: bool = False) -> None:
-        self.found.told.append((self.at[mutant.id], mutant, judged))
+        self.found.judged.append((self.at[mutant.id], mutant, judged))
         if searched:
             self.found.searched.add(mutant.id)
 
@@ -164,7 +164,7 @@ class _Stages:
             return False
         return self.plan.recorded[prop.id] is isinstance(prop.form, Reachable)
 
-    def _told(
+    def _fates(
         self,
         planned: Sequence[PlannedMutant],
         before: Mapping[str, MutantFate],

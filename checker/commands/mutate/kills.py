@@ -3,7 +3,7 @@
 from collections.abc import Collection, Generator, Mapping
 from contextlib import closing
 
-from checker.commands.check.further import asks_for_fault
+from checker.commands.check.further import needs_mutant
 from checker.commands.shared.codes import Exit
 from checker.commands.shared.output import counted, err, out, wrapped, write
 from checker.commands.shared.progress import ProgressLine
@@ -33,7 +33,7 @@ def record_kills(model: Model, limits: Limits, jobs: int | None, about: Collecti
     place, premises = file_of(model, KILLS), read(file_of(model))
     known = {id: kept for id, kept in read(place, KILLS).items() if id in model.properties}
     chosen = {pick("system", name, model.systems).name for name in about}
-    asked = {name: of for name, of in asked_of(model).items() if not chosen or name in chosen}
+    asked = {name: of for name, of in demands_of(model).items() if not chosen or name in chosen}
     total = [p.id for properties in asked.values() for p in properties]
     found = {id: kept for id, kept in known.items() if id not in total}
     whole = True
@@ -59,11 +59,11 @@ def record_kills(model: Model, limits: Limits, jobs: int | None, about: Collecti
     return Exit.AS_EXPECTED if whole else Exit.INCONCLUSIVE
 
 
-def asked_of(model: Model) -> dict[str, list[Property]]:
+def demands_of(model: Model) -> dict[str, list[Property]]:
     """The demands that are proved, by system; those about what happens some day are left out."""
     found: dict[str, list[Property]] = {}
     for prop in model.stated().values():
-        if model.expected(prop.id).verdict == "proved" and asks_for_fault(prop):
+        if model.expected(prop.id).verdict == "proved" and needs_mutant(prop):
             found.setdefault(prop.on, []).append(prop)
     return found
 
@@ -116,4 +116,4 @@ class _Killing:
             send(found)
 
 
-__all__ = ["asked_of", "record_kills"]
+__all__ = ["demands_of", "record_kills"]

@@ -19,13 +19,13 @@ class MutationResults:
     chosen: int = 0
     seed: int | None = None
     undecided: list[str] = field(default_factory=list)
-    told: list[One] = field(default_factory=list)
+    judged: list[One] = field(default_factory=list)
     searched: set[str] = field(default_factory=set)
     """Mutants of ``told``, by id, that were not judged before something was searched."""
 
     def of(self, *fates: Fate) -> list[One]:
         """Those with one of some fates."""
-        return [one for one in self.told if one[2].fate in fates]
+        return [one for one in self.judged if one[2].fate in fates]
 
     @property
     def code(self) -> Exit:

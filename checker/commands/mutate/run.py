@@ -36,18 +36,18 @@ class Site:
     """A place in a chart or block: ``Relay/arrow/B1_actuating.1``, with the fates of its mutants."""
 
     name: str
-    told: tuple[One, ...]
+    judged: tuple[One, ...]
 
     @property
     def killers(self) -> tuple[str, ...]:
         """The properties that notice a fault there, those first that notice most."""
-        ids = [judged.killer for _, _, judged in self.told if judged.fate is Fate.KILLED]
+        ids = [judged.killer for _, _, judged in self.judged if judged.fate is Fate.KILLED]
         return tuple(sorted(set(ids), key=lambda id: (-ids.count(id), id)))
 
     @property
     def counts(self) -> str:
         """``3 of 4 killed``; what behaves like the original, or is no chart, is not counted."""
-        faults = [judged.fate for _, _, judged in self.told if judged.fate in FAULTY]
+        faults = [judged.fate for _, _, judged in self.judged if judged.fate in FAULTY]
         return f"{faults.count(Fate.KILLED)} of {len(faults)} killed" if faults else "no fault"
 
     @property
@@ -59,7 +59,7 @@ class Site:
 def sites(found: MutationResults) -> Iterator[Site]:
     """The places in the order in which faults were made."""
     by: dict[str, list[One]] = {}
-    for one in found.told:
+    for one in found.judged:
         by.setdefault(one[1].id.rpartition("/")[0], []).append(one)
     return (Site(name, tuple(told)) for name, told in by.items())
 
@@ -89,7 +89,7 @@ def mutate(model: Model, wanted: MutateOptions, limits: Limits, as_json: bool) -
         judge(model, properties, todo, limits, wanted.jobs, wanted.alone, found)
         code = found.code
     except KeyboardInterrupt:
-        err.print(f"Interrupted: {len(found.told)} of {found.chosen} mutants judged.")
+        err.print(f"Interrupted: {len(found.judged)} of {found.chosen} mutants judged.")
     if wanted.record_mutants:
         _record(model, found, {mutant.id for _, mutant in made}, wanted.alone)
     if as_json:
@@ -113,10 +113,10 @@ def _record(model: Model, found: MutationResults, made: Collection[str], alone: 
     place, parts_of = file_of(model, MUTANTS), {id.partition("/")[0] for id in made}
     rows = {
         mutant.id: KeptRun(judged.on, judged.run)
-        for _, mutant, judged in found.told
+        for _, mutant, judged in found.judged
         if judged.fate is Fate.KILLED and judged.run is not None and mutant.id in found.searched
     }
-    judged_so = () if alone else found.told
+    judged_so = () if alone else found.judged
     alive = {mutant.id for _, mutant, judged in judged_so if judged.fate not in (Fate.KILLED, Fate.UNKNOWN)}
     known = {
         id: row

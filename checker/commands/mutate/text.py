@@ -99,13 +99,13 @@ def _where(state: str) -> str:
 
 
 def _counts(found: MutationResults) -> Iterator[Line]:
-    by = Counter(judged.fate for _, _, judged in found.told)
+    by = Counter(judged.fate for _, _, judged in found.judged)
     names = ", ".join(found.systems) if len(found.systems) <= MANY else f"{len(found.systems)} systems"
-    judged = f"{counted(len(found.told), 'mutant', 'mutants')} of {names}"
+    judged = f"{counted(len(found.judged), 'mutant', 'mutants')} of {names}"
     if found.chosen < found.made:
         judged += f", drawn from {found.made:,} with seed {found.seed}"
-    if len(found.told) < found.chosen:
-        judged += f", {found.chosen - len(found.told):,} more not judged"
+    if len(found.judged) < found.chosen:
+        judged += f", {found.chosen - len(found.judged):,} more not judged"
     yield f"{judged}:", 2
     shown = [
         (Fate.KILLED, "killed"),

@@ -126,7 +126,7 @@ def _holds(promise: Promise, words: Words) -> Iterator[str]:
 
 
 def _across(promise: Promise, words: Words) -> Iterator[str]:
-    """The chains; those that prove one statement of several causes are told once."""
+    """The chains; those that prove one statement of several causes are shown once."""
     if promise.chains:
         yield from (ACROSS, "")
     for across in dict.fromkeys(chain.across for chain in promise.chains):

@@ -20,7 +20,7 @@ from checker.engines import AUTO, Limits
 from checker.explain.explanation import unexplained
 from checker.model.kept_invariants import invariants_of_rover
 from checker.render import renderers
-from checker.render.trace_markdown import reasons_told
+from checker.render.trace_markdown import reasons_table
 from checker.results.trace import Trace
 from checker.results.verdict import Unknown
 from properties.catalogue import catalogue, expected
@@ -263,7 +263,7 @@ def _cause(trace: Trace) -> list[str]:
     """The section on the cause of a violation; it stands apart, so as to be compared or not."""
     if why := unexplained(trace):
         return [CAUSE, "", f"Not looked for, as {why}."]
-    return [CAUSE, "", *(reasons_told(trace.focused()) or [NOT_ASKED])]
+    return [CAUSE, "", *(reasons_table(trace.focused()) or [NOT_ASKED])]
 
 
 def _systems() -> str:

@@ -92,13 +92,13 @@ def because(row: RequirementCoverage, verdicts: Verdicts, name: Callable[[str], 
     """
     by: dict[str, list[str]] = {}
     for prop in row.properties:
-        by.setdefault(_said(prop, verdicts[prop.id]), []).append(name(prop.id))
+        by.setdefault(_phrase(prop, verdicts[prop.id]), []).append(name(prop.id))
     state = row.state(verdicts)
     groups = [f"{'' if said == state else said} {', '.join(by[said])}".strip() for said in SAID if said in by]
     return "; ".join(filter(None, (row.requirement.reason.removesuffix("."), *groups))) or NOTHING
 
 
-def _said(prop: Property, verdict: str) -> str:
+def _phrase(prop: Property, verdict: str) -> str:
     if isinstance(prop.form, Reachable):
         return {"proved": "reached by", "violated": "not reached by"}.get(verdict, verdict)
     return verdict

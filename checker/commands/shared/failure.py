@@ -10,7 +10,7 @@ ROOM = "Make room for it, or write elsewhere, and run the command again."
 MEMORY = "Out of memory. Check fewer properties at once, or one --system."
 
 
-def told(error: Exception) -> str:
+def error_message(error: Exception) -> str:
     """One message for any error, as far as what it calls for is known; else it is an internal error."""
     match error:
         case ModelError():

@@ -84,13 +84,13 @@ def trace(options: TraceOptions, charts: VariantOptions, search: SearchOptions) 
       rovercheck trace --transition 'Relay: B1_actuating -> B2_actuating'
     """
     from checker.commands.shared.select import pick_engine
-    from checker.commands.trace.examples import asked
+    from checker.commands.trace.examples import trace_request
     from checker.commands.trace.explain import ExplanationOptions
     from checker.commands.trace.run import TraceDisplay
     from checker.commands.trace.run import trace as run
 
     variant = charts.variant()
-    wanted = asked(variant, options.id, options.state, options.transition, options.system)
+    wanted = trace_request(variant, options.id, options.state, options.transition, options.system)
     showing = TraceDisplay(
         options.format,
         options.everything,

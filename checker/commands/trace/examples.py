@@ -22,7 +22,7 @@ from spec_model.lang.system import System
 if TYPE_CHECKING:  # with all that tests cover
     from checker.system.instrument.goals import CoverGoal, Watched
 
-COVERS = ("an example was asked for",)
+COVERS = ("an example was trace_request for",)
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class TraceRequest:
         )
 
 
-def asked(
+def trace_request(
     variant: Variant, id: str | None, state: str | None, transition: str | None, system: str | None
 ) -> TraceRequest:
     """What a user asks for, who must name one thing.  Raises ``UsageError`` and ``ModelError``."""

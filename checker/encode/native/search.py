@@ -209,7 +209,7 @@ class _Search:
         many = build.icmp_unsigned("==", build.and_(tried, INT(MOST_IDLE - 1)), INT(0))
         with build.if_then(many, likely=False):
             self._give_up_if_too_many()
-            self._stop_if_told()
+            self._stop_if_asked()
 
     def _complete(self) -> None:
         """A state that is complete: keep it unless it is quiet."""
@@ -248,7 +248,7 @@ class _Search:
         self.drain()
         build.store(INT(0), self.filled)
         self._give_up_if_too_many()
-        self._stop_if_told()
+        self._stop_if_asked()
 
     def _nothing_kept(self) -> None:
         """A path that leaves the buffer as it is: after many of them look whether to stop."""
@@ -257,7 +257,7 @@ class _Search:
         build.store(idle, self.idle)
         many = build.icmp_unsigned("==", build.and_(idle, INT(MOST_IDLE - 1)), INT(0))
         with build.if_then(many, likely=False):
-            self._stop_if_told()
+            self._stop_if_asked()
 
     def _give_up_if_too_many(self) -> None:
         build = self.build
@@ -265,7 +265,7 @@ class _Search:
         with build.if_then(many, likely=False):
             self.leave(Status.TOO_MANY)
 
-    def _stop_if_told(self) -> None:
+    def _stop_if_asked(self) -> None:
         """Back to Python if it says so; read anew each time, as another thread writes it."""
         build = self.build
         told = build.icmp_signed("!=", build.load_atomic(self.places["stop"], "monotonic", 8), INT(0))

@@ -2,7 +2,7 @@
 
 States lie in arrival order in ``words`` with their parents in ``parents``.  With one word the
 table holds the word + 1 itself (0 marks an empty place).  With more it holds the number of the
-state + 1 and, above it, 32 bits of its hash, so that most others are told apart in place.
+state + 1 and, above it, 32 bits of its hash, so that most others are distinguished in place.
 
 A breadth-first search finds states in the order of their parents, so two bits for each are enough
 (P. Elias, "Efficient storage and retrieval by content and address of static files", 1974): bit

@@ -193,7 +193,7 @@ def _by_cases(
         if reached := within.over(spent):
             found.append({g.name: Open(f"{reached} is reached before {case}", 0) for g in goals})
             continue
-        told = replace(within, progress=partial(_said, within.progress, case))
+        told = replace(within, progress=partial(_report_case, within.progress, case))
         before = _shared(within.limits.transitions, spent, len(several) - number)
         answers, after = _searched(one(system), one(part), goals, told, before)
         found.append({name: about(case, answer) for name, answer in answers.items()})
@@ -210,7 +210,7 @@ def _wide(part: TransitionSystem) -> bool:
     return bits({v.name: v for v in (*part.frozen, *part.variables)}) > NARROW
 
 
-def _said(progress: Progress, case: str, line: str) -> None:
+def _report_case(progress: Progress, case: str, line: str) -> None:
     whole = line.replace("explicit: ", f"explicit: {case}, ", 1)
     progress(Stage(whole) if isinstance(line, Stage) else whole)
 

@@ -1,6 +1,6 @@
 """Runs from a finished search: the chain of parents, then inputs for each tick of it.
 
-Inputs that a tick does not read keep their value where they may, so that traces are calm.
+Inputs that a tick does not read keep their value where they may, so that traces change little.
 """
 
 from collections.abc import Mapping

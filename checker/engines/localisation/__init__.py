@@ -79,13 +79,13 @@ def _decided(
         if asked and why.kept == kept:
             return Open("a run of the system with cuts could be neither followed nor excluded", 0)
         asked, kept = True, why.kept
-        answer = _asked(with_cuts(system, kept), goal, limits.until(deadline), told, len(kept))
+        answer = _query(with_cuts(system, kept), goal, limits.until(deadline), told, len(kept))
         if not isinstance(answer, Reached) or kept.issuperset(v.name for v in system.variables):
             return answer
         depth = len(answer.run)
 
 
-def _asked(system: "TransitionSystem", goal: "Var", limits: Limits, told: _Told, kept: int) -> Answer:
+def _query(system: "TransitionSystem", goal: "Var", limits: Limits, told: _Told, kept: int) -> Answer:
     """What the provers say of the system with cuts."""
     known: Mapping[str, Engine] = engines()
     reasons: list[str] = []

@@ -1,4 +1,4 @@
-"""Rows of numbers told apart: which are equal, and a number for each in order of first appearance."""
+"""Rows of numbers distinguished: which are equal, and a number for each in order of first appearance."""
 
 from collections.abc import Sequence
 from typing import Any

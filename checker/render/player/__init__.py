@@ -42,7 +42,7 @@ def part(trace: Trace, *, everything: bool = False, pictures: bool = True, print
         together=sum(wide * high for wide, high in sizes) <= AREA,
         beside=max((wide for wide, _ in sizes), default=0) <= ROOM,
         legend=LEGEND,
-        events=[_told(event) for event in played.events] if printed else [],
+        events=[_event_data(event) for event in played.events] if printed else [],
         data=data(_played(trace, charts, played), "player-data"),
     )
     return Part(Markup(body), (STYLE, own("player.css")), (own("player.js"),))
@@ -128,7 +128,7 @@ def _end(trace: Trace) -> Iterator[str]:
         yield f"False now: {falsified.name or falsified.formula}" + (f" ({values})" if values else "")
 
 
-def _told(event: StoryEvent) -> tuple[int, int, list[str]]:
+def _event_data(event: StoryEvent) -> tuple[int, int, list[str]]:
     """A row of the printed table: tick, time and what happened."""
     lines = [f"in {c}" if c.is_input else str(c) for c in event.changes]
     lines += [f"▸ {a.chart}: {start_of(a)}" + (f" {a.label}" if a.label else "") for a in event.transitions]

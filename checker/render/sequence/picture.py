@@ -162,7 +162,7 @@ def _notes(columns: SequenceColumns, notes: Sequence[SequenceNote], y: int) -> P
     drawn: list[str] = []
     taken, bottom = 0, y
     for note in notes:
-        lines = _told(note.told, columns.apart - 16)
+        lines = _clipped(note.told, columns.apart - 16)
         half = max(width(line) for line in lines) // 2 + 6
         x = columns.x(note.lifeline)
         if x - half < taken:
@@ -172,7 +172,7 @@ def _notes(columns: SequenceColumns, notes: Sequence[SequenceNote], y: int) -> P
     return drawn, bottom
 
 
-def _told(lines: Sequence[str], room: int) -> list[str]:
+def _clipped(lines: Sequence[str], room: int) -> list[str]:
     """The lines of a label, wrapped; those that are too many are counted."""
     shown = [part for line in lines[:TOLD] for part in _broken(line, room, "   ")]
     rest = len(lines) - TOLD
@@ -182,7 +182,7 @@ def _told(lines: Sequence[str], room: int) -> list[str]:
 def _message(columns: SequenceColumns, message: Message, y: int) -> Piece:
     start, ends = columns.x(message.sender), [columns.x(name) for name in message.receivers]
     nearest = min(ends, key=lambda x: abs(x - start))
-    lines = _told(message.told, abs(nearest - start) - 20)
+    lines = _clipped(message.told, abs(nearest - start) - 20)
     at = y + LINE * len(lines) + 8
     left = min(start, nearest) + 9
     drawn = [text(left, y + 4 + LINE * i + SIZE, line, "halo") for i, line in enumerate(lines)]

@@ -110,7 +110,7 @@ def _steps(
     trace: Trace, between: SequenceFlow, story: Sequence[Row], *, apart: bool
 ) -> tuple[list[Told], tuple[str, ...]]:
     """What is told, and the lifelines that take part; ``apart``: sensors have lifelines of their own."""
-    steps = [_told(trace, between, row, apart) for row in story]
+    steps = [_described(trace, between, row, apart) for row in story]
     used = {
         name
         for step in steps
@@ -141,7 +141,7 @@ def _joined(steps: Sequence[Told]) -> Iterator[Told]:
         yield pause
 
 
-def _told(trace: Trace, between: SequenceFlow, row: Row, apart: bool) -> Told:
+def _described(trace: Trace, between: SequenceFlow, row: Row, apart: bool) -> Told:
     match row:
         case Quiet():
             return Pause(row.first, row.last, "nothing but timers" if row.counters else "nothing changes")

@@ -33,7 +33,7 @@ def findings(graph: StateGraph) -> tuple[Finding, ...]:
     )
 
 
-def told(graph: StateGraph, width: int = 80) -> str:
+def findings_text(graph: StateGraph, width: int = 80) -> str:
     """The findings as lines of text."""
     found = findings(graph)
     wide = max(len(heading) for heading, _ in found) + 2

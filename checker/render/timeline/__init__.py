@@ -3,6 +3,6 @@
 from checker.render.timeline.build import determined_by, timeline
 from checker.render.timeline.fragment import part
 from checker.render.timeline.picture import picture
-from checker.render.timeline.story_table import told
+from checker.render.timeline.story_table import story_part
 
-__all__ = ["determined_by", "part", "picture", "timeline", "told"]
+__all__ = ["determined_by", "part", "picture", "story_part", "timeline"]

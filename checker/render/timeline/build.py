@@ -89,7 +89,7 @@ def timeline(trace: Trace, *, everything: bool = False) -> Timeline:
         ticks=len(trace),
         clock=trace.clock(),
         lanes=(*sorted(lanes, key=_place(shown)), *parts(trace)),
-        constant=tuple(_told(trace, still)),
+        constant=tuple(_unchanging(trace, still)),
         quiet=tuple((row.first, row.last) for row in rows(shown) if isinstance(row, Quiet)),
         loop=trace.loop,
         wrong=tuple(_wrong(trace)),
@@ -129,7 +129,7 @@ def _constant(trace: Trace, values: Mapping[str, Values]) -> dict[str, int]:
     return found
 
 
-def _told(trace: Trace, still: Mapping[str, int]) -> Iterator[tuple[str, str]]:
+def _unchanging(trace: Trace, still: Mapping[str, int]) -> Iterator[tuple[str, str]]:
     """What never changes, without timers that never start and levels that are never entered."""
     for name in sorted(still):
         shown = value(trace, name, still[name])

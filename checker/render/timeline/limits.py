@@ -65,7 +65,7 @@ def time_limits(trace: Trace) -> Limits:
     }
     found: dict[str, set[tuple[Fraction, str]]] = {}
     for chart, step_ms in steps.items():
-        for counter, word in _asked(trace.statecharts[chart], step_ms):
+        for counter, word in _timed(trace.statecharts[chart], step_ms):
             mine = trace.variables.get(counter.name)
             if word.span is not None and mine is not None and mine.domain == counter.domain:
                 limit = (Fraction(word.span.ticks(step_ms)), str(word.span))
@@ -73,7 +73,7 @@ def time_limits(trace: Trace) -> Limits:
     return {n: tuple(Limit(v, text) for v, text in sorted(pairs)) for n, pairs in found.items()}
 
 
-def _asked(chart: Chart, step_ms: int) -> Iterator[tuple[Var, Temporal]]:
+def _timed(chart: Chart, step_ms: int) -> Iterator[tuple[Var, Temporal]]:
     """Every counter of the chart with each temporal word that reads it."""
     try:
         timers = ChartTimers(chart, step_ms)

@@ -48,7 +48,7 @@ def _span(first: int, last: int) -> str:
     return f"tick {first}" if first == last else f"ticks {first}–{last}"
 
 
-def _told(run: TimelineRun) -> str:
+def _title(run: TimelineRun) -> str:
     span = _span(run.first, run.last)
     values = f"{run.label} → {run.until}" if run.until else run.label
     return tag("title", escape(f"{span}: {values}"))
@@ -57,7 +57,7 @@ def _told(run: TimelineRun) -> str:
 def _band(run: TimelineRun, axis: Axis, y: int, tall: int, tips: bool) -> Iterator[str]:
     x, right = axis.left(run.first), axis.right(run.last)
     wide = round(right - x, 2)
-    told = _told(run) if tips else ""
+    told = _title(run) if tips else ""
     yield tag("rect", told, x=x, y=y, width=wide, height=tall, class_=f"tl-is-{run.tone.value}")
     label = fitting(run.label, wide - 8)
     if run.tone is Tone.DEGRADED:
@@ -118,7 +118,7 @@ def _graph(lane: Lane, axis: Axis, top: int, tall: int, tips: bool) -> Iterator[
     yield tag("path", d=line, class_="tl-curve")
     for run in lane.runs if tips else ():
         x, wide = axis.left(run.first), round(axis.right(run.last) - axis.left(run.first), 2)
-        yield tag("rect", _told(run), x=x, y=top, width=wide, height=tall, class_="tl-hover")
+        yield tag("rect", _title(run), x=x, y=top, width=wide, height=tall, class_="tl-hover")
     yield from _values(lane, axis, y, top)
 
 

@@ -12,7 +12,7 @@ from checker.render.timeline.fragment import TEMPLATES, own
 from checker.results.trace import Trace
 
 
-def told(trace: Trace, *, everything: bool = False) -> Part:
+def story_part(trace: Trace, *, everything: bool = False) -> Part:
     """The table with the same rows as that of the terminal, and the reasons where they were examined."""
     shown = trace if everything or not trace.relevant else trace.focused()
     by_ticks = groupby(reasons(trace, regular=True), key=lambda reason: f"{reason.when} ({reason.ms})")

@@ -6,7 +6,7 @@ from checker.results.trace import Trace
 from checker.results.verdict import Run
 from checker.system.slice import sliced
 from checker.verify.liveness.lasso import Lasso, lasso
-from checker.verify.runs.minimise import calmed
+from checker.verify.runs.minimise import minimise_inputs
 from checker.verify.runs.replay import ReplayError, replay
 from properties.reduce import Goal, Question
 from spec_model.lang.expr import Var
@@ -42,7 +42,7 @@ def looped(hunt: LoopHunt, run: Run) -> Trace:
     Raises ``ReplayError`` unless the same inputs take the charts round the loop once more, tick by
     tick through the same states.  The interpreter, which counts time on its own, goes along.
     """
-    calm = calmed(hunt.lasso.system, hunt.lasso.goal, run)
+    calm = minimise_inputs(hunt.lasso.system, hunt.lasso.goal, run)
     save = hunt.lasso.save.name
     start = next(i for i, inputs in enumerate(calm.inputs) if inputs[save])
     inputs = tuple({n: v for n, v in tick.items() if n != save} for tick in calm.inputs)

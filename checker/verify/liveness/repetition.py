@@ -1,4 +1,4 @@
-"""Loops found by letting the weather settle: once inputs keep their values, a run must repeat itself.
+"""Loops found by holding the inputs constant until the run repeats.
 
 Many runs have random inputs for a few ticks.  Then each gets inputs for which the condition of the
 loop is true, and keeps them.  Where something that must recur in the loop is still true much later,
@@ -49,7 +49,7 @@ class _Batch:
         return {name: self.random.choices(of, k=self.simulation.runs) for name, of in chosen.items()}
 
 
-def settled(hunt: LoopHunt, progress: Progress, runs: int = RUNS) -> Reached | None:
+def repeating_loop(hunt: LoopHunt, progress: Progress, runs: int = RUNS) -> Reached | None:
     """A run of the lasso system that closes a loop which breaks the property; None if none was found."""
     system, goal = hunt.question.system, hunt.goal
     wanted = [goal.var.name, *(v.name for v in goal.recurs)]
@@ -57,7 +57,7 @@ def settled(hunt: LoopHunt, progress: Progress, runs: int = RUNS) -> Reached | N
     if system.frozen:
         return None
     for number, ticks in enumerate(UNSETTLED):
-        progress(f"loops: {runs} random runs that settle after {ticks} ticks")
+        progress(f"loops: {runs} random runs with constant inputs after {ticks} ticks")
         batch = _batch(system, made, runs, number)
         for run in _candidates(batch, ticks, wanted):
             found = _followed(hunt, run)
@@ -81,7 +81,7 @@ def _batch(system: TransitionSystem, made: Circuit, runs: int, seed: int) -> _Ba
 def _candidates(
     batch: _Batch, unsettled: int, wanted: Sequence[str]
 ) -> Iterator[tuple[Mapping[str, int], ...]]:
-    """Inputs, tick by tick, of runs in which all that is wanted is true when they have settled."""
+    """Inputs, tick by tick, of runs in which all that is wanted is true once the inputs are constant."""
     simulation, alive = batch.simulation, batch.simulation.full
     history: list[Values] = []
     values = batch.drawn()
@@ -91,8 +91,8 @@ def _candidates(
         alive &= simulation.given(values)
         history.append(values)
         simulation.advance()
-    values, calm = _calmed(batch, values, wanted[0])
-    alive &= calm
+    values, held = _constant_inputs(batch, values, wanted[0])
+    alive &= held
     history.append(values)
     simulation.advance()
     for _ in range(HELD):
@@ -138,25 +138,25 @@ def _admissible(batch: _Batch, values: Values, alive: int) -> tuple[Values, int]
     return values, allowed
 
 
-def _calmed(batch: _Batch, values: Values, condition: str) -> tuple[Values, int]:
+def _constant_inputs(batch: _Batch, values: Values, condition: str) -> tuple[Values, int]:
     """Values for which the condition is true after the tick, and the runs for which some were found.
 
     What does for one run is tried on the others.
     """
     simulation = batch.simulation
-    calm, pool = 0, list[dict[str, int]]()
+    held, pool = 0, list[dict[str, int]]()
     for attempt in range(2 * TRIES):
         allowed = simulation.given(values)
-        new = allowed & simulation.value(simulation.circuit.goals[condition]) & ~calm
-        calm |= new
+        new = allowed & simulation.value(simulation.circuit.goals[condition]) & ~held
+        held |= new
         pool += [{n: of[r] for n, of in values.items()} for r in range(simulation.runs) if new >> r & 1]
         fresh = batch.drawn()
         if pool and attempt >= TRIES:
             drawn = batch.random.choices(pool, k=simulation.runs)
             fresh = {name: [one[name] for one in drawn] for name in fresh}
-        values = _merged(values, fresh, simulation.full & ~calm)
+        values = _merged(values, fresh, simulation.full & ~held)
     simulation.given(values)
-    return values, calm
+    return values, held
 
 
 # --- one run ---------------------------------------------------------------------------------------

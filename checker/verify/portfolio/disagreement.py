@@ -32,11 +32,11 @@ class Statement:
 class Disagreement(Exception):
     """Two engines gave answers that cannot both be true: an internal error."""
 
-    def __init__(self, system: str, goal: str, said: tuple[Statement, ...]) -> None:
-        super().__init__(system, goal, said)
+    def __init__(self, system: str, goal: str, disagreement_of: tuple[Statement, ...]) -> None:
+        super().__init__(system, goal, disagreement_of)
         self.system = system
         self.goal = goal
-        self.said = said
+        self.said = disagreement_of
 
     def __str__(self) -> str:
         return f"engines disagree about {self.goal} of {self.system}. " + "; ".join(map(str, self.said)) + "."
@@ -54,7 +54,7 @@ def contradict(first: Answer, second: Answer) -> bool:
             return {type(first), type(second)} == {Reached, Unreachable}
 
 
-def said(system: TransitionSystem, goal: Var, each: Iterable[tuple[Answer, str]]) -> Disagreement:
+def disagreement_of(system: TransitionSystem, goal: Var, each: Iterable[tuple[Answer, str]]) -> Disagreement:
     """What engines say of a goal, as the error that it is."""
     sayings = (Statement(by, light(answer), _replays(system, goal, answer)) for answer, by in each)
     return Disagreement(system.name, goal.name, tuple(sayings))

@@ -25,7 +25,7 @@ def conclusive(answer: Answer) -> bool:
 
 
 class Prior(StrEnum):
-    """What whoever asks knows of the answer."""
+    """What is known of the answer beforehand."""
 
     NONE = ""
     SHORT = "short"
@@ -44,7 +44,7 @@ class PortfolioQuestion:
 
     system: TransitionSystem
     wanted: tuple[Var, ...]
-    hint: Prior = Prior.NONE
+    prior: Prior = Prior.NONE
     candidates: tuple[Expr, ...] | None = None
 
     @property
@@ -54,7 +54,7 @@ class PortfolioQuestion:
 
     @property
     def goals(self) -> tuple[Var, ...]:
-        """All that engines are asked about."""
+        """All goals that engines decide."""
         return (*self.wanted, *self.checks)
 
     def open(self, found: Found) -> list[Var]:
@@ -80,15 +80,15 @@ def _no_answers(_: PortfolioQuestion, __: Found) -> None:
 
 @dataclass(frozen=True)
 class Callbacks:
-    """Who is told what.
+    """Functions that an engine call reports to.
 
-    ``granted`` hears, before each engine and when it has answered, how many seconds are left for the
-    question (None: any number).  ``answered`` hears the answers of a question as they are found.
+    ``on_budget`` receives, before each engine and after its answer, how many seconds are left for the
+    question (None: any number).  ``on_answer`` receives the answers of a question as they are found.
     """
 
     progress: Progress = quiet
-    granted: Callable[[float | None], None] = _nothing
-    answered: Callable[[PortfolioQuestion, Found], None] = _no_answers
+    on_budget: Callable[[float | None], None] = _nothing
+    on_answer: Callable[[PortfolioQuestion, Found], None] = _no_answers
 
 
 def in_words(answer: Answer) -> str:

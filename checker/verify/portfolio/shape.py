@@ -25,7 +25,7 @@ MANY = 40
 
 @dataclass(frozen=True)
 class Shape:
-    """``bits`` of a state of what the goals depend on, and what whoever asks knows of the answer.
+    """``bits`` of a state of what the goals depend on, and what the caller knows of the answer.
 
     ``free`` bits of it are chosen anew in each tick.
 
@@ -34,7 +34,7 @@ class Shape:
     """
 
     bits: int
-    hint: Prior = Prior.NONE
+    prior: Prior = Prior.NONE
     at_once: int | None = None
     free: int | None = None
 
@@ -43,12 +43,12 @@ class Shape:
         """The row of the table of orders that is meant for it."""
         at_once = self.bits if self.at_once is None else self.at_once
         wide = at_once > WIDE
-        free = None if self.hint.value or not wide else self.free
+        free = None if self.prior.value or not wide else self.free
         if free is not None and free <= FEW:
             return "driven"
         if wide and (self.bits > VAST or (free is not None and free > MANY)):
             return "vast"
-        return self.hint.value or ("wide" if wide else "broad" if at_once > BROAD else "narrow")
+        return self.prior.value or ("wide" if wide else "broad" if at_once > BROAD else "narrow")
 
     @property
     def enumerable(self) -> bool:
@@ -69,7 +69,7 @@ def shape(question: PortfolioQuestion) -> Shape:
     """The shape of a question."""
     part = sliced(question.system, question.goals)
     bits = {v.name: (len(v.domain) - 1).bit_length() for v in part.variables}
-    return Shape(sum(bits.values()), question.hint, _at_once(question.system, bits), _bits(part.inputs))
+    return Shape(sum(bits.values()), question.prior, _at_once(question.system, bits), _bits(part.inputs))
 
 
 def _at_once(system: TransitionSystem, bits: Mapping[str, int]) -> int:

@@ -9,7 +9,7 @@ from time import monotonic
 from checker.engines import ALL, AUTO, Engine, Limits, Progress, Prover, Stage, engines
 from checker.process.faults import Failed, attempted
 from checker.results.verdict import Answer, Open, Reached, Run, Unreachable
-from checker.verify.portfolio.disagreement import contradict, said
+from checker.verify.portfolio.disagreement import contradict, disagreement_of
 from checker.verify.portfolio.order import CHECKS, ORDERS, RECORDED, SOON, Turn
 from checker.verify.portfolio.question import Callbacks, Found, PortfolioQuestion, conclusive, stays
 from checker.verify.portfolio.shape import shape
@@ -44,7 +44,7 @@ SHORTENED = 128
 """Ticks of the longest run for which a shorter one is looked for: unrolling further takes minutes."""
 
 
-def in_turn(question: PortfolioQuestion, limits: Limits, told: Callbacks) -> Iterator[Found]:
+def in_turn(question: PortfolioQuestion, limits: Limits, callbacks: Callbacks) -> Iterator[Found]:
     """After each turn all that is found so far; the last one holds an answer for every goal.
 
     Raises ``Disagreement`` when a turn contradicts what an earlier one left to be confirmed.
@@ -55,7 +55,7 @@ def in_turn(question: PortfolioQuestion, limits: Limits, told: Callbacks) -> Ite
     prover = known.get(RECORDED.engine)
     if question.candidates is not None and isinstance(prover, Prover):
         recorded = RecordedInvariants(prover, question.candidates)
-        found = _turn(recorded, RECORDED, question, question.goals, found, limits, deadline, told)
+        found = _turn(recorded, RECORDED, question, question.goals, found, limits, deadline, callbacks)
         turns = [turn for turn in turns if turn is not SOON]
         yield found
     for turn in turns:
@@ -63,22 +63,22 @@ def in_turn(question: PortfolioQuestion, limits: Limits, told: Callbacks) -> Ite
         if not goals or (found and _over(question, found, limits, deadline)):
             break
         if turn.engine in known:
-            found = _turn(known[turn.engine], turn, question, goals, found, limits, deadline, told)
+            found = _turn(known[turn.engine], turn, question, goals, found, limits, deadline, callbacks)
             yield found
     unsettled = question.unsettled(found)
     if unsettled and _affordable(question, deadline) and CHECKS.engine in known:
-        yield _turn(known[CHECKS.engine], CHECKS, question, unsettled, found, limits, deadline, told)
+        yield _turn(known[CHECKS.engine], CHECKS, question, unsettled, found, limits, deadline, callbacks)
 
 
 def _turn(
     engine: Engine, turn: Turn, question: PortfolioQuestion, goals: Sequence[Var], found: Found,
-    limits: Limits, deadline: float | None, told: Callbacks,
+    limits: Limits, deadline: float | None, callbacks: Callbacks,
 ) -> Found:  # fmt: skip
     """What is found so far, with what an engine says of some goals in its turn."""
     left = None if deadline is None else max(0.0, deadline - monotonic())
-    told.granted(left)
-    answers = asked(engine, question, turn.within(limits, left), told, goals)
-    told.granted(limits.seconds)  # for what is made of the answers
+    callbacks.on_budget(left)
+    answers = run_turn(engine, question, turn.within(limits, left), callbacks, goals)
+    callbacks.on_budget(limits.seconds)  # for what is made of the answers
     return {**found, **{g.name: _both(question, g, found.get(g.name), answers[g.name]) for g in goals}}
 
 
@@ -95,7 +95,7 @@ def _both(
     if before is None:
         return now
     if contradict(before[0], now[0]):
-        raise said(question.system, goal, (before, now))
+        raise disagreement_of(question.system, goal, (before, now))
     return better(before, now)
 
 
@@ -123,14 +123,14 @@ def _looked(answer: Answer, depth: int) -> bool:
     return isinstance(answer, Open) and answer.depth >= depth
 
 
-def asked(
-    engine: Engine, question: PortfolioQuestion, limits: Limits, told: Callbacks, goals: Sequence[Var]
+def run_turn(
+    engine: Engine, question: PortfolioQuestion, limits: Limits, callbacks: Callbacks, goals: Sequence[Var]
 ) -> dict[str, tuple[Answer, str]]:
     """What one engine says of some goals; nothing, if it fails: the others have their turns all the same."""
-    told.progress(Stage(f"{engine.NAME}: searching"))
+    callbacks.progress(Stage(f"{engine.NAME}: searching"))
 
     def work() -> Mapping[str, Answer]:
-        answers = engine.check(question.system, goals, limits, told.progress)
+        answers = engine.check(question.system, goals, limits, callbacks.progress)
         meant = _without_strays(question, answers) if question.checks else answers
         return {**{goal.name: meant[goal.name] for goal in goals}, **meant}
 
@@ -193,66 +193,67 @@ def _by(engine: str, reason: str) -> str:
 # --- every engine on the same question, and their answers compared -------------------------------------
 
 
-def compared(question: PortfolioQuestion, limits: Limits, told: Callbacks) -> Found:
+def compared(question: PortfolioQuestion, limits: Limits, callbacks: Callbacks) -> Found:
     """The best answer to each goal, when all engines have been asked.  Raises ``Disagreement``."""
     by_engine = {}
     for name, engine in engines().items():
-        told.granted(limits.seconds)
-        by_engine[name] = asked(engine, question, limits, told, question.goals)
-    told.granted(limits.seconds)
+        callbacks.on_budget(limits.seconds)
+        by_engine[name] = run_turn(engine, question, limits, callbacks, question.goals)
+    callbacks.on_budget(limits.seconds)
     goals = {g.name: g for g in question.goals}
     merged: dict[str, tuple[Answer, str]] = {}
     for name, goal in goals.items():
         each = [found[name] for found in by_engine.values()]
         if any(contradict(a, b) for (a, _), (b, _) in combinations(each, 2)):
-            raise said(question.system, goal, each)
+            raise disagreement_of(question.system, goal, each)
         merged[name] = reduce(better, each)
     return merged
 
 
-def answers(question: PortfolioQuestion, engine: str | Engine, limits: Limits, told: Callbacks) -> Found:
+def answers(question: PortfolioQuestion, engine: str | Engine, limits: Limits, callbacks: Callbacks) -> Found:
     """An answer for each goal and each check of the system.  Raises ``Disagreement``."""
     found: dict[str, tuple[Answer, str]] = {}
-    for more in as_found(question, engine, limits, told):
+    for more in as_found(question, engine, limits, callbacks):
         found |= more
     return found
 
 
 def as_found(
-    question: PortfolioQuestion, engine: str | Engine, limits: Limits, told: Callbacks
+    question: PortfolioQuestion, engine: str | Engine, limits: Limits, callbacks: Callbacks
 ) -> Iterator[Found]:
     """The same answers, each once: runs as they are found, the rest when no more can change.
 
-    That a goal is never reached counts only if the model never leaves a domain; that it does is told at once.
+    That a goal is never reached counts only if the model never leaves a domain; that it does is reported at
+    once.
     """
     given: set[str] = set()
     found: Found = {}
-    for found in _rounds(question, engine, limits, told):
+    for found in _rounds(question, engine, limits, callbacks):
         new = {n: a for n, a in found.items() if n not in given and _final(question, found, n)}
         given |= new.keys()
-        yield from _told(question, new, told)
+        yield from _reported(question, new, callbacks)
     rest = {n: _meant(question, found, n) for n in found if n not in given}
-    yield from _told(question, rest, told)
+    yield from _reported(question, rest, callbacks)
 
 
-def _told(question: PortfolioQuestion, new: Found, told: Callbacks) -> Iterator[Found]:
+def _reported(question: PortfolioQuestion, new: Found, callbacks: Callbacks) -> Iterator[Found]:
     if new:
-        told.answered(question, new)
+        callbacks.on_answer(question, new)
         yield new
 
 
 def _rounds(
-    question: PortfolioQuestion, engine: str | Engine, limits: Limits, told: Callbacks
+    question: PortfolioQuestion, engine: str | Engine, limits: Limits, callbacks: Callbacks
 ) -> Iterator[Found]:
     if engine == AUTO:
-        yield from in_turn(question, limits, told)
+        yield from in_turn(question, limits, callbacks)
     elif engine == ALL:
-        yield compared(question, limits, told)
+        yield compared(question, limits, callbacks)
     else:
         one = engines()[engine] if isinstance(engine, str) else engine
-        told.granted(limits.seconds)
-        alone = asked(one, question, limits, told, question.goals)
-        told.granted(limits.seconds)
+        callbacks.on_budget(limits.seconds)
+        alone = run_turn(one, question, limits, callbacks, question.goals)
+        callbacks.on_budget(limits.seconds)
         yield alone
 
 

@@ -1,4 +1,4 @@
-"""Calm runs: the same goal after the same number of ticks, with inputs that change as seldom as possible.
+"""Runs with minimal inputs: the same goal after as many ticks, with inputs that change as seldom as possible.
 
 An engine leaves every input that does not matter at any value.  A reader wants those at rest, so
 that what changes in a trace is what the counterexample needs.  Each attempt is re-run on the
@@ -23,7 +23,7 @@ Column = list[int]
 """The values of one input, tick by tick."""
 
 
-def calmed(system: TransitionSystem, goal: Var, run: Run) -> Run:
+def minimise_inputs(system: TransitionSystem, goal: Var, run: Run) -> Run:
     """A run of the same length that reaches the goal in its last tick, and leaves no domain.
 
     Every input is, in this order of preference, at its initial value throughout, constant, or with
@@ -33,7 +33,7 @@ def calmed(system: TransitionSystem, goal: Var, run: Run) -> Run:
         return run
     work = _Rerun(system, goal, run)
     before = None
-    while before != work.columns:  # an input may be calmed only after another it depends on
+    while before != work.columns:  # an input may become constant only after another that it depends on
         before = dict(work.columns)
         for variable in system.inputs:
             _constant(work, variable)

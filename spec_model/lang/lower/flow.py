@@ -15,8 +15,8 @@ from spec_model.lang.system import Statement
 Statements = list[Statement]
 
 FEW = 8
-"""States, or transitions, that are told apart one after the other; more are halved first, so that a step is
-never nested as deep as a level has states."""
+"""States, or transitions, that are distinguished one after the other; more are halved first, so that a step
+is never nested as deep as a level has states."""
 
 
 @dataclass(frozen=True)
