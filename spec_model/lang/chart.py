@@ -179,7 +179,13 @@ class Chart:
 
     def with_local_data(self, local_to: Sequence[tuple[Var, Sequence[str]]]) -> "Chart":
         """The chart with other data that mean something only in some states."""
-        level = self.root
+        return self._with(self.root, local_to)
+
+    def with_root(self, root: State) -> "Chart":
+        """The chart with another outermost level."""
+        return self._with(root, self.local_to)
+
+    def _with(self, level: State, local_to: Sequence[tuple[Var, Sequence[str]]]) -> "Chart":
         return Chart(
             self.name, level.states, default=level.default, junctions=level.junctions,
             parallel=level.parallel, text=self.text, local_to=local_to, place=level.place,

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from spec_model.lang.action import Action, Assign, If
+from spec_model.lang.action import Action, Assign, If, assign
 from spec_model.lang.chart import Block, Chart, Component, Enabled, Junction, Path, State, Transition
 from spec_model.lang.domain import Num, Number, exact
 from spec_model.lang.errors import ModelError
@@ -19,13 +19,6 @@ __all__ = [
 ]  # fmt: skip
 
 
-def _rebuilt(chart: Chart, root: State) -> Chart:
-    return Chart(
-        chart.name, root.states, default=root.default, junctions=root.junctions,
-        parallel=root.parallel, text=chart.text, local_to=chart.local_to, place=root.place,
-    )  # fmt: skip
-
-
 def edit_state(chart: Chart, name: str, change: Callable[[State], State]) -> Chart:
     """The chart with one state changed; ``name`` as in ``Chart.path``."""
     return edit_at(chart, chart.path(name), change)
@@ -33,7 +26,7 @@ def edit_state(chart: Chart, name: str, change: Callable[[State], State]) -> Cha
 
 def edit_at(chart: Chart, path: Path, change: Callable[[State], State]) -> Chart:
     """The chart with one state changed, by its path; the empty path is the outermost level."""
-    return _rebuilt(chart, _down(chart.root, path, change))
+    return chart.with_root(_down(chart.root, path, change))
 
 
 def _down(state: State, path: tuple[str, ...], change: Callable[[State], State]) -> State:
@@ -44,23 +37,32 @@ def _down(state: State, path: tuple[str, ...], change: Callable[[State], State])
 
 
 def edit_junction(chart: Chart, name: str, change: Callable[[Junction], Junction]) -> Chart:
-    """The chart with one junction changed, wherever it is drawn."""
+    """The chart with one junction changed, wherever it is drawn; ``"Waiting_S1.J0"`` in that state only."""
+    wanted = tuple(name.split("."))
 
-    def walk(state: State) -> State:
+    def walk(path: Path, state: State) -> State:
         return replace(
             state,
-            states=tuple(walk(s) for s in state.states),
-            junctions=tuple(change(j) if j.name == name else j for j in state.junctions),
+            states=tuple(walk((*path, s.name), s) for s in state.states),
+            junctions=tuple(change(j) if _ends((*path, j.name), wanted) else j for j in state.junctions),
         )
 
-    if not any(j.name == name for j in chart.junctions.values()):
+    if not _is_junction(chart, name):
         raise ModelError(f"{chart.name} has no junction {name!r}; name a junction that is drawn in it.")
-    return _rebuilt(chart, walk(chart.root))
+    return chart.with_root(walk((), chart.root))
+
+
+def _is_junction(chart: Chart, name: str) -> bool:
+    return any(_ends(path, tuple(name.split("."))) for path in chart.junctions)
+
+
+def _ends(path: Path, wanted: Path) -> bool:
+    return path[-len(wanted) :] == wanted
 
 
 def arrows(chart: Chart, name: str, change: Callable[[list[Transition]], list[Transition]]) -> Chart:
     """The chart with the arrows of a state or junction changed."""
-    if any(j.name == name for j in chart.junctions.values()):
+    if _is_junction(chart, name):
         return edit_junction(chart, name, lambda j: Junction(j.name, change(list(j.transitions))))
     return edit_state(chart, name, lambda s: replace(s, transitions=tuple(change(list(s.transitions)))))
 
@@ -73,7 +75,7 @@ def also(chart: Chart, name: str, *more: Transition, first: bool = False) -> Cha
 def begin(chart: Chart, default: Sequence[Transition], junctions: Sequence[Junction] = ()) -> Chart:
     """Other default arrows of the outermost level, with junctions that they lead to."""
     root = chart.root
-    return _rebuilt(chart, replace(root, default=tuple(default), junctions=(*root.junctions, *junctions)))
+    return chart.with_root(replace(root, default=tuple(default), junctions=(*root.junctions, *junctions)))
 
 
 def swap(chart: Chart, name: str, first: int = 1, second: int = 2) -> Chart:
@@ -207,14 +209,16 @@ def _everything(
             junctions=tuple(Junction(j.name, list(map(arrow, j.transitions))) for j in state.junctions),
         )  # fmt: skip
 
-    return _rebuilt(chart, walk(chart.root))
+    return chart.with_root(walk(chart.root))
 
 
 def _acts(actions: tuple[Action, ...], change: Callable[[Expr], Expr]) -> tuple[Action, ...]:
     out: list[Action] = []
     for action in actions:
         if isinstance(action, Assign):
-            out.append(Assign(action.var, change(action.value)))
+            value = change(action.value)
+            same = value.sort == action.value.sort
+            out.append(Assign(action.var, value) if same else assign(action.var, value))
         elif isinstance(action, If):
             then, otherwise = _acts(action.then, change), _acts(action.otherwise, change)
             out.append(If(change(action.condition), then, otherwise))
