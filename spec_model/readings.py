@@ -1,6 +1,7 @@
 """Readings: sentences of the source document that can be read in several ways, as switches of the model.
 
-A chart writes ``choose("S43", {"OR": a | b, "AND": a & b})`` where its meaning depends on a reading.
+A chart is drawn under the defaults; ``spec_model.interpretations`` says what the other choices change in
+it.  What is no chart writes ``choose("S43", {"OR": a | b, "AND": a & b})`` where it depends on a reading.
 Each reading is a frozen variable; ``fixed`` says which constants to put in its place, by default the
 choices of ``readings.toml``.  The file explains every reading: what the text says, the choices, the
 scenario in which they differ, and why the default is the default.

@@ -8,6 +8,7 @@ from types import MappingProxyType
 from spec_model.abstraction.board import Board
 from spec_model.abstraction.board1 import BOARD1
 from spec_model.abstraction.board2 import BOARD2
+from spec_model.interpretations import woven
 from spec_model.lang.errors import ModelError
 from spec_model.readings import fixed
 
@@ -35,4 +36,4 @@ def _boards(chosen: tuple[tuple[str, str], ...]) -> Mapping[str, Board]:
             "default readings only; leave this choice out."
         )
     fixing = fixed(choices)
-    return {board.name: replace(board, system=fixing.system(board.system)) for board in BOARDS}
+    return {b.name: replace(b, system=fixing.system(woven(b.system, choices))) for b in BOARDS}

@@ -14,6 +14,7 @@ from spec_model.board2.actuation import actuation
 from spec_model.board2.failure_check import check_board1
 from spec_model.composition.contracts import Contract
 from spec_model.composition.tasks import MILLISECOND, RoverTask, clock, control_task, line, phases, task
+from spec_model.interpretations import woven
 from spec_model.lang.action import assign, when
 from spec_model.lang.chart import Block, Component, Enabled
 from spec_model.lang.domain import fixed
@@ -50,7 +51,7 @@ def _chain(
         tick_ms=MILLISECOND,
         step_ms=TICK_MS,
     )
-    return replace(free_timers(exact, name=name, text=text), concrete="")
+    return replace(free_timers(woven(exact), name=name, text=text), concrete="")
 
 
 sup1, sup2 = task("SUP1", at_zero=True), task("SUP2")

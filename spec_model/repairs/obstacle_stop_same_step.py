@@ -1,6 +1,7 @@
 """Obstacles: the stop follows the distances of the step itself, not only those of the step before."""
 
 from spec_model.board2.obstacles import check_emergency_stop
+from spec_model.lang.change import formula_of
 from spec_model.lang.chart import Chart
 from spec_model.lang.edit import guard
 from spec_model.repairs import Repair
@@ -8,8 +9,9 @@ from spec_model.repairs import Repair
 
 def look_before_testing(chart: Chart) -> Chart:
     """The during action computes ``stop`` after the arrows were tested, one step too late for them."""
-    chart = guard(chart, "check_sonars_for_stopping", 1, lambda g: g | check_emergency_stop)
-    return guard(chart, "check_sonars_for_moving_again", 1, lambda g: g & ~check_emergency_stop)
+    near = formula_of(chart, check_emergency_stop.name)
+    chart = guard(chart, "check_sonars_for_stopping", 1, lambda g: g | near)
+    return guard(chart, "check_sonars_for_moving_again", 1, lambda g: g & ~near)
 
 
 same_step = Repair(
