@@ -27,6 +27,7 @@ from spec_model.lang.domain import integer
 from spec_model.lang.expr import Expr, Var, const, flag, ite, var
 from spec_model.lang.system import TransitionSystem
 from tests.naive import projected, search
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 
 SOLVER, ENUMERATION, BOTH = (CheckEffort(by) for by in By)
@@ -101,7 +102,7 @@ def solving_here() -> Iterator[None]:
 
 # --- certificates to begin with -------------------------------------------------------------------
 
-many = settings(max_examples=50, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
+many = settings(examples(50), suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
 
 
 @st.composite

@@ -4,7 +4,7 @@ from dataclasses import replace
 from itertools import product
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmarks.roverlite import roverlite
@@ -25,6 +25,7 @@ from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
 from tests import naive
 from tests.engine_children import LIMIT, cut_off
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 
 NODES = 1 << 18
@@ -80,13 +81,13 @@ def holds_exactly(
         assert (at in diagram) == (state in reachable)
 
 
-@settings(max_examples=150)
+@examples(150)
 @given(transition_systems())
 def test_random_systems(system: TransitionSystem) -> None:
     agrees(system, [g.name for g in goals(system)], naive.search(system, goals(system)))
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(transition_systems())
 def test_random_systems_goal_by_goal(system: TransitionSystem) -> None:
     expected = naive.search(system, goals(system))
@@ -94,7 +95,7 @@ def test_random_systems_goal_by_goal(system: TransitionSystem) -> None:
         agrees(system, [goal.name], expected)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(transition_systems(), st.integers(0, 3))
 def test_a_depth_limit_never_proves_more_than_was_seen(system: TransitionSystem, most: int) -> None:
     names = [g.name for g in goals(system)]
@@ -106,7 +107,7 @@ def test_a_depth_limit_never_proves_more_than_was_seen(system: TransitionSystem,
         assert not isinstance(answer, Unreachable) or first is None
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(transition_systems())
 def test_an_order_has_every_variable_once(system: TransitionSystem) -> None:
     made = circuit(system, [g.name for g in goals(system)])

@@ -4,7 +4,7 @@ from itertools import product
 
 import pytest
 import z3
-from hypothesis import given, settings
+from hypothesis import given
 
 from checker.encode.bitvector import OPERATORS, Encoder, literal, member, symbol, value, width
 from checker.system.intervals import Interval, intervals
@@ -14,6 +14,7 @@ from spec_model.lang.expr import Apply, Const, Expr, Var, ite
 from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.walk import variables
+from tests.profiles import examples
 from tests.strategies_ts import transition_systems
 
 B0, B1, B2 = (Var(f"b{i}", boolean) for i in range(3))
@@ -114,7 +115,7 @@ def test_width(low: int, high: int, bits: int) -> None:
     assert Interval(low, high).width == bits
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(transition_systems(most=2))
 def test_the_formulas_of_random_systems(system: TransitionSystem) -> None:
     at_every_value(system.assume, tuple(variables(system.assume).values()))

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.results.verdict import Run
@@ -15,6 +15,7 @@ from spec_model.lang.evaluate import admissible, step
 from spec_model.lang.expr import Expr, Var, flag, ite, var
 from spec_model.lang.system import TransitionSystem
 from tests.mutate.lamp import LIT, lamps
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 from tests.toys import GOAL, filling, relay
 
@@ -40,7 +41,7 @@ def plainly(
     return found
 
 
-@settings(max_examples=80)
+@examples(80)
 @given(st.data())
 def test_the_same_goals_after_the_same_ticks(data: st.DataObject) -> None:
     system = data.draw(transition_systems())

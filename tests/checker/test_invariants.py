@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from checker.encode.cone import Slice, cone
 from checker.encode.invariants import Candidates, TemplateCube, TemplatePool
@@ -11,6 +11,7 @@ from checker.encode.symbolic import transition
 from spec_model.lang.evaluate import evaluate
 from spec_model.lang.expr import Expr
 from spec_model.lang.system import TransitionSystem
+from tests.profiles import examples
 from tests.strategies_ts import transition_systems
 from tests.toys import counter, relay, waiting
 
@@ -26,7 +27,7 @@ def everything(candidates: Candidates) -> list[Expr]:
     return [candidate for template in made for candidate in template]
 
 
-@settings(max_examples=50)
+@examples(50)
 @given(transition_systems())
 def test_every_candidate_holds_in_the_sample(system: TransitionSystem) -> None:
     part, sample = sampled(system, 30)

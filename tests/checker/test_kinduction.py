@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from benchmarks.roverlite import roverlite
 from checker.engines import Limits, engines, kinduction, quiet
@@ -26,6 +26,7 @@ from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
 from tests import naive
 from tests.inductive import problems
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 from tests.toys import GOAL, counter, once, overflowing, relay, waiting
 
@@ -74,13 +75,13 @@ def agrees(system: TransitionSystem, wanted: Sequence[Var], answers: Mapping[str
                 raise AssertionError(other)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(transition_systems())
 def test_random_systems(system: TransitionSystem) -> None:
     agrees(system, goals(system), searched(system, goals(system)))
 
 
-@settings(max_examples=20)
+@examples(20)
 @given(transition_systems())
 def test_a_depth_limit_bounds_the_runs(system: TransitionSystem) -> None:
     for depth in (0, 2):

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from checker.encode.bits import circuit
 from checker.encode.bits.aig import Aig, Literal
@@ -22,6 +22,7 @@ from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
 from tests import naive
 from tests.engine_children import LIMIT, cut_off
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 from tests.toys import filling
 
@@ -71,7 +72,7 @@ def justified(system: TransitionSystem, goal: str, because: object) -> bool:
     return holds_initially(system, because.conjuncts) and passes_on(system, because.conjuncts, goal)
 
 
-@settings(max_examples=400)
+@examples(400)
 @given(transition_systems())
 def test_random_systems_against_a_naive_search(system: TransitionSystem) -> None:
     shortest = naive.search(system, goals(system)).reached
@@ -85,14 +86,14 @@ def test_random_systems_against_a_naive_search(system: TransitionSystem) -> None
             assert holds_initially(system, answer.because.conjuncts)
 
 
-@settings(max_examples=150)
+@examples(150)
 @given(transition_systems(2))
 def test_invariants_of_random_systems_by_enumeration(system: TransitionSystem) -> None:
     for name, answer in decided(system, [g.name for g in goals(system)]).items():
         assert isinstance(answer, Reached) or justified(system, name, answer.because)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(transition_systems(2))
 def test_invariants_found_without_candidates(system: TransitionSystem) -> None:
     for name, answer in decided(system, [g.name for g in goals(system)], ()).items():
@@ -225,7 +226,7 @@ def test_a_dying_solver_leaves_the_goals_open(monkeypatch: pytest.MonkeyPatch) -
 # --- clauses of graphs ------------------------------------------------------------------------------
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(transition_systems())
 def test_clauses_mean_what_the_graph_means(system: TransitionSystem) -> None:
     """One valuation and all that depends on it: the solver must find the values that the graph has."""

@@ -21,6 +21,7 @@ from spec_model.lang.system import Statement, TransitionSystem, in_order
 from spec_model.lang.time import ticks
 from spec_model.lang.words import after, duration, maximum, minimum
 from tests.naive import replay, search
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 
 SKIP = Limits(timers=Timers.SKIP)
@@ -100,7 +101,7 @@ def _timer(draw: DrawFn, name: str, kind: str, scope: Sequence[Expr]) -> tuple[V
             return c, [If((c > 0) | runs, (Assign(c, onward),)), If(stops, (Assign(c, const(0)),))], full
 
 
-@settings(max_examples=60, suppress_health_check=list(HealthCheck))
+@settings(examples(60), suppress_health_check=list(HealthCheck))
 @given(timed_systems())
 def test_random_timers(system: TransitionSystem) -> None:
     wanted = goals(system)
@@ -111,13 +112,13 @@ def test_random_timers(system: TransitionSystem) -> None:
         assert found == reached.get(goal.name)
 
 
-@settings(max_examples=20, suppress_health_check=list(HealthCheck))
+@settings(examples(20), suppress_health_check=list(HealthCheck))
 @given(transition_systems())
 def test_any_random_system(system: TransitionSystem) -> None:
     both(system, *goals(system))
 
 
-@settings(max_examples=20, suppress_health_check=list(HealthCheck))
+@settings(examples(20), suppress_health_check=list(HealthCheck))
 @given(timed_systems(), st.integers(1, 9))
 def test_the_depth_limit(system: TransitionSystem, depth: int) -> None:
     both(system, *goals(system), limits=replace(SKIP, depth=depth))

@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.engines import AUTO, Engine, Limits
@@ -21,6 +21,7 @@ from spec_model.lang.expr import Expr, Var, flag, var
 from spec_model.lang.system import TransitionSystem
 from tests.checker.test_kinduction import agrees, answered, searched
 from tests.inductive import problems
+from tests.profiles import examples
 from tests.strategies_ts import booleans, goals, transition_systems
 from tests.toys import GOAL, counter, overflowing, relay
 
@@ -112,7 +113,7 @@ def shown(
     return answered(with_given(system, [g.name for g in wanted], candidates), wanted)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.data())
 def test_whatever_is_on_record_nothing_wrong_is_shown(data: st.DataObject) -> None:
     system = data.draw(transition_systems())
@@ -121,7 +122,7 @@ def test_whatever_is_on_record_nothing_wrong_is_shown(data: st.DataObject) -> No
     agrees(system, goals(system), shown(system, goals(system), tried))
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(transition_systems())
 def test_what_was_proved_once_is_shown_again(system: TransitionSystem) -> None:
     first = searched(system, goals(system))

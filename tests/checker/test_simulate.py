@@ -1,7 +1,7 @@
 """Random runs are runs of the system, and formulas on arrays mean what the reference says."""
 
 import numpy as np
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from checker.encode.cone import cone
@@ -15,6 +15,7 @@ from spec_model.lang.expr import var
 from spec_model.lang.operators import Op
 from spec_model.lang.system import TransitionSystem
 from tests import naive
+from tests.profiles import examples
 from tests.strategies_ts import transition_systems
 from tests.toys import GOAL, counter, overflowing, relay
 
@@ -36,7 +37,7 @@ def test_every_random_run_is_a_run(system: TransitionSystem, lane: int) -> None:
     assert not after or last.items() <= after[-1].items()
 
 
-@settings(max_examples=50)
+@examples(50)
 @given(transition_systems())
 def test_formulas_on_arrays(system: TransitionSystem) -> None:
     """The next values of all variables, against the reference, in many valuations at once."""

@@ -58,7 +58,7 @@ def main() -> None:
     with (
         patch.object(check, "_known", _known),
         patch.object(reporting, "catalogue", _few),
-        patch.object(reporting, "proofs", lambda: ()),
+        patch.object(reporting, "proofs", lambda record: ()),
         patch.object(reporting, "repair_pages", lambda proved: {}),
         patch.object(generating, "aims", lambda names, kinds: toy),
         patch.object(generating, "systems", lambda: {cover_toys.TOY.name: cover_toys.SYSTEM}),

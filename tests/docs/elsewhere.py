@@ -36,6 +36,7 @@ COMMANDS = {
     "pip install ../rovercheck": INSTALLS,
     "make check": Instead(MAKES.because, "rovercheck check PB1-15 PB2-01"),
     "make test": MAKES,
+    "make test-full": MAKES,
     "make check-full": MAKES,
     "rovercheck crosscheck": CROSSCHECKS,
     "rovercheck crosscheck --system board1 --impl python:mine.py:Board1": CROSSCHECKS,

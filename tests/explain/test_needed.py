@@ -5,7 +5,7 @@ from dataclasses import replace
 from itertools import combinations
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 
 from checker.engines.bdd.space import DDMemoryError, Overdrawn
 from checker.explain import backwards, fewest, needed
@@ -22,6 +22,7 @@ from spec_model.lang.expr import Var, flag, ite, var
 from spec_model.lang.system import TransitionSystem
 from spec_model.lang.words import minimum
 from tests.naive import vectors
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 from tests.toys import GOAL, counter, filling, once
 
@@ -59,7 +60,7 @@ def some_run(system: TransitionSystem, goal: Var, most: int) -> Run | None:
     return found
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(transition_systems(most=2))
 def test_what_is_needed_forces_the_end_and_nothing_of_it_can_be_left_out(system: TransitionSystem) -> None:
     goal = goals(system)[0]

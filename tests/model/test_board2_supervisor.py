@@ -21,6 +21,7 @@ from spec_model.readings import fixed
 from spec_model.signals import board2_motion as motion
 from spec_model.signals import board2_supervisor as b2
 from spec_model.signals.board2_supervisor import BLE, IMU, RX, SOURCES, SUP, SourceSignals
+from tests.profiles import examples
 from tests.test_lowering import compare
 
 SYSTEM = {system.name: fixed({}).system(system) for system in (*MONITORS, *OTHERS)}
@@ -362,7 +363,7 @@ AGREE = [n for n in SYSTEM if n not in ("board2", "board2_ms", "board2_on_its_ow
 
 
 @pytest.mark.parametrize("name", AGREE)
-@settings(max_examples=3, deadline=None)
+@settings(examples(3), deadline=None)
 @given(seed=st.integers(0, 10_000))
 def test_the_lowered_system_steps_as_the_interpreter_does(name: str, seed: int) -> None:
     draw, system = Random(seed), SYSTEM[name]

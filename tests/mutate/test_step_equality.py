@@ -2,7 +2,7 @@
 
 import hypothesis.strategies as st
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from checker.engines import Limits, quiet
 from checker.mutate.judging import EQUAL_STEPS, OVERWRITTEN, Fate, MutantCase, judged
@@ -19,6 +19,7 @@ from spec_model.lang.lower import lower
 from spec_model.lang.system import in_order
 from spec_model.lang.time import sec
 from spec_model.lang.words import after
+from tests.profiles import examples
 from tests.strategies import frozen_values, input_blocks, systems
 
 level = var("level", integer(0, 3))
@@ -35,7 +36,7 @@ patient = Chart(
 
 
 @given(st.data())
-@settings(max_examples=10)
+@examples(10)
 def test_runs_do_not_tell_apart_what_is_equal_in_every_step(data: st.DataObject) -> None:
     system = data.draw(systems())
     frozen = data.draw(frozen_values(system))

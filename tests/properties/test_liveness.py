@@ -6,7 +6,7 @@ from typing import NoReturn
 import jsonschema
 import networkx as nx
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from checker.engines import Limits, engines, quiet
@@ -34,6 +34,7 @@ from spec_model.lang.system import System, TransitionSystem, in_order
 from spec_model.lang.time import ms, ticks
 from spec_model.lang.words import after
 from tests.naive import successors, vectors
+from tests.profiles import examples
 from tests.strategies_ts import booleans, transition_systems
 
 At = Mapping[str, int]
@@ -106,7 +107,7 @@ def _has_loop(system: TransitionSystem, form: Form, engine: str = "explicit") ->
 
 
 drawn = st.data()
-few = settings(max_examples=40)
+few = examples(40)
 
 
 def _conditions(data: st.DataObject, system: TransitionSystem, count: int) -> list[Expr]:

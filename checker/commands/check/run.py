@@ -132,7 +132,7 @@ def results(
     On Ctrl-C the searches under way are ended and ``KeyboardInterrupt`` is raised.
     """
     # The largest first, so that no long search is left for the end; those of one system together.
-    asked = (replace(task, recorded=_on_record(task, invariants)) for task in tasks(properties, systems))
+    asked = (replace(task, recorded=on_record(task, invariants)) for task in tasks(properties, systems))
     todo = sorted(asked, key=lambda t: (-t.size, t.system.name, t.title))
     heard = searches(todo, systems, engine, limits, jobs, certifying)
     with Watch(err, len(todo), quiet) as watch, closing(heard):
@@ -145,11 +145,16 @@ def results(
                 case Warned(text):
                     err.print(text, markup=False)
                 case Result():
-                    system = systems.get(one.system, systems[one.property.on])
-                    yield replace(one, in_part=_in_part(one, system), limited_to=_limited_to(one, system))
+                    yield limited(one, systems)
 
 
-def _on_record(task: Task, invariants: Recorded) -> tuple[Tree, ...] | None:
+def limited(one: Result, systems: Mapping[str, System]) -> Result:
+    """The result with what it is limited to by the system that it is about."""
+    system = systems.get(one.system, systems[one.property.on])
+    return replace(one, in_part=_in_part(one, system), limited_to=_limited_to(one, system))
+
+
+def on_record(task: Task, invariants: Recorded) -> tuple[Tree, ...] | None:
     """The conjuncts of all proofs on record of the properties of a task; None if there is none."""
     known = [invariants[p.id] for p in task.properties if p.id in invariants]
     return tuple(tree for trees in known for tree in trees) if known else None
@@ -388,4 +393,4 @@ def _explain(compared: Compared, guide: Guide) -> None:
         out.print(f"  See it whole: {guide.command('trace', prop.id)}", markup=False)
 
 
-__all__ = ["Compared", "check", "evidence", "length", "results", "ticks"]
+__all__ = ["Compared", "check", "evidence", "length", "limited", "on_record", "results", "ticks"]

@@ -1,10 +1,11 @@
 """The verb ``reports``: the evidence as files."""
 
 from pathlib import Path
+
 import click
+
 from checker.commands.shared.codes import Exit
 from checker.commands.shared.options import quietly, writing
-
 
 
 @click.command(short_help="Write the evidence: verdicts, diagrams, findings.")

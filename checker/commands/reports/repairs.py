@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from functools import cache, cached_property
 from html import escape
 
-from checker.commands.check.run import Compared, evidence, results
+from checker.commands.check.run import Compared, evidence
+from checker.commands.reports.record import VerdictRecord
 from checker.commands.shared.variant import Variant
-from checker.engines import AUTO, Limits, Timers
-from checker.model.kept_invariants import invariants_of_rover
+from checker.engines import Limits, Timers
 from checker.render import renderers
 from checker.render.drawing.changes import changes
 from checker.verify.result import Result
@@ -55,9 +55,9 @@ class Proof:
         return sum(map(self.variant.concerns(), self.variant.properties().values())) - len(self.results)
 
 
-def proofs() -> tuple[Proof, ...]:
-    """Every repair, its properties decided now."""
-    return tuple(Proof(repair, tuple(_decided(repair))) for repair in repairs().values())
+def proofs(record: VerdictRecord) -> tuple[Proof, ...]:
+    """Every repair, its properties decided as far as the record does not know the verdicts."""
+    return tuple(Proof(repair, tuple(_decided(repair, record))) for repair in repairs().values())
 
 
 @cache
@@ -65,13 +65,11 @@ def _specified() -> Mapping[str, System]:
     return systems()
 
 
-def _decided(repair: Repair) -> Iterator[Result]:
+def _decided(repair: Repair, record: VerdictRecord) -> Iterator[Result]:
     variant = Variant(repair.readings, repair)
     wanted = [prop for id in repair.fixes if not (prop := variant.properties()[id]).costly]
-    found = {
-        r.property.id: r
-        for r in results(wanted, variant.systems(), AUTO, LIMITS, invariants=invariants_of_rover())
-    }
+    decided = record.decided(wanted, variant.systems(), LIMITS, f"{repair.name}: ")
+    found = {r.property.id: r for r in decided}
     yield from (found[prop.id] for prop in wanted)
 
 

@@ -6,19 +6,19 @@ from dataclasses import replace
 from html import escape
 from pathlib import Path
 
-from checker.commands.check.run import Compared, evidence, results
-from checker.commands.shared.codes import Exit, UsageError
 from checker.commands.check.findings import totals
-from checker.commands.shared.output import err, out, write
+from checker.commands.check.run import Compared, evidence
+from checker.commands.report.forced import with_reasons
 from checker.commands.reports.promises import page as promises_page
+from checker.commands.reports.record import FILE, VerdictRecord, without_choices
 from checker.commands.reports.repairs import Proof, proofs, repair_pages, sections
 from checker.commands.requirements.run import page as matrix_page
-from checker.commands.report.forced import with_reasons
+from checker.commands.shared.codes import Exit, UsageError
+from checker.commands.shared.output import err, out, write
 from checker.commands.shared.wording import formally
 from checker.commands.shared.wrapping import whole
-from checker.engines import AUTO, Limits
+from checker.engines import Limits
 from checker.explain.explained import unexplained
-from checker.model.kept_invariants import invariants_of_rover
 from checker.render import renderers
 from checker.render.trace_markdown import reasons_told
 from checker.results.trace import Trace
@@ -50,9 +50,9 @@ def reports(folder: Path, stale: bool) -> Exit:
     What forces the runs takes minutes to find: it is written, and not found again to see what is out of date.
     """
     affordable = [prop for prop in catalogue().values() if not prop.costly]
-    decided = results(affordable, systems(), AUTO, Limits(), invariants=invariants_of_rover())
-    found = [Compared(r, expected(r.property.id)) for r in decided]
-    made = pages(found if stale else with_reasons(found, systems()))
+    record = VerdictRecord()
+    found = [Compared(r, expected(r.property.id)) for r in record.decided(affordable, systems(), Limits())]
+    made = pages(found if stale else with_reasons(found, systems()), record)
     different = list(differences(folder, made))
     if stale:
         for name in different:
@@ -93,6 +93,8 @@ def _agree(name: str, there: str, made: Pages) -> bool:
     Builds of Z3 may choose differently; the verdict, the length and the reason stand above the run.  Where
     it was not asked what forces the run, some answer must be there, and is not compared.
     """
+    if name == FILE:
+        return there == made[name] or without_choices(there) == without_choices(made[name])
     page = made.get(str(Path(name).with_suffix(".md")), "")
     if NOT_ASKED in made[name]:
         there = _FORCED.sub(f"{FORCED}\n\n{NOT_ASKED}\n\n", there)
@@ -122,14 +124,15 @@ def _put(folder: Path, name: str, made: Pages) -> None:
     write(made[name], target)
 
 
-def pages(found: Sequence[Compared]) -> Pages:
-    """Every file of the report, from the verdicts; the repairs are decided here."""
-    proved = proofs()
+def pages(found: Sequence[Compared], record: VerdictRecord) -> Pages:
+    """Every file of the report, from the verdicts of the record; the repairs are decided here."""
+    proved = proofs(record)
     made = pages_of_verdicts(found, proved) | repair_pages(proved)
     draw = renderers("statechart")["svg"].render
     for chart in charts().values():
         made[f"charts/{chart.name}.svg"] = _text(draw(chart))
     made["charts/README.md"] = _gallery()
+    made[FILE] = record.text()
     return made
 
 

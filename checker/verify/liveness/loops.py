@@ -46,9 +46,17 @@ def looped(hunt: LoopHunt, run: Run) -> Trace:
     save = hunt.lasso.save.name
     start = next(i for i, inputs in enumerate(calm.inputs) if inputs[save])
     inputs = tuple({n: v for n, v in tick.items() if n != save} for tick in calm.inputs)
-    once = replay(hunt.question.system, hunt.goal, Run(calm.frozen, inputs))
-    twice = replay(hunt.question.system, hunt.goal, Run(calm.frozen, inputs + inputs[start:]))
-    _check(hunt, twice, start, len(inputs))
+    return repeated(hunt, Run(calm.frozen, inputs), start)
+
+
+def repeated(hunt: LoopHunt, run: Run, start: int) -> Trace:
+    """The trace of a run of the system that repeats for ever what follows tick ``start``.
+
+    Raises ``ReplayError`` unless it does.
+    """
+    once = replay(hunt.question.system, hunt.goal, run)
+    twice = replay(hunt.question.system, hunt.goal, Run(run.frozen, run.inputs + run.inputs[start:]))
+    _check(hunt, twice, start, len(run))
     return replace(once, loop=start)
 
 
@@ -70,4 +78,4 @@ def _check(hunt: LoopHunt, twice: Trace, start: int, end: int) -> None:
             raise ReplayError(f"{id}: {recurring.doc} does not recur in the loop.")
 
 
-__all__ = ["LoopHunt", "hunt", "looped"]
+__all__ = ["LoopHunt", "hunt", "looped", "repeated"]

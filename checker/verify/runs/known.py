@@ -16,8 +16,13 @@ def run_of(verdict: Verdict) -> Run | None:
     """The run that a verdict rests on, if it is a finite one."""
     match verdict:
         case Proved(Trace() as trace) | Violated(Trace() as trace) if trace.loop is None:
-            return Run({n: trace.before[n] for n in trace.frozen}, tuple(tick.inputs for tick in trace.ticks))
+            return run_in(trace)
     return None
+
+
+def run_in(trace: Trace) -> Run:
+    """The run of a trace, as it is replayed."""
+    return Run({n: trace.before[n] for n in trace.frozen}, tuple(tick.inputs for tick in trace.ticks))
 
 
 def reached(mutant: System, properties: Sequence[Property], runs: Sequence[Run]) -> dict[str, Run]:
@@ -93,4 +98,4 @@ def _reached(question: Question, run: Run) -> dict[str, int]:
     return found
 
 
-__all__ = ["confirm", "reached", "reaching", "run_of"]
+__all__ = ["confirm", "reached", "reaching", "run_in", "run_of"]
