@@ -16,7 +16,7 @@ from checker.engines import AUTO, Limits
 from checker.model.kept_invariants import invariants_of_rover
 from checker.model.kept_runs import MOST_TICKS, VERDICTS, KeptRun, contents, kept, lines, row
 from checker.results.trace import Trace
-from checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
+from checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Violated
 from checker.system.formula_json import Unreadable, formula, written
 from checker.system.lowered import lowered
 from checker.system.text import SystemText
@@ -34,7 +34,6 @@ FILE = f"{VERDICTS}.json"
 Row = Mapping[str, Any]
 Systems = Mapping[str, System]
 
-WORDS = {made.word: made for made in (Proved, Violated)}
 CHOSEN = {"run", "conjuncts"}
 """What of a verdict a solver may choose among several: it differs from machine to machine."""
 
@@ -126,7 +125,7 @@ def _row(one: Result) -> Row | None:
     verdict = one.verdict
     if isinstance(verdict, Unknown):
         return None
-    made = {"verdict": verdict.word, "engine": verdict.engine, "system": one.system}
+    made: dict[str, Any] = {"verdict": verdict.word, "engine": verdict.engine, "system": one.system}
     match verdict.because:
         case Exhausted() as all_:
             seen = {"states": all_.states, "transitions": all_.transitions, "depth": all_.depth}
@@ -160,24 +159,22 @@ def _answers(
 
 def _result(one: Row, prop: Property, systems: Systems) -> Result:
     """A row as a result; a run is replayed."""
-    system, engine, claim = one["system"], one["engine"], one.get("claim", "")
+    name, engine = one["system"], one["engine"]
     because: Exhausted | Inductive | Trace
-    there = reduce(lowered(systems[system]), [replace(prop, on=system)])
     if "run" in one:
+        there = reduce(lowered(systems[name]), [replace(prop, on=name)])
         [goal], run = there.goals, kept(one["run"], MOST_TICKS).run
         again = "loop" in one
         trace = repeated(hunt(there, goal), run, one["loop"]) if again else replay(there.system, goal, run)
         because, prop = replace(trace, shortest=one["shortest"]), goal.property
     elif "conjuncts" in one:
-        known = {v.name: v for v in (*there.system.frozen, *there.system.variables)}
-        because = Inductive(
-            tuple(formula(tree, known) for tree in one["conjuncts"]), one["ticks"], one["simple"]
-        )
+        on = systems.get(name, systems[prop.on])  # a system with free timers is made by who searches it
+        of = reduce(lowered(on), [prop]).system
+        known = {v.name: v for v in (*of.frozen, *of.variables)}
+        formulas = tuple(formula(tree, known) for tree in one["conjuncts"])
+        because = Inductive(formulas, one["ticks"], one["simple"])
     else:
-        because = Exhausted(
-            one["states"], one["transitions"], one["depth"], tuple(one["variables"]), one["skipped"]
-        )
-    verdict: Verdict = (
-        Proved(because, engine, claim) if one["verdict"] == Proved.word else Violated(because, engine)
-    )
-    return Result(prop, verdict, system)
+        seen = one["states"], one["transitions"], one["depth"], tuple(one["variables"]), one["skipped"]
+        because = Exhausted(*seen)
+    made = Proved(because, engine, one.get("claim", ""))
+    return Result(prop, made if one["verdict"] == made.word else Violated(because, engine), name)
