@@ -26,7 +26,7 @@ LATE = "checker.commands.shared.output"
 
 
 class WarmProcess:
-    """A command of rovercheck in a process and session of its own, as far as tests use ``subprocess.Popen``."""
+    """A command of rovercheck in a process and session of its own, with what tests use of ``Popen``."""
 
     def __init__(self, arguments: Sequence[str], streams: Streams, environment: Mapping[str, str]) -> None:
         opened, told = _CONTEXT.Pipe(duplex=False)
