@@ -301,7 +301,7 @@ def _node(node: Expr, at: Columns, known: Mapping[int, Column]) -> Column:
         case Named(_, body):
             return known[id(body)]
         case Apply(op, args, _):
-            return np.asarray(_MEANING[op](*(known[id(a)] for a in args)), dtype=kind)
+            return np.asarray(OPERATIONS[op](*(known[id(a)] for a in args)), dtype=kind)
     raise AssertionError(f"{node} speaks of the past")
 
 
@@ -312,7 +312,7 @@ def _chosen(condition: Column, then: Column, otherwise: Column) -> Column:
     return np.where(condition, then, otherwise) if condition.any() else otherwise
 
 
-_MEANING: dict[Op, Callable[..., NDArray[Any]]] = {
+OPERATIONS: Mapping[Op, Callable[..., NDArray[Any]]] = {
     Op.NOT: np.logical_not,
     Op.AND: lambda *args: reduce(np.logical_and, args),
     Op.OR: lambda *args: reduce(np.logical_or, args),
@@ -335,5 +335,4 @@ _MEANING: dict[Op, Callable[..., NDArray[Any]]] = {
     Op.MAX: np.maximum,
     Op.BIT: lambda a, b: a >> b & 1,
 }
-OPERATORS = frozenset(_MEANING)
-"""The operators that are evaluated."""
+"""Every operator on columns, written apart from that of the engines."""

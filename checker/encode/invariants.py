@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rovercheck.checker.encode.cone import Slice
-from rovercheck.checker.encode.simulate import Column, Columns, Vectorised, column
 from rovercheck.checker.encode.terms import Terms
+from rovercheck.checker.system.arrays import Column, Columns, Vectorised, column
 from rovercheck.checker.system.intervals import postorder
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var

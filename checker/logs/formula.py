@@ -1,12 +1,13 @@
 """Formulas over many rows at once, also those about the past, which remember where the rows before ended."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rovercheck.checker.system import arrays
 from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.evaluate import operate as on_values
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
@@ -99,7 +100,7 @@ class FormulaRows:
                 values = [self.value(a, past) for a in args]
                 if op in COMPARISONS and self.rounded and not self.rounded.isdisjoint(variables(expr)):
                     return compared(op, *values)
-                return operate(op, values)
+                return np.asarray(OPERATIONS[op](*values))
             case Temporal(_, arg) if arg is not None:
                 return self._temporal(expr, arg, past)
         raise AssertionError(f"{expr} belongs to a chart")
@@ -158,36 +159,13 @@ def run_lengths(now: Array, past: Past, key: int) -> Array:
 def compared(op: Op, left: Array, right: Array) -> Array:
     """A comparison in which values that differ by rounding alone are equal."""
     apart = left.astype(np.float64) - right.astype(np.float64)
-    return np.asarray(_BINARY[op](np.where(abs(apart) < ROUNDING, 0.0, apart), 0.0))
+    return np.asarray(OPERATIONS[op](np.where(abs(apart) < ROUNDING, 0.0, apart), 0.0))
 
 
-def operate(op: Op, v: list[Array]) -> Array:
-    """An operator on columns, as ``spec_model.lang.evaluate`` on values."""
-    match op:
-        case Op.NOT:
-            return np.asarray(~v[0])
-        case Op.AND | Op.OR:
-            fold = np.logical_and if op is Op.AND else np.logical_or
-            found = v[0]
-            for other in v[1:]:
-                found = fold(found, other)
-            return np.asarray(found)
-        case Op.ITE:
-            return np.where(v[0], v[1], v[2])
-        case Op.NEG:
-            return np.asarray(-v[0])
-        case Op.ABS:
-            return np.asarray(abs(v[0]))
-        case Op.BIT:
-            with np.errstate(invalid="ignore"):  # of a value that is not known nobody asks for the result
-                mask, bit = (value.astype(np.int64) for value in v)
-            return np.asarray((mask >> bit) & 1 != 0)
-        case _:
-            return np.asarray(_BINARY[op](v[0], v[1]))
+def _bit(values: Array, index: Array) -> Array:
+    with np.errstate(invalid="ignore"):  # of a value that is not known nobody asks for the result
+        return np.asarray((values.astype(np.int64) >> index.astype(np.int64)) & 1 != 0)
 
 
-_BINARY: Mapping[Op, Any] = {
-    Op.EQ: np.equal, Op.NE: np.not_equal, Op.LT: np.less, Op.LE: np.less_equal, Op.GT: np.greater,
-    Op.GE: np.greater_equal, Op.ADD: np.add, Op.SUB: np.subtract, Op.MUL: np.multiply,
-    Op.SCALE: np.multiply, Op.DIV: np.floor_divide, Op.MOD: np.mod, Op.MIN: np.minimum, Op.MAX: np.maximum,
-}  # fmt: skip
+OPERATIONS: Mapping[Op, Callable[..., Any]] = {**arrays.OPERATIONS, Op.BIT: _bit}
+"""Every operator on columns, in which numbers are 64-bit floats."""

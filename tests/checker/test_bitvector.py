@@ -6,7 +6,7 @@ import pytest
 import z3
 from hypothesis import given, settings
 
-from rovercheck.checker.encode.bitvector import OPERATORS, Encoder, literal, member, symbol, value, width
+from rovercheck.checker.encode.bitvector import Encoder, literal, member, symbol, value, width
 from rovercheck.checker.system.intervals import Interval, intervals
 from rovercheck.spec_model.lang.domain import Bool, Domain, Num, Sort, boolean, chosen, enumeration, integer
 from rovercheck.spec_model.lang.evaluate import evaluate
@@ -64,7 +64,6 @@ def at_every_value(expr: Expr, over: tuple[Var, ...]) -> None:
 
 @pytest.mark.parametrize("op", list(Op))
 def test_every_operator(op: Op) -> None:
-    assert op in OPERATORS and op in CASES, "a new operator needs a translation and cases here"
     for args in CASES[op]:
         at_every_value(Apply(op, args, sort_of(op, args)), tuple(a for a in args if isinstance(a, Var)))
 

@@ -19,12 +19,11 @@ from rovercheck.checker.certify.enumeration import enumerated
 from rovercheck.checker.certify.outcome import Accepted, Rejected, TooMuch, Undecided
 from rovercheck.checker.certify.question import question
 from rovercheck.checker.certify.reduction import diagram
-from rovercheck.checker.certify.sweep import OPERATORS, Formulas, SweepRows, columns, swept
+from rovercheck.checker.certify.sweep import Formulas, SweepRows, columns, swept
 from rovercheck.checker.certify.tick import executed
 from rovercheck.checker.system.intervals import postorder
 from rovercheck.spec_model.lang.evaluate import step
 from rovercheck.spec_model.lang.expr import Var, flag
-from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.certifying import BACK, BOTH, COUNT, certified, closed_set, counting, many, proofs
 from tests.checker.test_certify_diagram import sets
@@ -112,10 +111,6 @@ def test_paths_that_lead_to_no_valuation_are_not_followed() -> None:
     assert diagrams.count(found, list(domains.values())) == 0
     with pytest.raises(sweep.DeadEnd):
         SweepRows(found, domains, 1)
-
-
-def test_every_operator_is_evaluated_on_columns() -> None:
-    assert set(Op) == OPERATORS
 
 
 def test_a_large_diagram_is_swept() -> None:

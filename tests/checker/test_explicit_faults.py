@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 from rovercheck.checker.encode import native, path_statements, paths
-from rovercheck.checker.encode.native import Field, Layout, body, quiet, retrace, search, table
-from rovercheck.checker.encode.native.expressions import BIT, INT, Expressions
+from rovercheck.checker.encode.native import Field, Layout, body, expressions, quiet, retrace, search, table
+from rovercheck.checker.encode.native.expressions import BIT, INT
 from rovercheck.checker.engines import Limits, Timers, explicit
 from rovercheck.checker.engines import quiet as silent
 from rovercheck.checker.engines.explicit import answers, levels, parents, runs
@@ -60,12 +60,8 @@ def no_domain_is_checked(patch: pytest.MonkeyPatch) -> None:
 
 def a_minimum_is_its_first_argument(patch: pytest.MonkeyPatch) -> None:
     """A counter does not saturate."""
-
-    def number(self: Expressions, op: Op, args: Any) -> Any:
-        return self.as_int(args[0]) if op is Op.MIN else real(self, op, args)
-
-    real = Expressions._number
-    patch.setattr(Expressions, "_number", number)
+    first = {Op.MIN: lambda emit, args: emit.as_int(args[0])}
+    patch.setattr(expressions, "OPERATIONS", {**expressions.OPERATIONS, **first})
 
 
 def a_batch_is_dropped(patch: pytest.MonkeyPatch) -> None:

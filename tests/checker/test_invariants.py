@@ -6,8 +6,9 @@ from hypothesis import given, settings
 
 from rovercheck.checker.encode.cone import Slice, cone
 from rovercheck.checker.encode.invariants import Candidates, TemplateCube, TemplatePool
-from rovercheck.checker.encode.simulate import Columns, Simulator, Vectorised
+from rovercheck.checker.encode.simulate import Simulator
 from rovercheck.checker.encode.symbolic import transition
+from rovercheck.checker.system.arrays import Columns, Vectorised
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Expr
 from rovercheck.spec_model.lang.system import TransitionSystem

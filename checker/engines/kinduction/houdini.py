@@ -13,9 +13,10 @@ import z3
 
 from rovercheck.checker.encode.bitvector import Encoder, Term
 from rovercheck.checker.encode.invariants import TemplateCube
-from rovercheck.checker.encode.simulate import Columns, Simulator, Vectorised
+from rovercheck.checker.encode.simulate import Simulator
 from rovercheck.checker.encode.unrolling import Unrolling, literal, satisfiable
 from rovercheck.checker.engines.kinduction.ticks import Scope, TickReading, Ticks
+from rovercheck.checker.system.arrays import Columns, Vectorised
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Expr
 from rovercheck.spec_model.lang.walk import variables

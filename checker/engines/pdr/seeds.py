@@ -16,7 +16,8 @@ from rovercheck.checker.encode.bits.blast import Value, as_word
 from rovercheck.checker.encode.bits.cnf import Cnf
 from rovercheck.checker.encode.cone import Slice
 from rovercheck.checker.encode.invariants import Candidates
-from rovercheck.checker.encode.simulate import Simulator, Vectorised
+from rovercheck.checker.encode.simulate import Simulator
+from rovercheck.checker.system.arrays import Vectorised
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.walk import variables
 

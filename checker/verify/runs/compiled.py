@@ -7,6 +7,8 @@ from collections import Counter
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
+from rovercheck.checker.encode import python_text
+from rovercheck.checker.encode.python_text import Row, between
 from rovercheck.checker.system.intervals import postorder
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.domain import Domain
@@ -22,12 +24,13 @@ SHORT = 30
 BRANCHES = 80
 """Branches inside each other; Python indents a hundred times."""
 
-_INFIX = {
-    Op.AND: " and ", Op.OR: " or ", Op.EQ: " == ", Op.NE: " != ",
-    Op.LT: " < ", Op.LE: " <= ", Op.GT: " > ", Op.GE: " >= ",
-    Op.ADD: " + ", Op.SUB: " - ", Op.MUL: " * ", Op.SCALE: " * ", Op.DIV: " // ", Op.MOD: " % ",
-}  # fmt: skip
-_CALLED = {Op.NOT: "not ", Op.NEG: "-", Op.ABS: "abs", Op.MIN: "min", Op.MAX: "max"}
+OPERATIONS: Mapping[Op, Row] = {
+    **python_text.OPERATIONS,
+    Op.NOT: lambda a: f"(not {a})",
+    Op.AND: between("and"),
+    Op.OR: between("or"),
+}
+"""Every operator in Python; truth values are as they come, which is quicker."""
 
 Ticks = Callable[[Sequence[int], Sequence[Sequence[int]], dict[int, int]], None]
 
@@ -163,21 +166,8 @@ class _Writer:
                 return parts[id(body)]
             case Apply(op, args):
                 deep = 1 + max(parts[id(arg)][1] for arg in args)
-                return _applied(op, [parts[id(arg)][0] for arg in args]), deep
+                return OPERATIONS[op](*(parts[id(arg)][0] for arg in args)), deep
         raise AssertionError(f"{expr} speaks of the past")
-
-
-def _applied(op: Op, args: Sequence[str]) -> str:
-    match op:
-        case Op.ITE:
-            return f"({args[1]} if {args[0]} else {args[2]})"
-        case Op.BIT:
-            return f"({args[0]} >> {args[1]} & 1)"
-        case _ if op in _INFIX:
-            return f"({_INFIX[op].join(args)})"
-        case _ if op in (Op.NOT, Op.NEG):
-            return f"({_CALLED[op]}{args[0]})"
-    return f"{_CALLED[op]}({', '.join(args)})"
 
 
 __all__ = ["CompiledStep", "TooDeep"]
