@@ -23,6 +23,10 @@ ROUNDING = 1e-4
 """Raw units by which outputs of 32-bit floats, and their differences, may be off."""
 
 
+PastWord = Callable[..., tuple[Array, Any]]
+"""The values of a word in each row, from those of its arguments and its state before; its state after."""
+
+
 @dataclass
 class Past:
     """What formulas about the past remember between the rows of one stretch of a log.
@@ -109,16 +113,18 @@ class FormulaRows:
         now = np.broadcast_to(self.value(arg, past), (self.count,))
         match word.when:
             case When.PREVIOUS:
-                return shifted(now, past, id(word), _initial(arg) if past.from_start else 0)
+                return self._remembered(shifted, now, word, past, _initial(arg) if past.from_start else 0)
             case When.RISING:
-                return now & ~shifted(now, past, id(word), 1)
+                return now & ~self._remembered(shifted, now, word, past, 1)
             case When.HELD:
                 assert word.span is not None
-                return run_lengths(now, past, id(word)) > word.span.ticks(TICK_MS)
+                return self._remembered(run_lengths, now, word, past, 0) > word.span.ticks(TICK_MS)
             case _:
-                seen = np.logical_or.accumulate(now) | past.memory.get(id(word), False)
-                past.memory[id(word)] = bool(seen[-1])
-                return np.asarray(seen)
+                return self._remembered(seen, now, word, past, False)
+
+    def _remembered(self, of: PastWord, now: Array, word: Temporal, past: Past, first: Any) -> Array:
+        found, past.memory[id(word)] = of(now, past.memory.get(id(word), first))
+        return found
 
 
 def _initial(expr: Expr) -> int:
@@ -137,23 +143,25 @@ def _initial(expr: Expr) -> int:
     return 0
 
 
-def shifted(now: Array, past: Past, key: int, first: int) -> Array:
+def shifted(now: Array, before: Any) -> tuple[Array, Any]:
     """The value of the row before."""
-    before = past.memory.get(key, first)
-    past.memory[key] = now[-1]
     found = np.empty_like(now)
     found[0], found[1:] = before, now[:-1]
-    return found
+    return found, now[-1]
 
 
-def run_lengths(now: Array, past: Past, key: int) -> Array:
+def run_lengths(now: Array, before: int) -> tuple[Array, int]:
     """For how many rows up to each one, this one included, it has been true without a break."""
     index = np.arange(1, len(now) + 1)
     broken = np.maximum.accumulate(np.where(now, 0, index))
-    carried = np.where(broken == 0, past.memory.get(key, 0), 0)
-    found = np.where(now, index - broken + carried, 0)
-    past.memory[key] = int(found[-1])
-    return found
+    found = np.where(now, index - broken + np.where(broken == 0, before, 0), 0)
+    return found, int(found[-1])
+
+
+def seen(now: Array, before: bool) -> tuple[Array, bool]:
+    """Whether it is or was true."""
+    found = np.logical_or.accumulate(now) | before
+    return found, bool(found[-1])
 
 
 def compared(op: Op, left: Array, right: Array) -> Array:

@@ -13,20 +13,8 @@ from rovercheck.checker.logs.judge import Judge
 from rovercheck.checker.logs.log import Cells, LogBlock
 from rovercheck.checker.logs.mismatch import shown
 from rovercheck.checker.logs.signals import Vocabulary
-from rovercheck.properties.forms import (
-    Always,
-    EntersOnlyIf,
-    Form,
-    HoldsAfter,
-    HoldsFor,
-    LeavesOnlyIf,
-    Never,
-    Precedes,
-    Property,
-    Reachable,
-    Responds,
-    Until,
-)
+from rovercheck.properties.forms import Form, Never, Property, Reachable
+from rovercheck.properties.pasttime import Bounded
 from rovercheck.spec_model.lang.expr import FALSE, Apply, Expr, Var
 from rovercheck.spec_model.lang.label import text
 from rovercheck.spec_model.lang.operators import Op
@@ -223,23 +211,10 @@ def _broken(judge: Judge, rows: FormulaRows, row: int, block: LogBlock, place: i
 
 def required(form: Form) -> tuple[Expr, bool]:
     """What must be true where the property is broken, and whether it must be false instead."""
-    match form:
-        case Always(that) | HoldsFor(_, that, _):
-            return that, False
-        case Never(that) | Reachable(that):
-            return that, True
-        case Responds(_, response, _):
-            return response, False
-        case HoldsAfter(_, _, then):
-            return then, False
-        case Precedes(first, _):
-            return first, False
-        case Until(_, holds, _):
-            return holds, False
-        case LeavesOnlyIf(_, only_if) | EntersOnlyIf(_, only_if):
-            return only_if, False
-        case _:
-            raise AssertionError("no finite run breaks it")
+    if isinstance(form, Never | Reachable):
+        return form.that, True
+    assert isinstance(form, Bounded) and form.wanted is not None, "no finite run breaks it"
+    return form.wanted, False
 
 
 def _conjuncts(expr: Expr) -> Sequence[Expr]:
