@@ -4,7 +4,7 @@
 #   PYTHON=python3.12       another interpreter
 #   VENV=.venv-3.12         another place for the environment
 #   JOBS=4                  processes for the tests; some of them wait for others, so more than processors
-#   ARGS="--system rover"   further arguments of `check`, `test`, `reports` and `bench`
+#   ARGS="--system rover"   further arguments of `check`, `test`, `test-full`, `reports` and `bench`
 
 VENV ?= .venv
 JOBS ?= 3
@@ -21,7 +21,7 @@ VERSION := $(shell "$(PYTHON)" -c 'import sys; print("%d.%d.%d" % sys.version_in
 STAMP   := $(VENV)/installed-for-$(VERSION)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup check check-full check-repairs test lint types reports docs bench format lock clean
+.PHONY: help setup check check-full check-repairs test test-full lint types reports docs bench format lock clean
 .DELETE_ON_ERROR:
 
 help:
@@ -29,6 +29,7 @@ help:
 	@echo "make check-full     also what takes long, and every proof certified"
 	@echo "make check-repairs  every property that a proposed repair concerns (hours)"
 	@echo "make test           lint, types, import contracts and the whole test suite"
+	@echo "make test-full      the same with every random example and all evidence found anew"
 	@echo "make reports        write the evidence in reports/ anew"
 	@echo "make docs           build the documentation site in site/"
 	@echo "make lint           ruff only            make types     mypy only"
@@ -52,9 +53,10 @@ check-repairs: $(STAMP)
 		$(RUN) -m rovercheck check --repair "$$repair" --timers free --timeout 600 $(ARGS) || worst=$$?; \
 	done; exit $$worst
 
-test: lint types
+test-full: SUITE := --hypothesis-profile=full
+test test-full: lint types
 	@echo "Tests, in $(JOBS) processes ..."
-	@$(RUN) -m pytest -q -n $(JOBS) --dist worksteal $(ARGS)
+	@$(RUN) -m pytest -q -n $(JOBS) --dist worksteal $(SUITE) $(ARGS)
 
 lint: $(STAMP)
 	@echo "Lint ..."

@@ -3,7 +3,7 @@
     python -m benchmarks.compare [REPETITIONS] [--only PART] [--limit SECONDS] [--large] [--write]
 
 Prints Markdown.  ``--only searches`` or ``--only properties`` leaves the rest out, ``--large`` also
-searches 61 million valuations, which takes about a minute, and ``--write`` puts the tables into
+searches 61 million states, which takes about a minute, and ``--write`` puts the tables into
 ``benchmarks/RESULTS.md``.  Outside tools that are missing leave dashes.
 """
 
@@ -25,7 +25,7 @@ from rovercheck.checker.engines import engines
 
 Runs = Mapping[str, Sequence[Sample]]
 SEARCH_LIMIT = 600.0
-"""Seconds of wall time for one search of all valuations."""
+"""Seconds of wall time for one search of all states."""
 LARGE = (31, 5)
 SEARCHES_ONLY, PROPERTIES_ONLY = "searches", "properties"
 
@@ -42,7 +42,7 @@ class Measured:
 
 
 def searchers(comp: int, k: int, folder: Path) -> dict[str, Tool]:
-    """The tools that search all valuations of a model."""
+    """The tools that search all states of a model."""
     return present({
         "ours": tools.search(comp, k),
         "C naive": rivals.c_search(comp, k, False, folder),
@@ -81,7 +81,7 @@ def measured(repetitions: int, limit: float, only: str) -> Measured:
 
 def searched(found: Measured, repetitions: int, folder: Path) -> None:
     for name, (comp, k) in MODELS.items():
-        say(f"{name}: searching all valuations")
+        say(f"{name}: searching all states")
         found.searches[name] = interleaved(searchers(comp, k, folder), repetitions)
 
 
@@ -105,7 +105,7 @@ def say(text: str) -> None:
 
 def search_table(found: Mapping[str, Runs]) -> str:
     """Times of the search alone; ``x`` is how many times as fast as that tool ours is."""
-    head = ["model", "valuations", "ours s", "M/s", "start s", "B each"]
+    head = ["model", "states", "ours s", "M/s", "start s", "B each"]
     others = ("C naive", "C factored", "SPIN")
     head += [column for other in others for column in (f"{other} s", "x")]
     return table(head, [_search_row(name, runs, others) for name, runs in found.items()])
@@ -159,15 +159,15 @@ def report(found: Measured, limit: float) -> str:
     return "\n".join([*parts, f"### Targets\n\n{target_table(targets(found))}"])
 
 
-SEARCHES = """### Every valuation searched
+SEARCHES = """### Every state searched
 
 Processor seconds of the search alone, medians; `x` is the time of that tool divided by ours: above 1, ours
-is faster. All store every valuation, ours and C with parents, and check P1 to P3. `start s` is from the
-model to the first valuation, `B each` what the search takes of memory, divided by the valuations.
+is faster. All store every state, ours and C with parents, and check P1 to P3. `start s` is from the
+model to the first state, `B each` what the search takes of memory, divided by the states.
 
 {table}"""
 
-DECISIONS = """### The full model, K = 1: 1.5e16 valuations
+DECISIONS = """### The full model, K = 1: 1.5e16 states
 
 Processor seconds from the model to the answer, medians; in brackets the length of the run; `open`: not
 decided, with the seconds of the processor that it took within {limit:.0f} s of wall time. A tick: the run was
@@ -182,12 +182,12 @@ def main() -> None:
     parser.add_argument("repetitions", nargs="?", type=int, default=3)
     parser.add_argument("--only", choices=[SEARCHES_ONLY, PROPERTIES_ONLY], default="")
     parser.add_argument("--limit", type=float, default=30.0, help="seconds for each engine and property")
-    parser.add_argument("--large", action="store_true", help="search 61 million valuations as well")
+    parser.add_argument("--large", action="store_true", help="search 61 million states as well")
     parser.add_argument("--write", action="store_true", help="put the tables into benchmarks/RESULTS.md")
     chosen = parser.parse_args()
     found = measured(chosen.repetitions, chosen.limit, chosen.only)
     if chosen.large:
-        say("61 million valuations")
+        say("61 million states")
         found.large = tools.search(*LARGE)()
     text = report(found, chosen.limit)
     print(text)

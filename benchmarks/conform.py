@@ -13,13 +13,13 @@ from statistics import median
 from tempfile import TemporaryDirectory
 from time import process_time
 
-from rovercheck.checker.logs.check import Follow
-from rovercheck.checker.logs.choosing import choose
+from rovercheck.checker.logs.check import BoardFollower
 from rovercheck.checker.logs.cones import cones
+from rovercheck.checker.logs.decoder import InputDecoder
 from rovercheck.checker.logs.log import LogBlock, LogLayout, open_log
 from rovercheck.checker.logs.mapping import ColumnMap
 from rovercheck.checker.logs.monitors import LogMonitors
-from rovercheck.checker.logs.sight import Eyes
+from rovercheck.checker.logs.selection import choose
 from rovercheck.checker.logs.signals import Vocabulary
 from rovercheck.properties.catalogue import catalogue
 from rovercheck.spec_model.abstraction import boards
@@ -55,7 +55,7 @@ def read(file: Path) -> tuple[list[LogBlock], LogLayout]:
     return list(log.blocks()), log.layout
 
 
-def known_of(vocabulary: Vocabulary, eyes: Eyes, layout: LogLayout) -> frozenset[str]:
+def known_of(vocabulary: Vocabulary, eyes: InputDecoder, layout: LogLayout) -> frozenset[str]:
     return eyes.seen | {o.var.name for o in vocabulary.board.outputs if o.name in layout.signals}
 
 
@@ -65,12 +65,12 @@ def monitors(board: str, file: Path) -> tuple[float, float, float, int]:
     start = process_time()
     blocks, layout = read(file)
     reading = process_time() - start
-    eyes = Eyes(vocabulary, layout.signals, True)
+    eyes = InputDecoder(vocabulary, layout.signals, True)
     known = known_of(vocabulary, eyes, layout)
     choice = choose(vocabulary, known, catalogue().values(), systems().__getitem__)
     made = LogMonitors(vocabulary, choice, known, True)
     start = process_time()
-    columns = [made.columns(block, eyes.look(block)) for block in blocks]
+    columns = [made.columns(block, eyes.decode(block)) for block in blocks]
     seeing = process_time() - start
     start = process_time()
     for block, values in zip(blocks, columns, strict=True):
@@ -82,12 +82,12 @@ def inference(board: str, file: Path) -> tuple[float, str]:
     """Seconds to follow the charts, from taking them apart on, and what was found."""
     vocabulary = Vocabulary(boards()[board])
     blocks, layout = read(file)
-    eyes = Eyes(vocabulary, layout.signals, True)
+    eyes = InputDecoder(vocabulary, layout.signals, True)
     start = process_time()
     parts = cones(vocabulary.board, eyes.seen, layout.signals - vocabulary.inputs)
-    follow = Follow([replace(part) for part in parts], {}, eyes.seen, True)
+    follow = BoardFollower([replace(part) for part in parts], {}, eyes.seen, True)
     for block in blocks:
-        follow.block(block, eyes.look(block))
+        follow.block(block, eyes.decode(block))
     found = follow.end()
     seconds = process_time() - start
     return seconds, f"{len(found.deviations)} deviations, {len(found.undecided)} parts undecided"

@@ -5,7 +5,7 @@
 Prints medians of CPU seconds, which other work on the machine disturbs less than the clock.  ``search``
 is the search alone and what the ratios compare; ``all`` adds slicing, cells and compiling (nothing is
 taken from the cache).  ``B/st`` is what the resident memory of the process grew by, for each stored
-valuation.  Both store parents.  Naive C tries every input vector, factored C multiplies the distinct
+state.  Both store parents.  Naive C tries every input vector, factored C multiplies the distinct
 successors of each part.  Without gcc the C columns stay empty.
 """
 
@@ -45,7 +45,7 @@ CHART, PROPERTY, SECONDS = "obstacles_n", "PB2-05-12", 8.0
 
 @dataclass(frozen=True)
 class Timed:
-    """One run: stored valuations, transitions, seconds of the search, seconds of everything, bytes by
+    """One run: stored states, transitions, seconds of the search, seconds of everything, bytes by
     which the resident memory grew."""
 
     states: int

@@ -1,9 +1,9 @@
-"""How valuations and times grow with the scale of the timers and the number of parts.
+"""How states and times grow with the scale of the timers and the number of parts.
 
     python -m benchmarks.growth [REPETITIONS] [--limit SECONDS] [--large] [--write]
 
 Prints Markdown.  ``--write`` puts it into ``benchmarks/RESULTS.md``; ``--large`` adds the search of 61
-million valuations, which takes about a minute and 2 GB.
+million states, which takes about a minute and 2 GB.
 """
 
 import argparse
@@ -22,18 +22,18 @@ from rovercheck.checker.engines import engines, explicit
 SCALES = (20, 10, 5, 4, 2, 1)
 """Divisors of the timers: 1 is full timing."""
 LINKS, NO_SONARS = 28, 31
-"""The parts searched valuation by valuation: links and relay; and temperature and battery as well."""
+"""The parts searched state by state: links and relay; and temperature and battery as well."""
 PARTS = (1, 3, 7, 15, 31, 63)
 PARTS_SCALE = 10
 SEARCH = "search"
 ENOUGH = 100_000
-"""Valuations from which on bytes for each say something."""
+"""States from which on bytes for each say something."""
 
 Runs = Mapping[str, Sequence[Sample]]
 
 
 def symbolic() -> list[str]:
-    """The engines that do not store one valuation after the other, and can prove."""
+    """The engines that do not store one state after the other, and can prove."""
     able = {n: engine for n, engine in engines().items() if not getattr(engine, "SAMPLES", False)}
     return [name for name in able if name != explicit.NAME]
 
@@ -51,7 +51,7 @@ def by_parts(parts: int, limit: float) -> dict[str, Tool]:
 
 
 def size(samples: Sequence[Sample]) -> list[str]:
-    """The valuations of a search, its time and its bytes for each; how far it came where it was cut."""
+    """The states of a search, its time and its bytes for each; how far it came where it was cut."""
     last = samples[-1]
     states = last.states or 0
     each = number(last.memory / states if last.memory and states >= ENOUGH else None)
@@ -75,7 +75,7 @@ def measured(label: str, cases: Mapping[str, dict[str, Tool]], repetitions: int)
 
 def shown(label: str, taken: Mapping[str, Runs]) -> str:
     """A table with a row for each case."""
-    return table([label, "valuations", "search s", "B each", *(f"{n} s" for n in symbolic())], rows(taken))
+    return table([label, "states", "search s", "B each", *(f"{n} s" for n in symbolic())], rows(taken))
 
 
 def pictured(title: str, label: str, taken: Mapping[str, Runs]) -> str:
@@ -94,7 +94,7 @@ def searched(cases: Sequence[tuple[int, int]], repetitions: int) -> str:
         lines.append(
             [f"{comp}, K {k}", *size(runs), number((runs[0].states or 0) / own / 1e6 if own else None)]
         )
-    return table(["parts", "valuations", "search s", "B each", "M/s"], lines)
+    return table(["parts", "states", "search s", "B each", "M/s"], lines)
 
 
 def report(repetitions: int, limit: float, large: bool) -> tuple[str, dict[str, str]]:
@@ -111,7 +111,7 @@ def report(repetitions: int, limit: float, large: bool) -> tuple[str, dict[str, 
         "growth-parts.svg": pictured(f"P2, timers divided by {PARTS_SCALE}", "parts", parts),
     }
     sizes = searched([(NO_SONARS, k) for k in (25, 20, 10, *[5] * large)], repetitions)
-    text = f"""Processor seconds, medians. `search` stores every valuation of some parts; the other columns
+    text = f"""Processor seconds, medians. `search` stores every state of some parts; the other columns
 are engines on one property, in brackets the length of the run that breaks it; `open`: not decided within
 {limit:.0f} s.
 
@@ -138,7 +138,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(prog="benchmarks.growth", description=(__doc__ or "").split("\n\n")[0])
     parser.add_argument("repetitions", nargs="?", type=int, default=1)
     parser.add_argument("--limit", type=float, default=20.0, help="seconds for each engine and for a search")
-    parser.add_argument("--large", action="store_true", help="search 61 million valuations as well")
+    parser.add_argument("--large", action="store_true", help="search 61 million states as well")
     parser.add_argument("--write", action="store_true", help="put the tables into benchmarks/RESULTS.md")
     chosen = parser.parse_args()
     text, plots = report(chosen.repetitions, chosen.limit, chosen.large)

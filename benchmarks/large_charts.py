@@ -3,10 +3,10 @@
     python -m benchmarks.large_charts [REPETITIONS] [--limit SECONDS] [--only SHAPE] [--states N]
                                       [--model FILE] [--write]
 
-A chart of n states has five arrows for each, guarded by a few inputs and, every tenth of them, by the time
-since entry.  Its states lie in one level (``flat``), in composites of composites (``nested``), or in parallel
-regions (``parallel``).  Prints Markdown; ``--write`` puts it into ``benchmarks/RESULTS.md``, ``--model``
-writes the model file of one chart and does nothing else.
+A chart of n states has five transitions for each, guarded by a few inputs and, every tenth of them, by the
+time since entry.  Its states lie in one level (``flat``), in composites of composites (``nested``), or in
+parallel regions (``parallel``).  Prints Markdown; ``--write`` puts it into ``benchmarks/RESULTS.md``,
+``--model`` writes the model file of one chart and does nothing else.
 """
 
 import argparse
@@ -30,7 +30,7 @@ T = TypeVar("T")
 
 SIZES = (200, 600, 2000)
 SHAPES = ("flat", "nested", "parallel")
-ARROWS = 5
+TRANSITIONS = 5
 GROUP = 12
 """States of a composite, and composites of one, in the nested chart."""
 REGIONS = 4
@@ -96,7 +96,7 @@ def model(shape: str, n: int, seed: int = 1) -> str:
 
 
 def _level(names: Sequence[str], random: Random, ends: Sequence[str] = ()) -> list[str]:
-    """States beside each other; most arrows lead to one that is near, as in charts that people draw."""
+    """States beside each other; most transitions lead to one that is near, as in charts that people draw."""
     lines: list[str] = []
     for at, name in enumerate(names):
         near = [names[(at + step) % len(names)] for step in (1, 2, random.randint(3, 9), -1)]
@@ -108,17 +108,17 @@ def _level(names: Sequence[str], random: Random, ends: Sequence[str] = ()) -> li
 def _state(name: str, targets: Sequence[str], at: int, random: Random) -> list[str]:
     lamp = at % 3 == 0
     entry = f"assign(lamp, {lamp}), assign(motor, {not lamp}), assign(level, {at % 10})"
-    arrows = []
+    transitions = []
     for order, target in enumerate(targets):
         guard = random.choice(_GUARDS).format(a=random.randrange(5, 120, 5), b=random.randrange(1, 9))
-        if (at * ARROWS + order) % 10 == 9:
+        if (at * TRANSITIONS + order) % 10 == 9:
             guard = f"after({20 * random.randint(2, 50)} * ms)"
-        arrows.append(f'        to("{target}", when={guard}),')
-    return [f'State("{name}", entry=[{entry}], transitions=[', *arrows, "    ]),"]
+        transitions.append(f'        to("{target}", when={guard}),')
+    return [f'State("{name}", entry=[{entry}], transitions=[', *transitions, "    ]),"]
 
 
 def _nested(numbers: Sequence[int], random: Random) -> tuple[list[str], str]:
-    """States in composites of at most ``GROUP`` parts; one arrow of each may lead anywhere."""
+    """States in composites of at most ``GROUP`` parts; one transition of each may lead anywhere."""
     if len(numbers) <= GROUP:
         names = [f"S{i}" for i in numbers]
         return _level(names, random), names[0]
@@ -231,7 +231,7 @@ def report(repetitions: int, limit: float, shapes: Sequence[str], sizes: Sequenc
                 rows.append([shape, str(n), *cells, *verdicts(path, limit)])
     heads = ["chart", "states", *(f"{name} s" for name in STAGES), "first s", "all s", "verdicts"]
     return f"""Processor seconds of each stage; wall seconds to the first verdict and to the end of
-`check --timeout {limit:g}`, two properties, nothing kept from earlier runs. Five arrows for each state.
+`check --timeout {limit:g}`, two properties, nothing kept from earlier runs. Five transitions for each state.
 
 {table(heads, rows)}"""
 

@@ -45,7 +45,7 @@ class Sample:
     length: int | None = None
     states: int | None = None
     start: float | None = None
-    """Seconds from the model to the first valuation: slicing and compiling."""
+    """Seconds from the model to the first state: slicing and compiling."""
     memory: int | None = None
     """Bytes resident at most, on top of what the tool takes before it starts to search."""
     note: str = ""

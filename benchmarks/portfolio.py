@@ -14,9 +14,9 @@ from dataclasses import dataclass
 
 from rovercheck.checker.engines import Limits, engines
 from rovercheck.checker.process.isolate import Send
-from rovercheck.checker.process.pool import Granted, Order, Pool
+from rovercheck.checker.process.pool import GrantedTime, Order, Pool
 from rovercheck.checker.results.verdict import Open
-from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.portfolio import Callbacks, PortfolioQuestion, answers
 from rovercheck.checker.verify.portfolio.question import conclusive
 from rovercheck.checker.verify.portfolio.shape import shape
@@ -53,7 +53,7 @@ class Measure:
         asked = reduce(lowered(self._known[system]), properties)
         question = PortfolioQuestion(asked.system, tuple(g.var for g in asked.goals))
         looks = shape(question)
-        send(Granted(self._limits.seconds))
+        send(GrantedTime(self._limits.seconds))
         began = processor()
         found = [a for a, _ in answers(question, engine, self._limits, Callbacks()).values()]
         took = processor() - began

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from benchmarks.compare import Measured, Runs
 
 MANY = 1_000_000
-"""Valuations from which on bytes per valuation say something: below, fixed costs are most of it."""
+"""States from which on bytes per state say something: below, fixed costs are most of it."""
 KNOWN = {"P1": None, "P2": None, "P3": None, "P3h": None, "P4": 200, "P5": 406}
 """The length of the shortest run that breaks a property, None where no run does."""
 
@@ -60,12 +60,12 @@ def _times_as_fast(found: "Measured", other: str, least: float) -> Target:
 def _bytes(found: "Measured") -> Target:
     each = {name: runs["ours"][0] for name, runs in found.searches.items()}
     figures = {n: s.memory / s.states for n, s in each.items() if s.memory and s.states and s.states >= MANY}
-    text = "at most 24 bytes for each valuation (models above 1 million)"
+    text = "at most 24 bytes for each state (models above 1 million)"
     return _judged(text, figures, lambda b: b <= 24)
 
 
 def _large(found: "Measured") -> Target:
-    text = "60 million valuations in under 6 GB"
+    text = "60 million states in under 6 GB"
     if found.large is None or not found.large.memory:
         return Target(text, "run with --large", None)
     figure = f"{found.large.states:,}: {found.large.memory / 1e9:.1f} GB, {found.large.seconds:.0f} s"
@@ -127,8 +127,8 @@ def _agreement(found: "Measured") -> Target:
                 if not agrees(goal, sample):
                     wrong.append(f"{name} on {goal}: {sample.verdict} {sample.length or ''}".strip())
     counts = {name: {s.states for s in _decided(runs)} for name, runs in found.searches.items()}
-    wrong += [f"{name}: {sorted(map(str, c))} valuations" for name, c in counts.items() if len(c) > 1]
-    figure = f"{agreed} runs" + ", and all counts of valuations" * bool(counts)
+    wrong += [f"{name}: {sorted(map(str, c))} states" for name, c in counts.items() if len(c) > 1]
+    figure = f"{agreed} runs" + ", and all counts of states" * bool(counts)
     return Target(text, "; ".join(wrong) or figure, not wrong)
 
 

@@ -1,8 +1,8 @@
-"""What the three ways to search timers cost: valuations stored, and seconds of the processor for all of it.
+"""What the three ways to search timers cost: states stored, and seconds of the processor for all of it.
 
     python -m benchmarks.timers [repetitions]
 
-Prints medians.  ``x`` is exact divided by the other: valuations saved, time saved (below 1: lost).
+Prints medians.  ``x`` is exact divided by the other: states saved, time saved (below 1: lost).
 A search is given up after 256 MiB or a minute: unfinished.
 With free timers a property that is reached there would be searched exactly after all; it is marked.
 """
@@ -45,7 +45,7 @@ class Cost:
 
     @property
     def stored(self) -> int | None:
-        """The valuations stored by a search that came to its end."""
+        """The states stored by a search that came to its end."""
         because = self.answer.because if isinstance(self.answer, Unreachable) else None
         return because.states if isinstance(because, Exhausted) else None
 

@@ -9,7 +9,7 @@ from benchmarks.rivals import checked
 from benchmarks.roverlite import FULL
 
 MODELS = {"M2": (28, 1), "O": (32, 1), "M10": (31, 10), "P5 cone": (85, 1)}
-"""Parts and divisor of the timers, of the models that can be searched valuation by valuation."""
+"""Parts and divisor of the timers, of the models that can be searched state by state."""
 PROPERTIES = ("P1", "P2", "P3", "P3h", "P4", "P5")
 GRACE = 15.0
 """Seconds of wall time beyond its own limit after which a child is killed."""
@@ -26,7 +26,7 @@ def killed(cost: Cost) -> Sample:
 
 
 def search(comp: int, k: int, limit: float | None = None) -> Tool:
-    """The explicit search of all valuations, with parents and property checks."""
+    """The explicit search of all states, with parents and property checks."""
 
     def once() -> Sample:
         arguments = [comp, k] if limit is None else [comp, k, limit]

@@ -12,9 +12,10 @@ from pathlib import Path
 import click
 
 from rovercheck.checker import commands
+from rovercheck.checker.commands.shared.aliases import current
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
-from rovercheck.checker.commands.shared.completing import completed
-from rovercheck.checker.commands.shared.failure import alarm, no_room, told
+from rovercheck.checker.commands.shared.completion import completed
+from rovercheck.checker.commands.shared.failure import alarm, error_message, no_room
 from rovercheck.checker.commands.shared.help_examples import helped
 from rovercheck.checker.process.faults import Fault, listening
 from rovercheck.checker.process.garbage import collect_seldom
@@ -36,11 +37,14 @@ Begin:
 
 
 class Verbs(click.Group):
-    """A group that offers the nearest verb."""
+    """A group that takes old words for new ones, and offers the nearest verb."""
 
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
+        args, renamed = current(args)
+        if renamed and not ctx.resilient_parsing:
+            _note(renamed)
         if self.get_command(ctx, args[0]) is None:
             ctx.fail(f"No such command {args[0]!r}. {did_you_mean(args[0], self.commands)}")
         return super().resolve_command(ctx, args)
@@ -78,7 +82,7 @@ def run(arguments: list[str]) -> Exit:
     with listening(met.append):
         code = _run(arguments)
     for text in dict.fromkeys(map(alarm, met)):
-        _say(text, Exit.INTERNAL)
+        _end(text, Exit.INTERNAL)
     return Exit.INTERNAL if met and code is not Exit.INTERRUPTED else code
 
 
@@ -89,45 +93,49 @@ def _run(arguments: list[str]) -> Exit:
             sys.stdout.flush()
         return code if isinstance(code, Exit) else Exit.AS_EXPECTED
     except click.ClickException as error:
-        return _say(error.format_message(), Exit.USAGE)
+        return _end(error.format_message(), Exit.USAGE)
     except (UsageError, ModelError) as error:
-        return _say(str(error), Exit.INCONCLUSIVE if no_room(error) else Exit.USAGE)
+        return _end(str(error), Exit.INCONCLUSIVE if no_room(error) else Exit.USAGE)
     except (KeyboardInterrupt, click.Abort):
-        return _say("Interrupted; nothing was written.", Exit.INTERRUPTED)
+        return _end("Interrupted; nothing was written.", Exit.INTERRUPTED)
     except (BrokenPipeError, SystemExit):  # click makes some of the first into the second
         # Nobody has seen all verdicts: this is no pass, and no violation either.
         _write_no_more()
         return Exit.INTERRUPTED
     except OSError as error:
         _write_no_more()
-        return _say(told(error), Exit.INCONCLUSIVE)
+        return _end(error_message(error), Exit.INCONCLUSIVE)
     except MemoryError as error:
-        return _say(told(error), Exit.INCONCLUSIVE)
+        return _end(error_message(error), Exit.INCONCLUSIVE)
     except Exception as error:
-        return _say(_internal(error, arguments), Exit.INTERNAL)
+        return _end(_internal(error, arguments), Exit.INTERNAL)
 
 
 def _internal(error: Exception, arguments: list[str]) -> str:
-    """What is said of a fault of ours; what shows that an engine is wrong is kept."""
+    """What is said of an internal error; what shows that an engine is wrong is kept."""
     from rovercheck.checker.verify.portfolio import Disagreement
 
     if not isinstance(error, Disagreement):
-        return told(error)
+        return error_message(error)
     from rovercheck.checker.commands.shared.disagreement import again, bundle
 
     try:
         kept = f"All of it is in {bundle(error, again(error, arguments), Path())}; please report it."
     except UsageError as problem:
         kept = str(problem)
-    return f"{told(error)} {kept}"
+    return f"{error_message(error)} {kept}"
 
 
-def _say(message: str, code: Exit) -> Exit:
+def _end(message: str, code: Exit) -> Exit:
+    _note(message)
+    return code
+
+
+def _note(message: str) -> None:
     from rovercheck.checker.commands.shared.output import err
 
-    with suppress(OSError):  # the code says it too
+    with suppress(OSError):  # the exit code says what matters
         err.print(message, markup=False)
-    return code
 
 
 def _write_no_more() -> None:

@@ -104,7 +104,7 @@ def _add(found: dict[str, Property], prop: Property) -> None:
 
 @cache
 def baseline() -> dict[str, Expected]:
-    """The verdicts on record; a property that is not listed is expected to be proved.
+    """The expected verdicts; a property that is not listed is expected to be proved.
 
     Raises ``ModelError`` for an entry that names no property or has no reason.
     """

@@ -13,10 +13,10 @@ KINDS: dict[type, str] = {str: "text", int: "whole number"}
 
 @dataclass(frozen=True)
 class Expected:
-    """A verdict on record: ``depth`` is the length in ticks of the shortest counterexample.
+    """An expected verdict: ``depth`` is the length in ticks of the shortest counterexample.
 
-    ``because`` names the arrow or sentence that causes it; ``no_repair`` says why no change of a chart is
-    proposed, where none is; ``no_fault`` why a proof need not notice any fault of the charts.
+    ``because`` names the transition or sentence that causes it; ``no_repair`` says why no change of a chart
+    is proposed, where none is; ``no_fault`` why a proof need not notice any fault of the charts.
     """
 
     verdict: str = "proved"

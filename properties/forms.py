@@ -9,81 +9,172 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import Union
 
+from rovercheck.properties.pasttime import Bounded, Past, T, begins
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError, several
 from rovercheck.spec_model.lang.expr import Expr
 from rovercheck.spec_model.lang.place import Place, here
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.time import Span
+from rovercheck.spec_model.lang.words import held, previous
 
 
 @dataclass(frozen=True)
-class Always:
+class Always(Bounded):
     """``that`` is true in every tick."""
 
     that: Expr
 
+    def monitor(self, past: Past[T]) -> tuple[T, T]:
+        return past.armed, past.armed & ~past(self.that)
+
+    @property
+    def wanted(self) -> Expr:
+        return self.that
+
 
 @dataclass(frozen=True)
-class Never:
+class Never(Bounded):
     """``that`` is true in no tick."""
 
     that: Expr
 
+    def monitor(self, past: Past[T]) -> tuple[T, T]:
+        return past.armed, past.armed & past(self.that)
+
+    @property
+    def wanted(self) -> Expr:
+        return ~self.that
+
 
 @dataclass(frozen=True)
-class Responds:
+class Responds(Bounded):
     """If ``trigger`` is true in tick k, ``response`` is true in some tick of k..k+within."""
 
     trigger: Expr
     response: Expr
     within: Span
 
+    def monitor(self, past: Past[T]) -> tuple[T, T]:
+        asked = past.armed & past(self.trigger)
+        return asked, past.overdue(asked, past(self.response), self.within)
+
+    @property
+    def wanted(self) -> Expr:
+        return self.response
+
+    @property
+    def case(self) -> Expr:
+        return self.trigger
+
 
 @dataclass(frozen=True)
-class HoldsAfter:
+class HoldsAfter(Bounded):
     """If ``premise`` is true in every tick of k..k+for_, ``then`` is true in tick k+for_."""
 
     premise: Expr
     for_: Span
     then: Expr
 
+    def monitor(self, past: Past[T]) -> tuple[T, T]:
+        long = past.held(past.armed & past(self.premise), self.for_)
+        return long, long & ~past(self.then)
+
+    @property
+    def wanted(self) -> Expr:
+        return self.then
+
+    @property
+    def case(self) -> Expr:
+        return held(self.premise, self.for_)
+
 
 @dataclass(frozen=True)
-class HoldsFor:
+class HoldsFor(Bounded):
     """If ``start`` becomes true in tick k, ``that`` is true in every tick of k..k+for_."""
 
     start: Expr
     that: Expr
     for_: Span
 
+    def monitor(self, past: Past[T]) -> tuple[T, T]:
+        start, that = past(self.start), past(self.that)
+        started = past.armed & begins(past, start)
+        return started, past.within(started, self.for_) & ~that
+
+    @property
+    def wanted(self) -> Expr:
+        return self.that
+
+    @property
+    def case(self) -> Expr:
+        return self.start
+
 
 @dataclass(frozen=True)
-class LeavesOnlyIf:
+class LeavesOnlyIf(Bounded):
     """If ``leaving`` was true in tick k-1 and is false in k, ``only_if`` is true in k."""
 
     leaving: Expr
     only_if: Expr
 
+    def monitor(self, past: Past[T]) -> tuple[T, T]:
+        now = past(self.leaving)
+        left = past.armed & (past.previous(now) & ~now)
+        return left, left & ~past(self.only_if)
+
+    @property
+    def wanted(self) -> Expr:
+        return self.only_if
+
+    @property
+    def case(self) -> Expr:
+        return previous(self.leaving) & ~self.leaving
+
 
 @dataclass(frozen=True)
-class EntersOnlyIf:
+class EntersOnlyIf(Bounded):
     """If ``entering`` was false in tick k-1 (or k = 1) and is true in k, ``only_if`` is true in k."""
 
     entering: Expr
     only_if: Expr
 
+    def monitor(self, past: Past[T]) -> tuple[T, T]:
+        entered = past.armed & begins(past, past(self.entering))
+        return entered, entered & ~past(self.only_if)
+
+    @property
+    def wanted(self) -> Expr:
+        return self.only_if
+
+    @property
+    def case(self) -> Expr:
+        return self.entering
+
 
 @dataclass(frozen=True)
-class Precedes:
+class Precedes(Bounded):
     """``then`` is true in tick k only if ``first`` is true in some tick of 1..k."""
 
     first: Expr
     then: Expr
 
+    def monitor(self, past: Past[T]) -> tuple[T, T]:
+        now = past.armed & past(self.then)
+        seen = past.once(past(self.first))
+        return now & (seen | ~seen), now & ~seen  # where it is known whether it was
+
+    @property
+    def wanted(self) -> Expr:
+        return self.first
+
+    @property
+    def case(self) -> Expr:
+        return self.then
+
 
 @dataclass(frozen=True)
-class Until:
+class Until(Bounded):
     """From a tick with ``start`` on, ``holds`` is true in every tick up to the first with ``release``.
 
     The tick of ``start`` is included, the tick of ``release`` is not; release need not come.
@@ -93,12 +184,33 @@ class Until:
     holds: Expr
     release: Expr
 
+    def monitor(self, past: Past[T]) -> tuple[T, T]:
+        started, held = past.armed & past(self.start), past(self.holds)
+        required = past.since(started, past(self.release))
+        return required, required & ~held
+
+    @property
+    def wanted(self) -> Expr:
+        return self.holds
+
+    @property
+    def case(self) -> Expr:
+        return self.start
+
 
 @dataclass(frozen=True)
-class Reachable:
+class Reachable(Bounded):
     """``that`` is true in some tick of some run."""
 
     that: Expr
+
+    def monitor(self, past: Past[T]) -> tuple[T, T]:
+        reached = past.armed & past(self.that)
+        return reached, reached
+
+    @property
+    def wanted(self) -> None:
+        return None
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,7 @@ A formula with a name is quoted by it: “a link is critical” holds.  Conventi
 * before the first step nothing is true: what is true in the first step becomes true in it.
 """
 
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num
@@ -18,11 +18,6 @@ from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.time import Span
 from rovercheck.spec_model.lang.walk import structure
 
-_COMPARED = {
-    Op.EQ: "", Op.NE: "not ",
-    Op.LT: "below ", Op.LE: "at most ", Op.GT: "above ", Op.GE: "at least ",
-}  # fmt: skip
-_SIGN = {Op.ADD: " + ", Op.SUB: " - ", Op.MUL: " × ", Op.DIV: " div ", Op.MOD: " mod "}
 _SUMS = (Op.ADD, Op.SUB)
 
 
@@ -53,6 +48,10 @@ class Voice:
         return f"{'nominally ' * self.measured}{steps * self.tick_ms} ms"
 
 
+Row = Callable[[Sequence[Expr], Voice, bool], str]
+"""Says an operator with its arguments, or with false, where it makes a truth value, its negation."""
+
+
 def quoted(name: str) -> str:
     return f"“{name}”"
 
@@ -66,13 +65,8 @@ def clause(expr: Expr, voice: Voice, yes: bool = True) -> str:
             return "true" if bool(value) is yes else "false"
         case Temporal():
             return _temporal(expr, voice, yes)
-        case Apply(op, args, _) if op not in (Op.BIT, Op.ITE):
-            return _connected(op, args, voice, yes)
-        case Apply(Op.BIT, (mask, index), _):
-            return f"bit {term(index, voice)} of {term(mask, voice)} {voice.be} {int(yes)}"
-        case Apply(Op.ITE, (test, then, otherwise), _):
-            first, second = clause(then, voice, yes), clause(otherwise, voice, yes)
-            return f"if {part(test, voice)} then ({first}), otherwise ({second})"
+        case Apply(op, args, _):
+            return OPERATIONS[op](args, voice, yes)
         case _:
             return f"{term(expr, voice)} {voice.be} {'true' if yes else 'false'}"
 
@@ -117,20 +111,16 @@ def _holds(voice: Voice, yes: bool) -> str:
 # --- and, or, not, comparisons -------------------------------------------------------------------
 
 
-def _connected(op: Op, args: Sequence[Expr], voice: Voice, yes: bool) -> str:
-    match op:
-        case Op.NOT:
-            return clause(args[0], voice, not yes)
-        case Op.OR if len(kept := _possible(args)) == 1:
-            return clause(kept[0], voice, yes)
-        case Op.AND | Op.OR if not yes:
-            return f"not ({_connected(op, args, voice, True)})"
-        case Op.AND:
-            return " and ".join(part(a, voice) for a in args)
-        case Op.OR:
-            return _either(_possible(args), voice)
-        case _:
-            return _compared(op, args[0], args[1], voice, yes)
+def _all(args: Sequence[Expr], voice: Voice, yes: bool) -> str:
+    said = " and ".join(part(a, voice) for a in args)
+    return said if yes else f"not ({said})"
+
+
+def _any(args: Sequence[Expr], voice: Voice, yes: bool) -> str:
+    kept = _possible(args)
+    if len(kept) == 1:
+        return clause(kept[0], voice, yes)
+    return _either(kept, voice) if yes else f"not ({_either(kept, voice)})"
 
 
 def _either(args: Sequence[Expr], voice: Voice) -> str:
@@ -154,19 +144,33 @@ def as_implication(args: Sequence[Expr]) -> tuple[Expr, Sequence[Expr]] | None:
             return None
 
 
-def _compared(op: Op, left: Expr, right: Expr, voice: Voice, yes: bool) -> str:
-    no = "" if yes else "not "
-    if op in (Op.EQ, Op.NE) and _is_previous_of(right, left):
-        same = "the same as" if (op is Op.EQ) is yes else "not the same as"
-        subject = _subject(left, voice)
-        return f"{subject} {voice.be} {same} in the step before{' that' * voice.past}"
-    if isinstance(left.sort, Bool):
-        return f"{part(left, voice)} exactly when {part(right, voice, (op is Op.EQ) is yes)}"
-    if op in (Op.EQ, Op.NE):
-        no = "" if (op is Op.EQ) is yes else "not "
+def _equal(same: bool) -> Row:
+    def row(args: Sequence[Expr], voice: Voice, yes: bool) -> str:
+        left, right = args
+        so = same is yes
+        no = "" if so else "not "
+        if _is_previous_of(right, left):
+            before = f"the same as in the step before{' that' * voice.past}"
+            return f"{_subject(left, voice)} {voice.be} {no}{before}"
+        if isinstance(left.sort, Bool):
+            return f"{part(left, voice)} exactly when {part(right, voice, so)}"
         where = "in " if _is_place(left) else ""
         return f"{term(left, voice)} {voice.be} {no}{where}{term(right, voice)}"
-    return f"{term(left, voice)} {voice.be} {no}{_COMPARED[op]}{term(right, voice)}"
+
+    return row
+
+
+def _ordered(words: str) -> Row:
+    def row(args: Sequence[Expr], voice: Voice, yes: bool) -> str:
+        left, right = (term(a, voice) for a in args)
+        return f"{left} {voice.be} {'' if yes else 'not '}{words} {right}"
+
+    return row
+
+
+def _bit(args: Sequence[Expr], voice: Voice, yes: bool) -> str:
+    mask, index = (term(a, voice) for a in args)
+    return f"bit {index} of {mask} {voice.be} {int(yes)}"
 
 
 def _subject(expr: Expr, voice: Voice) -> str:
@@ -277,33 +281,38 @@ def term(expr: Expr, voice: Voice) -> str:
             return quoted(name)
         case Temporal(When.PREVIOUS, arg, _, _) if arg is not None:
             return f"{_operand(arg, voice)} of the step before{' that' * voice.past}"
-        case Apply(op, args, _):
-            return _computed(op, args, voice)
+        case Apply(op, args, sort) if not isinstance(sort, Bool):
+            return OPERATIONS[op](args, voice, True)
         case _:
             return f"({clause(expr, voice)})"
 
 
-def _computed(op: Op, args: Sequence[Expr], voice: Voice) -> str:
-    match op:
-        case Op.SCALE:
-            return term(args[0], voice)  # the same number, counted in finer steps
-        case Op.NEG:
-            return f"-{_operand(args[0], voice)}"
-        case Op.ABS:
-            return f"|{term(args[0], voice)}|"
-        case Op.MIN | Op.MAX:
-            least = "smaller" if op is Op.MIN else "larger"
-            return f"the {least} of {' and '.join(_operand(a, voice) for a in args)}"
-        case Op.ITE:
-            test, then, otherwise = args
-            return f"({term(then, voice)} if {part(test, voice)}, otherwise {term(otherwise, voice)})"
-        case Op.ADD if counted := _counted(args):
-            return f"the number of true ones among ({'; '.join(clause(c, voice) for c in counted)})"
-        case Op.ADD | Op.SUB | Op.MUL | Op.DIV | Op.MOD:
-            first = term(args[0], voice) if op in _SUMS and _is_sum(args[0]) else _operand(args[0], voice)
-            return _SIGN[op].join((first, *(_operand(a, voice) for a in args[1:])))
-        case _:
-            return f"({_connected(op, args, voice, True)})"
+def _chosen(args: Sequence[Expr], voice: Voice, yes: bool) -> str:
+    test, then, otherwise = args
+    if isinstance(then.sort, Bool):
+        first, second = clause(then, voice, yes), clause(otherwise, voice, yes)
+        return f"if {part(test, voice)} then ({first}), otherwise ({second})"
+    return f"({term(then, voice)} if {part(test, voice)}, otherwise {term(otherwise, voice)})"
+
+
+def _sum(sign: str) -> Row:
+    return lambda args, voice, yes: sign.join(
+        term(a, voice) if at == 0 and _is_sum(a) else _operand(a, voice) for at, a in enumerate(args)
+    )
+
+
+def _addition(args: Sequence[Expr], voice: Voice, yes: bool) -> str:
+    if counted := _counted(args):
+        return f"the number of true ones among ({'; '.join(clause(c, voice) for c in counted)})"
+    return _sum(" + ")(args, voice, yes)
+
+
+def _sign(sign: str) -> Row:
+    return lambda args, voice, yes: sign.join(_operand(a, voice) for a in args)
+
+
+def _extreme(which: str) -> Row:
+    return lambda args, voice, yes: f"the {which} of {' and '.join(_operand(a, voice) for a in args)}"
 
 
 def _counted(summands: Sequence[Expr]) -> list[Expr]:
@@ -331,5 +340,31 @@ def _operand(expr: Expr, voice: Voice) -> str:
     inner = expr
     while isinstance(inner, Apply) and inner.op is Op.SCALE:
         inner = inner.args[0]
-    computed = isinstance(inner, Apply) and inner.op in (*_SIGN, Op.NEG, Op.MIN, Op.MAX)
-    return f"({term(inner, voice)})" if computed else term(inner, voice)
+    closed = not isinstance(inner, Apply) or isinstance(inner.sort, Bool) or inner.op in (Op.ABS, Op.ITE)
+    return term(inner, voice) if closed else f"({term(inner, voice)})"
+
+
+OPERATIONS: Mapping[Op, Row] = {
+    Op.NOT: lambda args, voice, yes: clause(args[0], voice, not yes),
+    Op.AND: _all,
+    Op.OR: _any,
+    Op.ITE: _chosen,
+    Op.EQ: _equal(True),
+    Op.NE: _equal(False),
+    Op.LT: _ordered("below"),
+    Op.LE: _ordered("at most"),
+    Op.GT: _ordered("above"),
+    Op.GE: _ordered("at least"),
+    Op.BIT: _bit,
+    Op.ADD: _addition,
+    Op.SUB: _sum(" - "),
+    Op.NEG: lambda args, voice, yes: f"-{_operand(args[0], voice)}",
+    Op.MUL: _sign(" × "),
+    Op.SCALE: lambda args, voice, yes: term(args[0], voice),  # the same number, counted in finer steps
+    Op.DIV: _sign(" div "),
+    Op.MOD: _sign(" mod "),
+    Op.ABS: lambda args, voice, yes: f"|{term(args[0], voice)}|",
+    Op.MIN: _extreme("smaller"),
+    Op.MAX: _extreme("larger"),
+}
+"""The phrase of every operator: of those that make a truth value a clause, of the others a term."""

@@ -2,26 +2,10 @@
 
 from dataclasses import replace
 
-from rovercheck.properties.forms import (
-    Always,
-    EntersOnlyIf,
-    HoldsAfter,
-    HoldsFor,
-    LeadsTo,
-    LeavesOnlyIf,
-    Never,
-    Precedes,
-    Property,
-    Reachable,
-    Recoverable,
-    Responds,
-    Settles,
-    Until,
-)
+from rovercheck.properties.forms import Always, Form, LeadsTo, Property, Reachable, Recoverable, Settles
 from rovercheck.properties.phrases import as_implication
 from rovercheck.spec_model.lang.expr import Apply, Expr
 from rovercheck.spec_model.lang.operators import Op
-from rovercheck.spec_model.lang.words import held, previous
 
 
 def premise(prop: Property) -> Property | None:
@@ -30,30 +14,20 @@ def premise(prop: Property) -> Property | None:
     Kupferman, Vardi, *Vacuity Detection in Temporal Model Checking*, CHARME 1999: what fails here is passed
     vacuously.  Of "settles" the premise has to hold in some tick only, which is necessary and not enough.
     """
-    case = _case(prop)
+    case = _case(prop.form)
     return None if case is None else replace(prop, form=Reachable(case), costly=False)
 
 
-def _case(prop: Property) -> Expr | None:
-    match prop.form:
+def _case(form: Form) -> Expr | None:
+    match form:
         case Always(that):
             return _implied(that)
-        case Responds(trigger) | LeadsTo(trigger):
-            return trigger
-        case HoldsAfter(condition, for_):
-            return held(condition, for_)
-        case HoldsFor(start) | Until(start):
-            return start
-        case LeavesOnlyIf(leaving):
-            return previous(leaving) & ~leaving
-        case EntersOnlyIf(entering):
-            return entering
-        case Precedes(_, then):
-            return then
-        case Settles(condition):
-            return condition
-        case Never() | Reachable() | Recoverable():
+        case LeadsTo(case) | Settles(case):
+            return case
+        case Recoverable():
             return None
+        case bounded:
+            return bounded.case
 
 
 def _implied(that: Expr) -> Expr | None:

@@ -1,33 +1,18 @@
 """From a property to a goal that engines decide: monitor statements appended to the step, and the way home.
 
-A monitor reads the valuation at the end of a tick, with the inputs of the tick.  Memories that two
+A monitor reads the state at the end of a tick, with the inputs of the tick.  Memories that two
 properties share (the same ``previous(x)``, the same tick counter) are made once.
 """
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
-from rovercheck.properties.forms import (
-    Always,
-    EntersOnlyIf,
-    HoldsAfter,
-    HoldsFor,
-    LeadsTo,
-    LeavesOnlyIf,
-    Never,
-    Precedes,
-    Property,
-    Reachable,
-    Recoverable,
-    Responds,
-    Settles,
-    Until,
-)
+from rovercheck.properties.forms import Form, LeadsTo, Property, Recoverable, Settles
 from rovercheck.spec_model.lang.action import Assign
 from rovercheck.spec_model.lang.domain import MOST, Domain, boolean, integer
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.evaluate import evaluate
-from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Temporal, Var, When, all_of, ite
+from rovercheck.spec_model.lang.expr import TRUE, Apply, Const, Expr, Named, Temporal, Var, When, ite
 from rovercheck.spec_model.lang.lower.ranges import possible
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import Statement, System, TransitionSystem
@@ -39,7 +24,7 @@ from rovercheck.spec_model.lang.words import maximum, minimum
 
 @dataclass(frozen=True)
 class Goal:
-    """What an engine is asked: is ``var`` ever 1 after a tick?
+    """What an engine decides: is ``var`` ever 1 after a tick?
 
     ``reach`` tells that reaching it is what the property wants.  ``parts`` pairs each conjunct of
     the property, as written, with its formula over the monitored system's variables.
@@ -107,20 +92,21 @@ class _Monitors:
         self.after: list[Statement] = []
         self._shared: dict[tuple[object, ...], Expr] = {}
         self._owner = ""
+        self.armed: Expr = TRUE
         self._used: set[str] = set()
 
     def goal(self, prop: Property) -> Goal:
         """Append the monitor of one property."""
         self._owner, self._used = prop.id, set()
-        armed = self._armed(prop.from_tick)
-        bad, wanted = self._form(prop, armed)
+        self.armed = self._armed(prop.from_tick)
+        bad, wanted = self._form(prop.form)
         doc = f"{prop.id} is {'reached' if wanted is None else 'broken'}"
         var = self._at_end(prop.id, bad, doc)
         recurs = tuple(
-            self._at_end(f"{prop.id}.recurs{i}", self.formula(c), f"{c} in this tick")
+            self._at_end(f"{prop.id}.recurs{i}", self(c), f"{c} in this tick")
             for i, c in enumerate(_recurring(prop))
         )
-        parts = [(p, self.formula(p)) for p in (_conjuncts(wanted) if wanted is not None else ())]
+        parts = [(p, self(p)) for p in (_conjuncts(wanted) if wanted is not None else ())]
         passing = {prop.id, *(v.name for v in recurs)}
         return Goal(prop, var, wanted is None, tuple(parts), frozenset(self._used - passing), recurs)
 
@@ -130,58 +116,38 @@ class _Monitors:
         self.goals.append(Assign(var, value))
         return var
 
-    def _form(self, prop: Property, armed: Expr) -> tuple[Expr, Expr | None]:
+    def _form(self, form: Form) -> tuple[Expr, Expr | None]:
         """The goal formula, and the formula whose falsity it reports (None: reaching is wanted)."""
-        f = self.formula
-        match prop.form:
-            case Always(that):
-                return all_of(armed, ~f(that)), that
-            case Never(that):
-                return all_of(armed, f(that)), ~that
-            case Reachable(that):
-                return all_of(armed, f(that)), None
-            case Responds(trigger, response, within):
-                return self._responds(all_of(armed, f(trigger)), f(response), within), response
-            case HoldsAfter(premise, for_, then):
-                self._ticks("for_", for_)
-                held = self._held(all_of(armed, f(premise)), for_)
-                return held & ~f(then), then
-            case HoldsFor(start, that, for_):
-                return self._holds_for(f(start), armed, f(that), for_), that
-            case LeavesOnlyIf(leaving, only_if):
-                left = self._previous(f(leaving), 0) & ~f(leaving)
-                return all_of(armed, left, ~f(only_if)), only_if
-            case EntersOnlyIf(entering, only_if):
-                entered = ~self._previous(f(entering), 0) & f(entering)
-                return all_of(armed, entered, ~f(only_if)), only_if
-            case Precedes(first, then):
-                return all_of(armed, f(then), ~self._once(f(first))), first
-            case Until(start, holds, release):
-                return self._until(all_of(armed, f(start)), f(holds), f(release)), holds
+        match form:
             case LeadsTo(trigger, response):
-                pending = Var(prop.id, boolean)
-                return (pending | all_of(armed, f(trigger))) & ~f(response), response
+                pending = Var(self._owner, boolean)
+                return (pending | (self.armed & self(trigger))) & ~self(response), response
             case Settles(premise, then):
-                return f(premise), then
+                return self(premise), then
             case Recoverable(to):
-                return f(to), to
+                return self(to), to
+            case bounded:
+                for argument in fields(bounded):
+                    if isinstance(span := getattr(bounded, argument.name), Span):
+                        self._ticks(argument.name, span)
+                return bounded.monitor(self)[1], bounded.wanted
 
     # --- formulas about the past ---
 
-    def formula(self, expr: Expr) -> Expr:
+    def __call__(self, expr: Expr, /) -> Expr:
         """The formula with temporal words replaced by monitor variables."""
         match expr:
             case Temporal(_, arg, _, _):
                 if arg is None or expr.when in (When.AFTER, When.DURATION):
                     raise ModelError(
-                        f"{self._owner}: `{expr}` belongs to an arrow of a chart; in a property write "
+                        f"{self._owner}: `{expr}` belongs to a transition of a chart; in a property write "
                         "held(condition, for_=...) or previous(...)."
                     )
-                return self._temporal(expr, self.formula(arg))
+                return self._temporal(expr, self(arg))
             case Named(name, body):
-                return Named(name, self.formula(body))
+                return Named(name, self(body))
             case Apply(op, args, sort):
-                return Apply(op, tuple(self.formula(a) for a in args), sort)
+                return Apply(op, tuple(self(a) for a in args), sort)
             case Var():
                 return self._known(expr)
             case _:
@@ -203,17 +169,19 @@ class _Monitors:
     def _temporal(self, word: Temporal, arg: Expr) -> Expr:
         match word.when:
             case When.PREVIOUS:
-                return self._previous(arg, self._initial(arg))
+                return self.previous(arg, self._initial(arg))
             case When.RISING:
-                return arg & ~self._previous(arg, 1)
+                return arg & ~self.previous(arg, 1)
             case When.HELD:
                 assert word.span is not None
                 self._ticks_of(word, word.span)
-                return self._held(arg, word.span)
+                return self.held(arg, word.span)
             case _:
-                return self._once(arg)
+                return self.once(arg)
 
-    def _previous(self, arg: Expr, init: int) -> Expr:
+    def previous(self, arg: Expr, init: int = 0, /) -> Expr:
+        """The formula in the tick before, and a raw value in the first."""
+
         def make(name: str) -> Var:
             memory = self._variable(name, _domain_of(arg), init, f"{arg} at the end of the tick before")
             # In front: a memory of a memory reads the inner one before that is renewed.
@@ -222,7 +190,7 @@ class _Monitors:
 
         return self._memory(("previous", structure(arg), init), f"previous({arg})", make)
 
-    def _held(self, arg: Expr, span: Span) -> Expr:
+    def held(self, arg: Expr, span: Span, /) -> Expr:
         length, passed = self._length(span), self._passed(span)
         if length == 0:
             return arg
@@ -236,7 +204,7 @@ class _Monitors:
         key = ("held", structure(arg), length, passed is None)
         return self._memory(key, f"held({arg}, {length if passed is None else span})", make)
 
-    def _once(self, arg: Expr) -> Expr:
+    def once(self, arg: Expr, /) -> Expr:
         def make(name: str) -> Var:
             seen = self._variable(name, boolean, 0, f"{arg} so far")
             self.before.append(Assign(seen, seen | arg))
@@ -259,10 +227,10 @@ class _Monitors:
 
         return self._memory(("ticks", from_tick), f"ticks past {from_tick - 1}", make)
 
-    # --- forms with a counter of their own ---
+    # --- words with a memory of their own ---
 
-    def _responds(self, trigger: Expr, response: Expr, within: Span) -> Expr:
-        length, passed = self._ticks("within", within), self._passed(within)
+    def overdue(self, trigger: Expr, response: Expr, within: Span, /) -> Expr:
+        length, passed = self._length(within), self._passed(within)
         if length == 0:
             return trigger & ~response
         # A response later than the last ms that is allowed comes too late; of ticks none is left out.
@@ -275,19 +243,18 @@ class _Monitors:
         self.before.append(Assign(waiting, ite(in_time, _zero(waiting), later)))
         return waiting >= length + 1
 
-    def _holds_for(self, start: Expr, armed: Expr, that: Expr, for_: Span) -> Expr:
-        length, passed = self._ticks("for_", for_), self._passed(for_)
+    def within(self, that: Expr, for_: Span, /) -> Expr:
+        length, passed = self._length(for_), self._passed(for_)
         doc = f"{_unit(passed)} for which it must still hold, this one included"
         left = self._own("left", _counting(length + 1, passed), doc)
-        begins = all_of(armed, start & ~self._previous(start, 0))
         less = maximum(left - (1 if passed is None else passed), 0)
-        self.before.append(Assign(left, ite(begins, Const(length + 1, left.sort), less)))
-        return (left > 0) & ~that
+        self.before.append(Assign(left, ite(that, Const(length + 1, left.sort), less)))
+        return left > 0
 
-    def _until(self, start: Expr, holds: Expr, release: Expr) -> Expr:
+    def since(self, start: Expr, release: Expr, /) -> Expr:
         open_ = self._own("open", boolean, "started and not released")
         self.before.append(Assign(open_, (open_ | start) & ~release))
-        return open_ & ~holds
+        return open_
 
     # --- making variables ---
 

@@ -19,8 +19,8 @@ from rovercheck.checker.commands.shared.output import write
 from rovercheck.checker.commands.shared.select import pick, pick_engine, pick_properties
 from rovercheck.checker.commands.trace.formats import exit_written
 from rovercheck.checker.engines import AUTO, Limits
-from rovercheck.checker.explain.explained import explained, unexplained
-from rovercheck.checker.explain.unrolled import OutOfTime
+from rovercheck.checker.explain.explanation import explained, unexplained
+from rovercheck.checker.explain.unrolled_run import OutOfTime
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.model.load import load, model
@@ -29,7 +29,7 @@ from rovercheck.checker.render import Renderer, renderers
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
-from rovercheck.checker.verify.certificates import Certifying
+from rovercheck.checker.verify.certificates import Certification
 from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings, events
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.forms import Property
@@ -167,7 +167,7 @@ def check(
     """
     model = _read(of)
     properties = _chosen(model, ids)
-    certifying = Certifying(None, True, {}, "", ()) if certify else None
+    certifying = Certification(None, True, {}, "", ()) if certify else None
     limits = Limits(depth, seconds)
     search = SearchSettings(_engine(engine), limits, None, invariants_of(model), certifying)
     found = {

@@ -1,6 +1,7 @@
 """Readings: sentences of the source document that can be read in several ways, as switches of the model.
 
-A chart writes ``choose("S43", {"OR": a | b, "AND": a & b})`` where its meaning depends on a reading.
+A chart is drawn under the defaults; ``spec_model.interpretations`` says what the other choices change in
+it.  What is no chart writes ``choose("S43", {"OR": a | b, "AND": a & b})`` where it depends on a reading.
 Each reading is a frozen variable; ``fixed`` says which constants to put in its place, by default the
 choices of ``readings.toml``.  The file explains every reading: what the text says, the choices, the
 scenario in which they differ, and why the default is the default.
@@ -15,7 +16,7 @@ from pathlib import Path
 from rovercheck.spec_model.lang.domain import Bool, Num, Sort, enumeration
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.expr import Const, Expr, Operand, Var, all_of, any_of, ite, lift
-from rovercheck.spec_model.lang.specialise import Fixing
+from rovercheck.spec_model.lang.specialise import Specialiser
 
 ANY = "any"
 """In place of a choice: the reading stays open, and a verdict holds for every choice."""
@@ -100,7 +101,7 @@ def _sort_of(meanings: Iterable[Operand]) -> Sort:
     return formulas[0] if formulas else Bool() if isinstance(values[0], bool) else Num()
 
 
-def fixed(choices: Mapping[str, str]) -> Fixing:
+def fixed(choices: Mapping[str, str]) -> Specialiser:
     """Replaces every reading by its chosen or default constant; those chosen as ``any`` stay.
 
     Raises ``ModelError`` for an unknown reading or choice.
@@ -112,7 +113,7 @@ def fixed(choices: Mapping[str, str]) -> Fixing:
         choice = choices.get(id, one.default)
         if choice != ANY:
             values[id] = one.value(choice)
-    return Fixing(values)
+    return Specialiser(values)
 
 
 def left_open(choices: Mapping[str, str]) -> tuple[Var, ...]:

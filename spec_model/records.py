@@ -49,7 +49,7 @@ def _record_forgotten(arrivals: Arrivals) -> list[Action]:
 
 
 def arrival_window(name: str, update: Var, *, moves: Var | None = None) -> Block:
-    """The same ``<name>_slow`` from the arrivals of the last 400 ms, exact and with fewer valuations."""
+    """The same ``<name>_slow`` from the arrivals of the last 400 ms, exact and with fewer states."""
     return window_of(Arrivals(name, update, moves=moves))
 
 

@@ -7,6 +7,7 @@ from importlib import import_module
 from importlib.util import find_spec
 from types import MappingProxyType
 
+from rovercheck.spec_model.interpretations import woven
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System, charts_of
@@ -45,7 +46,7 @@ def systems(choices: Mapping[str, str] = AS_READ) -> Mapping[str, System]:
 
 
 @cache
-def _systems(chosen: tuple[tuple[str, str], ...]) -> Mapping[str, System]:
+def _systems(chosen: tuple[tuple[str, str], ...]) -> "_Read":
     return _Read(dict(chosen))
 
 
@@ -53,7 +54,7 @@ class _Read(Mapping[str, System]):
     """The systems under chosen readings: modules are read until a name is found, and its system is fixed."""
 
     def __init__(self, choices: Mapping[str, str]) -> None:
-        self._fixing, self._open = fixed(choices), left_open(choices)
+        self._choices, self._fixing, self._open = choices, fixed(choices), left_open(choices)
         self._modelled = modelled_only(choices)
         self._modules = list(BOARDS)
         self._written: dict[str, System] = {}
@@ -61,7 +62,7 @@ class _Read(Mapping[str, System]):
 
     def __getitem__(self, name: str) -> System:
         if name not in self._read:
-            system = self._fixing.system(self._declared(name))
+            system = self._fixing.system(woven(self.declared(name), self._choices))
             if self._open:
                 frozen = (*system.frozen, *self._open)
                 system = replace(system, frozen=frozen, assume=system.assume & self._modelled)
@@ -74,8 +75,8 @@ class _Read(Mapping[str, System]):
     def __len__(self) -> int:
         return len(self._all())
 
-    def _declared(self, name: str) -> System:
-        """A system as its module declares it.  Raises ``KeyError`` if none does."""
+    def declared(self, name: str) -> System:
+        """A system as its module declares it, its charts as drawn.  Raises ``KeyError`` if none does."""
         while name not in self._written:
             if not self._modules:
                 raise KeyError(name)
@@ -94,14 +95,14 @@ class _Read(Mapping[str, System]):
 
 
 def as_written() -> Iterator[System]:
-    """Every system with its readings open, as its module declares it."""
-    return (system for module in BOARDS for system in _systems_of(module))
+    """Every system with its readings open, the alternatives of its charts included."""
+    return (woven(system) for module in BOARDS for system in _systems_of(module))
 
 
 @cache
 def readings_of(name: str) -> frozenset[str]:
     """The readings on which the behaviour of a system depends.  Raises ``KeyError`` for an unknown one."""
-    return frozenset(merged(as_written())[name].inputs.keys() & readings().keys())
+    return frozenset(woven(_systems(()).declared(name)).inputs.keys() & readings().keys())
 
 
 def _systems_of(module: str) -> tuple[System, ...]:

@@ -24,7 +24,7 @@ def written(folder: Path, *ids: str, readings: dict[str, str] | None = None) -> 
     properties = tuple(known[id] for id in ids)
     task = Task(by_name[properties[0].on], properties)
     recorder = Recorder()
-    told = Listeners(answered=recorder.answered)
+    told = Listeners(on_answer=recorder.answered)
     results = list(decide(task, by_name, Naive(), Limits(), quiet, told))
     proved = certified({r.property.id: r.verdict for r in results}, recorder.made)
     return write(folder, CertificateOrigin(task.system.name, ids, proved, readings or {}), recorder.made)

@@ -13,13 +13,13 @@ from hypothesis.strategies import DrawFn
 
 from rovercheck.checker.certify import solver
 from rovercheck.checker.certify.certificate import Certificate, certificates
-from rovercheck.checker.certify.check import By, CheckEffort
+from rovercheck.checker.certify.check import CheckEffort, CheckMethod
 from rovercheck.checker.certify.diagram import CertifiedDiagram
 from rovercheck.checker.certify.invariant import Conjuncts
 from rovercheck.checker.certify.question import question
 from rovercheck.checker.certify.tick import executed
 from rovercheck.checker.engines import Limits, Progress
-from rovercheck.checker.results.closed import BitPlace, ClosedSet
+from rovercheck.checker.results.closed_set import BitPlace, ClosedSet
 from rovercheck.checker.results.verdict import Answer, Exhausted, Inductive, Open, Unreachable
 from rovercheck.checker.system.slice import sliced
 from rovercheck.spec_model.lang.action import Assign
@@ -27,15 +27,16 @@ from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.expr import Expr, Var, const, flag, ite, var
 from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.naive import projected, search
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 
-SOLVER, ENUMERATION, BOTH = (CheckEffort(by) for by in By)
+SOLVER, ENUMERATION, BOTH = (CheckEffort(by) for by in CheckMethod)
 
 Rows = Iterable[Mapping[str, int]]
 
 
 def closed_set(variables: Sequence[Var], rows: Rows) -> ClosedSet:
-    """Distinct valuations, each variable in a word of its own."""
+    """Distinct states, each variable in a word of its own."""
     values = [[at[v.name] - v.domain.low for v in variables] for at in rows]
     words = np.array(values, dtype=np.uint64).reshape(len(values), len(variables))
     bits = [(v.domain.high - v.domain.low).bit_length() for v in variables]
@@ -45,7 +46,7 @@ def closed_set(variables: Sequence[Var], rows: Rows) -> ClosedSet:
 
 
 def part_of(system: TransitionSystem, goals: Sequence[Var]) -> tuple[TransitionSystem, tuple[Var, ...]]:
-    """What the goals depend on, the goals being variables of it, and the variables of a valuation."""
+    """What the goals depend on, the goals being variables of it, and the variables of a state."""
     part = sliced(system, goals)
     own = (*part.frozen, *part.variables)
     names = {v.name for v in own}
@@ -55,7 +56,7 @@ def part_of(system: TransitionSystem, goals: Sequence[Var]) -> tuple[TransitionS
 
 
 def reachable(system: TransitionSystem, goals: Sequence[Var]) -> list[dict[str, int]]:
-    """The reachable valuations of what the goals depend on."""
+    """The reachable states of what the goals depend on."""
     part, own = part_of(system, goals)
     return [dict(state) for state in projected(search(part, goals).states, [v.name for v in own])]
 
@@ -64,7 +65,7 @@ class Naive:
     """An engine: unreachable with the closed set, or open."""
 
     NAME = "naive"
-    SUMMARY = "the reference semantics on every valuation"
+    SUMMARY = "the reference semantics on every state"
 
     def check(
         self, system: TransitionSystem, goals: Sequence[Var], limits: Limits, progress: Progress
@@ -101,7 +102,7 @@ def solving_here() -> Iterator[None]:
 
 # --- certificates to begin with -------------------------------------------------------------------
 
-many = settings(max_examples=50, suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
+many = settings(examples(50), suppress_health_check=[HealthCheck.filter_too_much, HealthCheck.too_slow])
 
 
 @st.composite

@@ -1,8 +1,4 @@
-"""Settings of the whole test suite: how Hypothesis draws.
-
-``ci``, the default, draws the same examples in every run and keeps nothing on disk.  ``nightly``
-(``pytest --hypothesis-profile=nightly``) draws new ones, many more, and remembers what failed.
-"""
+"""Settings of the whole test suite: what processes of it find around them, and which tests come first."""
 
 import os
 import signal
@@ -11,7 +7,8 @@ import tempfile
 from pathlib import Path
 
 import pytest
-from hypothesis import HealthCheck, settings
+
+from tests.profiles import register
 
 os.environ["ROVERCHECK_CACHE"] = ""  # what is tested is compiled anew
 _OURS = tempfile.TemporaryDirectory(prefix="rovercheck-tests-")
@@ -28,22 +25,7 @@ for name in ("SIGINT", "SIGHUP"):  # a job in the background ignores them, and s
     if number is not None and signal.getsignal(number) is signal.SIG_IGN:
         signal.signal(number, signal.default_int_handler if name == "SIGINT" else signal.SIG_DFL)
 
-settings.register_profile(
-    "ci",
-    derandomize=True,
-    deadline=None,
-    database=None,
-    print_blob=True,
-    suppress_health_check=[HealthCheck.too_slow],
-)
-settings.register_profile(
-    "nightly",
-    max_examples=2000,
-    deadline=None,
-    print_blob=True,
-    suppress_health_check=[HealthCheck.too_slow],
-)
-settings.load_profile("ci")
+register()
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:

@@ -11,7 +11,7 @@ from rovercheck.checker.certify import solver
 from rovercheck.checker.engines import engines
 from rovercheck.checker.engines.localisation import orders
 from rovercheck.checker.engines.simulation import batches
-from rovercheck.checker.process.isolate import End, Stopped
+from rovercheck.checker.process.isolate import ChildStopped, End
 from rovercheck.checker.search import runner
 from tests.certifying import inline
 
@@ -27,7 +27,7 @@ def cut_off(monkeypatch: pytest.MonkeyPatch, *events: object) -> None:
     def messages(*_: object, **__: object) -> Iterator[object]:
         yield from events
         yield None
-        raise Stopped(LIMIT)
+        raise ChildStopped(LIMIT)
 
     monkeypatch.setattr(runner, "messages", messages)
 

@@ -1,4 +1,4 @@
-"""Re-checks an inductive invariant by enumerating every valuation of a tiny system: slow, short, obvious."""
+"""Re-checks an inductive invariant by enumerating every state of a tiny system: slow, short, obvious."""
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
@@ -78,7 +78,7 @@ class _Claim:
         return False
 
     def after(self, at: Mapping[str, int]) -> list[dict[str, int]]:
-        """The distinct valuations after one more tick."""
+        """The distinct states after one more tick."""
         key = self.key(at)
         if key not in self.following:
             found = [step(self.system, at, i) for i in self.inputs(at)]

@@ -14,14 +14,14 @@ State = tuple[tuple[str, int], ...]
 
 @dataclass(frozen=True)
 class Searched:
-    """The reachable valuations, and the least number of ticks after which each goal is true."""
+    """The reachable states, and the least number of ticks after which each goal is true."""
 
     states: set[State]
     reached: dict[str, int]
 
 
 def search(system: TransitionSystem, goals: Sequence[Var]) -> Searched:
-    """Every reachable valuation, initial ones included."""
+    """Every reachable state, initial ones included."""
     keys = [v.name for v in (*system.frozen, *system.variables)]
     frontier = [{**system.init, **frozen} for frozen in vectors(system.frozen)]
     seen = {_state(at, keys) for at in frontier}
@@ -43,7 +43,7 @@ def search(system: TransitionSystem, goals: Sequence[Var]) -> Searched:
 
 
 def projected(states: set[State], names: Sequence[str]) -> set[State]:
-    """The valuations restricted to some variables."""
+    """The states restricted to some variables."""
     return {tuple((n, v) for n, v in state if n in names) for state in states}
 
 
@@ -60,7 +60,7 @@ def vectors(variables: Sequence[Var]) -> Iterator[dict[str, int]]:
 
 
 def replay(system: TransitionSystem, run: Run) -> list[dict[str, int]]:
-    """The valuations after each tick of a run.  Raises ``AssertionError`` for an inadmissible one."""
+    """The states after each tick of a run.  Raises ``AssertionError`` for an inadmissible one."""
     assert set(run.frozen) == {v.name for v in system.frozen}
     at, after = {**system.init, **run.frozen}, []
     for inputs in run.inputs:

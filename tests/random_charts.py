@@ -1,4 +1,4 @@
-"""Random charts with a meaning: a tree of states first, then arrows, actions, junctions and sends."""
+"""Random charts with a meaning: a tree of states first, then transitions, actions, junctions and sends."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
@@ -22,13 +22,13 @@ class Node:
     entry: list[Action] = field(default_factory=list)
     during: list[Action] = field(default_factory=list)
     exit: list[Action] = field(default_factory=list)
-    arrows: list[Transition] = field(default_factory=list)
+    transitions: list[Transition] = field(default_factory=list)
     default: list[Transition] = field(default_factory=list)
     junctions: dict[str, list[Transition]] = field(default_factory=dict)
 
     def state(self) -> State:
         return State(
-            self.name, entry=self.entry, during=self.during, exit=self.exit, transitions=self.arrows,
+            self.name, entry=self.entry, during=self.during, exit=self.exit, transitions=self.transitions,
             states=[c.state() for c in self.children], default=self.default, parallel=self.parallel,
             junctions=[Junction(n, ts) for n, ts in self.junctions.items()],
         )  # fmt: skip
@@ -94,7 +94,7 @@ def walk(node: Node, path: Path = ()) -> list[tuple[Path, Node]]:
 
 
 class Wiring:
-    """Draws arrows between the states of a tree."""
+    """Draws transitions between the states of a tree."""
 
     def __init__(self, draft: Draft) -> None:
         self.draft = draft
@@ -116,13 +116,13 @@ class Wiring:
         return [p for p in self.nodes if p[: len(path)] == path]
 
     def legal(self, source: Path, target: Path) -> bool:
-        """Whether an arrow may be drawn; in a tame chart none leaves a region."""
+        """Whether a transition may be drawn; in a tame chart none leaves a region."""
         scope = self.scope(source, target)
         leaves_region = any(self.nodes[source[:d]].parallel for d in range(len(scope), len(source)))
         return not self.nodes[scope].parallel and not (self.tame and leaves_region)
 
     def written(self, level: Path, target: Path) -> str | None:
-        """How an arrow drawn at ``level`` may name the target."""
+        """How a transition drawn at ``level`` may name the target."""
         for length in (*range(1 + self.source.below(2), len(target) + 1), 1):
             text = ".".join(target[-length:])
             if self.bare.resolve(level, text) == target:
@@ -132,7 +132,7 @@ class Wiring:
     def segment(
         self, level: Path, target: Path, *, words: bool = True, sure: bool = False
     ) -> Transition | None:
-        """An arrow to a state, with any label; ``sure`` leaves the guard out."""
+        """A transition to a state, with any label; ``sure`` leaves the guard out."""
         text = self.written(level, target)
         return None if text is None else self.label(text, words=words, sure=sure)
 
@@ -147,22 +147,22 @@ class Wiring:
         """Up to three junctions of a composite; each leads to states or to junctions made before."""
         node = self.nodes[level]
         for number in range(self.source.below(4) if self.source.chance(2) else 0):
-            name, arrows, ends = f"J{number + 1}", [], set[Path]()
+            name, transitions, ends = f"J{number + 1}", [], set[Path]()
             plain = self.source.chance(2)
             for _ in range(1 + self.source.below(3)):
                 before = [n for n in node.junctions if not plain or (level, n) in self.plain]
                 if before and self.source.chance(3):
                     onward = self.source.pick(before)
-                    arrows.append(self.label(onward, words=not plain))
+                    transitions.append(self.label(onward, words=not plain))
                     ends |= self.ends[level, onward]
                     continue
                 target = self.source.pick([p for p in self.nodes if p])
                 made = self.segment(level, target, words=not plain)
                 if made is not None:
-                    arrows.append(made)
+                    transitions.append(made)
                     ends.add(target)
-            if arrows:
-                node.junctions[name] = arrows
+            if transitions:
+                node.junctions[name] = transitions
                 self.ends[level, name] = ends
                 if plain:
                     self.plain.add((level, name))
@@ -185,8 +185,8 @@ class Wiring:
         assert last is not None
         node.default.append(last)
 
-    def arrows(self, path: Path) -> None:
-        """Arrows of a state: random ones, and one to its right neighbour so that all are reachable."""
+    def transitions(self, path: Path) -> None:
+        """Transitions of a state: random ones, and one to its right neighbour so that all are reachable."""
         node, parent = self.nodes[path], self.nodes[path[:-1]]
         if parent.parallel:
             return
@@ -197,11 +197,11 @@ class Wiring:
         chosen += siblings[position + 1 : position + 2] or siblings[:1]
         for target in chosen:
             made = self.segment(path[:-1], target)
-            node.arrows += [made] if made else []
+            node.transitions += [made] if made else []
         for (level, name), ends in self.ends.items():
             near = level == path[:-1][: len(level)] and self.bare_junction(path[:-1], level, name)
             if near and all(self.legal(path, e) for e in ends) and self.source.chance(2):
-                node.arrows.insert(self.source.below(len(node.arrows) + 1), self.label(name))
+                node.transitions.insert(self.source.below(len(node.transitions) + 1), self.label(name))
 
     def bare_junction(self, at: Path, level: Path, name: str) -> bool:
         """Whether the junction is the nearest of its name."""
@@ -212,7 +212,7 @@ class Wiring:
         """Junctions that nothing leads to, last made first."""
         for path, node in self.nodes.items():
             for name in reversed(list(node.junctions)):
-                used = {t.target for n in self.nodes.values() for t in (*n.arrows, *n.default)}
+                used = {t.target for n in self.nodes.values() for t in (*n.transitions, *n.default)}
                 used |= {t.target for ts in node.junctions.values() for t in ts}
                 if name not in used or not self._leads(path, name):
                     del node.junctions[name]
@@ -222,7 +222,8 @@ class Wiring:
         inside = [t.target for ts in node.junctions.values() for t in ts] + [t.target for t in node.default]
         below = [(p, n) for p, n in self.nodes.items() if p[: len(path)] == path and p != path]
         return name in inside or any(
-            name in [t.target for t in n.arrows] and self.bare_junction(p[:-1], path, name) for p, n in below
+            name in [t.target for t in n.transitions] and self.bare_junction(p[:-1], path, name)
+            for p, n in below
         )
 
 
@@ -237,7 +238,7 @@ def charts(source: Source, name: str, data: Sequence[Var], local: Sequence[Var])
     for path, node in wiring.nodes.items():
         wiring.default(path)
         if path:
-            wiring.arrows(path)
+            wiring.transitions(path)
             node.entry, node.during, node.exit = (source.actions(data) for _ in range(3))
     wiring.drop_unused_junctions()
     for datum in local:
@@ -265,7 +266,9 @@ def _localise(draft: Draft, wiring: Wiring, datum: Var) -> None:
         node.entry = [assign(datum, source.value(datum, source.scope)), *node.entry]
         node.during += [reading.assignment([datum, *draft.data])]
         node.exit += [reading.assignment(draft.data)]
-        node.arrows = [replace(a, guard=reading.guard()) if source.chance(3) else a for a in node.arrows]
+        node.transitions = [
+            replace(a, guard=reading.guard()) if source.chance(3) else a for a in node.transitions
+        ]
 
 
 def _drop_default(node: Node) -> Callable[[], None]:
@@ -278,7 +281,7 @@ def _drop_default(node: Node) -> Callable[[], None]:
 
 
 def _send(draft: Draft, wiring: Wiring, event: str) -> Callable[[], None]:
-    """A send from one place, and an arrow inside the receiver that waits for it."""
+    """A send from one place, and a transition inside the receiver that waits for it."""
     source = draft.source
     sender, receiver = _ends_of_send(source, wiring)
     reacting = [p for p in wiring.below(receiver) if not wiring.nodes[p[:-1]].parallel]
@@ -287,16 +290,16 @@ def _send(draft: Draft, wiring: Wiring, event: str) -> Callable[[], None]:
     node, other = wiring.nodes[sender], wiring.nodes[source.pick(reacting)]
     saved = [(changed, replace(changed)) for changed in (node, other)]
     _put_send(source, node, send(event, ".".join(receiver)))
-    if other.arrows:
-        number = source.below(len(other.arrows))
-        waiting = replace(other.arrows[number], event=event, guard=None)
-        extra = [other.arrows[number]] if source.chance(2) else []
-        other.arrows = [*other.arrows[:number], waiting, *extra, *other.arrows[number + 1 :]]
+    if other.transitions:
+        number = source.below(len(other.transitions))
+        waiting = replace(other.transitions[number], event=event, guard=None)
+        extra = [other.transitions[number]] if source.chance(2) else []
+        other.transitions = [*other.transitions[:number], waiting, *extra, *other.transitions[number + 1 :]]
 
     def undo() -> None:
         for changed, kept in saved:
             changed.entry, changed.during = kept.entry, kept.during
-            changed.exit, changed.arrows = kept.exit, kept.arrows
+            changed.exit, changed.transitions = kept.exit, kept.transitions
 
     return undo
 
@@ -321,14 +324,14 @@ def _put_send(source: Source, node: Node, action: Action) -> None:
         node.entry = [*node.entry, action]
     elif kind == 1:
         node.exit = [action, *node.exit]
-    elif kind in (2, 3) or not node.arrows:
+    elif kind in (2, 3) or not node.transitions:
         node.during = [action, *node.during]
     else:
-        number = source.below(len(node.arrows))
-        arrow = node.arrows[number]
+        number = source.below(len(node.transitions))
+        transition = node.transitions[number]
         changed = (
-            replace(arrow, then=(*arrow.then, action))
+            replace(transition, then=(*transition.then, action))
             if kind == 4
-            else replace(arrow, do=(*arrow.do, action))
+            else replace(transition, do=(*transition.do, action))
         )
-        node.arrows = [*node.arrows[:number], changed, *node.arrows[number + 1 :]]
+        node.transitions = [*node.transitions[:number], changed, *node.transitions[number + 1 :]]

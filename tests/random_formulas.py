@@ -139,7 +139,7 @@ class Source:
         return held(self.condition(self.steady, 1), self.span(0))
 
     def guard(self, state_words: bool = True) -> Expr:
-        """The guard of an arrow; ``state_words`` allows ``after`` and ``duration``."""
+        """The guard of a transition; ``state_words`` allows ``after`` and ``duration``."""
         kind = self.below(7)
         if kind == 1:
             word = self.steady_word()

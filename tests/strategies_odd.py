@@ -2,7 +2,7 @@
 
 Several goals, some of them equal, some read by the step and kept from tick to tick; domains with gaps and
 with one value only; values assigned that may lie outside the domain; assumptions of several conjuncts
-over the valuation, the inputs and the frozen variables, which may forbid every tick.
+over the state, the inputs and the frozen variables, which may forbid every tick.
 """
 
 from collections.abc import Sequence

@@ -27,7 +27,7 @@ def timed_systems(draw: DrawFn) -> TransitionSystem:
     weather = draw(st.sampled_from(inputs))
     step: list[Statement] = [
         Assign(held, ite(_condition(draw, inputs), minimum(held + 1, LONGEST), 0)),
-        _arrows(draw, place, since, held, inputs),
+        _transitions(draw, place, since, held, inputs),
         Assign(latch, (latch | _reached(draw, place, held)) & ~_condition(draw, [weather, latch])),
     ]
     wanted = [flag(f"goal{n}") for n in range(draw(st.integers(1, 2)))]
@@ -53,8 +53,8 @@ def _reached(draw: DrawFn, place: Var, timer: Var) -> Expr:
     return draw(st.sampled_from([at, over, at & over]))
 
 
-def _arrows(draw: DrawFn, place: Var, since: Var, held: Var, inputs: list[Var]) -> Statement:
-    """From each location an arrow or two, the first whose guard holds; else the timer goes on."""
+def _transitions(draw: DrawFn, place: Var, since: Var, held: Var, inputs: list[Var]) -> Statement:
+    """From each location a transition or two, the first whose guard holds; else the timer goes on."""
     stay: Statement = Assign(since, minimum(since + 1, LONGEST))
     for source in place.domain.values:
         for _ in range(draw(st.integers(1, 2))):

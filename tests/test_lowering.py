@@ -1,4 +1,4 @@
-"""Lowering against the reference interpreter: the same valuation after every tick."""
+"""Lowering against the reference interpreter: the same state after every tick."""
 
 from collections.abc import Mapping, Sequence
 
@@ -50,7 +50,7 @@ counting = State("R2", during=[count], default="P", states=[
 
 
 def leaving(target: str) -> Chart:
-    """A region whose arrow leaves, and perhaps enters again, the parallel composite it is in."""
+    """A region whose transition leaves, and perhaps enters again, the parallel composite it is in."""
     one = State("R1", states=[State("X", transitions=[to(target, when=go)])], default="X")
     two = State("R2", during=[count])
     both = State("Both", states=[one, two], parallel=True, transitions=[to("Away", when=seen > 8)])

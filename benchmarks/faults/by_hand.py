@@ -12,10 +12,10 @@ from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block, Chart
 from rovercheck.spec_model.lang.edit import (
-    arrow,
     constant,
     drop,
     edit_state,
+    edit_transition,
     entry,
     everywhere,
     guard,
@@ -148,12 +148,13 @@ CHARTS: dict[str, Sequence[Row]] = {
         ("board1", "Monitor_battery", "critical is never left", lambda c: drop(c, "Batt_CRIT", 1)),
         ("board2", "Safety_state_2", "critical is never left", lambda c: drop(c, "Rover_Critical_State", 1)),
         ("board2", "Backward_mode_toggle_2", "backward mode cannot be switched off",
-         lambda c: arrow(c, "Step4", 1, lambda t: replace(t, do=(assign(motion.backward_enabled, True),)))),
+         lambda c: edit_transition(c, "Step4", 1,
+                                   lambda t: replace(t, do=(assign(motion.backward_enabled, True),)))),
     ],
     "reset": [
         ("board1", "Motion_Supervision", "the inversion outlives an emergency stop", _no_exit(RUNNING)),
         ("board1", "Motion_Supervision", "the recovery of the last stop counts again",
-         lambda c: arrow(c, RUNNING, 1, lambda t: replace(t, do=()))),
+         lambda c: edit_transition(c, RUNNING, 1, lambda t: replace(t, do=()))),
         ("board2", "Motion_Supervision_2", "turning kept in the brake", _no_entry(BRAKE, 2)),
     ],
     "missing return": [

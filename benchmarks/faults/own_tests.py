@@ -61,7 +61,8 @@ def tests_of_the_boards() -> tuple[str, ...]:
 
 def fails(folder: Path, tests: Sequence[str]) -> bool:
     """Whether one of the tests of the folder fails."""
-    command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", *tests]
+    command = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider"]
+    command += ["--hypothesis-profile=full", *tests]
     try:
         done = subprocess.run(command, cwd=folder, capture_output=True, timeout=LIMIT, check=False)
     except subprocess.TimeoutExpired:

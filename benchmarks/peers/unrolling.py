@@ -96,7 +96,7 @@ def deviation(s: Values, i: Values, limit: int) -> Values:
 
 
 def transition(s: Values, i: Values, k: int) -> Values:
-    """The valuation after a step; timers divided by ``k``."""
+    """The state after a step; timers divided by ``k``."""
     hot, low = z3.Or(i["in_t"] == 0, i["in_t"] == 4), z3.Or(i["in_b"] == 0, i["in_b"] == 3)
     n = deviation(s, i, steps(150, k))
     n["t"], n["t_count"] = monitor(s["t"], s["t_count"], hot, i["in_t"] == 2, steps(200, k))
@@ -124,7 +124,7 @@ BROKEN: dict[str, Callable[[Values, int], z3.ExprRef]] = {
     "P4": lambda s, k: s["t"] == CRITICAL,
     "P5": lambda s, k: z3.And(s["observed"], s["t"] == CRITICAL),
 }
-"""The valuations in which a property is broken."""
+"""The states in which a property is broken."""
 
 
 def read(expr: z3.ExprRef) -> set[str]:

@@ -1,4 +1,6 @@
-"""How an implementation under test is run: one file per kind of implementation, found by being here.
+"""How an implementation under test is run: one file per kind of implementation.
+
+They are discovered automatically: every module of this folder that has a ``start``.
 
 An adapter has a ``KIND``, the ``FORM`` of its addresses, a one-line ``SUMMARY`` and a function ``start`` with
 the signature of ``Adapter.start``.  What an implementation does, it does in a process that can be killed.

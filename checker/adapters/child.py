@@ -24,7 +24,7 @@ from rovercheck.checker.adapters.launch import confine, end_with_parent
 CHUNK = 1 << 16
 
 
-class Running(Protocol):
+class RunningImplementation(Protocol):
     """An implementation that was powered up."""
 
     def step(self, inputs: Values) -> Mapping[str, Value]: ...
@@ -32,10 +32,10 @@ class Running(Protocol):
     def end(self) -> None: ...
 
 
-PowerUp = Callable[[], Running]
+PowerUp = Callable[[], RunningImplementation]
 
 
-class Lines:
+class LineReader:
     """Lines from a file descriptor."""
 
     def __init__(self, number: int) -> None:
@@ -61,7 +61,7 @@ def main() -> None:
     order = json.loads(sys.argv[1])
     end_with_parent()
     confine(order["memory"])
-    orders, answers = Lines(os.dup(0)), os.dup(1)
+    orders, answers = LineReader(os.dup(0)), os.dup(1)
     os.dup2(os.open(os.devnull, os.O_RDONLY), 0)  # the implementation must not read orders
     os.dup2(2, 1)  # nor may what it prints look like an answer
     sys.stdout = os.fdopen(1, "w", buffering=1, errors="replace", closefd=False)
@@ -75,7 +75,7 @@ def main() -> None:
     _serve(power_up, orders, answers)
 
 
-def _serve(power_up: PowerUp, orders: Lines, answers: int) -> None:
+def _serve(power_up: PowerUp, orders: LineReader, answers: int) -> None:
     """Fork at every power-up until the other end has enough, or a child fails."""
     again = mmap.mmap(-1, 1)
     while True:
@@ -90,7 +90,7 @@ def _serve(power_up: PowerUp, orders: Lines, answers: int) -> None:
             _end_like(status)
 
 
-def _live(power_up: PowerUp, orders: Lines, answers: int) -> bool:
+def _live(power_up: PowerUp, orders: LineReader, answers: int) -> bool:
     """Carry out steps from power-up on; true when the next power-up is asked for."""
     try:
         running = power_up()

@@ -40,7 +40,7 @@ class Implementation(Protocol):
 
 
 @runtime_checkable
-class Batched(Protocol):
+class BatchImplementation(Protocol):
     """An implementation that is quicker when it is given many executions at once."""
 
     def run(self, inputs: Sequence[Values]) -> Sequence[Values]: ...
@@ -51,7 +51,7 @@ def run(implementation: Implementation, inputs: Sequence[Values]) -> Sequence[Va
 
     Raises ``ImplementationError`` for the first execution that fails; the outputs before it are then lost.
     """
-    if isinstance(implementation, Batched):
+    if isinstance(implementation, BatchImplementation):
         return implementation.run(inputs)
     return [implementation.step(one) for one in inputs]
 

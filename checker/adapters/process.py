@@ -16,7 +16,7 @@ RESET = lines.encoded({"reset": True})
 MAIN = "from rovercheck.checker.adapters.child import main; main()"
 
 
-class Reported(BrokenChannel):
+class ReportedFault(BrokenChannel):
     """What the implementation itself reports, or what it answers without meaning; the message is whole."""
 
 
@@ -81,7 +81,7 @@ class Process:
     def _answer(self, channel: Channel, seconds: float) -> dict[str, object]:
         found = lines.decoded(channel.receive(seconds))
         if "error" in found:
-            raise Reported(str(found["error"]))
+            raise ReportedFault(str(found["error"]))
         return found
 
     @contextmanager
@@ -97,7 +97,7 @@ class Process:
             raise
 
     def _failed(self, error: Exception) -> ImplementationError:
-        what = "" if isinstance(error, Reported) else "the process "
+        what = "" if isinstance(error, ReportedFault) else "the process "
         what += "cannot be started: " if isinstance(error, OSError) else ""
         what += "answered " if isinstance(error, ValueError) else ""
         said = "".join(f"\n  {line}" for line in self._stopped())
@@ -114,14 +114,14 @@ class Process:
 
 
 def check_names(found: Mapping[str, Value], names: Collection[str]) -> None:
-    """Raise ``Reported`` unless these are outputs of the board: all others would be compared with nothing."""
+    """Raise ``ReportedFault`` unless these are outputs of the board: no others can be compared."""
     for name in found:
         if name not in names:
-            raise Reported(
+            raise ReportedFault(
                 f"the board has no output {name!r}, which was answered. {did_you_mean(name, names)}"
             )
     if not found:
-        raise Reported("no output was answered, so that nothing can be compared; answer one at least")
+        raise ReportedFault("no output was answered, so that nothing can be compared; answer one at least")
 
 
 def failure(address: str, step: int, what: str, more: str = "") -> ImplementationError:

@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.adapters import LIMITS, AdapterLimits, python_calls
-from rovercheck.checker.adapters.child import PowerUp, Running, reason
+from rovercheck.checker.adapters.child import PowerUp, RunningImplementation, reason
 from rovercheck.checker.adapters.implementation import Implementation, Value, Values
 from rovercheck.checker.adapters.process import Process, check_names, failure, ours
 
@@ -46,7 +46,7 @@ class InProcess:
         """Return to power-up."""
         self._steps = 0
         with self._failing():
-            self._running: Running = self._power_up()
+            self._running: RunningImplementation = self._power_up()
 
     def step(self, inputs: Values) -> Mapping[str, Value]:
         """Execute one step."""

@@ -6,9 +6,9 @@ secret can make entries go missing, nothing else.  The same holds for a folder f
 """
 
 from rovercheck.checker.cache.entries import ENDING, MOST_BYTES, opened, read, remove, sealed, write
-from rovercheck.checker.cache.places import VARIABLE, Unsafe, chosen, usable
+from rovercheck.checker.cache.listeners import CachedCodeUse, CacheRefused, listening
+from rovercheck.checker.cache.places import VARIABLE, UnsafePlace, chosen, usable
 from rovercheck.checker.cache.secret_file import SECRET, secret, secret_place
-from rovercheck.checker.cache.telling import CacheRefused, Taken, listening
 
 __all__ = [
     "ENDING",
@@ -16,8 +16,8 @@ __all__ = [
     "SECRET",
     "VARIABLE",
     "CacheRefused",
-    "Taken",
-    "Unsafe",
+    "CachedCodeUse",
+    "UnsafePlace",
     "chosen",
     "listening",
     "opened",

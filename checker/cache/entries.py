@@ -11,10 +11,10 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
-from rovercheck.checker.cache import running
-from rovercheck.checker.cache.places import Unsafe, carefully, chosen, usable
+from rovercheck.checker.cache import run_marks
+from rovercheck.checker.cache.listeners import CachedCodeUse, CacheRefused, anew, has_listener, notify
+from rovercheck.checker.cache.places import UnsafePlace, carefully, chosen, usable
 from rovercheck.checker.cache.secret_file import secret
-from rovercheck.checker.cache.telling import CacheRefused, Taken, anew, heard, tell
 
 ENDING = ".o"
 MOST_BYTES = 256 << 20
@@ -43,22 +43,22 @@ def read(name: str) -> bytes | None:
         folder = usable(chosen(), make=False)
         key = secret(folder, make=False)
         path = folder / f"{name}{ENDING}"
-        if anew() or running.crashed(path):
+        if anew() or run_marks.crashed(path):
             remove(name)
             return None
         contents = opened(name, carefully(path, MOST_BYTES)[1], key)
-    except Unsafe as unsafe:
-        tell(CacheRefused(str(unsafe)))
+    except UnsafePlace as unsafe:
+        notify(CacheRefused(str(unsafe)))
         return None
     except OSError:
         return None
     if contents is not None:
         with suppress(OSError):  # where files are read only, too, they may be used
             os.utime(path)  # used now: the last to be removed
-        if heard():
-            tell(Taken(name))
+        if has_listener():
+            notify(CachedCodeUse(name))
         else:
-            running.mark(path)
+            run_marks.mark(path)
     return contents
 
 
@@ -76,8 +76,8 @@ def write(name: str, contents: bytes) -> None:
             os.unlink(part)
             raise
         _written(folder, len(whole))
-    except Unsafe as unsafe:
-        tell(CacheRefused(str(unsafe)))
+    except UnsafePlace as unsafe:
+        notify(CacheRefused(str(unsafe)))
     except OSError:
         pass
 

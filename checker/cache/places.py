@@ -12,7 +12,7 @@ _CAREFUL = sum(getattr(os, name, 0) for name in ("O_RDONLY", "O_NOFOLLOW", "O_NO
 _OTHERS = stat.S_IWGRP | stat.S_IWOTH
 
 
-class Unsafe(PermissionError):
+class UnsafePlace(PermissionError):
     """A folder or file that others may have changed or read.  The message says which, and what to do."""
 
 
@@ -32,16 +32,18 @@ def chosen() -> Path:
 def usable(folder: Path, *, make: bool) -> Path:
     """The folder, made if that is asked for.
 
-    Raises ``Unsafe`` if others may write to it, and ``OSError`` if it is missing or cannot be made.
+    Raises ``UnsafePlace`` if others may write to it, and ``OSError`` if it is missing or cannot be made.
     """
     if make:
         folder.mkdir(mode=0o700, parents=True, exist_ok=True)
     status = folder.stat()
     if hasattr(os, "getuid"):
         if status.st_uid != os.getuid():
-            raise Unsafe(f"The folder {folder} belongs to another user: delete it, or name one of your own.")
+            raise UnsafePlace(
+                f"The folder {folder} belongs to another user: delete it, or name one of your own."
+            )
         if status.st_mode & _OTHERS:
-            raise Unsafe(f"Others may write to the folder {folder}: chmod go-w {folder}")
+            raise UnsafePlace(f"Others may write to the folder {folder}: chmod go-w {folder}")
     return folder
 
 

@@ -9,7 +9,7 @@ import tempfile
 from contextlib import suppress
 from pathlib import Path
 
-from rovercheck.checker.cache.places import Unsafe, carefully, usable, users_state
+from rovercheck.checker.cache.places import UnsafePlace, carefully, usable, users_state
 
 SECRET = "ROVERCHECK_SECRET"
 """Names the file; empty: there is none, and therefore no cache."""
@@ -32,12 +32,12 @@ def secret_place() -> Path:
 def secret(cache: Path, *, make: bool) -> bytes:
     """The secret for a folder of the cache; with ``make``, a new one if there is none.
 
-    Raises ``Unsafe`` if others may have read or written it or if it is kept in the cache itself, and
+    Raises ``UnsafePlace`` if others may have read or written it or if it is kept in the cache itself, and
     ``OSError`` if there is none and none can be made.
     """
     place = secret_place()
     if _inside(place, cache):
-        raise Unsafe(
+        raise UnsafePlace(
             f"The secret of the cache, {place}, would be inside the cache {cache}: name another folder "
             "for one of them."
         )
@@ -53,17 +53,17 @@ def secret(cache: Path, *, make: bool) -> bytes:
 def _read(place: Path) -> bytes:
     usable(place.parent, make=False)
     if place.is_symlink():
-        raise Unsafe(_refused(place, "is a symbolic link"))
+        raise UnsafePlace(_refused(place, "is a symbolic link"))
     status, found = carefully(place, LENGTH + 1)
     if not stat.S_ISREG(status.st_mode):
-        raise Unsafe(_refused(place, "is no file"))
+        raise UnsafePlace(_refused(place, "is no file"))
     if hasattr(os, "getuid"):
         if status.st_uid != os.getuid():
-            raise Unsafe(_refused(place, "belongs to another user"))
+            raise UnsafePlace(_refused(place, "belongs to another user"))
         if status.st_mode & (stat.S_IRWXG | stat.S_IRWXO):
-            raise Unsafe(_refused(place, "can be read or written by others"))
+            raise UnsafePlace(_refused(place, "can be read or written by others"))
     if len(found) != LENGTH:
-        raise Unsafe(_refused(place, f"does not hold {LENGTH} bytes"))
+        raise UnsafePlace(_refused(place, f"does not hold {LENGTH} bytes"))
     return found
 
 

@@ -15,7 +15,7 @@ from rovercheck.checker.certify.reduction import diagram
 from rovercheck.checker.certify.terms import TRUTH, Malformed, definitions
 from rovercheck.checker.certify.tick import conjuncts as parts
 from rovercheck.checker.certify.tick import executed
-from rovercheck.checker.results.closed import ClosedSet
+from rovercheck.checker.results.closed_set import ClosedSet
 from rovercheck.checker.results.diagram import Diagram as Bits
 from rovercheck.checker.results.diagram import formula
 from rovercheck.checker.results.verdict import Answer, Evidence, Exhausted, Inductive, Unreachable
@@ -26,7 +26,7 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.walk import variables
 
 MOST = 1 << 31
-"""Values (valuations times variables) of a closed set of which a diagram is made: 4 GiB of 16 bits each."""
+"""Values (states times variables) of a closed set of which a diagram is made: 4 GiB of 16 bits each."""
 
 
 @dataclass(frozen=True)
@@ -78,12 +78,12 @@ def certificates(
 
 
 def _formula(shape: Bits, system: TransitionSystem) -> Inductive:
-    """A set of valuations that an engine has as a diagram over bits, as one conjunct."""
+    """A set of states that an engine has as a diagram over bits, as one conjunct."""
     return Inductive((formula(shape, {name: system.var(name) for name in shape.variables}),))
 
 
 def _memory(closed: ClosedSet) -> object:
-    """Where the valuations are: one search gives the same ones to all its goals."""
+    """Where the states are: one search gives the same ones to all its goals."""
     return closed.words.__array_interface__["data"], closed.words.shape
 
 
@@ -214,7 +214,7 @@ def _numbers(found: Any) -> tuple[int, ...]:
 
 
 def meaningful(invariant: Invariant, asked: CertifyQuestion) -> None:
-    """Raises ``Malformed`` unless the invariant speaks of valuations of the question and of nothing else."""
+    """Raises ``Malformed`` unless the invariant speaks of states of the question and of nothing else."""
     if isinstance(invariant, CertifiedDiagram):
         _diagram(invariant, asked)
         return

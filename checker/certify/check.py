@@ -10,23 +10,30 @@ from rovercheck.checker.certify.diagram import CertifiedDiagram, size
 from rovercheck.checker.certify.enumeration import enumerated
 from rovercheck.checker.certify.invariant import Invariant
 from rovercheck.checker.certify.obligations import Obligation, obligations, too_long
-from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, TooMuch, Undecided, told
+from rovercheck.checker.certify.outcome import (
+    Accepted,
+    Outcome,
+    Rejected,
+    TooMuch,
+    Undecided,
+    assignment_text,
+)
 from rovercheck.checker.certify.question import CertifyQuestion, question
 from rovercheck.checker.certify.sweep import swept
 from rovercheck.checker.certify.terms import Malformed
-from rovercheck.checker.certify.tick import Executed, executed
+from rovercheck.checker.certify.tick import SymbolicStep, executed
 from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.system import TransitionSystem
 
 LARGE = 20_000
-"""Nodes and edges of a diagram above which all valuations are tried.
+"""Nodes and edges of a diagram above which all states are tried.
 
 Where that takes a second or two, a solver takes a quarter of a minute or, of those of the steered scenes,
 all of its time in vain: it is asked only if it alone is.
 """
 
 
-class By(StrEnum):
+class CheckMethod(StrEnum):
     """Who checks."""
 
     SOLVER = "bitwuzla"
@@ -38,11 +45,11 @@ class By(StrEnum):
 class CheckEffort:
     """Who checks, and the wall seconds that the solver may take for one certificate (None: no bound)."""
 
-    by: By = By.BOTH
+    by: CheckMethod = CheckMethod.BOTH
     seconds: float | None = 600
 
 
-def rebuilt(certificate: Certificate, step: Executed) -> CertifyQuestion | Rejected:
+def rebuilt(certificate: Certificate, step: SymbolicStep) -> CertifyQuestion | Rejected:
     """The question of the certificate put to the system as it is now, if that is still the same one."""
     try:
         asked = question(step, certificate.claims, certificate.kept, certificate.about)
@@ -79,7 +86,9 @@ def _checked(
 ) -> Outcome:
     """By enumeration where that is feasible, and by the solver."""
     tried = _tried(certificate.invariant, system, asked, effort)
-    if effort.by is By.ENUMERATION or (effort.by is By.BOTH and _large(certificate.invariant)):
+    if effort.by is CheckMethod.ENUMERATION or (
+        effort.by is CheckMethod.BOTH and _large(certificate.invariant)
+    ):
         return Undecided(tried.reason) if isinstance(tried, TooMuch) else tried
     if too_long(asked, certificate.invariant):
         return Undecided("k-induction with so large a k needs scripts too long to write")
@@ -91,11 +100,13 @@ def _checked(
 def _tried(
     invariant: Invariant, system: TransitionSystem, asked: CertifyQuestion, effort: CheckEffort
 ) -> Accepted | Rejected | TooMuch:
-    """By enumeration, slow and obvious, or on all valuations at once where that is what is left."""
-    if effort.by is By.SOLVER:
-        return TooMuch("only the solver is asked")
+    """By enumeration, slow and obvious, or on all states at once where that is what is left."""
+    if effort.by is CheckMethod.SOLVER:
+        return TooMuch("only the solver is queried")
     tried = enumerated(system, asked, invariant)
-    fast = isinstance(invariant, CertifiedDiagram) and (effort.by is By.ENUMERATION or _large(invariant))
+    fast = isinstance(invariant, CertifiedDiagram) and (
+        effort.by is CheckMethod.ENUMERATION or _large(invariant)
+    )
     if isinstance(tried, TooMuch) and isinstance(invariant, CertifiedDiagram) and fast:
         return swept(asked, invariant)
     return tried
@@ -135,11 +146,15 @@ def _symbols(asked: CertifyQuestion, at: int, ticks: int) -> list[str]:
 
 
 def _words(asked: CertifyQuestion, ticks: int, values: solver.Values) -> str:
-    """The valuations and inputs, tick by tick."""
+    """The states and inputs, tick by tick."""
     parts = []
     for at in range(ticks + 1):
         found = {name: values[s] for name, s in asked.symbols(at).items() if s in values}
-        parts.append(f"after {at} ticks {told(asked.state, found)}" if at else told(asked.state, found))
+        parts.append(
+            f"after {at} ticks {assignment_text(asked.state, found)}"
+            if at
+            else assignment_text(asked.state, found)
+        )
         if at < ticks and asked.tick.inputs:
-            parts.append(f"inputs {told(asked.tick.inputs, found)}")
+            parts.append(f"inputs {assignment_text(asked.tick.inputs, found)}")
     return "; ".join(parts)

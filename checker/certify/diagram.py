@@ -1,7 +1,7 @@
-"""Decision diagrams: a set of valuations as a small graph.
+"""Decision diagrams: a set of states as a small graph.
 
 A node asks for the value of one variable.  Each of its edges is an interval of values and leads to another
-node; a value on no edge is in no valuation of the set.  Variables are asked in one order on every
+node; a value on no edge is in no state of the set.  Variables are asked in one order on every
 path, and two nodes with the same edges are one: the diagram of a set in an order is unique
 (Bryant, *Graph-based algorithms for Boolean function manipulation*, IEEE ToC 1986; Srinivasan et al.,
 *Algorithms for discrete function manipulation*, ICCAD 1990, for many values).
@@ -93,7 +93,7 @@ class Nodes(Sequence[CertifiedNode]):
 
 @dataclass(frozen=True)
 class CertifiedDiagram:
-    """A set of valuations of ``variables``, asked in this order.
+    """A set of states of ``variables``, asked in this order.
 
     ``nodes[i - 1]`` is the node with number i; edges lead to lower numbers.  A variable that a path does
     not ask may have any value of its domain.  ``root`` is the node to begin with.
@@ -104,7 +104,7 @@ class CertifiedDiagram:
     root: int
 
     def __contains__(self, valuation: Mapping[str, int]) -> bool:
-        """Whether the valuation, which names at least the variables, belongs to the set."""
+        """Whether the state, which names at least the variables, belongs to the set."""
         number = self.root
         while number != TRUE:
             node = self.nodes[number - 1]
@@ -122,7 +122,7 @@ def size(diagram: CertifiedDiagram) -> int:
 
 
 def count(diagram: CertifiedDiagram, domains: Sequence[Domain]) -> int:
-    """How many valuations belong to the set, the variables having these domains."""
+    """How many states belong to the set, the variables having these domains."""
     nodes, sizes = diagram.nodes, [len(domain) for domain in domains]
     level = positions(diagram)
     total = np.ones(len(nodes) + 1)
@@ -172,7 +172,7 @@ def _between(values: Sequence[int], low: int, high: int) -> int:
 
 
 def members(diagram: CertifiedDiagram, domains: Sequence[Domain]) -> Iterator[dict[str, int]]:
-    """The valuations of the set, one after the other."""
+    """The states of the set, one after the other."""
     return _members(diagram, domains, diagram.root, 0)
 
 

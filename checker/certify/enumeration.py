@@ -1,4 +1,4 @@
-"""Checking by plain enumeration: every valuation of the invariant, every input, the reference semantics.
+"""Checking by plain enumeration: every state of the invariant, every input, the reference semantics.
 
 Slow and obvious.  The system is run as it is: neither slicing nor the formulas of a tick are trusted.
 """
@@ -9,7 +9,7 @@ from math import prod
 
 from rovercheck.checker.certify.diagram import CertifiedDiagram, count, members
 from rovercheck.checker.certify.invariant import Conjuncts, Invariant
-from rovercheck.checker.certify.outcome import Accepted, Rejected, TooMuch, told
+from rovercheck.checker.certify.outcome import Accepted, Rejected, TooMuch, assignment_text
 from rovercheck.checker.certify.question import CertifyQuestion
 from rovercheck.checker.certify.smtlib import width
 from rovercheck.checker.certify.terms import Value, definitions, evaluate
@@ -43,7 +43,7 @@ def enumerated(system: TransitionSystem, asked: CertifyQuestion, invariant: Inva
     for frozen in _vectors(asked.tick.frozen):
         initial = {v.name: v.init for v in asked.tick.variables} | frozen
         if not member(initial):
-            return Rejected("initiation", told(asked.state, initial))
+            return Rejected("initiation", assignment_text(asked.state, initial))
     tried = 0
     for before in filter(member, _valuations(asked, invariant)):
         for inputs in _vectors(asked.tick.inputs):
@@ -64,7 +64,9 @@ def _broken(
     if not all(value_of(assume[i], {**at, **given}) for i in asked.kept):
         return None
     after = step(system, at, given)
-    words = "; after 1 ticks ".join((_words(asked, before, inputs), told(asked.tick.variables, after)))
+    words = "; after 1 ticks ".join(
+        (_words(asked, before, inputs), assignment_text(asked.tick.variables, after))
+    )
     if any(after[v.name] not in v.domain for v in asked.tick.variables):
         return Rejected("domains", words)
     if any(after[claim] for claim in asked.claims):
@@ -73,15 +75,15 @@ def _broken(
 
 
 def _words(asked: CertifyQuestion, before: Valuation, inputs: Valuation) -> str:
-    here = told(asked.state, before)
-    return f"{here}; inputs {told(asked.tick.inputs, inputs)}" if inputs else here
+    here = assignment_text(asked.state, before)
+    return f"{here}; inputs {assignment_text(asked.tick.inputs, inputs)}" if inputs else here
 
 
-# --- the valuations of an invariant ----------------------------------------------------------------
+# --- the states of an invariant ----------------------------------------------------------------
 
 
 def _size(asked: CertifyQuestion, invariant: Invariant) -> int:
-    """How many valuations are looked at."""
+    """How many states are looked at."""
     own, rest = _split(asked, invariant)
     found = (
         count(invariant, [v.domain for v in own])

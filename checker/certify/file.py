@@ -40,7 +40,7 @@ class Unwritable(Exception):
 
 
 @dataclass(frozen=True)
-class Written:
+class CertificateFile:
     """What a file holds."""
 
     origin: CertificateOrigin
@@ -89,7 +89,7 @@ def _version() -> str:
         return "not installed"
 
 
-def read(path: Path) -> Written:
+def read(path: Path) -> CertificateFile:
     """What a file says.  Raises ``Malformed`` for what is no file of certificates, ``OSError``."""
     data = path.read_bytes()
     try:
@@ -102,7 +102,7 @@ def read(path: Path) -> Written:
         raise Malformed(f"its schema is {schema!r}, not {SCHEMA!r}")
     if not isinstance(found.get("certificates"), list):
         raise Malformed("it holds no list of certificates")
-    return Written(_origin(found.get("origin")), tuple(map(certificate, found["certificates"])))
+    return CertificateFile(_origin(found.get("origin")), tuple(map(certificate, found["certificates"])))
 
 
 def _origin(found: Any) -> CertificateOrigin:

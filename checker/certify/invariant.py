@@ -15,7 +15,7 @@ from rovercheck.spec_model.lang.expr import Var
 class Conjuncts:
     """Formulas that all hold: definitions in SMT-LIB, and the symbols of those that are conjuncts.
 
-    They speak of the valuation after 0 ticks.  ``ticks`` and ``simple`` are those of
+    They speak of the state after 0 ticks.  ``ticks`` and ``simple`` are those of
     ``checker.results.verdict.Inductive``.
     """
 

@@ -2,8 +2,8 @@
 
 A script asks for a counterexample, so the obligation is met if and only if it is unsatisfiable:
 
-    initiation   some valuation before the first tick breaks the invariant
-    consecution  some tick leads from the invariant to a valuation that breaks it
+    initiation   some state before the first tick breaks the invariant
+    consecution  some tick leads from the invariant to a state that breaks it
     domains      some tick from the invariant gives a variable a value outside its domain
     safety       some tick from the invariant makes a claimed goal true
 
@@ -80,7 +80,7 @@ def _induction(question: CertifyQuestion, invariant: Conjuncts, claim: str) -> I
 
 
 def _apart(question: CertifyQuestion, k: int) -> list[str]:
-    """No two of the valuations before the k ticks are the same."""
+    """No two of the states before the k ticks are the same."""
     names = [v.name for v in question.tick.variables]
     return [
         joined("or", [f"(distinct {quoted(n, a)} {quoted(n, b)})" for n in names])

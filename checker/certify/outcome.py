@@ -1,4 +1,4 @@
-"""What comes of checking a certificate, and the words for a valuation that refutes it."""
+"""What comes of checking a certificate, and the words for a state that refutes it."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
@@ -40,7 +40,7 @@ class TooMuch:
 Outcome = Union[Accepted, Rejected, Undecided]
 
 
-def told(variables: Iterable[Var], values: Mapping[str, int]) -> str:
+def assignment_text(variables: Iterable[Var], values: Mapping[str, int]) -> str:
     """``mode = IDLE, age = 140``: the variables that have a value, in their own terms."""
     return ", ".join(f"{v.name} = {_shown(v, values[v.name])}" for v in variables if v.name in values)
 

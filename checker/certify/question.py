@@ -21,7 +21,7 @@ from rovercheck.checker.certify.smtlib import (
     within,
 )
 from rovercheck.checker.certify.terms import Sort
-from rovercheck.checker.certify.tick import CertifiedTick, Executed
+from rovercheck.checker.certify.tick import CertifiedTick, SymbolicStep
 from rovercheck.spec_model.lang.expr import Var
 
 
@@ -51,7 +51,7 @@ class CertifyQuestion:
 
     @property
     def state(self) -> tuple[Var, ...]:
-        """What makes up a valuation: frozen variables, then the others."""
+        """What makes up a state: frozen variables, then the others."""
         return (*self.tick.frozen, *self.tick.variables)
 
     def symbols(self, at: int) -> dict[str, str]:
@@ -66,7 +66,7 @@ class CertifyQuestion:
         return {symbols[v.name]: sort_bits(v.domain) for v in self.state if v.name in self.about}
 
     def valuation(self) -> list[str]:
-        """A valuation of any values, and the formula that all of them belong to their domains."""
+        """A state of any values, and the formula that all of them belong to their domains."""
         symbols = self.symbols(0)
         inside = [within(symbols[v.name], v.domain) for v in self.state]
         declared = [f"(declare-const {symbols[v.name]} {sort(v.domain)})" for v in self.state]
@@ -78,7 +78,7 @@ class CertifyQuestion:
         return [define(own("init", 0), "Bool", joined("and", parts))]
 
     def one_tick(self, at: int) -> list[str]:
-        """The inputs of a tick, the valuation after it, what is assumed, and what must not happen."""
+        """The inputs of a tick, the state after it, what is assumed, and what must not happen."""
         inputs, symbols = self.tick.inputs, self.symbols(at)
         printer = Printer(symbols, at)
         declared = [f"(declare-const {symbols[v.name]} {sort(v.domain)})" for v in inputs]
@@ -97,7 +97,7 @@ class CertifyQuestion:
 
 
 def question(
-    step: Executed, claims: Sequence[str], kept: Sequence[int], about: Sequence[str]
+    step: SymbolicStep, claims: Sequence[str], kept: Sequence[int], about: Sequence[str]
 ) -> CertifyQuestion:
     """The question whether the claimed goals are ever true after a tick.
 

@@ -1,4 +1,4 @@
-"""From a closed set of valuations to its decision diagram, bottom-up, level by level."""
+"""From a closed set of states to its decision diagram, bottom-up, level by level."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -8,13 +8,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rovercheck.checker.certify.diagram import TRUE, CertifiedDiagram, Nodes
-from rovercheck.checker.results.closed import BitPlace, ClosedSet
+from rovercheck.checker.results.closed_set import BitPlace, ClosedSet
 
 Codes = NDArray[np.signedinteger[Any]]
 Words = NDArray[np.uint64]
 
 LARGE = 1 << 20
-"""Valuations from which on one order is tried."""
+"""States from which on one order is tried."""
 
 
 def diagram(closed: ClosedSet) -> CertifiedDiagram:
@@ -64,7 +64,7 @@ class ReductionLevel:
 
 
 @dataclass(frozen=True)
-class Reduced:
+class ReducedLevels:
     """The levels of a diagram, the last variable first."""
 
     places: tuple[BitPlace, ...]
@@ -87,7 +87,7 @@ class Reduced:
         return CertifiedDiagram(tuple(p.var.name for p in self.places), nodes, self.root)
 
 
-def reduced(places: Sequence[BitPlace], codes: Sequence[Codes]) -> Reduced:
+def reduced(places: Sequence[BitPlace], codes: Sequence[Codes]) -> ReducedLevels:
     """The diagram of distinct rows, one column of codes for each variable, in this order."""
     order = np.lexsort(codes[::-1])
     changed = _first_difference([column[order] for column in codes])
@@ -100,7 +100,7 @@ def reduced(places: Sequence[BitPlace], codes: Sequence[Codes]) -> Reduced:
         made.append(nodes)
         known += len(nodes.sizes)
         order, changed = order[starts], changed[starts]
-    return Reduced(tuple(places), tuple(made), int(child[0]))
+    return ReducedLevels(tuple(places), tuple(made), int(child[0]))
 
 
 def _first_difference(columns: Sequence[Codes]) -> NDArray[np.int32]:

@@ -19,7 +19,7 @@ _SPECIAL = re.compile(r"[%|\\@:]|[^ -~]")
 
 
 def quoted(name: str, at: int | None = None) -> str:
-    """The symbol of a variable, ``at`` a number of ticks after the first valuation; frozen ones have none.
+    """The symbol of a variable, ``at`` a number of ticks after the first state; frozen ones have none.
 
     What has a meaning of its own in a symbol is written as % and its code point, as in ``%40``.
     """
@@ -119,7 +119,7 @@ class Printer:
         """A formula in the sort of a variable of that domain, cut to its width."""
         self._print(expr)
         text = self._text[id(expr)]
-        return text if isinstance(domain.sort, Bool) else self._fitted(expr, width(domain))
+        return text if isinstance(domain.sort, Bool) else self.fitted(expr, width(domain))
 
     def fits(self, expr: Expr, domain: Domain) -> str:
         """The formula that the value, before it is cut to its width, belongs to the domain."""
@@ -128,7 +128,7 @@ class Printer:
             return within(self._text[id(expr)], domain)
         own = self._range[id(expr)] | Interval(domain.low, domain.high)
         wide = Domain(domain.sort, range(own.low, own.high + 1))
-        return among(self._fitted(expr, own.width), wide, _stretches(domain.values))
+        return among(self.fitted(expr, own.width), wide, _stretches(domain.values))
 
     def _print(self, root: Expr) -> None:
         for node in postorder(root):
@@ -147,44 +147,20 @@ class Printer:
             case Apply(op, args, of):
                 name = own(f"{self._word}{len(self.lines)}", self._at)
                 bits = self._range[id(node)].width
-                self.lines.append(
-                    define(
-                        name,
-                        "Bool" if isinstance(of, Bool) else f"(_ BitVec {bits})",
-                        self._applied(op, args, bits),
-                    )
-                )
+                sort = "Bool" if isinstance(of, Bool) else f"(_ BitVec {bits})"
+                self.lines.append(define(name, sort, OPERATIONS[op](self, args, bits)))
                 return name
         raise ModelError(f"`{node}` speaks of the past; lower the chart or reduce the property first.")
 
-    def _applied(self, op: Op, args: tuple[Expr, ...], bits: int) -> str:
-        texts = [self._text[id(a)] for a in args]
-        if op in _LOGIC or (op in _COMPARE and isinstance(args[0].sort, Bool)):
-            return _call(_LOGIC.get(op) or _COMPARE[op], texts)
-        if op is Op.ITE:
-            if not isinstance(args[1].sort, Bool):
-                texts[1:] = [self._fitted(a, bits) for a in args[1:]]
-            return _call("ite", texts)
-        if op in _COMPARE:
-            common = max(self._range[id(a)].width for a in args)
-            return _call(_COMPARE[op], [self._fitted(a, common) for a in args])
-        if op is Op.BIT:
-            return self._bit(args[0], self._range[id(args[1])].low)
-        inner = max(bits, *(self._range[id(a)].width for a in args)) + (op is Op.DIV)
-        return _resized(_ARITHMETIC[op](*(self._fitted(a, inner) for a in args)), inner, bits)
+    def texts(self, args: Sequence[Expr]) -> list[str]:
+        return [self._text[id(a)] for a in args]
 
-    def _bit(self, arg: Expr, index: int) -> str:
-        wide = max(self._range[id(arg)].width, index + 1)
-        return f"(= #b1 ((_ extract {index} {index}) {self._fitted(arg, wide)}))"
+    def range(self, expr: Expr) -> Interval:
+        return self._range[id(expr)]
 
-    def _fitted(self, arg: Expr, bits: int) -> str:
+    def fitted(self, arg: Expr, bits: int) -> str:
+        """A number in another width that holds its value."""
         return _resized(self._text[id(arg)], self._range[id(arg)].width, bits)
-
-
-def _call(word: str, texts: Sequence[str]) -> str:
-    if word in ("and", "or"):
-        return joined(word, texts)
-    return f"({word} {' '.join(texts)})"
 
 
 def _resized(text: str, bits: int, to: int) -> str:
@@ -194,30 +170,69 @@ def _resized(text: str, bits: int, to: int) -> str:
     return f"((_ sign_extend {to - bits}) {text})" if to > bits else f"((_ extract {to - 1} 0) {text})"
 
 
-def _absolute(a: str) -> str:
-    return f"(ite (bvslt {a} (bvneg {a})) (bvneg {a}) {a})"
+Row = Callable[[Printer, Sequence[Expr], int], str]
+"""The text of an operator on printed formulas; a number has that many bits."""
 
 
-_LOGIC: dict[Op, str] = {Op.NOT: "not", Op.AND: "and", Op.OR: "or"}
-_COMPARE: dict[Op, str] = {
-    Op.EQ: "=",
-    Op.NE: "distinct",
-    Op.LT: "bvslt",
-    Op.LE: "bvsle",
-    Op.GT: "bvsgt",
-    Op.GE: "bvsge",
+def _junction(word: str) -> Row:
+    return lambda printer, args, bits: joined(word, printer.texts(args))
+
+
+def _compared(word: str) -> Row:
+    def row(printer: Printer, args: Sequence[Expr], bits: int) -> str:
+        if isinstance(args[0].sort, Bool):
+            return f"({word} {' '.join(printer.texts(args))})"
+        common = max(printer.range(a).width for a in args)
+        return f"({word} {' '.join(printer.fitted(a, common) for a in args)})"
+
+    return row
+
+
+def _chosen(printer: Printer, args: Sequence[Expr], bits: int) -> str:
+    test, *branches = args
+    truths = isinstance(branches[0].sort, Bool)
+    texts = printer.texts(branches) if truths else [printer.fitted(a, bits) for a in branches]
+    return f"(ite {' '.join(printer.texts([test]) + texts)})"
+
+
+def _computed(compute: Callable[..., str], more: int = 0) -> Row:
+    """In a width that holds arguments and result, and so many bits ``more``."""
+
+    def row(printer: Printer, args: Sequence[Expr], bits: int) -> str:
+        inner = max(bits, *(printer.range(a).width for a in args)) + more
+        return _resized(compute(*(printer.fitted(a, inner) for a in args)), inner, bits)
+
+    return row
+
+
+def _bit(printer: Printer, args: Sequence[Expr], bits: int) -> str:
+    index = printer.range(args[1]).low
+    wide = max(printer.range(args[0]).width, index + 1)
+    return f"(= #b1 ((_ extract {index} {index}) {printer.fitted(args[0], wide)}))"
+
+
+OPERATIONS: Mapping[Op, Row] = {
+    Op.NOT: lambda printer, args, bits: f"(not {printer.texts(args)[0]})",
+    Op.AND: _junction("and"),
+    Op.OR: _junction("or"),
+    Op.ITE: _chosen,
+    Op.EQ: _compared("="),
+    Op.NE: _compared("distinct"),
+    Op.LT: _compared("bvslt"),
+    Op.LE: _compared("bvsle"),
+    Op.GT: _compared("bvsgt"),
+    Op.GE: _compared("bvsge"),
+    Op.ADD: _computed(lambda a, b: f"(bvadd {a} {b})"),
+    Op.SUB: _computed(lambda a, b: f"(bvsub {a} {b})"),
+    Op.NEG: _computed(lambda a: f"(bvneg {a})"),
+    Op.MUL: _computed(lambda a, b: f"(bvmul {a} {b})"),
+    Op.SCALE: _computed(lambda a, b: f"(bvmul {a} {b})"),
+    # Rounded down; the divisor is positive, and one more bit holds the multiple below the least value.
+    Op.DIV: _computed(lambda a, b: f"(bvsdiv (bvsub {a} (bvsmod {a} {b})) {b})", more=1),
+    Op.MOD: _computed(lambda a, b: f"(bvsmod {a} {b})"),  # the sign of the divisor: never negative
+    Op.ABS: _computed(lambda a: f"(ite (bvslt {a} (bvneg {a})) (bvneg {a}) {a})"),
+    Op.MIN: _computed(lambda a, b: f"(ite (bvsle {a} {b}) {a} {b})"),
+    Op.MAX: _computed(lambda a, b: f"(ite (bvsle {a} {b}) {b} {a})"),
+    Op.BIT: _bit,
 }
-_ARITHMETIC: dict[Op, Callable[..., str]] = {
-    Op.ADD: lambda a, b: f"(bvadd {a} {b})",
-    Op.SUB: lambda a, b: f"(bvsub {a} {b})",
-    Op.NEG: lambda a: f"(bvneg {a})",
-    Op.MUL: lambda a, b: f"(bvmul {a} {b})",
-    Op.SCALE: lambda a, b: f"(bvmul {a} {b})",
-    Op.DIV: lambda a, b: f"(bvsdiv (bvsub {a} (bvsmod {a} {b})) {b})",  # rounded down; b is positive
-    Op.MOD: lambda a, b: f"(bvsmod {a} {b})",  # the sign of the divisor: never negative
-    Op.ABS: _absolute,
-    Op.MIN: lambda a, b: f"(ite (bvsle {a} {b}) {a} {b})",
-    Op.MAX: lambda a, b: f"(ite (bvsle {a} {b}) {b} {a})",
-}
-OPERATORS = frozenset({*_LOGIC, *_COMPARE, *_ARITHMETIC, Op.ITE, Op.BIT})
-"""The operators that are printed."""
+"""Every operator in SMT-LIB, written apart from what the engines make of it."""

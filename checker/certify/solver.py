@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from rovercheck.checker.certify.obligations import Obligation
 from rovercheck.checker.certify.terms import Malformed
-from rovercheck.checker.process.isolate import Send, Stopped, messages
+from rovercheck.checker.process.isolate import ChildStopped, Send, messages
 
 if TYPE_CHECKING:
     import bitwuzla
@@ -20,7 +20,7 @@ Values = Mapping[str, int]
 
 
 @dataclass(frozen=True)
-class Met:
+class ObligationMet:
     """The obligation is met."""
 
     name: str
@@ -43,13 +43,13 @@ class SolverLate:
 
 
 @dataclass(frozen=True)
-class Ill:
+class IllFormedScript:
     """The script has no meaning to the solver, which is the fault of the invariant in it."""
 
     reason: str
 
 
-Decided = Met | BrokenSolver | SolverLate
+Decided = ObligationMet | BrokenSolver | SolverLate
 
 
 def name() -> str:
@@ -78,18 +78,18 @@ def decide(
                 if message is not True:
                     return
         ended = "the solver ended without an answer"
-    except Stopped as stopped:
+    except ChildStopped as stopped:
         ended = str(stopped)
     if waiting:
         yield SolverLate(waiting[0], ended)
 
 
 def _decided(name: str, message: object) -> Decided:
-    if isinstance(message, Ill):
+    if isinstance(message, IllFormedScript):
         raise Malformed(message.reason)
     if isinstance(message, dict):
         return BrokenSolver(name, message)
-    return Met(name) if message is True else SolverLate(name, str(message))
+    return ObligationMet(name) if message is True else SolverLate(name, str(message))
 
 
 # --- in the child --------------------------------------------------------------------------------
@@ -111,7 +111,7 @@ def solve(send: Send, scripts: Sequence[str], symbols: Sequence[Sequence[str]]) 
         try:
             parser.parse(script, True, False)
         except bitwuzla.BitwuzlaException as error:
-            return send(Ill(str(error)))
+            return send(IllFormedScript(str(error)))
         solver = parser.bitwuzla()
         result = solver.check_sat()
         if result == bitwuzla.Result.SAT:

@@ -1,4 +1,4 @@
-"""Checking a large closed set without a solver: all its valuations at once, vector of inputs by vector.
+"""Checking a large closed set without a solver: all its states at once, vector of inputs by vector.
 
 The formulas of a tick are evaluated on columns of numbers.  Neither the printing of formulas nor a solver
 is trusted, nor anything of the engine: the set is unfolded from its diagram.
@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rovercheck.checker.certify.diagram import CertifiedDiagram, count, positions
-from rovercheck.checker.certify.outcome import Accepted, Rejected, TooMuch, told
+from rovercheck.checker.certify.outcome import Accepted, Rejected, TooMuch, assignment_text
 from rovercheck.checker.certify.question import CertifyQuestion
 from rovercheck.checker.system.intervals import intervals, postorder
 from rovercheck.spec_model.lang.domain import Bool, Domain
@@ -30,7 +30,7 @@ MOST = 60_000_000_000
 CALLS = 20_000_000
 """Columns that are computed at most."""
 ROWS = 1 << 14
-"""Valuations in a column."""
+"""States in a column."""
 FIRST_BITS, BITS = 63, 32
 """Bits of the first word of a row, and of the others, beside which the number of all before has room."""
 
@@ -40,7 +40,7 @@ Member = Callable[[Columns], NDArray[np.bool_]]
 
 
 def swept(asked: CertifyQuestion, diagram: CertifiedDiagram) -> Accepted | Rejected | TooMuch:
-    """Whether the closed set meets its obligations, shown on all of its valuations."""
+    """Whether the closed set meets its obligations, shown on all of its states."""
     domains = {v.name: v.domain for v in asked.state}
     roots = (*asked.tick.next.values(), *asked.tick.assume)
     if not diagram.variables:
@@ -51,27 +51,27 @@ def swept(asked: CertifyQuestion, diagram: CertifiedDiagram) -> Accepted | Rejec
     choices = prod(len(v.domain) for v in asked.tick.inputs)
     formulas = Formulas(asked.tick.inputs, asked.tick.assume, asked.tick.next)
     if size * formulas.work > MOST or (size // ROWS + 1) * formulas.work > CALLS:
-        return TooMuch(f"{size:,} valuations and {choices:,} vectors of inputs are too many to try")
+        return TooMuch(f"{size:,} states and {choices:,} vectors of inputs are too many to try")
     if any(max(-i.low, i.high) >= 1 << 62 for i in intervals(*roots).values()):
         return TooMuch("a formula needs more than 63 bits")
     for frozen in product(*(v.domain.values for v in asked.tick.frozen)):
         initial = {v.name: v.init for v in asked.tick.variables}
         initial |= dict(zip((v.name for v in asked.tick.frozen), frozen, strict=True))
         if initial not in diagram:
-            return Rejected("initiation", told(asked.state, initial))
+            return Rejected("initiation", assignment_text(asked.state, initial))
     try:
         rows = SweepRows(diagram, domains, size)
     except DeadEnd:
-        return TooMuch("the diagram has paths that lead to no valuation")
+        return TooMuch("the diagram has paths that lead to no state")
     for at in rows:
         broken = _broken(asked, formulas, rows.contain, at)
         if broken is not None:
             return broken
-    return Accepted(f"{size:,} valuations and {choices:,} vectors of inputs tried")
+    return Accepted(f"{size:,} states and {choices:,} vectors of inputs tried")
 
 
 def _broken(asked: CertifyQuestion, formulas: "Formulas", member: Member, at: Columns) -> Rejected | None:
-    """What is wrong with the ticks from some valuations."""
+    """What is wrong with the ticks from some states."""
     rows = len(next(iter(at.values())))
     for here, allowed, following in formulas.each(at):
         after = {n: np.broadcast_to(c, rows) for n, c in following.items()}
@@ -81,8 +81,8 @@ def _broken(asked: CertifyQuestion, formulas: "Formulas", member: Member, at: Co
             if len(found):
                 values = {n: int(np.broadcast_to(c, rows)[found[0]]) for n, c in here.items()}
                 reached = {n: int(c[found[0]]) for n, c in after.items()}
-                words = told((*asked.state, *asked.tick.inputs), values)
-                return Rejected(obligation, f"{words}; after 1 ticks {told(asked.state, reached)}")
+                words = assignment_text((*asked.state, *asked.tick.inputs), values)
+                return Rejected(obligation, f"{words}; after 1 ticks {assignment_text(asked.state, reached)}")
     return None
 
 
@@ -107,11 +107,11 @@ def _inside(domain: Domain, values: Column) -> NDArray[np.bool_]:
 
 
 class DeadEnd(Exception):
-    """A diagram has more paths than valuations."""
+    """A diagram has more paths than states."""
 
 
 class SweepRows:
-    """The valuations of a diagram packed into words, among which others are looked up.
+    """The states of a diagram packed into words, among which others are looked up.
 
     The code of a value is its place in the domain.  Each variable has its bits in one of the words; those
     after the first are looked up together with the number of all words before.  Raises ``DeadEnd`` where
@@ -138,7 +138,7 @@ class SweepRows:
             self._known.append(known)
 
     def __iter__(self) -> Iterator[Columns]:
-        """The valuations, some of them at a time."""
+        """The states, some of them at a time."""
         for first in range(0, self._words.shape[1], ROWS):
             words = self._words[:, first : first + ROWS]
             yield {
@@ -246,12 +246,12 @@ class Formulas:
 
     @property
     def work(self) -> int:
-        """How many formulas are evaluated for all inputs of one valuation."""
+        """How many formulas are evaluated for all inputs of one state."""
         choices = accumulate((len(v.domain) for v in self._inputs), mul, initial=1)
         return sum(len(own) * times for own, times in zip(self._nodes, choices, strict=True))
 
     def each(self, at: Columns) -> Iterator[tuple[Columns, NDArray[np.bool_], Columns]]:
-        """Each vector of inputs beside the valuations, where it is allowed, and the next values.
+        """Each vector of inputs beside the states, where it is allowed, and the next values.
 
         One that the assumption allows nowhere is left out.
         """
@@ -301,7 +301,7 @@ def _node(node: Expr, at: Columns, known: Mapping[int, Column]) -> Column:
         case Named(_, body):
             return known[id(body)]
         case Apply(op, args, _):
-            return np.asarray(_MEANING[op](*(known[id(a)] for a in args)), dtype=kind)
+            return np.asarray(OPERATIONS[op](*(known[id(a)] for a in args)), dtype=kind)
     raise AssertionError(f"{node} speaks of the past")
 
 
@@ -312,7 +312,7 @@ def _chosen(condition: Column, then: Column, otherwise: Column) -> Column:
     return np.where(condition, then, otherwise) if condition.any() else otherwise
 
 
-_MEANING: dict[Op, Callable[..., NDArray[Any]]] = {
+OPERATIONS: Mapping[Op, Callable[..., NDArray[Any]]] = {
     Op.NOT: np.logical_not,
     Op.AND: lambda *args: reduce(np.logical_and, args),
     Op.OR: lambda *args: reduce(np.logical_or, args),
@@ -335,5 +335,4 @@ _MEANING: dict[Op, Callable[..., NDArray[Any]]] = {
     Op.MAX: np.maximum,
     Op.BIT: lambda a, b: a >> b & 1,
 }
-OPERATORS = frozenset(_MEANING)
-"""The operators that are evaluated."""
+"""Every operator on columns, written apart from that of the engines."""

@@ -1,4 +1,4 @@
-"""Reading the formulas of a certificate: definitions in SMT-LIB that speak of one valuation only.
+"""Reading the formulas of a certificate: definitions in SMT-LIB that speak of one state only.
 
 A certificate comes from outside, and its text becomes part of what a solver is asked.  So it is read token
 by token: no command, no symbol of a tick and no second definition can hide in it, and every term has a sort.
@@ -101,9 +101,7 @@ def sort_of(term: Term, known: Mapping[str, Sort]) -> Sort:
         case (str(operator), *args) if operator in _MEANING:
             found = _applied(operator, [sort_of(arg, known) for arg in args])
     if found is None or found > WIDEST:
-        raise Malformed(
-            f"{str(term)[:60]} is no formula over the valuation; only {sorted(_MEANING)} may be used"
-        )
+        raise Malformed(f"{str(term)[:60]} is no formula over the state; only {sorted(_MEANING)} may be used")
     return found
 
 

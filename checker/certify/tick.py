@@ -1,4 +1,4 @@
-"""One tick as formulas: every variable after it, written over the valuation before it and the inputs.
+"""One tick as formulas: every variable after it, written over the state before it and the inputs.
 
 Plain symbolic execution.  Nothing is simplified, so that nothing can be simplified wrongly; nodes built
 alike are one node, so that formulas stay as long as the program.
@@ -34,7 +34,7 @@ class CertifiedTick:
 
 
 @dataclass(frozen=True)
-class Executed:
+class SymbolicStep:
     """The step of a whole system as formulas: all its variables, all conjuncts of its assumption."""
 
     system: TransitionSystem
@@ -76,7 +76,7 @@ def conjuncts(expr: Expr) -> tuple[Expr, ...]:
     return (expr,)
 
 
-def executed(system: TransitionSystem) -> Executed:
+def executed(system: TransitionSystem) -> SymbolicStep:
     """The step executed on symbols.  Raises ``ModelError`` on a word that lowering removes."""
     nodes = _Nodes()
     store: Store = {v.name: v for v in (*system.variables, *system.inputs, *system.frozen)}
@@ -84,7 +84,7 @@ def executed(system: TransitionSystem) -> Executed:
     store |= {v.name: Const(v.init, v.sort) for v in system.temps if v.name not in store}
     assume = tuple(nodes.value(part, store) for part in conjuncts(system.assume))
     _run(system.step, store, nodes)
-    return Executed(system, {v.name: store[v.name] for v in system.variables}, assume)
+    return SymbolicStep(system, {v.name: store[v.name] for v in system.variables}, assume)
 
 
 def _run(program: Sequence[Action], store: Store, nodes: "_Nodes") -> None:

@@ -1,1 +1,4 @@
-"""The verbs of the command line, a folder or module each: found by being here, beside what they share."""
+"""The verbs of the command line, a folder or module each.
+
+They are discovered automatically: every module of this folder that holds a command.
+"""

@@ -10,7 +10,7 @@ from rovercheck.checker.compare.stimulus import Stimulus, StimulusPlayer
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.domain import Num
-from rovercheck.spec_model.lang.interpret import Fired, Interpreter
+from rovercheck.spec_model.lang.interpret import FiredTransition, Interpreter
 
 NEAR = 1e-6
 """Numbers that differ by no more, in their unit or as a part of the larger one, are equal: single precision
@@ -21,11 +21,11 @@ BATCH = 200
 
 @dataclass(frozen=True)
 class ComparedStep:
-    """The inputs of a step, the outputs that the charts require, and the arrows that they took."""
+    """The inputs of a step, the outputs that the charts require, and the transitions that they took."""
 
     inputs: Mapping[str, Value]
     expected: Mapping[str, Value]
-    fired: tuple[Fired, ...]
+    fired: tuple[FiredTransition, ...]
 
 
 @dataclass(frozen=True)
@@ -55,18 +55,18 @@ class StepMismatch:
         return len(self.steps)
 
     @property
-    def arrows(self) -> tuple[Fired, ...]:
-        """The arrows that the charts took in that step, those of the chart at fault first."""
+    def transitions(self) -> tuple[FiredTransition, ...]:
+        """The transitions that the charts took in that step, those of the chart at fault first."""
         author = author_of(self.board, self.differences[0].name)
         return tuple(sorted(self.steps[-1].fired, key=lambda fired: fired.chart != author))
 
     @property
     def key(self) -> tuple[object, ...]:
-        """Mismatches with the same key are one: the same output first, after the same arrow of its chart."""
+        """Mismatches with one key are one: the same output first, after the same transition of its chart."""
         first = self.differences[0].name
         author = author_of(self.board, first)
-        arrows = [(f.source, f.target, f.order) for f in self.steps[-1].fired if f.chart == author]
-        return (self.board.name, first, arrows[-1] if arrows else None)
+        transitions = [(f.source, f.target, f.order) for f in self.steps[-1].fired if f.chart == author]
+        return (self.board.name, first, transitions[-1] if transitions else None)
 
 
 class SteppedCharts:

@@ -18,13 +18,13 @@ from rovercheck.checker.compare.beside import (
     rerun,
 )
 from rovercheck.checker.compare.environment import Environment
-from rovercheck.checker.compare.fixed import fixed
-from rovercheck.checker.compare.recorded import counterexamples, tests
+from rovercheck.checker.compare.fixed_runs import fixed
+from rovercheck.checker.compare.recorded_runs import counterexamples, tests
 from rovercheck.checker.compare.result import ALLOWED, Allowance, CompareResult
 from rovercheck.checker.compare.search import CI, CompareEffort, CompareSearch, Progress, Run, effort
 from rovercheck.checker.compare.stimulus import Stimulus
 from rovercheck.checker.compare.strategy import ENVIRONMENTS
-from rovercheck.checker.compare.varied import named
+from rovercheck.checker.compare.variants import named
 from rovercheck.checker.testgen import kept
 from rovercheck.spec_model.abstraction import Board
 
@@ -56,7 +56,7 @@ class RecordedSuite:
 
 @dataclass(frozen=True)
 class Suite:
-    """The runs of an effort on a board, those that take new arrows first."""
+    """The runs of an effort on a board, those that take new transitions first."""
 
     board: Board
     runs: tuple[RecordedSuite, ...]
@@ -81,9 +81,9 @@ def suite(env: Environment, effort: CompareEffort, runs: Iterable[Run]) -> Suite
     known: set[object] = set()
 
     def keep(origin: str, steps: list[ComparedStep]) -> None:
-        arrows = {(f.chart, f.source, f.target, f.label) for step in steps for f in step.fired}
-        made.append((-len(arrows - known), RecordedSuite(origin, tuple(_changes(steps)))))
-        known.update(arrows)
+        transitions = {(f.chart, f.source, f.target, f.label) for step in steps for f in step.fired}
+        made.append((-len(transitions - known), RecordedSuite(origin, tuple(_changes(steps)))))
+        known.update(transitions)
 
     CompareSearch(env, _Nothing(), effort, record=keep).run(runs)
     made.sort(key=lambda pair: pair[0])
@@ -203,7 +203,7 @@ def _known(env: Environment, folder: Path | None) -> Iterable[Run]:
     return chain(ours, tests(folder, env.board) if folder else ())
 
 
-class Remembered:
+class RunCache:
     """Runs that the charts go through once in a process, however often they are wanted."""
 
     def __init__(self, runs: Callable[[], Iterator[Run]]) -> None:
@@ -227,8 +227,8 @@ class Remembered:
 
 
 @cache
-def _of_the_project(board: str) -> Remembered:
-    return Remembered(lambda: known_runs(ENVIRONMENTS[board]))
+def _of_the_project(board: str) -> RunCache:
+    return RunCache(lambda: known_runs(ENVIRONMENTS[board]))
 
 
 def known_runs(env: Environment) -> Iterator[Run]:
@@ -240,6 +240,6 @@ def known_runs(env: Environment) -> Iterator[Run]:
 
 
 def _covering(board: Board) -> Iterator[Run]:
-    """The tests that cover every arrow and boundary, kept with the project."""
+    """The tests that cover every transition and boundary, kept with the project."""
     for test in kept(board.name):
         yield f"covering test {test.name}", rerun(board, test.steps)

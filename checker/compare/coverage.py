@@ -1,4 +1,4 @@
-"""What a set of runs has exercised: the arrows of the charts, and the sides of their boundaries."""
+"""What a set of runs has exercised: the transitions of the charts, and the sides of their boundaries."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
@@ -10,16 +10,19 @@ from rovercheck.checker.compare.beside import ComparedStep
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.chart import Chart, Path, Transition
 from rovercheck.spec_model.lang.expr import Const
-from rovercheck.spec_model.lang.interpret import Fired
-from rovercheck.spec_model.lang.interpret.fired import path_label
+from rovercheck.spec_model.lang.interpret import FiredTransition
+from rovercheck.spec_model.lang.interpret.fired_transition import path_label
 
 NEAR_SHARE = Fraction(1, 100)
 """The share of a signal's range within which a value counts as beside a boundary."""
 
 
 @dataclass(frozen=True, order=True)
-class CoveredArrow:
-    """A complete path of a chart from state to state, with its label as drawn; ``order`` as in ``Fired``."""
+class CoveredTransition:
+    """A complete path of a chart from state to state, with its label as drawn.
+
+    ``order`` is that of ``FiredTransition``.
+    """
 
     chart: str
     source: Path
@@ -29,32 +32,32 @@ class CoveredArrow:
 
     def __str__(self) -> str:
         start = f"{'.'.join(self.source)} -> " if self.source else "default -> "
-        number = f" (arrow {self.order})" if self.order else ""
+        number = f" (transition {self.order})" if self.order else ""
         return f"{self.chart}: {start}{'.'.join(self.target)}{number}{' ' + self.label if self.label else ''}"
 
 
-def taken(fired: Fired) -> CoveredArrow:
-    """The arrow that fired."""
-    return CoveredArrow(fired.chart, fired.source, fired.order, fired.target, fired.label)
+def taken(fired: FiredTransition) -> CoveredTransition:
+    """The transition that fired."""
+    return CoveredTransition(fired.chart, fired.source, fired.order, fired.target, fired.label)
 
 
-def arrows(board: Board) -> frozenset[CoveredArrow]:
-    """All arrows of a board, those left out that no reading of a sentence lets fire."""
-    return _arrows(board.name, board)
+def transitions(board: Board) -> frozenset[CoveredTransition]:
+    """All transitions of a board, those left out that no reading of a sentence lets fire."""
+    return _transitions(board.name, board)
 
 
 @cache
-def _arrows(name: str, board: Board) -> frozenset[CoveredArrow]:
+def _transitions(name: str, board: Board) -> frozenset[CoveredTransition]:
     return frozenset(a for chart in board.system.charts for a in _of(chart))
 
 
-def _of(chart: Chart) -> Iterator[CoveredArrow]:
+def _of(chart: Chart) -> Iterator[CoveredTransition]:
     for path, state in chart.states.items():
         for target, segments in _paths(chart, path, state.default):
-            yield CoveredArrow(chart.name, (), 0, target, path_label(segments))
-        for order, arrow in enumerate(state.transitions, 1):
-            for target, segments in _paths(chart, path[:-1], (arrow,)):
-                yield CoveredArrow(chart.name, path, order, target, path_label(segments))
+            yield CoveredTransition(chart.name, (), 0, target, path_label(segments))
+        for order, transition in enumerate(state.transitions, 1):
+            for target, segments in _paths(chart, path[:-1], (transition,)):
+                yield CoveredTransition(chart.name, path, order, target, path_label(segments))
 
 
 def _paths(
@@ -76,14 +79,14 @@ def _paths(
 
 
 @dataclass
-class ArrowCoverage:
-    """Arrows and values met so far."""
+class TransitionCoverage:
+    """Transitions and values met so far."""
 
     board: Board
-    taken: set[CoveredArrow] = field(default_factory=set)
+    taken: set[CoveredTransition] = field(default_factory=set)
     steps: int = 0
     runs: int = 0
-    _fired: set[Fired] = field(default_factory=set)
+    _fired: set[FiredTransition] = field(default_factory=set)
     _values: dict[str, set[float]] = field(default_factory=dict)
 
     def add(self, steps: list[ComparedStep]) -> None:
@@ -99,9 +102,9 @@ class ArrowCoverage:
         self.taken = {taken(fired) for fired in self._fired}
 
     @property
-    def missing(self) -> tuple[CoveredArrow, ...]:
-        """The arrows that no run took."""
-        return tuple(sorted(arrows(self.board) - self.taken))
+    def missing(self) -> tuple[CoveredTransition, ...]:
+        """The transitions that no run took."""
+        return tuple(sorted(transitions(self.board) - self.taken))
 
     def boundaries(self) -> tuple[int, int]:
         """How many sides of boundaries were met, of how many: at it, just below it and just above it."""

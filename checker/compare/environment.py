@@ -1,4 +1,4 @@
-"""What surrounds a board in a stimulus: sources with their fields, calm values, and phases to draw from."""
+"""What surrounds a board in a stimulus: sources with their fields, values at rest, phases to draw from."""
 
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
@@ -17,20 +17,20 @@ Phase = Callable[["Environment"], st.SearchStrategy[Blocks]]
 SHORT = (1, 1, 2, 2, 3, 4, 6, 8, 12)
 """Steps that a block lasts when it waits for nothing."""
 AROUND = (-1, 0, 1, 2)
-"""Steps beside the length of a timer: an arrow may fire a step later than its condition began to hold."""
+"""Steps beside the length of a timer: a transition may fire a step later than its condition began to hold."""
 
 
 @dataclass(frozen=True)
 class Environment:
     """The surroundings of a board.
 
-    ``fields`` names what arrives with each stamp.  ``calm`` are values at rest, all others at their initial
-    value.  ``themes`` are phases that lead somewhere together, each with blocks that begin it.
+    ``fields`` names what arrives with each stamp.  ``resting`` are values at rest, all others at their
+    initial value.  ``themes`` are phases that lead somewhere together, each with blocks that begin it.
     """
 
     board: Board
     fields: Mapping[str, tuple[str, ...]]
-    calm: Mapping[str, Value]
+    resting: Mapping[str, Value]
     themes: Mapping[str, tuple[Blocks, tuple[Phase, ...]]]
     means: tuple[int, ...] = ()
     scenes: Callable[["Environment"], Iterator[tuple[str, Blocks, Blocks]]] = lambda env: iter(())
@@ -42,9 +42,9 @@ class Environment:
 
     @cached_property
     def at_rest(self) -> tuple[tuple[str, Change], ...]:
-        """Everything calm, and every source updated in every step."""
+        """Everything at rest, and every source updated in every step."""
         initial = {name: s.initial for name, s in self.values.signals.items()}
-        return (*({**initial, **self.calm}).items(), *((stamp, Every()) for stamp in self.values.stamps))
+        return (*({**initial, **self.resting}).items(), *((stamp, Every()) for stamp in self.values.stamps))
 
     @cached_property
     def timers(self) -> tuple[int, ...]:

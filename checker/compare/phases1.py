@@ -140,7 +140,7 @@ def scenes(env: Environment) -> Iterator[tuple[str, Blocks, Blocks]]:
 BOARD1 = Environment(
     boards()["board1"],
     FIELDS,
-    calm={"temperature_degC": 25, "battery_pct": 80},
+    resting={"temperature_degC": 25, "battery_pct": 80},
     themes={
         "anything": ([], (disturb, flicker, rest, lose)),
         "driving": ([InputBlock(2, FORWARD)], (manoeuvre, manoeuvre, half_turn, disturb, flicker, rest)),

@@ -216,7 +216,7 @@ def scenes(env: Environment) -> Iterator[tuple[str, Blocks, Blocks]]:
 BOARD2 = Environment(
     boards()["board2"],
     FIELDS,
-    calm={d: NO_ECHO for d in SONARS},
+    resting={d: NO_ECHO for d in SONARS},
     themes={
         "anything": ([], (disturb, flicker, rest, lose)),
         "obstacles": ([], (passing, passing, degrade, disturb, rest)),

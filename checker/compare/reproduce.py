@@ -14,7 +14,7 @@ AS_READ: Mapping[str, str] = {}
 
 TEMPLATE = '''"""{title}
 
-Written by rovercheck crosscheck.  It fails while the implementation has the fault; run it with pytest.
+Written by rovercheck compare.  It fails while the implementation has the fault; run it with pytest.
 {expected}
 """
 
@@ -66,7 +66,7 @@ def pytest_file(
     names += [word for word in ("SILENT", "Every") if word in blocks]
     return TEMPLATE.format(
         title=f"{found.board.name}: {_subject(found)} {what} in step {found.tick}.",
-        expected="\n".join(_told(found)),
+        expected="\n".join(_expectation(found)),
         names=", ".join(sorted(names, key=lambda n: (not n.isupper(), n))),
         address=dumps(address),
         start=stimulus.start_ms,
@@ -83,7 +83,7 @@ def _charts(readings: Mapping[str, str], repair: str) -> str:
     return "".join(f", {part}" for part in parts)
 
 
-def _told(found: StepMismatch | Failure) -> Iterator[str]:
+def _expectation(found: StepMismatch | Failure) -> Iterator[str]:
     """What must be, and what was."""
     if isinstance(found, Failure):
         yield ascii(found.message.splitlines()[0])[1:-1]

@@ -4,7 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from rovercheck.checker.compare.beside import ComparedStep, StepMismatch
-from rovercheck.checker.compare.coverage import ArrowCoverage, CoveredArrow, arrows
+from rovercheck.checker.compare.coverage import (
+    CoveredTransition,
+    TransitionCoverage,
+    transitions,
+)
 from rovercheck.spec_model.abstraction import Board
 
 FIXED, RANDOM = "fixed runs", "random runs"
@@ -58,13 +62,13 @@ class Failure:
 class CompareResult:
     """One cross-check of one implementation.
 
-    ``mismatches`` are the distinct ones, by output and arrow; the first ``small`` of them are made small.
-    ``uncompared`` are outputs that the implementation never gave, ``compared`` the steps in which it was: a
-    run ends at its first mismatch.  ``stages`` say what was tried.
+    ``mismatches`` are the distinct ones, by output and transition; the first ``small`` of them are made
+    small. ``uncompared`` are outputs that the implementation never gave, ``compared`` the steps in which it
+    was: a run ends at its first mismatch.  ``stages`` say what was tried.
     """
 
     board: Board
-    coverage: ArrowCoverage
+    coverage: TransitionCoverage
     mismatches: tuple[StepMismatch, ...] = ()
     small: int = 0
     failures: tuple[Failure, ...] = ()
@@ -94,11 +98,11 @@ class CompareResult:
         return self.conclusive and not self.differs
 
     @property
-    def arrows(self) -> tuple[int, int]:
-        """Arrows that the charts took, of how many."""
-        return len(self.coverage.taken), len(arrows(self.board))
+    def transitions(self) -> tuple[int, int]:
+        """Transitions that the charts took, of how many."""
+        return len(self.coverage.taken), len(transitions(self.board))
 
     @property
-    def missing(self) -> tuple[CoveredArrow, ...]:
-        """Arrows that the charts took in no run."""
+    def missing(self) -> tuple[CoveredTransition, ...]:
+        """Transitions that the charts took in no run."""
         return self.coverage.missing

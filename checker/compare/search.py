@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, Phase, given, seed, settings
 
 from rovercheck.checker.adapters.implementation import Implementation, ImplementationError, Values, notes, run
 from rovercheck.checker.compare.beside import ComparedStep, StepMismatch, compared, played
-from rovercheck.checker.compare.coverage import ArrowCoverage
+from rovercheck.checker.compare.coverage import TransitionCoverage
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.result import (
     ALLOWED,
@@ -72,7 +72,7 @@ class CompareSearch:
     allowance: Allowance = ALLOWED
     progress: Progress = lambda search: None
     record: Callable[[str, list[ComparedStep]], None] = lambda origin, steps: None
-    coverage: ArrowCoverage = field(init=False)
+    coverage: TransitionCoverage = field(init=False)
     found: dict[tuple[object, ...], StepMismatch] = field(default_factory=dict)
     failures: list[Failure] = field(default_factory=list)
     doing: str = FIXED
@@ -81,7 +81,7 @@ class CompareSearch:
     interrupted: bool = False
 
     def __post_init__(self) -> None:
-        self.coverage = ArrowCoverage(self.env.board)
+        self.coverage = TransitionCoverage(self.env.board)
         self._seen: set[str] = set()
         self._complete = False
         self._small: dict[tuple[object, ...], StepMismatch] = {}

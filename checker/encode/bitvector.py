@@ -5,6 +5,7 @@ in a width that holds arguments and result, so nothing can overflow.
 """
 
 from collections.abc import Callable, Mapping, Sequence
+from operator import add, eq, ge, gt, le, lt, mod, mul, ne, neg, sub
 from typing import Any
 
 import z3
@@ -95,23 +96,31 @@ class Encoder:
                 return self._term[id(body)]
             case Apply(op, args, _):
                 ranges = [self._range[id(a)] for a in args]
-                return operator(op, [self._term[id(a)] for a in args], ranges, self._range[id(node)])
+                terms = [self._term[id(a)] for a in args]
+                return OPERATIONS[op](terms, ranges, self._range[id(node)])
         raise AssertionError(f"{node} speaks of the past")
 
 
-def operator(op: Op, args: Sequence[Term], ranges: Sequence[Interval], result: Interval) -> Term:
-    """An operator on terms of which the intervals are known; the result has the width of its own."""
-    if op in _LOGIC:
-        return _LOGIC[op](args)
-    if op is Op.ITE:
-        return z3.If(args[0], *_aligned(args[1:]))
-    if op in _COMPARE:
-        return _COMPARE[op](*_aligned(args))
-    if op is Op.BIT:
-        index = ranges[1].low
-        return z3.Extract(index, index, fitted(args[0], max(args[0].size(), index + 1))) == 1
-    bits = max([result.width, *(r.width for r in ranges)])
-    return fitted(_ARITHMETIC[op](*(fitted(a, bits) for a in args)), result.width)
+Row = Callable[[Sequence[Term], Sequence[Interval], Interval], Term]
+"""An operator on terms of which the intervals are known; the result has the width of its own."""
+
+
+def _joined(join: Callable[[list[Term]], Term]) -> Row:
+    return lambda args, ranges, result: join(list(args))
+
+
+def _compared(compare: Callable[[Term, Term], Term]) -> Row:
+    return lambda args, ranges, result: compare(*_aligned(args))
+
+
+def _computed(compute: Callable[..., Term]) -> Row:
+    """In a width that holds arguments and result."""
+
+    def row(args: Sequence[Term], ranges: Sequence[Interval], result: Interval) -> Term:
+        bits = max([result.width, *(r.width for r in ranges)])
+        return fitted(compute(*(fitted(a, bits) for a in args)), result.width)
+
+    return row
 
 
 def _aligned(args: Sequence[Term]) -> list[Term]:
@@ -125,37 +134,34 @@ def _divided(a: Term, b: Term) -> Term:
     """Rounded down; the divisor is positive.  One more bit holds the multiple below the least value."""
     bits = a.size() + 1
     a, b = fitted(a, bits), fitted(b, bits)
-    return (a - _remainder(a, b)) / b
+    return (a - a % b) / b
 
 
-def _remainder(a: Term, b: Term) -> Term:
-    return a % b  # bvsmod: the sign of the divisor, as in Python
+def _bit(args: Sequence[Term], ranges: Sequence[Interval], result: Interval) -> Term:
+    index = ranges[1].low
+    return z3.Extract(index, index, fitted(args[0], max(args[0].size(), index + 1))) == 1
 
 
-_LOGIC: dict[Op, Callable[[Sequence[Term]], Term]] = {
-    Op.NOT: lambda a: z3.Not(a[0]),
-    Op.AND: lambda a: z3.And(list(a)),
-    Op.OR: lambda a: z3.Or(list(a)),
+OPERATIONS: Mapping[Op, Row] = {
+    Op.NOT: lambda args, ranges, result: z3.Not(args[0]),
+    Op.AND: _joined(z3.And),
+    Op.OR: _joined(z3.Or),
+    Op.ITE: lambda args, ranges, result: z3.If(args[0], *_aligned(args[1:])),
+    Op.EQ: _compared(eq),
+    Op.NE: _compared(ne),
+    Op.LT: _compared(lt),
+    Op.LE: _compared(le),
+    Op.GT: _compared(gt),
+    Op.GE: _compared(ge),
+    Op.ADD: _computed(add),
+    Op.SUB: _computed(sub),
+    Op.NEG: _computed(neg),
+    Op.MUL: _computed(mul),
+    Op.SCALE: _computed(mul),
+    Op.DIV: _computed(_divided),
+    Op.MOD: _computed(mod),  # bvsmod: the sign of the divisor, as in Python
+    Op.ABS: _computed(lambda a: z3.If(a >= 0, a, -a)),
+    Op.MIN: _computed(lambda a, b: z3.If(a <= b, a, b)),
+    Op.MAX: _computed(lambda a, b: z3.If(a >= b, a, b)),
+    Op.BIT: _bit,
 }
-_COMPARE: dict[Op, Callable[[Term, Term], Term]] = {
-    Op.EQ: lambda a, b: a == b,
-    Op.NE: lambda a, b: a != b,
-    Op.LT: lambda a, b: a < b,
-    Op.LE: lambda a, b: a <= b,
-    Op.GT: lambda a, b: a > b,
-    Op.GE: lambda a, b: a >= b,
-}
-_ARITHMETIC: dict[Op, Callable[..., Term]] = {
-    Op.ADD: lambda a, b: a + b,
-    Op.SUB: lambda a, b: a - b,
-    Op.NEG: lambda a: -a,
-    Op.MUL: lambda a, b: a * b,
-    Op.SCALE: lambda a, b: a * b,
-    Op.DIV: _divided,
-    Op.MOD: _remainder,
-    Op.ABS: lambda a: z3.If(a >= 0, a, -a),
-    Op.MIN: lambda a, b: z3.If(a <= b, a, b),
-    Op.MAX: lambda a, b: z3.If(a >= b, a, b),
-}
-OPERATORS = frozenset({*_LOGIC, *_COMPARE, *_ARITHMETIC, Op.ITE, Op.BIT})
-"""The operators that are translated."""

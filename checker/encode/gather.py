@@ -20,7 +20,7 @@ def gathered(parts: Mapping[str, Part], extra: int) -> list[list[str]]:
     """The goals in groups, those that depend on few bits first.
 
     A goal joins others if together they depend on at most ``extra`` bits more than either does alone.
-    Unrelated parts in one search would multiply their valuations.
+    Unrelated parts in one search would multiply their states.
     """
     found: list[_Gathered] = []
     for goal, part in sorted(parts.items(), key=lambda item: bits(item[1])):
@@ -35,5 +35,5 @@ def gathered(parts: Mapping[str, Part], extra: int) -> list[list[str]]:
 
 
 def bits(part: Part) -> int:
-    """Of a valuation of the part."""
+    """Of a state of the part."""
     return sum(bits_needed(v) for v in part.values())

@@ -1,4 +1,4 @@
-"""Candidate invariants: what held in every valuation of a sample and may hold in every reachable one.
+"""Candidate invariants: what held in every state of a sample and may hold in every reachable one.
 
 Templates go from cheap to rich: ranges, values never taken, pairs that exclude each other, ranges
 under a condition, and bounded differences and sums of counters (also under a condition, also up to
@@ -13,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from rovercheck.checker.encode.cone import Slice
-from rovercheck.checker.encode.simulate import Column, Columns, Vectorised, column
 from rovercheck.checker.encode.terms import Terms
+from rovercheck.checker.system.arrays import ArrayProgram, Column, Columns, column
 from rovercheck.checker.system.intervals import postorder
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var
@@ -22,7 +22,7 @@ from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.walk import variables
 
 _MOST_MEMBERS = 12
-"""Members of an enumeration, or values of a number, that are told apart one by one."""
+"""Members of an enumeration, or values of a number, that are distinguished one by one."""
 
 _TELLING = 3
 """Different values of a number at which a bound of a difference must have been met."""
@@ -32,7 +32,7 @@ Mask = NDArray[np.bool_]
 
 @dataclass(frozen=True, eq=False)
 class Atom:
-    """A condition on one variable and the sampled valuations in which it holds."""
+    """A condition on one variable and the sampled states in which it holds."""
 
     var: Var
     expr: Expr
@@ -41,14 +41,14 @@ class Atom:
 
 @dataclass(frozen=True)
 class TemplateCube:
-    """Valuations that agree with one of them on the variables named."""
+    """States that agree with one of them on the variables named."""
 
     valuation: Mapping[str, int]
     names: frozenset[str]
 
 
 class Candidates:
-    """Builds candidates about the variables of a slice from sampled valuations."""
+    """Builds candidates about the variables of a slice from sampled states."""
 
     def __init__(self, part: Slice, sample: Columns) -> None:
         self.terms = Terms()
@@ -87,7 +87,7 @@ class Candidates:
         return self.terms.const(value, like.sort)
 
     def _atoms_of(self, var: Var) -> Iterator[Atom]:
-        """Conditions on a variable that are true in some sampled valuations and false in others."""
+        """Conditions on a variable that are true in some sampled states and false in others."""
         values = self.sample[var.name]
         for expr, holds in self._raw_atoms(var, values):
             if holds.any() and not holds.all():
@@ -172,31 +172,31 @@ class Candidates:
     def _differences(self, x: Var, y: Var, a: Column, b: Column) -> Iterator[Expr]:
         """``x - y <= c``, and ``x - y <= c`` where ``y`` has not reached its greatest value."""
         gap, difference = a - b, self._made(Op.SUB, x, y)
-        if _telling(gap, a):
+        if _informative(gap, a):
             yield self.terms.at_most(difference, self._constant(int(gap.max()), x))
             return
         below = b < b.max()
-        if below.any() and _telling(gap[below], a[below]):
+        if below.any() and _informative(gap[below], a[below]):
             capped = self.terms.at_most(difference, self._constant(int(gap[below].max()), x))
             yield self.terms.disjunction((self._equals(y, int(b.max())), capped))
 
     def _sums(self, x: Var, y: Var, a: Column, b: Column) -> Iterator[Expr]:
         both, total = a + b, self._made(Op.ADD, x, y)
-        if _telling(both, a):
+        if _informative(both, a):
             yield self.terms.at_most(total, self._constant(int(both.max()), x))
-        if _telling(-both, a):
+        if _informative(-both, a):
             yield self.terms.at_most(self._constant(int(both.min()), x), total)
 
     def _made(self, op: Op, x: Var, y: Var) -> Expr:
         return self.terms.apply(op, (self.terms.var(x), self.terms.var(y)), x.sort)
 
-    # --- from a valuation that no run visits -----------------------------------------------------
+    # --- from a state that no run visits -----------------------------------------------------
 
     def excluding(self, cube: TemplateCube, order: np.random.Generator) -> Expr | None:
         """A clause over few conditions that is false in the cube and true in the whole sample.
 
         Conditions that hold in the cube are dropped one by one, in a random order, while no sampled
-        valuation meets all of them.  None when the sample visits the cube.
+        state meets all of them.  None when the sample visits the cube.
         """
         met = list(self._met_by(cube))
         shuffled = [met[i] for i in order.permutation(len(met))]
@@ -248,7 +248,7 @@ class TemplatePool:
         if not inside:
             return []
         at = {name: np.asarray([value]) for name, value in cube.valuation.items()}
-        truth = Vectorised(inside)(_as_truth(inside, at))
+        truth = ArrayProgram(inside)(_as_truth(inside, at))
         found = [c for c, holds in zip(inside, truth, strict=True) if not np.all(holds)]
         for candidate in found:
             del self._left[id(candidate)]
@@ -260,13 +260,13 @@ def _as_truth(exprs: Sequence[Expr], at: Mapping[str, Column]) -> dict[str, Colu
     return {name: column(var, at[name]) for name, var in variables(*exprs).items()}
 
 
-def _telling(values: Column, beside: Column) -> bool:
+def _informative(values: Column, beside: Column) -> bool:
     """Whether the greatest value is met beside several values of another column: hardly by accident."""
     return len(np.unique(beside[values == values.max()])) >= _TELLING
 
 
 def _least_unmet(atoms: Sequence[Atom]) -> list[int] | None:
-    """A subset of the conditions, none of them superfluous, that no sampled valuation meets."""
+    """A subset of the conditions, none of them superfluous, that no sampled state meets."""
     count = np.zeros(len(atoms[0].holds), dtype=np.int32)
     for atom in atoms:
         count += ~atom.holds

@@ -62,9 +62,9 @@ class Branch:
 
 @dataclass(frozen=True, eq=False)
 class Complete:
-    """The valuation after the tick is complete; what follows only decides goals.
+    """The state after the tick is complete; what follows only decides goals.
 
-    The valuation is stored once, after what follows has been run for all of its own choices.
+    The state is stored once, after what follows has been run for all of its own choices.
     """
 
 

@@ -6,7 +6,7 @@ path never reads are never chosen, so they cost nothing.  What ``&``, ``|`` and 
 unread is turned into branches for the same reason; all expressions of the result are free of choices.
 
 What is stored of a tick seldom asks as much of an input as goals do.  So there may be two stages, with a
-``Complete`` between them: as far as the valuation depends on it an input is chosen coarsely, then, for the
+``Complete`` between them: as far as the state depends on it an input is chosen coarsely, then, for the
 statements that only goals need, among the cells inside the one chosen.
 """
 
@@ -14,6 +14,7 @@ from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import accumulate, pairwise, takewhile
 
+from rovercheck.checker.encode.code_motion import sunk
 from rovercheck.checker.encode.path_statements import (
     Branch,
     Choose,
@@ -28,7 +29,6 @@ from rovercheck.checker.encode.path_statements import (
     chooses,
     weight,
 )
-from rovercheck.checker.encode.sinking import sunk
 from rovercheck.checker.system.partition import Partition, conjuncts, expressions, partitions
 from rovercheck.checker.system.slice import names
 from rovercheck.spec_model.lang.action import Action, Assign, If
@@ -65,7 +65,7 @@ _MOST_COARSE = 16
 
 
 def staged_program(system: TransitionSystem, cells: Cells, stored: Names) -> PathProgram | None:
-    """The same paths with as few of them as can be until the valuation after the tick is complete.
+    """The same paths with as few of them as can be until the state after the tick is complete.
 
     To there an input is chosen among coarse cells: values that the assumption and what is stored cannot
     tell apart.  Then follow the statements that only goals need, and choices among the cells inside.

@@ -1,15 +1,9 @@
 """Formulas as Python text: charts that are run many times over are compiled to Python functions."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping
 
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from rovercheck.spec_model.lang.operators import Op
-
-_BETWEEN = {
-    Op.AND: " and ", Op.OR: " or ", Op.EQ: " == ", Op.NE: " != ", Op.LT: " < ", Op.LE: " <= ",
-    Op.GT: " > ", Op.GE: " >= ", Op.ADD: " + ", Op.SUB: " - ", Op.MUL: " * ", Op.SCALE: " * ",
-    Op.DIV: " // ", Op.MOD: " % ",
-}  # fmt: skip
+from rovercheck.spec_model.lang.operators import SIGNS, Op
 
 
 def text_of(expr: Expr, read: Callable[[Var], str]) -> str:
@@ -25,22 +19,34 @@ def text_of(expr: Expr, read: Callable[[Var], str]) -> str:
         case Named(_, body):
             return text_of(body, read)
         case Apply(op, args, _):
-            return _operation(op, [text_of(a, read) for a in args])
+            return OPERATIONS[op](*(text_of(a, read) for a in args))
     raise AssertionError(f"{expr} speaks of the past")
 
 
-def _operation(op: Op, args: Sequence[str]) -> str:
-    if op in _BETWEEN:
-        joined = f"({_BETWEEN[op].join(args)})"
-        return joined if op not in (Op.AND, Op.OR) else f"(1 if {joined} else 0)"
-    match op:
-        case Op.NOT:
-            return f"(0 if {args[0]} else 1)"
-        case Op.ITE:
-            return f"({args[1]} if {args[0]} else {args[2]})"
-        case Op.NEG:
-            return f"(-{args[0]})"
-        case Op.BIT:
-            return f"({args[0]} >> {args[1]} & 1)"
-        case _:
-            return f"{op.value}({', '.join(args)})"
+Row = Callable[..., str]
+"""The text of an operator's arguments becomes that of its result."""
+
+
+def between(sign: str) -> Row:
+    return lambda *args: f"({f' {sign} '.join(args)})"
+
+
+def _called(name: str) -> Row:
+    return lambda *args: f"{name}({', '.join(args)})"
+
+
+OPERATIONS: Mapping[Op, Row] = {
+    **{op: between(sign) for op, sign in SIGNS.items()},
+    Op.NOT: lambda a: f"(0 if {a} else 1)",
+    Op.AND: lambda *args: f"(1 if {between('and')(*args)} else 0)",
+    Op.OR: lambda *args: f"(1 if {between('or')(*args)} else 0)",
+    Op.ITE: lambda test, then, otherwise: f"({then} if {test} else {otherwise})",
+    Op.NEG: lambda a: f"(-{a})",
+    Op.DIV: between("//"),
+    Op.MOD: between("%"),
+    Op.ABS: _called("abs"),
+    Op.MIN: _called("min"),
+    Op.MAX: _called("max"),
+    Op.BIT: lambda a, index: f"({a} >> {index} & 1)",
+}
+"""Every operator in Python; the fingerprint of a board is taken of these texts."""

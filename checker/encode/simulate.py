@@ -3,136 +3,35 @@
 Formulas are evaluated on arrays, one place per run.  No proof rests on it; a run that is found is replayed.
 """
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import reduce
 from itertools import count, islice
-from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from rovercheck.checker.encode.cone import Slice
 from rovercheck.checker.results.verdict import Run
-from rovercheck.checker.system.intervals import Interval, intervals, postorder
-from rovercheck.spec_model.lang.domain import Bool, Domain
-from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
+from rovercheck.checker.system.arrays import ArrayProgram, Column, Columns, column, element
+from rovercheck.checker.system.intervals import Interval, postorder
+from rovercheck.spec_model.lang.domain import Bool
+from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Var
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.walk import variables
-
-Column = NDArray[Any]
-"""A value for each of many valuations: truth values of numpy's bool, numbers of int64, or Python's own
-where 64 bits may not suffice."""
-Columns = Mapping[str, Column]
 
 HOLD = (1, 1, 2, 5, 12, 40, 160, 480)
 """Ticks for which a random input keeps its value: long enough for timers of ten seconds to run out."""
 _FEW = 16
 _SMALL = 1 << 30
-_MACHINE = Interval(-(1 << 63), (1 << 63) - 1)
 _MANY = 1 << 16
 _BLOCK = 32
 _TRIES = 12
 """Attempts to draw inputs that satisfy the assumption; a run that has none waits for a tick."""
 
 
-class Vectorised:
-    """Formulas compiled to a list of array operations; equal nodes are computed once.
-
-    Where a value may leave the 64-bit numbers all are computed with Python's numbers, slowly.
-    """
-
-    def __init__(self, exprs: Sequence[Expr]) -> None:
-        self._roots = list(exprs)
-        self._nodes = list(postorder(*exprs))
-        known = intervals(*exprs)
-        wide = not all(i.within(_MACHINE) for i in known.values())
-        places = {id(node): place for place, node in enumerate(self._nodes)}
-        self._steps = [_operation(node, places, wide) for node in self._nodes]
-        self._results = [(places[id(e)], wide and known[id(e)].within(_MACHINE)) for e in exprs]
-
-    def __call__(self, at: Columns) -> list[Column]:
-        """The values of the formulas; each is an array, or a single value when it is the same everywhere."""
-        done: list[Any] = []
-        for step in self._steps:
-            done.append(step(done, at))
-        return [_narrow(done[place]) if narrow else done[place] for place, narrow in self._results]
-
-
-def _narrow(values: Any) -> Column:
-    """Numbers of the machine, again."""
-    found = np.asarray(values)
-    return found.astype(np.int64) if found.dtype == object else found
-
-
-_Step = Callable[[list[Any], Columns], Any]
-
-
-def _operation(node: Expr, places: Mapping[int, int], wide: bool) -> _Step:
-    match node:
-        case Const(value, sort):
-            constant: Column = np.asarray(value, dtype=np.bool_ if isinstance(sort, Bool) else _number(wide))
-            return lambda done, at: constant
-        case Var(name, domain):
-            if wide and not isinstance(domain.sort, Bool):
-                return lambda done, at: at[name].astype(object)
-            return lambda done, at: at[name]
-        case Named(_, body):
-            place = places[id(body)]
-            return lambda done, at: done[place]
-        case Apply(op, args, _):
-            operate, chosen = OPERATIONS[op], [places[id(a)] for a in args]
-            return lambda done, at: operate(*[done[place] for place in chosen])
-    raise AssertionError(f"{node} speaks of the past")
-
-
-OPERATIONS: dict[Op, Callable[..., Any]] = {
-    Op.NOT: np.logical_not,
-    Op.AND: lambda *a: reduce(np.logical_and, a, np.bool_(True)),
-    Op.OR: lambda *a: reduce(np.logical_or, a, np.bool_(False)),
-    Op.ITE: np.where,
-    Op.EQ: np.equal,
-    Op.NE: np.not_equal,
-    Op.LT: np.less,
-    Op.LE: np.less_equal,
-    Op.GT: np.greater,
-    Op.GE: np.greater_equal,
-    Op.ADD: np.add,
-    Op.SUB: np.subtract,
-    Op.NEG: np.negative,
-    Op.MUL: np.multiply,
-    Op.SCALE: np.multiply,
-    Op.DIV: np.floor_divide,
-    Op.MOD: np.mod,
-    Op.ABS: np.abs,
-    Op.MIN: np.minimum,
-    Op.MAX: np.maximum,
-    Op.BIT: lambda a, b: (a >> b & 1).astype(np.bool_),
-}
-"""Every operator on arrays; rounding is that of the reference: down."""
-
-
-def _number(wide: bool) -> type:
-    return object if wide else np.int64
-
-
-def _type(var: Var) -> type:
-    return np.bool_ if isinstance(var.sort, Bool) else _number(not _hull(var.domain).within(_MACHINE))
-
-
-def _hull(domain: Domain) -> Interval:
-    return Interval(domain.low, domain.high)
-
-
 def _storage(var: Var) -> type:
     """The type in which values are kept; differences and sums of two fit in it, too."""
-    small = _hull(var.domain).within(Interval(-_SMALL, _SMALL - 1))
-    return np.int32 if small and not isinstance(var.sort, Bool) else _type(var)
-
-
-def column(var: Var, values: Sequence[int] | Column) -> Column:
-    """The raw values of a variable as a column."""
-    return np.asarray(values, dtype=_type(var))
+    small = Interval(var.domain.low, var.domain.high).within(Interval(-_SMALL, _SMALL - 1))
+    return np.int32 if small and not isinstance(var.sort, Bool) else element(var)
 
 
 @dataclass
@@ -145,7 +44,7 @@ class _Input:
 
 @dataclass
 class Trail:
-    """Runs: the valuations before the first and after every tick, the inputs of each tick, and where it
+    """Runs: the states before the first and after every tick, the inputs of each tick, and where it
     took place (not where no inputs were found that satisfy the assumption)."""
 
     states: list[dict[str, Column]]
@@ -153,11 +52,11 @@ class Trail:
     moved: list[Column]
 
     def samples(self, every: int = 1) -> dict[str, Column]:
-        """The valuations of all runs, of every so many ticks and the last ones, one after the other."""
+        """The states of all runs, of every so many ticks and the last ones, one after the other."""
         return _joined(self.states[::every] + self.states[-1:])
 
     def blocks(self) -> Iterator[dict[str, Column]]:
-        """All the valuations, some ticks at a time."""
+        """All the states, some ticks at a time."""
         for first in range(0, len(self.states), _BLOCK):
             yield _joined(self.states[first : first + _BLOCK])
 
@@ -201,16 +100,16 @@ class Simulator:
         self._random = np.random.default_rng(seed)
         self._names = [v.name for v in part.variables]
         self._kept = {v.name: _storage(v) for v in (*part.variables, *part.frozen)}
-        self._step = Vectorised([part.next[n] for n in self._names])
+        self._step = ArrayProgram([part.next[n] for n in self._names])
         mentioned = _constants([*part.next.values(), *part.assume])
         drawn = {v.name: _allowed(v, _interesting(v, mentioned), _alone(part, v)) for v in part.inputs}
         self._inputs = [_Input(v, drawn[v.name]) for v in part.inputs]
         assumed = [*part.assume, *(Apply(Op.NOT, (e,), Bool()) for e in never)]
-        self._assume = Vectorised(assumed)
+        self._assume = ArrayProgram(assumed)
         self._about = [[i for i in self._inputs if i.var.name in variables(e)] for e in assumed]
 
     def start(self) -> dict[str, Column]:
-        """The initial valuation in every run, with frozen values drawn at random."""
+        """The initial state in every run, with frozen values drawn at random."""
         fixed = {v.name: column(v, [v.init] * self.lanes) for v in self.part.variables}
         return {**fixed, **{v.name: self._anything(v) for v in self.part.frozen}}
 
@@ -221,7 +120,7 @@ class Simulator:
         return column(var, [values[int(index)] for index in chosen])
 
     def everywhere(self, valuation: Mapping[str, int]) -> dict[str, Column]:
-        """One valuation in every run."""
+        """One state in every run."""
         of = (*self.part.variables, *self.part.frozen)
         return {v.name: column(v, [valuation[v.name]] * self.lanes) for v in of}
 
@@ -237,7 +136,7 @@ class Simulator:
     def steps(
         self, start: Columns, first: Mapping[str, int] | None = None, *, resting: bool = False
     ) -> Iterator[tuple[Columns, Columns, Column]]:
-        """Valuations after each tick, its inputs, and where it took place, for ever.
+        """States after each tick, its inputs, and where it took place, for ever.
 
         ``resting``: half of the runs begin with all inputs but one at their initial values.
         """
@@ -331,7 +230,7 @@ def _allowed(var: Var, values: Sequence[int], conditions: Sequence[Expr]) -> Col
     for tried in (values, var.domain.values[:_MANY]):
         drawn = column(var, tried)
         fine = np.ones(len(drawn), dtype=np.bool_)
-        for holds in Vectorised(conditions)({var.name: drawn}):
+        for holds in ArrayProgram(conditions)({var.name: drawn}):
             fine &= holds
         if fine.any():
             return drawn[fine]

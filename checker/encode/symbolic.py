@@ -1,5 +1,5 @@
 """Symbolic execution of a step: the value of every variable after a tick as a formula over the
-valuation before it, the frozen variables and the inputs.
+state before it, the frozen variables and the inputs.
 
 Temporaries disappear.  Inside a branch, the condition is used as a fact: a location tested on the
 way in is a constant further down.
@@ -39,7 +39,7 @@ class SymbolicStore(dict[str, Expr]):
 class SymbolicTransition:
     """One tick as functions.
 
-    ``next`` gives every variable, by name, after the tick; ``assume`` are conjuncts on the valuation
+    ``next`` gives every variable, by name, after the tick; ``assume`` are conjuncts on the state
     before the tick and the inputs.  All formulas belong to ``terms``.
     """
 

@@ -21,8 +21,8 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 class Unrolling:
     """Ticks asserted in a solver one after the other.
 
-    ``events`` are conditions on the valuation before a tick and its inputs.  ``anywhere`` starts not
-    from the initial valuation but from any within the domains.
+    ``events`` are conditions on the state before a tick and its inputs.  ``anywhere`` starts not
+    from the initial state but from any within the domains.
     """
 
     def __init__(self, part: Slice, events: Sequence[Expr] = (), *, anywhere: bool = False) -> None:

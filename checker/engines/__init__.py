@@ -30,11 +30,11 @@ class Timers(StrEnum):
     """How timers are searched, with the same verdicts (docs/timers.md)."""
 
     EXACT = "exact"
-    """Every valuation of the saturating counters is stored."""
+    """Every state of the saturating counters is stored."""
     SKIP = "skip"
-    """Valuations reached by ticks in which only counters move on are visited and not stored."""
+    """States reached by ticks in which only counters move on are visited and not stored."""
     FREE = "free"
-    """First on the system whose timers run out at will; what that leaves open, exactly."""
+    """First on the system whose timers may expire at any time; what that leaves open, exactly."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +42,7 @@ class Limits:
     """What an engine may spend: ticks of depth (None: no bound), wall seconds, bytes of memory.
 
     ``transitions`` bounds what an enumeration tries, so that a turn ends after the same work on any machine.
-    ``timers`` is how; an engine that does not store valuations need not look at either.
+    ``timers`` is how; an engine that does not store states need not look at either.
     """
 
     depth: int | None = None

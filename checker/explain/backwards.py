@@ -1,7 +1,7 @@
 """The inputs that force the end of a long run, found tick by tick from the last one.
 
 Before each tick the run is taken as it was, and after it the inputs found so far are all that is known.
-The valuations that may follow are kept as a decision diagram; they are few, as most inputs that are left
+The states that may follow are kept as a decision diagram; they are few, as most inputs that are left
 open change nothing for long.  So the ticks are never unrolled, and a run of some hundred is no harder than
 so many runs of a few.
 """
@@ -15,8 +15,8 @@ from rovercheck.checker.encode.bits.order import orders
 from rovercheck.checker.engines import Progress
 from rovercheck.checker.engines.bdd.relation import relation
 from rovercheck.checker.engines.bdd.space import DDMemoryError, Function, NodeStore, Overdrawn, Space, meets
-from rovercheck.checker.explain.unrolled import Over, Place, never
-from rovercheck.checker.explain.widening import widest
+from rovercheck.checker.explain.unrolled_run import Over, Place, never
+from rovercheck.checker.explain.value_ranges import widest
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.system.partition import Partition
 from rovercheck.checker.verify.runs.replay import ReplayError
@@ -31,7 +31,7 @@ Values = dict[str, frozenset[int]]
 
 
 class ExplanationTooLarge(Exception):
-    """The sets of valuations do not fit into the nodes that they may take."""
+    """The sets of states do not fit into the nodes that they may take."""
 
 
 def backwards(
@@ -57,7 +57,7 @@ def _store() -> NodeStore:
 
 
 class _Ticks:
-    """The ticks of a run as operations on sets of valuations and inputs."""
+    """The ticks of a run as operations on sets of states and inputs."""
 
     def __init__(self, made: Circuit, goal: str, run: Run) -> None:
         self.run = run
@@ -71,7 +71,7 @@ class _Ticks:
         self._avoiding = {False: assume & leaves, True: assume & (leaves | ~hit)}
         self._relation = relation(space, assume, choosing=True)
         self.before = [self._start(made)]
-        """The only valuation before each tick of the run."""
+        """The only state before each tick of the run."""
         for tick in range(1, len(run)):
             self.before.append(self.image(self.before[-1] & self.within(self.own(tick, self.names))))
         space.forget()
@@ -87,14 +87,14 @@ class _Ticks:
         return {name: frozenset({self.run.inputs[tick - 1][name]}) for name in names}
 
     def avoids(self, tick: int, given: Function) -> bool:
-        """Whether a tick from some of these valuations, with these inputs, avoids the end of the run.
+        """Whether a tick from some of these states, with these inputs, avoids the end of the run.
 
         One that takes a variable out of its domain is taken for one that does: nothing is claimed of it.
         """
         return meets(given, self._avoiding[tick == len(self.run)])
 
     def image(self, given: Function) -> Function:
-        """The valuations after a tick."""
+        """The states after a tick."""
         self._space.pause()
         return self._relation.image(given)
 
@@ -124,9 +124,9 @@ class _Ticks:
 
 
 class _Search:
-    """What is needed in the ticks looked at, and what is known of the valuations between them.
+    """What is needed in the ticks looked at, and what is known of the states between them.
 
-    Of a valuation that is ``_known``, all that can follow ends as the run; of those that are ``_failed``,
+    Of a state that is ``_known``, all that can follow ends as the run; of those that are ``_failed``,
     some may not.  Both stay true while earlier ticks are looked at.
     """
 
@@ -146,7 +146,7 @@ class _Search:
             progress(f"tick {tick} of {last}: {sum(len(at) for _, at in found)} inputs needed after it")
             everything = self._ticks.own(tick, self._ticks.names)
             if not self._forced(tick, everything):
-                raise ReplayError("the sets of valuations show that the run does not lead to its end.")
+                raise ReplayError("the sets of states show that the run does not lead to its end.")
             later = self._widened(tick, self._least(tick, everything, later), later)
             self._allowed[tick] = self._ticks.within(later)
             found.append((tick, later))
@@ -211,9 +211,9 @@ class _Search:
         return True
 
     def _fails(self, number: int, states: Function) -> bool:
-        """Whether some run from these valuations after a tick is known to end otherwise."""
+        """Whether some run from these states after a tick is known to end otherwise."""
         return number in self._failed and not meets(self._failed[number], ~states)
 
     def _unknown(self, number: int, states: Function) -> Function:
-        """Those of the valuations after a tick from which it is not known that all runs end alike."""
+        """Those of the states after a tick from which it is not known that all runs end alike."""
         return states & ~self._known[number] if number in self._known else states

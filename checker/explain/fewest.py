@@ -16,7 +16,7 @@ from pysat.solvers import Minisat22
 
 from rovercheck.checker.encode.bits import Circuit
 from rovercheck.checker.encode.bits.simulate import BitSimulation, Values
-from rovercheck.checker.explain.unrolled import CONFLICTS, LANES, Over, Place, Unrolled
+from rovercheck.checker.explain.unrolled_run import CONFLICTS, LANES, Over, Place, Unrolled
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.system.partition import Partition
 

@@ -1,4 +1,6 @@
-"""Problems written for other model checkers: one file per format, found by being here.
+"""Problems written for other model checkers: one file per format.
+
+The formats are discovered automatically: every module of this folder with a ``NAME``.
 
 A format has a ``NAME`` (what users type), a file ``SUFFIX``, a one-line ``SUMMARY`` and ``export(problem)``,
 which returns text or bytes that are the same from run to run.  It raises ``ModelError`` for what its

@@ -10,7 +10,7 @@ from rovercheck.checker.export.machine import ExportMachine, machine, meaning
 from rovercheck.checker.export.names import one_line, symbols
 from rovercheck.checker.export.problem import Problem
 from rovercheck.checker.system.intervals import Interval, interval, postorder
-from rovercheck.spec_model.lang.domain import Bool, Sort
+from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from rovercheck.spec_model.lang.operators import Op
 
@@ -80,6 +80,9 @@ class _Writer:
         self._value[word.id] = value
         return word
 
+    def value(self, constant: Word) -> int:
+        return self._value[constant.id]
+
     def fitted(self, a: Word, bits: int) -> Word:
         """The word in another width that holds its value."""
         if a.bits == bits:
@@ -90,7 +93,8 @@ class _Writer:
             return self.node("sext", bits, a, bits - a.bits)
         return self.node("slice", bits, a, bits - 1, 0)
 
-    def _several(self, op: str, args: Sequence[Word]) -> Word:
+    def several(self, op: str, args: Sequence[Word]) -> Word:
+        """Truth values joined by ``and`` or ``or``."""
         first, *others = args
         for other in others:
             first = self.node(op, 1, first, other)
@@ -139,7 +143,7 @@ class _Writer:
             return []
         if not domain.dense or isinstance(domain.sort, Bool):
             same = [self.node("eq", 1, word, self.const(v, word.bits)) for v in domain.values]
-            return [self._several("or", same)]
+            return [self.several("or", same)]
         least, most = self.const(domain.low, word.bits), self.const(domain.high, word.bits)
         return [self.node("slte", 1, least, word), self.node("slte", 1, word, most)]
 
@@ -161,35 +165,51 @@ class _Writer:
                 return self._variables[name]
             case Named(_, body):
                 return self._done[id(body)]
-            case Apply(op, args, sort):
-                return self._apply(op, args, sort, self._range[id(node)])
+            case Apply(op, args, _):
+                words = [self._done[id(a)] for a in args]
+                return OPERATIONS[op](self, words, self._range[id(node)].width)
         raise AssertionError(f"{node} speaks of the past")
 
-    def _apply(self, op: Op, args: Sequence[Expr], sort: Sort, result: Interval) -> Word:
-        words = [self._done[id(a)] for a in args]
-        if op in _LOGIC:
-            return self._several(_LOGIC[op], words)
-        if op is Op.NOT:
-            return self.node("not", 1, words[0])
-        if op is Op.ITE:
-            a, b = self._aligned(words[1:])
-            return self.node("ite", a.bits, words[0], a, b)
-        if op in _COMPARE:
-            return self.node(_COMPARE[op], 1, *self._aligned(words))
-        if op is Op.BIT:
-            index = self._range[id(args[1])].low
-            return self.node("slice", 1, self.fitted(words[0], max(words[0].bits, index + 1)), index, index)
-        bits = max([result.width, *(w.bits for w in words)])
-        found = _ARITHMETIC[op](self, *(self.fitted(w, bits) for w in words))
-        return self.fitted(found, result.width)
-
-    def _aligned(self, words: Sequence[Word]) -> list[Word]:
+    def aligned(self, words: Sequence[Word]) -> list[Word]:
+        """The words in one width that holds each of them."""
         bits = max(w.bits for w in words)
         return [self.fitted(w, bits) for w in words]
 
 
-def _plain(op: str) -> Callable[..., Word]:
-    return lambda writer, *args: writer.node(op, args[0].bits, *args)
+Row = Callable[[_Writer, Sequence[Word], int], Word]
+"""An operator on words; a number has that many bits."""
+
+
+def _junction(op: str) -> Row:
+    return lambda writer, words, bits: writer.several(op, words)
+
+
+def _compared(op: str) -> Row:
+    return lambda writer, words, bits: writer.node(op, 1, *writer.aligned(words))
+
+
+def _chosen(writer: _Writer, words: Sequence[Word], bits: int) -> Word:
+    then, other = writer.aligned(words[1:])
+    return writer.node("ite", then.bits, words[0], then, other)
+
+
+def _bit(writer: _Writer, words: Sequence[Word], bits: int) -> Word:
+    index = writer.value(words[1])
+    return writer.node("slice", 1, writer.fitted(words[0], max(words[0].bits, index + 1)), index, index)
+
+
+def _computed(compute: Callable[..., Word]) -> Row:
+    """In a width that holds arguments and result."""
+
+    def row(writer: _Writer, words: Sequence[Word], bits: int) -> Word:
+        inner = max(bits, *(w.bits for w in words))
+        return writer.fitted(compute(writer, *(writer.fitted(w, inner) for w in words)), bits)
+
+    return row
+
+
+def _plain(op: str) -> Row:
+    return _computed(lambda writer, *args: writer.node(op, args[0].bits, *args))
 
 
 def _divided(writer: _Writer, a: Word, b: Word) -> Word:
@@ -200,30 +220,39 @@ def _divided(writer: _Writer, a: Word, b: Word) -> Word:
     return writer.node("sdiv", bits, multiple, b)
 
 
-def _chosen(test: str, first_if_so: bool) -> Callable[..., Word]:
-    def choose(writer: _Writer, a: Word, b: Word) -> Word:
-        then, other = (a, b) if first_if_so else (b, a)
-        return writer.node("ite", a.bits, writer.node(test, 1, a, b), then, other)
-
-    return choose
-
-
 def _absolute(writer: _Writer, a: Word) -> Word:
     negative = writer.node("slt", 1, a, writer.const(0, a.bits))
     return writer.node("ite", a.bits, negative, writer.node("neg", a.bits, a), a)
 
 
-_LOGIC = {Op.AND: "and", Op.OR: "or"}
-_COMPARE = {Op.EQ: "eq", Op.NE: "neq", Op.LT: "slt", Op.LE: "slte", Op.GT: "sgt", Op.GE: "sgte"}
-_ARITHMETIC: Mapping[Op, Callable[..., Word]] = {
+def _least(writer: _Writer, a: Word, b: Word) -> Word:
+    return writer.node("ite", a.bits, writer.node("slte", 1, a, b), a, b)
+
+
+def _greatest(writer: _Writer, a: Word, b: Word) -> Word:
+    return writer.node("ite", a.bits, writer.node("slte", 1, a, b), b, a)
+
+
+OPERATIONS: Mapping[Op, Row] = {
+    Op.NOT: lambda writer, words, bits: writer.node("not", 1, words[0]),
+    Op.AND: _junction("and"),
+    Op.OR: _junction("or"),
+    Op.ITE: _chosen,
+    Op.EQ: _compared("eq"),
+    Op.NE: _compared("neq"),
+    Op.LT: _compared("slt"),
+    Op.LE: _compared("slte"),
+    Op.GT: _compared("sgt"),
+    Op.GE: _compared("sgte"),
     Op.ADD: _plain("add"),
     Op.SUB: _plain("sub"),
     Op.NEG: _plain("neg"),
     Op.MUL: _plain("mul"),
     Op.SCALE: _plain("mul"),
-    Op.DIV: _divided,
+    Op.DIV: _computed(_divided),
     Op.MOD: _plain("smod"),  # the sign of the divisor, as in Python
-    Op.ABS: _absolute,
-    Op.MIN: _chosen("slte", True),
-    Op.MAX: _chosen("slte", False),
+    Op.ABS: _computed(_absolute),
+    Op.MIN: _computed(_least),
+    Op.MAX: _computed(_greatest),
+    Op.BIT: _bit,
 }

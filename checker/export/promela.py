@@ -37,7 +37,8 @@ KEYWORDS = frozenset(_WORDS.split())
 
 
 def export(problem: Problem) -> str:
-    """The problem as a process; the state between two ticks is the valuation, everything else being 0.
+    """The problem as a process; between two ticks the variables of the state hold it, everything else being
+    0.
 
     Inputs that are not admissible change nothing.  Raises ``ModelError`` for numbers that need more than 32
     bits.
@@ -80,14 +81,14 @@ class _Process:
     def _declarations(self) -> Iterator[str]:
         groups = (
             ("frozen", self._system.frozen),
-            ("valuation", self._system.variables),
+            ("state", self._system.variables),
             ("inputs", self._system.inputs),
             ("within a tick", self._passing),
         )
         for title, variables in groups:
             if variables:
                 yield from ("", f"/* {title} */")
-            lasting = title == "valuation"
+            lasting = title == "state"
             yield from (self._declaration(v, v.init if lasting else 0) for v in variables)
 
     def _declaration(self, var: Var, init: int) -> str:

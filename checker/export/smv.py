@@ -6,6 +6,7 @@ Roberto Cavada et al.: The nuXmv Symbolic Model Checker, CAV 2014.
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 
+from rovercheck.checker.export.infix import Operand, Row, between, raised, whole, written
 from rovercheck.checker.export.machine import ExportMachine, machine, meaning
 from rovercheck.checker.export.names import identifiers, one_line
 from rovercheck.checker.export.problem import Problem
@@ -33,10 +34,20 @@ floor pi sin cos tan exp ln pow main itype typeof toint
 KEYWORDS = frozenset(_WORDS.split())
 """Words that a model cannot use as names."""
 
-SIGNS = {
-    Op.AND: "&", Op.OR: "|", Op.EQ: "=", Op.NE: "!=", Op.LT: "<", Op.LE: "<=", Op.GT: ">", Op.GE: ">=",
-    Op.ADD: "+", Op.SUB: "-", Op.MUL: "*", Op.SCALE: "*",
-}  # fmt: skip
+
+def _bit(args: Sequence[Operand]) -> str:
+    weight = 2 ** args[1].within.low
+    return f"(({raised(args[0], whole(2 * weight))[0]} / {weight}) mod 2 = 1)"
+
+
+OPERATIONS: Mapping[Op, Row] = {
+    **written("?", "-", "mod"),
+    Op.NOT: lambda args: f"!{args[0].text}",
+    Op.AND: between("&"),
+    Op.OR: between("|"),
+    Op.EQ: between("="),
+    Op.BIT: _bit,
+}
 
 
 def export(problem: Problem) -> str:
@@ -69,7 +80,7 @@ class _Module:
         yield "MODULE main"
         sections = (
             ("FROZENVAR", "chosen once", made.frozen),
-            ("VAR", "valuation before a tick", made.states),
+            ("VAR", "state before a tick", made.states),
             ("VAR", "inputs of the tick", made.inputs),
         )
         for word, title, variables in sections:
@@ -141,53 +152,13 @@ class _Text:
             case Named(_, body):
                 return self._done[id(body)]
             case Apply(op, args, _):
-                if op in (Op.ABS, Op.MIN, Op.MAX):
-                    return self._twice(op, args)
-                if op is Op.BIT:
-                    return self._bit(*args)
-                if op in (Op.DIV, Op.MOD):
-                    return self._quotient(op, args)
-                return _apply(op, [self._done[id(a)] for a in args])
+                return OPERATIONS[op]([self._operand(a) for a in args])
         raise AssertionError(f"{node} speaks of the past")
 
-    def _twice(self, op: Op, args: Sequence[Expr]) -> str:
-        a, b = self._done[id(args[0])], self._done[id(args[-1])]
-        match op:
-            case Op.ABS:
-                return f"({a} >= 0 ? {a} : -{a})"
-            case Op.MIN:
-                return f"({a} <= {b} ? {a} : {b})"
-            case Op.MAX:
-                return f"({a} >= {b} ? {a} : {b})"
-        raise AssertionError(op)
-
-    def _bit(self, of: Expr, index: Expr) -> str:
-        weight = 2 ** self._range[id(index)].low
-        return f"(({self._above(of, 2 * weight)[0]} / {weight}) mod 2 = 1)"
-
-    def _quotient(self, op: Op, args: Sequence[Expr]) -> str:
-        by = self._range[id(args[1])].low
-        above, times = self._above(args[0], by)
-        if op is Op.MOD:
-            return f"({above} mod {by})"
-        return f"({above} / {by} - {times})" if times else f"({above} / {by})"
-
-    def _above(self, expr: Expr, step: int) -> tuple[str, int]:
-        """The formula plus so many steps that it is never negative: how others round does not matter then."""
-        times = -(min(self._range[id(expr)].low, 0) // step)
+    def _operand(self, expr: Expr) -> Operand:
         text = self._done[id(expr)]
-        return (f"({text} + {times * step})" if times else text), times
+        return Operand(text, lambda: text, self._range[id(expr)])
 
 
 def _number(value: int) -> str:
     return str(value) if value >= 0 else f"({value})"
-
-
-def _apply(op: Op, args: Sequence[str]) -> str:
-    if op is Op.NOT:
-        return f"!{args[0]}"
-    if op is Op.NEG:
-        return f"(-{args[0]})"
-    if op is Op.ITE:
-        return f"({args[0]} ? {args[1]} : {args[2]})"
-    return f"({f' {SIGNS[op]} '.join(args)})"

@@ -4,16 +4,38 @@ from collections.abc import Iterator, Mapping, Sequence
 from itertools import count
 
 from rovercheck.checker.export.flow import INT, ExportFlow, ExportReach
+from rovercheck.checker.export.infix import Operand, Row, between, raised, written
 from rovercheck.checker.system.intervals import Interval, postorder
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from rovercheck.spec_model.lang.operators import Op
 
-SIGNS = {
-    Op.AND: "&&", Op.OR: "||", Op.EQ: "==", Op.NE: "!=", Op.LT: "<", Op.LE: "<=", Op.GT: ">", Op.GE: ">=",
-    Op.ADD: "+", Op.SUB: "-", Op.MUL: "*", Op.SCALE: "*",
-}  # fmt: skip
+
+def _in_32_bits(row: Row) -> Row:
+    """A division, unless what is divided may leave the numbers of Promela."""
+
+    def checked(args: Sequence[Operand]) -> str:
+        by = args[1].within.low
+        if args[0].within.high + raised(*args)[1] * by not in INT:
+            raise ModelError(
+                f"{args[0].text} divided by {by} needs more than 32 bits; export to btor2 or aiger."
+            )
+        return row(args)
+
+    return checked
+
+
+_ALIKE = written("->", "0 - ", "%")
+OPERATIONS: Mapping[Op, Row] = {
+    **_ALIKE,
+    Op.NOT: lambda args: f"(!{args[0].text})",  # `!!` is a word of its own
+    Op.AND: between("&&"),
+    Op.OR: between("||"),
+    Op.DIV: _in_32_bits(_ALIKE[Op.DIV]),
+    Op.MOD: _in_32_bits(_ALIKE[Op.MOD]),
+    Op.BIT: lambda args: f"(({args[0].text} >> {args[1].text}) & 1)",
+}
 
 
 class Text:
@@ -75,47 +97,11 @@ class Text:
             case Named(_, body):
                 return done[id(body)]
             case Apply(op, args, _):
-                return self._apply(op, [done[id(a)] for a in args], [known[id(a)] for a in args], before)
+                return OPERATIONS[op]([self._operand(done[id(a)], known[id(a)], before) for a in args])
         raise AssertionError(f"{node} speaks of the past")
 
-    def _apply(self, op: Op, args: Sequence[str], ranges: Sequence[Interval], before: list[str]) -> str:
-        if op in SIGNS:
-            return f"({f' {SIGNS[op]} '.join(args)})"
-        match op:
-            case Op.NOT:
-                return f"(!{args[0]})"  # `!!` is a word of its own
-            case Op.NEG:
-                return f"(0 - {args[0]})"
-            case Op.ITE:
-                return f"({args[0]} -> {args[1]} : {args[2]})"
-            case Op.BIT:
-                return f"(({args[0]} >> {args[1]}) & 1)"
-            case Op.DIV | Op.MOD:
-                return self._quotient(op, args, ranges)
-        return self._twice(op, [self._kept(a, before) for a in args])
-
-    @staticmethod
-    def _quotient(op: Op, args: Sequence[str], ranges: Sequence[Interval]) -> str:
-        """Division rounds towards 0 in C and down in ours: of numbers that are not negative, both do."""
-        by = ranges[1].low
-        up = -(min(ranges[0].low, 0) // by)
-        if ranges[0].high + up * by not in INT:
-            raise ModelError(f"{args[0]} divided by {by} needs more than 32 bits; export to btor2 or aiger.")
-        above = f"({args[0]} + {up * by})" if up else args[0]
-        if op is Op.MOD:
-            return f"({above} % {by})"
-        return f"({above} / {by} - {up})" if up else f"({above} / {by})"
-
-    @staticmethod
-    def _twice(op: Op, args: Sequence[str]) -> str:
-        match op:
-            case Op.ABS:
-                return f"({args[0]} >= 0 -> {args[0]} : 0 - {args[0]})"
-            case Op.MIN:
-                return f"({args[0]} <= {args[1]} -> {args[0]} : {args[1]})"
-            case Op.MAX:
-                return f"({args[0]} >= {args[1]} -> {args[0]} : {args[1]})"
-        raise AssertionError(op)
+    def _operand(self, text: str, within: Interval, before: list[str]) -> Operand:
+        return Operand(text, lambda: self._kept(text, before), within)
 
     def _kept(self, text: str, before: list[str]) -> str:
         """A text that can be repeated."""

@@ -29,7 +29,7 @@ class _NoValue(Exception):
     """A cell that stands for no value of its signal; the message says why."""
 
 
-class Convert:
+class CellConverter:
     """The raw values of the texts of one column, ``None`` of an empty cell and of one without meaning."""
 
     def __init__(self, read: Callable[[str], Raw | None], most: float) -> None:
@@ -52,7 +52,7 @@ class Convert:
         return found
 
 
-def converter(column: Column, signal: BoardSignal, an_input: bool, comma: bool) -> Convert:
+def converter(column: Column, signal: BoardSignal, an_input: bool, comma: bool) -> CellConverter:
     """The converter of one column.  Raises ``LogError`` for what the map says that the signal does not have.
 
     An input must be one that firmware can hold; an output may be any number, which then is a deviation.
@@ -89,7 +89,7 @@ def converter(column: Column, signal: BoardSignal, an_input: bool, comma: bool) 
             return None
         return meaning(_held(number if as_is else number * factor + shift, cell))
 
-    return Convert(read, most)
+    return CellConverter(read, most)
 
 
 def _expected(column: Column, signal: BoardSignal, an_input: bool) -> str:

@@ -6,18 +6,18 @@ from dataclasses import dataclass
 from itertools import permutations
 from pathlib import Path
 
-from rovercheck.checker.logs.against import Against, as_drawn
-from rovercheck.checker.logs.belief import differs
 from rovercheck.checker.logs.cells import Raw
-from rovercheck.checker.logs.choosing import Choice
 from rovercheck.checker.logs.cones import LogCone
+from rovercheck.checker.logs.decoder import InputDecoder
 from rovercheck.checker.logs.deviations import Deviation, Grouping, always_late, swapped
+from rovercheck.checker.logs.estimator import differs
 from rovercheck.checker.logs.invalid import Invalid
 from rovercheck.checker.logs.log import Cells, Log, LogBlock, LogLayout, open_log
 from rovercheck.checker.logs.mapping import ColumnMap
 from rovercheck.checker.logs.mismatch import LogMismatch
 from rovercheck.checker.logs.monitors import LogMonitors, Verdict
-from rovercheck.checker.logs.sight import Eyes
+from rovercheck.checker.logs.reference import LogReference, as_drawn
+from rovercheck.checker.logs.selection import PropertySelection
 from rovercheck.checker.logs.tracker import TrackedRow, Tracker, UndecidedRow
 from rovercheck.properties.forms import Reachable
 from rovercheck.spec_model.lang.system import TICK_MS
@@ -43,7 +43,7 @@ class Behaviour:
     inferred: tuple[str, ...]
 
 
-class Follow:
+class BoardFollower:
     """Follows all parts of a board through a log."""
 
     def __init__(
@@ -213,13 +213,13 @@ class LogResult:
     missing: int
     gaps: tuple[Gap, ...]
     verdicts: tuple[Verdict, ...]
-    choice: Choice
+    choice: PropertySelection
     behaviour: Behaviour
     invalid: Invalid
 
     @property
     def unexpected(self) -> tuple[Verdict, ...]:
-        """Properties broken though they are on record as true, or reached though they are not."""
+        """Properties broken though expected to be true, or reached though expected not to be."""
         return tuple(v for v in self.verdicts if v.count and not as_on_record(v))
 
     @property
@@ -243,7 +243,7 @@ def as_on_record(verdict: Verdict) -> bool:
     return not violated if isinstance(verdict.prop.form, Reachable) else violated
 
 
-def examine(path: Path, how: ColumnMap, system: str = "", against: Against | None = None) -> LogResult:
+def examine(path: Path, how: ColumnMap, system: str = "", against: LogReference | None = None) -> LogResult:
     """Check one log, against the charts as specified unless told otherwise.
 
     Raises ``LogError`` for a file that is no log of the board, or not up to its end.
@@ -261,22 +261,22 @@ def examine(path: Path, how: ColumnMap, system: str = "", against: Against | Non
 class _Run:
     """A log on its way through both checks."""
 
-    def __init__(self, log: Log, against: Against) -> None:
+    def __init__(self, log: Log, against: LogReference) -> None:
         self._log, self._against = log, against
         layout, from_power_up = log.layout, log.start == "power-up"
         vocabulary = against.vocabulary(layout.board)
-        self._eyes = Eyes(vocabulary, layout.signals, from_power_up)
-        seen, logged = self._eyes.seen, layout.signals - vocabulary.inputs
+        self._decoder = InputDecoder(vocabulary, layout.signals, from_power_up)
+        seen, logged = self._decoder.seen, layout.signals - vocabulary.inputs
         known = seen | {o.var.name for o in vocabulary.board.outputs if o.name in logged}
         self._choice = against.choice(layout.board, known)
         self._monitors = LogMonitors(vocabulary, self._choice, known, from_power_up)
         parts = against.cones(layout.board, seen, logged)
-        self._follow = Follow(parts, _tolerance(layout), seen, from_power_up)
+        self._follow = BoardFollower(parts, _tolerance(layout), seen, from_power_up)
         self._rows = self._ticks = self._missing = 0
         self._gaps: list[Gap] = []
 
     def block(self, block: LogBlock) -> None:
-        seen = self._eyes.look(block)
+        seen = self._decoder.decode(block)
         self._monitors.block(block, self._monitors.columns(block, seen))
         self._follow.block(block, seen)
         self._rows += len(block)

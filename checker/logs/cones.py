@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from rovercheck.checker.logs.program import Shown, Step, compiled
+from rovercheck.checker.logs.program import ProgramOutput, Step, compiled
 from rovercheck.checker.system.partition import expressions, partition
 from rovercheck.checker.system.slice import sliced
 from rovercheck.spec_model.abstraction import Board, Output
@@ -72,7 +72,7 @@ class LogCone:
 
     @cached_property
     def step(self) -> Step:
-        return compiled(self.system, [Shown(o.var, o.unless) for o in self.outputs])
+        return compiled(self.system, [ProgramOutput(o.var, o.unless) for o in self.outputs])
 
     @cached_property
     def _roots(self) -> list[Expr]:

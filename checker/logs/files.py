@@ -20,7 +20,7 @@ from rovercheck.checker.logs.limits import (
     MOST_GROUP,
     MOST_TEXT,
     BoundedReader,
-    Guarded,
+    GuardedBytes,
     LimitError,
 )
 from rovercheck.checker.logs.mapping import ColumnMap
@@ -70,15 +70,15 @@ def opened(path: Path, how: ColumnMap) -> FileRows:
         return _text(_unpacked(path), how)
     if b"\0" in head or head[:2] == b"PK":
         raise LogError("is no text but a binary file; write the log as CSV, CSV in gzip, or Parquet.")
-    return _text(Guarded(path.open("rb", buffering=0)), how)
+    return _text(GuardedBytes(path.open("rb", buffering=0)), how)
 
 
-def _unpacked(path: Path) -> Guarded:
+def _unpacked(path: Path) -> GuardedBytes:
     packed = path.open("rb")
-    return Guarded(gzip.GzipFile(fileobj=packed), packed)
+    return GuardedBytes(gzip.GzipFile(fileobj=packed), packed)
 
 
-def _text(data: Guarded, how: ColumnMap) -> FileRows:
+def _text(data: GuardedBytes, how: ColumnMap) -> FileRows:
     file = io.TextIOWrapper(io.BufferedReader(data, BUFFER), "utf-8-sig", newline="")
     try:
         return _table(_lines(file, data), how, file.close)
@@ -87,7 +87,7 @@ def _text(data: Guarded, how: ColumnMap) -> FileRows:
         raise
 
 
-def _lines(file: io.TextIOWrapper, data: Guarded) -> Iterator[list[str]]:
+def _lines(file: io.TextIOWrapper, data: GuardedBytes) -> Iterator[list[str]]:
     """The lines, many at a time; broken bytes are named with the line they follow."""
     count = 0
     while True:
@@ -101,7 +101,7 @@ def _lines(file: io.TextIOWrapper, data: Guarded) -> Iterator[list[str]]:
             return
 
 
-def _some(file: io.TextIOWrapper, data: Guarded) -> tuple[list[str], str]:
+def _some(file: io.TextIOWrapper, data: GuardedBytes) -> tuple[list[str], str]:
     """The next lines, and what is wrong with the one that follows them."""
     lines: list[str] = []
     wrong = ""

@@ -1,12 +1,13 @@
 """Formulas over many rows at once, also those about the past, which remember where the rows before ended."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from rovercheck.checker.system import arrays
 from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.evaluate import operate as on_values
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
@@ -20,6 +21,10 @@ Array = NDArray[Any]
 FOREVER = 1 << 62
 ROUNDING = 1e-4
 """Raw units by which outputs of 32-bit floats, and their differences, may be off."""
+
+
+PastWord = Callable[..., tuple[Array, Any]]
+"""The values of a word in each row, from those of its arguments and its state before; its state after."""
 
 
 @dataclass
@@ -99,7 +104,7 @@ class FormulaRows:
                 values = [self.value(a, past) for a in args]
                 if op in COMPARISONS and self.rounded and not self.rounded.isdisjoint(variables(expr)):
                     return compared(op, *values)
-                return operate(op, values)
+                return np.asarray(OPERATIONS[op](*values))
             case Temporal(_, arg) if arg is not None:
                 return self._temporal(expr, arg, past)
         raise AssertionError(f"{expr} belongs to a chart")
@@ -108,16 +113,18 @@ class FormulaRows:
         now = np.broadcast_to(self.value(arg, past), (self.count,))
         match word.when:
             case When.PREVIOUS:
-                return shifted(now, past, id(word), _initial(arg) if past.from_start else 0)
+                return self._remembered(shifted, now, word, past, _initial(arg) if past.from_start else 0)
             case When.RISING:
-                return now & ~shifted(now, past, id(word), 1)
+                return now & ~self._remembered(shifted, now, word, past, 1)
             case When.HELD:
                 assert word.span is not None
-                return run_lengths(now, past, id(word)) > word.span.ticks(TICK_MS)
+                return self._remembered(run_lengths, now, word, past, 0) > word.span.ticks(TICK_MS)
             case _:
-                seen = np.logical_or.accumulate(now) | past.memory.get(id(word), False)
-                past.memory[id(word)] = bool(seen[-1])
-                return np.asarray(seen)
+                return self._remembered(seen, now, word, past, False)
+
+    def _remembered(self, of: PastWord, now: Array, word: Temporal, past: Past, first: Any) -> Array:
+        found, past.memory[id(word)] = of(now, past.memory.get(id(word), first))
+        return found
 
 
 def _initial(expr: Expr) -> int:
@@ -136,58 +143,37 @@ def _initial(expr: Expr) -> int:
     return 0
 
 
-def shifted(now: Array, past: Past, key: int, first: int) -> Array:
+def shifted(now: Array, before: Any) -> tuple[Array, Any]:
     """The value of the row before."""
-    before = past.memory.get(key, first)
-    past.memory[key] = now[-1]
     found = np.empty_like(now)
     found[0], found[1:] = before, now[:-1]
-    return found
+    return found, now[-1]
 
 
-def run_lengths(now: Array, past: Past, key: int) -> Array:
+def run_lengths(now: Array, before: int) -> tuple[Array, int]:
     """For how many rows up to each one, this one included, it has been true without a break."""
     index = np.arange(1, len(now) + 1)
     broken = np.maximum.accumulate(np.where(now, 0, index))
-    carried = np.where(broken == 0, past.memory.get(key, 0), 0)
-    found = np.where(now, index - broken + carried, 0)
-    past.memory[key] = int(found[-1])
-    return found
+    found = np.where(now, index - broken + np.where(broken == 0, before, 0), 0)
+    return found, int(found[-1])
+
+
+def seen(now: Array, before: bool) -> tuple[Array, bool]:
+    """Whether it is or was true."""
+    found = np.logical_or.accumulate(now) | before
+    return found, bool(found[-1])
 
 
 def compared(op: Op, left: Array, right: Array) -> Array:
     """A comparison in which values that differ by rounding alone are equal."""
     apart = left.astype(np.float64) - right.astype(np.float64)
-    return np.asarray(_BINARY[op](np.where(abs(apart) < ROUNDING, 0.0, apart), 0.0))
+    return np.asarray(OPERATIONS[op](np.where(abs(apart) < ROUNDING, 0.0, apart), 0.0))
 
 
-def operate(op: Op, v: list[Array]) -> Array:
-    """An operator on columns, as ``spec_model.lang.evaluate`` on values."""
-    match op:
-        case Op.NOT:
-            return np.asarray(~v[0])
-        case Op.AND | Op.OR:
-            fold = np.logical_and if op is Op.AND else np.logical_or
-            found = v[0]
-            for other in v[1:]:
-                found = fold(found, other)
-            return np.asarray(found)
-        case Op.ITE:
-            return np.where(v[0], v[1], v[2])
-        case Op.NEG:
-            return np.asarray(-v[0])
-        case Op.ABS:
-            return np.asarray(abs(v[0]))
-        case Op.BIT:
-            with np.errstate(invalid="ignore"):  # of a value that is not known nobody asks for the result
-                mask, bit = (value.astype(np.int64) for value in v)
-            return np.asarray((mask >> bit) & 1 != 0)
-        case _:
-            return np.asarray(_BINARY[op](v[0], v[1]))
+def _bit(values: Array, index: Array) -> Array:
+    with np.errstate(invalid="ignore"):  # of a value that is not known nobody asks for the result
+        return np.asarray((values.astype(np.int64) >> index.astype(np.int64)) & 1 != 0)
 
 
-_BINARY: Mapping[Op, Any] = {
-    Op.EQ: np.equal, Op.NE: np.not_equal, Op.LT: np.less, Op.LE: np.less_equal, Op.GT: np.greater,
-    Op.GE: np.greater_equal, Op.ADD: np.add, Op.SUB: np.subtract, Op.MUL: np.multiply,
-    Op.SCALE: np.multiply, Op.DIV: np.floor_divide, Op.MOD: np.mod, Op.MIN: np.minimum, Op.MAX: np.maximum,
-}  # fmt: skip
+OPERATIONS: Mapping[Op, Callable[..., Any]] = {**arrays.OPERATIONS, Op.BIT: _bit}
+"""Every operator on columns, in which numbers are 64-bit floats."""

@@ -35,7 +35,7 @@ class _Source(Protocol):
     def close(self) -> None: ...
 
 
-class Guarded(io.RawIOBase):
+class GuardedBytes(io.RawIOBase):
     """The bytes of a file up to where a line, or what unpacking makes of it, becomes too large.
 
     ``packed``: the file that is unpacked, if it is one.  Reading raises ``LimitError``.

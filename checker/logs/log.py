@@ -6,7 +6,7 @@ from itertools import compress, islice
 from pathlib import Path
 
 from rovercheck.checker.io.printable import one_line
-from rovercheck.checker.logs.cells import Convert, Raw, converter
+from rovercheck.checker.logs.cells import CellConverter, Raw, converter
 from rovercheck.checker.logs.errors import LogError, at, shortened
 from rovercheck.checker.logs.files import FileRows, opened
 from rovercheck.checker.logs.invalid import Invalid, InvalidCell
@@ -81,7 +81,7 @@ class Log:
     rows: FileRows
     how: ColumnMap
     start: str = ""
-    converters: list[tuple[int, str, Convert]] = field(default_factory=list)
+    converters: list[tuple[int, str, CellConverter]] = field(default_factory=list)
     invalid: Invalid = field(default_factory=Invalid)
 
     def blocks(self) -> Generator[LogBlock, None, None]:
@@ -280,7 +280,7 @@ def _log(name: str, rows: FileRows, how: ColumnMap, system: str) -> Log:
     return log
 
 
-def _converter(column: Column, vocabulary: Vocabulary, comma: bool) -> Convert:
+def _converter(column: Column, vocabulary: Vocabulary, comma: bool) -> CellConverter:
     signal = vocabulary.signals[column.signal]
     if column.kind == "update":
         return converter(replace(column, unit=""), _FLAG, True, comma)

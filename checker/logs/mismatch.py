@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from rovercheck.checker.logs.belief import BeliefOutcome
 from rovercheck.checker.logs.cells import Raw
 from rovercheck.checker.logs.cones import LogCone
+from rovercheck.checker.logs.estimator import BeliefOutcome
 from rovercheck.checker.logs.program import Known
 from rovercheck.spec_model.abstraction import Output
 from rovercheck.spec_model.lang.chart import Chart
@@ -44,7 +44,7 @@ class LogDifference:
 class LogMismatch:
     """One tick of one part of the board that no behaviour explains.
 
-    ``moves``: the arrows that the charts took or the states they stayed in, where they leave no choice.
+    ``moves``: the transitions that the charts took or the states they stayed in, where they leave no choice.
     ``inputs``: what the part read, ``None`` where it is not logged.
     """
 
@@ -116,16 +116,16 @@ def _move(chart: Chart, name: str, domain: Domain, before: Raw | None, after: Ra
 
 
 def _label(chart: Chart, source: str, target: str) -> str:
-    """The label of the arrow, if only one leads from state to state."""
-    arrows = [
-        (order, arrow)
+    """The label of the transition, if only one leads from state to state."""
+    transitions = [
+        (order, transition)
         for path, state in chart.states.items()
         if path and path[-1] == source
-        for order, arrow in enumerate(state.transitions, 1)
-        if arrow.target.rpartition(".")[2] == target
+        for order, transition in enumerate(state.transitions, 1)
+        if transition.target.rpartition(".")[2] == target
     ]
-    if len(arrows) != 1:
+    if len(transitions) != 1:
         return ""
-    order, arrow = arrows[0]
-    guard = f" [{text(arrow.guard)}]" if arrow.guard is not None else ""
-    return f" (arrow {order}){guard}"
+    order, transition = transitions[0]
+    guard = f" [{text(transition.guard)}]" if transition.guard is not None else ""
+    return f" (transition {order}){guard}"

@@ -6,27 +6,15 @@ from fractions import Fraction
 
 import numpy as np
 
-from rovercheck.checker.logs.choosing import Choice, Chosen, Wires
 from rovercheck.checker.logs.cones import measured
+from rovercheck.checker.logs.form_monitors import Judge
 from rovercheck.checker.logs.formula import Array, FormulaRows
-from rovercheck.checker.logs.judge import Judge
 from rovercheck.checker.logs.log import Cells, LogBlock
 from rovercheck.checker.logs.mismatch import shown
+from rovercheck.checker.logs.selection import MonitoredProperty, PropertySelection, Wires
 from rovercheck.checker.logs.signals import Vocabulary
-from rovercheck.properties.forms import (
-    Always,
-    EntersOnlyIf,
-    Form,
-    HoldsAfter,
-    HoldsFor,
-    LeavesOnlyIf,
-    Never,
-    Precedes,
-    Property,
-    Reachable,
-    Responds,
-    Until,
-)
+from rovercheck.properties.forms import Form, Never, Property, Reachable
+from rovercheck.properties.pasttime import Bounded
 from rovercheck.spec_model.lang.expr import FALSE, Apply, Expr, Var
 from rovercheck.spec_model.lang.label import text
 from rovercheck.spec_model.lang.operators import Op
@@ -34,7 +22,7 @@ from rovercheck.spec_model.lang.walk import plain, variables
 
 
 @dataclass(frozen=True)
-class BrokenAt:
+class FirstViolation:
     """Where a property was first broken (or reached): its parts that are false, and the values there."""
 
     tick: int
@@ -48,11 +36,11 @@ class Verdict:
     """What a log says of a property.
 
     ``count``: the ticks in which it is broken; ``tested``: those in which it was put to the test at all;
-    ``expected``: the verdict on record.
+    ``expected``: the expected verdict.
     """
 
     prop: Property
-    first: BrokenAt | None = None
+    first: FirstViolation | None = None
     count: int = 0
     tested: int = 0
     judged: int = 0
@@ -70,7 +58,7 @@ class LogMonitors:
     """All monitors of one log."""
 
     def __init__(
-        self, vocabulary: Vocabulary, choice: Choice, known: frozenset[str], from_power_up: bool
+        self, vocabulary: Vocabulary, choice: PropertySelection, known: frozenset[str], from_power_up: bool
     ) -> None:
         self._judges = [(c, Judge(c.property), Verdict(c.property)) for c in choice.monitored]
         self._wires = Wires(vocabulary).of(known)
@@ -157,7 +145,7 @@ class _Stretch:
         self._columns, self._unknown = columns, unknown
         self._rows: dict[int, tuple[FormulaRows, Array]] = {}
 
-    def runs(self, chosen: Chosen) -> list[tuple[bool, FormulaRows, Array]]:
+    def runs(self, chosen: MonitoredProperty) -> list[tuple[bool, FormulaRows, Array]]:
         """The steps in which the charts of a property execute, cut where something it reads is not known.
 
         Each run tells whether there is such a hole in front of it; the last may be empty.
@@ -213,33 +201,20 @@ _NOTHING = Property("", "", Never(FALSE), (), "")
 # --- what is false ---------------------------------------------------------------------------------
 
 
-def _broken(judge: Judge, rows: FormulaRows, row: int, block: LogBlock, place: int) -> BrokenAt:
+def _broken(judge: Judge, rows: FormulaRows, row: int, block: LogBlock, place: int) -> FirstViolation:
     wanted, negated = required(judge.property.form)
     false = [p for p in _conjuncts(wanted) if bool(rows.truth(p, judge.past)[row]) == negated]
     read = variables(wanted)
     values = {name: _shown(var, rows.columns[name][row]) for name, var in read.items()}
-    return BrokenAt(block.ticks[place], block.lines[place], tuple(text(p) for p in false), values)
+    return FirstViolation(block.ticks[place], block.lines[place], tuple(text(p) for p in false), values)
 
 
 def required(form: Form) -> tuple[Expr, bool]:
     """What must be true where the property is broken, and whether it must be false instead."""
-    match form:
-        case Always(that) | HoldsFor(_, that, _):
-            return that, False
-        case Never(that) | Reachable(that):
-            return that, True
-        case Responds(_, response, _):
-            return response, False
-        case HoldsAfter(_, _, then):
-            return then, False
-        case Precedes(first, _):
-            return first, False
-        case Until(_, holds, _):
-            return holds, False
-        case LeavesOnlyIf(_, only_if) | EntersOnlyIf(_, only_if):
-            return only_if, False
-        case _:
-            raise AssertionError("no finite run breaks it")
+    if isinstance(form, Never | Reachable):
+        return form.that, True
+    assert isinstance(form, Bounded) and form.wanted is not None, "no finite run breaks it"
+    return form.wanted, False
 
 
 def _conjuncts(expr: Expr) -> Sequence[Expr]:

@@ -14,7 +14,7 @@ Known = tuple[Raw | None, ...]
 """Values in the order of the variables; ``None``: any value."""
 
 Step = Callable[[Known, Known], tuple[Known, Known]]
-"""From a valuation and inputs to the valuation after the step and the outputs (``None``: nothing required).
+"""From a state and inputs to the state after the step and the outputs (``None``: nothing required).
 
 Raises ``NeededInputs`` when it must read a value that is not known.
 """
@@ -32,14 +32,14 @@ class NeededInputs(Exception):
 
 
 @dataclass(frozen=True)
-class Shown:
+class ProgramOutput:
     """A variable whose value after the step is asked for, unless a condition holds then."""
 
     var: Var
     unless: Expr
 
 
-def compiled(system: TransitionSystem, outputs: Sequence[Shown]) -> Step:
+def compiled(system: TransitionSystem, outputs: Sequence[ProgramOutput]) -> Step:
     """The step of a system.  Values between those of a domain are stored like the others."""
     state, inputs = system.variables, system.inputs
     names = _Names(_copied(system.step))

@@ -12,7 +12,7 @@ TIME = "now_ms"
 
 
 @dataclass(frozen=True)
-class Sight:
+class SignalView:
     """How the charts see a signal: the input made of it, as a sample, age, update, advance or slow mean."""
 
     var: Var
@@ -36,39 +36,42 @@ class Vocabulary:
         return frozenset(s.name for s in self.board.inputs)
 
     @cached_property
-    def sights(self) -> dict[str, Sight]:
+    def sights(self) -> dict[str, SignalView]:
         """What the charts see of the inputs, by the name of the chart's variable."""
         return {s.var.name: s for s in _SEEN[self.board.name]}
 
     @cached_property
-    def seen_of(self) -> dict[str, tuple[Sight, ...]]:
+    def seen_of(self) -> dict[str, tuple[SignalView, ...]]:
         """What the charts see of each signal."""
         return {
             name: tuple(s for s in self.sights.values() if s.signal.name == name) for name in self.signals
         }
 
 
-def _board1() -> tuple[Sight, ...]:
+def _board1() -> tuple[SignalView, ...]:
     stamps = {s.name: s for s in board1.STAMPS}
     return (
-        *(Sight(var, "sample", signal) for signal, var in board1.SAMPLES.items()),
-        *(Sight(var, "age", stamps[name]) for name, var in board1.AGES.items()),
-        *(Sight(var, "slow", stamps[name]) for name, var in board1.SLOW.items()),
+        *(SignalView(var, "sample", signal) for signal, var in board1.SAMPLES.items()),
+        *(SignalView(var, "age", stamps[name]) for name, var in board1.AGES.items()),
+        *(SignalView(var, "slow", stamps[name]) for name, var in board1.SLOW.items()),
     )
 
 
-def _board2() -> tuple[Sight, ...]:
+def _board2() -> tuple[SignalView, ...]:
     stamps = {s.name: s for s in board2.STAMPS}
     return (
-        *(Sight(var, "sample", signal) for signal, var in board2.SAMPLES.items()),
-        *(Sight(source.age, "age", stamps[name]) for name, source in board2.SOURCES.items()),
-        *(Sight(gaps.advance(source), "advance", stamps[name]) for name, source in board2.SOURCES.items()),
+        *(SignalView(var, "sample", signal) for signal, var in board2.SAMPLES.items()),
+        *(SignalView(source.age, "age", stamps[name]) for name, source in board2.SOURCES.items()),
         *(
-            Sight(source.update, "update", stamps[name])
+            SignalView(gaps.advance(source), "advance", stamps[name])
+            for name, source in board2.SOURCES.items()
+        ),
+        *(
+            SignalView(source.update, "update", stamps[name])
             for name, source in board2.SOURCES.items()
             if source in board2.COUNTED
         ),
     )
 
 
-_SEEN: Mapping[str, tuple[Sight, ...]] = {"board1": _board1(), "board2": _board2()}
+_SEEN: Mapping[str, tuple[SignalView, ...]] = {"board1": _board1(), "board2": _board2()}

@@ -5,17 +5,17 @@ from dataclasses import dataclass
 from itertools import product
 from math import prod
 
-from rovercheck.checker.logs.belief import FIRST_RUNS, MORE_RUNS, BeliefOutcome, Follower, TooMany
 from rovercheck.checker.logs.cells import Raw
 from rovercheck.checker.logs.cones import LogCone
+from rovercheck.checker.logs.estimator import FIRST_RUNS, MORE_RUNS, BeliefOutcome, StateEstimator, TooMany
 from rovercheck.checker.logs.mismatch import LogMismatch, differences, moves, shown
 from rovercheck.checker.logs.program import Known
 
 MOST_LOST = 20
-"""How often the valuations may become too many before the part is given up."""
+"""How often the states may become too many before the part is given up."""
 
 MOST_MISSING, FEW_RUNS = 5, 500
-"""Steps missing in a row through which valuations are followed, and how many may be tried for it."""
+"""Steps missing in a row through which states are followed, and how many may be tried for it."""
 
 MOST_OPTIONS = 16
 
@@ -41,17 +41,17 @@ class UndecidedRow:
 
 
 class Tracker:
-    """The valuations that explain the log so far.
+    """The states that explain the log so far.
 
     After a tick that none explains, the charts go on from where they are; if they do not explain the next
-    one either, from any valuation that has the logged outputs.
+    one either, from any state that has the logged outputs.
     """
 
     def __init__(self, cone: LogCone, tolerance: Mapping[str, float], from_power_up: bool) -> None:
         self.cone = cone
         self.undecided: UndecidedRow | None = None
         self.given_up = False
-        self._follow = Follower(cone, tolerance)
+        self._follow = StateEstimator(cone, tolerance)
         self._now = self._follow.power_up() if from_power_up else self._follow.anything({})
         self._own: tuple[Known, ...] | None = self._now if from_power_up else None
         self._lost = False
@@ -184,7 +184,7 @@ class Tracker:
         self._follow.runs_left = left
 
     def _lose(self, row: TrackedRow, what: str) -> None:
-        self._undecided(row, f"too many valuations; what multiplies them: {what}")
+        self._undecided(row, f"too many states; what multiplies them: {what}")
         self._now, self._own, self._lost, self.required = (
             self._follow.anything(self._outputs(row)),
             None,

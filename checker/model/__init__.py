@@ -1,4 +1,4 @@
-"""What is checked: systems with properties, the verdicts on record and the requirements they cover.
+"""What is checked: systems with properties, the expected verdicts and the requirements they cover.
 
 The rover is one model (``checker.model.rover``), a file or folder of a user's own is another
 (``checker.model.load``); commands do not care which.

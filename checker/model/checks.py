@@ -1,4 +1,4 @@
-"""What a user's model must satisfy before anything is searched; what is wrong is told with file and line."""
+"""What a user's model must satisfy before anything is searched; faults are reported with file and line."""
 
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -21,7 +21,7 @@ from rovercheck.spec_model.lang.system import System, enabled_in
 from rovercheck.spec_model.lang.walk import variables
 from rovercheck.spec_model.lang.wellformed import check_system
 from rovercheck.spec_model.lang.wellformed.data import twin_faults
-from rovercheck.spec_model.lang.wellformed.places import arrow_names, name_of
+from rovercheck.spec_model.lang.wellformed.places import name_of, transition_names
 
 
 def system_faults(system: System, place: str) -> Iterator[str]:
@@ -103,7 +103,7 @@ def property_faults(prop: Property, systems: Mapping[str, System]) -> list[str]:
 
 
 def _placed(fault: str, system: System, place: str) -> str:
-    """The fault with the line of the arrow, state or enable that it names, else of its part or system."""
+    """The fault with the line of the transition, state or enable it names, else of its part or system."""
     for enabled in enabled_in(system.components):
         if f"the enable `{enabled.by}`" in fault:
             return f"{enabled.place or place}: {fault}"
@@ -116,13 +116,17 @@ def _placed(fault: str, system: System, place: str) -> str:
 
 
 def _places(chart: Chart) -> Iterator[tuple[str, Place | None]]:
-    """How faults name arrows and actions, and where these are written."""
+    """How faults name transitions and actions, and where these are written."""
     for path, state in chart.states.items():
-        arrows = arrow_names(state.default, path, default=True) + arrow_names(state.transitions, path)
-        yield from ((words, arrow.place) for words, arrow in arrows)
+        transitions = transition_names(state.default, path, default=True) + transition_names(
+            state.transitions, path
+        )
+        yield from ((words, transition.place) for words, transition in transitions)
         yield f"action of {name_of(path)}", state.place
     for path, junction in chart.junctions.items():
-        yield from ((words, arrow.place) for words, arrow in arrow_names(junction.transitions, path))
+        yield from (
+            (words, transition.place) for words, transition in transition_names(junction.transitions, path)
+        )
 
 
 class _Own(Exception):

@@ -1,4 +1,4 @@
-"""Runs the files of a user's model; what goes wrong is told with file and line."""
+"""Runs the files of a user's model; what goes wrong is reported with file and line."""
 
 import linecache
 import re
@@ -59,10 +59,10 @@ def _run(neighbours: Neighbours, file: Path) -> ModuleType:
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # also what is meant for test runners and event loops
-        raise ModelError(_told(error, neighbours, file)) from error
+        raise ModelError(_located(error, neighbours, file)) from error
 
 
-def _told(error: BaseException, neighbours: Neighbours, file: Path) -> str:
+def _located(error: BaseException, neighbours: Neighbours, file: Path) -> str:
     """The error with the last line of the user's that led to it."""
     frames = [f for f in traceback.extract_tb(error.__traceback__) if _within(f.filename, neighbours.folder)]
     place, line = Place(str(file), 1), ""

@@ -1,4 +1,4 @@
-"""Inductive invariants kept beside the verdicts on record: what a proof found once is only shown again.
+"""Inductive invariants kept beside the expected verdicts: what a proof found once is only shown again.
 
 A file of them is no evidence.  Its formulas are tried; those that are no invariant of the charts as they are
 now are dropped, and what the others do not show is searched for.

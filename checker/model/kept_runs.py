@@ -1,4 +1,4 @@
-"""Runs kept beside the verdicts on record: they show cases that occur, and faults that are noticed."""
+"""Runs kept beside the expected verdicts: they show cases that occur, and faults that are noticed."""
 
 import json
 from collections.abc import Callable, Mapping
@@ -17,11 +17,14 @@ PREMISES, KILLS, MUTANTS = "premises", "kills", "mutants"
 """What runs are kept for: cases that occur, a mutant that a property kills, mutants killed by a search."""
 INVARIANTS = "invariants"
 """What is kept of proofs (``checker.model.kept_invariants``)."""
+VERDICTS = "verdicts"
+"""What reports are made of (``checker.commands.reports.record``)."""
 RECORD = {
     PREMISES: "rovercheck check --record-premises",
     KILLS: "rovercheck mutate --record-kills",
     MUTANTS: "rovercheck mutate --record-mutants",
     INVARIANTS: "rovercheck check --record-invariants",
+    VERDICTS: "rovercheck reports",
 }
 ROVER = Path(__file__).parents[2] / "properties"
 MOST_TICKS = 1_000_000
@@ -53,8 +56,8 @@ def read(file: Path, kind: str = PREMISES) -> dict[str, KeptRun]:
 
     def runs(rows: Any) -> dict[str, KeptRun]:
         left, found = MOST_TICKS, dict[str, KeptRun]()
-        for id, row in rows.items():
-            found[id] = _kept(row, left)
+        for id, one in rows.items():
+            found[id] = kept(one, left)
             left -= len(found[id].run)
         return found
 
@@ -81,7 +84,7 @@ def contents(file: Path, kind: str, what: str, made: Callable[[Any], dict[str, T
 
 def text(runs: Mapping[str, KeptRun], kind: str = PREMISES) -> str:
     """The runs as JSON, one a line; of a tick the inputs that differ from the one before."""
-    return lines(kind, "runs", {id: _row(kept) for id, kept in runs.items()})
+    return lines(kind, "runs", {id: row(one) for id, one in runs.items()})
 
 
 def lines(kind: str, what: str, rows: Mapping[str, object]) -> str:
@@ -91,21 +94,23 @@ def lines(kind: str, what: str, rows: Mapping[str, object]) -> str:
     return f'{{"schema": {schema}, {json.dumps(what)}: {{\n' + ",\n".join(ordered) + "\n}}\n"
 
 
-def _row(kept: KeptRun) -> dict[str, object]:
+def row(one: KeptRun) -> dict[str, object]:
+    """A run as JSON; of a tick the inputs that differ from the one before."""
     blocks: list[tuple[int, dict[str, int]]] = []
     before: Mapping[str, int] = {}
-    for inputs in kept.run.inputs:
+    for inputs in one.run.inputs:
         changed = {name: value for name, value in inputs.items() if before.get(name) != value}
         if changed or not blocks:
             blocks.append((1, changed))
         else:
             blocks[-1] = (blocks[-1][0] + 1, blocks[-1][1])
         before = inputs
-    mutant = {"mutant": kept.mutant} if kept.mutant else {}
-    return {"system": kept.system, **mutant, "frozen": dict(kept.run.frozen), "blocks": blocks}
+    mutant = {"mutant": one.mutant} if one.mutant else {}
+    return {"system": one.system, **mutant, "frozen": dict(one.run.frozen), "blocks": blocks}
 
 
-def _kept(row: Mapping[str, Any], most: int) -> KeptRun:
+def kept(row: Mapping[str, Any], most: int) -> KeptRun:
+    """What ``row`` wrote, of at most so many ticks.  Raises ``ValueError`` or the like for anything else."""
     inputs: list[dict[str, int]] = []
     at: dict[str, int] = {}
     for ticks, changed in row["blocks"]:
@@ -130,10 +135,13 @@ __all__ = [
     "KILLS",
     "MUTANTS",
     "PREMISES",
+    "VERDICTS",
     "KeptRun",
     "contents",
     "file_of",
+    "kept",
     "lines",
     "read",
+    "row",
     "text",
 ]

@@ -39,7 +39,7 @@ WORDS: Mapping[Any, str] = {
     Var: "a variable, made with var() or flag()",
     Span: "a length of time, such as `3 * sec` or `2 * ticks`",
     Action: "an action, assign(), when() or send()",
-    Transition: "an arrow, to(...)",
+    Transition: "a transition, to(...)",
     State: "a state, State(...)",
     Junction: "a junction, Junction(...)",
     Component: "a chart, a block or an enabled subsystem",
@@ -52,7 +52,7 @@ WORDS: Mapping[Any, str] = {
 def kind_faults(thing: object, file: str) -> Iterator[str]:
     """What is of the wrong kind in a system, a chart or a property, a line each.
 
-    Each names the line of the arrow, state, chart or property that it is in, else the ``file``.
+    Each names the line of the transition, state, chart or property that it is in, else the ``file``.
     """
     seen = set[int]()
     todo: list[tuple[object, Place | str, str]] = [(thing, file, "")]
@@ -68,7 +68,7 @@ def kind_faults(thing: object, file: str) -> Iterator[str]:
                 if fits(value, hint):
                     todo.append((value, place, owner))
                 else:
-                    yield f"{place}: {owner}: {_told(one, name, value, hint)}"
+                    yield f"{place}: {owner}: {_described(one, name, value, hint)}"
 
 
 def _hints(thing: object) -> Mapping[str, Any]:
@@ -105,7 +105,7 @@ def fits(value: object, hint: Any) -> bool:
     return isinstance(value, origin or hint)
 
 
-def _told(thing: object, name: str, value: object, hint: Any) -> str:
+def _described(thing: object, name: str, value: object, hint: Any) -> str:
     of = ARGUMENTS.get(name, name)
     if isinstance(thing, Property) and name == "on":
         return f"on is {brief(value)}, {_kind(value)}; write a system, its name, or a chart that runs alone."
@@ -122,7 +122,7 @@ def _named(thing: object) -> str:
         case Property(id):
             return brief(id) if not isinstance(id, str) else id
         case Transition(target):
-            return f"the arrow to {brief(target)}"
+            return f"the transition to {brief(target)}"
         case State() | Junction() | Chart() | Block() | Enabled() | System() | Var():
             return f"{type(thing).__name__} {brief(thing.name)}"
     return ""

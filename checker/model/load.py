@@ -160,7 +160,7 @@ class _Found:
 
 @contextmanager
 def _gathered(faults: list[str], where: str = "") -> Iterator[None]:
-    """What is raised inside is told with the other faults."""
+    """What is raised inside is reported with the other faults."""
     try:
         yield
     except ModelError as error:

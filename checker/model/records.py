@@ -1,4 +1,4 @@
-"""The tables beside a user's model: the verdicts on record, and the requirements that are covered."""
+"""The tables beside a user's model: the expected verdicts, and the requirements that are covered."""
 
 import ast
 import tomllib
@@ -29,7 +29,7 @@ def baseline_of(path: Path) -> Path:
 
 
 def recorded(path: Path, known: Collection[str]) -> dict[str, Expected]:
-    """The verdicts on record beside a model, none if there is no such file.  Raises ``ModelError``."""
+    """The expected verdicts beside a model, none if there is no such file.  Raises ``ModelError``."""
     file = baseline_of(path)
     return on_record(_table(file), known, shown(file)) if file.exists() else {}
 

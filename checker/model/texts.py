@@ -1,4 +1,4 @@
-"""Names and sentences of a user's model: what every exit can show, and every shell can pass on."""
+"""Names and sentences of a user's model: what every format can show, and every shell can pass on."""
 
 import re
 from collections.abc import Iterator, Mapping

@@ -1,4 +1,4 @@
-"""Faults of one chart: of its arrows with guards, targets and priorities, its actions, its regions."""
+"""Faults of one chart: of its transitions with guards, targets and priorities, its actions, its regions."""
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -101,8 +101,8 @@ class ChartFault:
 
 
 @dataclass(frozen=True)
-class _Arrows:
-    """The arrows of a state or junction, or the default arrows of a level, and how to change them."""
+class _TransitionList:
+    """The transitions of a state or junction, or the default ones of a level, and how to change them."""
 
     site: str
     level: Path
@@ -121,12 +121,12 @@ def block_faults(block: Block, step_ms: int) -> Iterator[ChartFault]:
 def chart_faults(chart: Chart, step_ms: int) -> Iterator[ChartFault]:
     """Every fault of a chart."""
     fields = paired(chart.all_actions)
-    for arrows in _arrows(chart):
-        for number, segment in enumerate(arrows.segments):
-            put = _putter(arrows, number)
-            site = f"{arrows.site}.{number + 1}"
+    for transitions in _transitions(chart):
+        for number, segment in enumerate(transitions.segments):
+            put = _putter(transitions, number)
+            site = f"{transitions.site}.{number + 1}"
             meant = "" if segment.guard is None else str(segment.guard)
-            for operator, text, new in _segment(chart, arrows, segment, step_ms):
+            for operator, text, new in _segment(chart, transitions, segment, step_ms):
                 yield ChartFault(site, operator, text, segment.place, put(new), meant)
             for kind in ("do", "then"):
                 actions: tuple[Action, ...] = getattr(segment, kind)
@@ -135,15 +135,15 @@ def chart_faults(chart: Chart, step_ms: int) -> Iterator[ChartFault]:
                         replace(segment, do=slip.whole) if kind == "do" else replace(segment, then=slip.whole)
                     )
                     yield ChartFault(site, slip.operator, slip.text, segment.place, put(new), meant)
-        yield from _priorities(arrows)
+        yield from _priorities(transitions)
     for path, state in chart.states.items():
         yield from _in_state(chart, path, state, step_ms)
         if state.parallel:
             yield from _regions(chart, path, state)
 
 
-def _arrows(chart: Chart) -> Iterator[_Arrows]:
-    """Every list of arrows of the chart."""
+def _transitions(chart: Chart) -> Iterator[_TransitionList]:
+    """Every list of transitions of the chart."""
     for path, state in chart.states.items():
         of = ".".join(path)
 
@@ -153,11 +153,13 @@ def _arrows(chart: Chart) -> Iterator[_Arrows]:
         def drawn(new: Sequence[Transition], path: Path = path) -> Chart:
             return edit_at(chart, path, lambda s: replace(s, transitions=tuple(new)))
 
-        yield _Arrows(f"default/{of}" if of else "default", path, state.default, default, True)
-        yield _Arrows(f"arrow/{of}", path[:-1], state.transitions, drawn)
+        yield _TransitionList(f"default/{of}" if of else "default", path, state.default, default, True)
+        yield _TransitionList(f"arrow/{of}", path[:-1], state.transitions, drawn)
         for junction in state.junctions:
             name = ".".join((*path, junction.name))
-            yield _Arrows(f"arrow/{name}", path, junction.transitions, _of_junction(chart, path, junction))
+            yield _TransitionList(
+                f"arrow/{name}", path, junction.transitions, _of_junction(chart, path, junction)
+            )
 
 
 def _of_junction(chart: Chart, path: Path, junction: Junction) -> Callable[[Sequence[Transition]], Chart]:
@@ -171,24 +173,24 @@ def _of_junction(chart: Chart, path: Path, junction: Junction) -> Callable[[Sequ
     return changed
 
 
-def _putter(arrows: _Arrows, number: int) -> Callable[[Transition], Chart]:
+def _putter(transitions: _TransitionList, number: int) -> Callable[[Transition], Chart]:
     def put(new: Transition) -> Chart:
-        return arrows.changed([new if i == number else s for i, s in enumerate(arrows.segments)])
+        return transitions.changed([new if i == number else s for i, s in enumerate(transitions.segments)])
 
     return put
 
 
 def _segment(
-    chart: Chart, arrows: _Arrows, segment: Transition, step_ms: int
+    chart: Chart, transitions: _TransitionList, segment: Transition, step_ms: int
 ) -> Iterator[tuple[str, str, Transition]]:
-    """Faults of the guard and the target of an arrow."""
+    """Faults of the guard and the target of a transition."""
     if segment.guard is not None:
         yield from _guard(segment, segment.guard, step_ms)
-    elif not arrows.default:
-        yield "arrow-missing", f"the arrow to {segment.target} is missing", replace(segment, guard=FALSE)
-    sibling = _sibling(chart, arrows.level, segment.target)
+    elif not transitions.default:
+        yield "arrow-missing", f"the transition to {segment.target} is missing", replace(segment, guard=FALSE)
+    sibling = _sibling(chart, transitions.level, segment.target)
     if sibling is not None:
-        text = f"the arrow to {segment.target} leads to {sibling}"
+        text = f"the transition to {segment.target} leads to {sibling}"
         yield "target", text, replace(segment, target=sibling)
 
 
@@ -196,7 +198,11 @@ def _guard(segment: Transition, guard: Expr, step_ms: int) -> Iterator[tuple[str
     negated = Apply(Op.NOT, (guard,), Bool())
     yield "guard-negated", f"`[{guard}]` is negated", replace(segment, guard=negated)
     yield "guard-true", f"`[{guard}]` is always true", replace(segment, guard=TRUE)
-    yield "guard-false", f"`[{guard}]` is never true: the arrow is missing", replace(segment, guard=FALSE)
+    yield (
+        "guard-false",
+        f"`[{guard}]` is never true: the transition is missing",
+        replace(segment, guard=FALSE),
+    )
     whole = plain(guard)
     opposite = BESIDE[whole.op] if isinstance(whole, Apply) and whole.op in (Op.EQ, Op.NE) else None
     for slip in slips(guard, step_ms):
@@ -215,12 +221,14 @@ def _sibling(chart: Chart, level: Path, target: str) -> str | None:
     return next((n for n in names if wanted != path and chart.resolve(level, n) == wanted), None)
 
 
-def _priorities(arrows: _Arrows) -> Iterator[ChartFault]:
-    """Two arrows that follow each other, tested in the other order."""
-    for number, (one, two) in enumerate(zip(arrows.segments, arrows.segments[1:], strict=False)):
-        new = [*arrows.segments[:number], two, one, *arrows.segments[number + 2 :]]
-        text = f"the arrows {number + 1} and {number + 2} are tested in the other order"
-        yield ChartFault(f"{arrows.site}.{number + 1}", "priority", text, one.place, arrows.changed(new))
+def _priorities(transitions: _TransitionList) -> Iterator[ChartFault]:
+    """Two transitions that follow each other, tested in the other order."""
+    for number, (one, two) in enumerate(zip(transitions.segments, transitions.segments[1:], strict=False)):
+        new = [*transitions.segments[:number], two, one, *transitions.segments[number + 2 :]]
+        text = f"the transitions {number + 1} and {number + 2} are tested in the other order"
+        yield ChartFault(
+            f"{transitions.site}.{number + 1}", "priority", text, one.place, transitions.changed(new)
+        )
 
 
 def _in_state(chart: Chart, path: Path, state: State, step_ms: int) -> Iterator[ChartFault]:
@@ -266,9 +274,18 @@ def _data(region: State) -> tuple[set[str], set[str]]:
     actions: list[Action] = []
     guards: list[Expr] = []
     for _, state in region.walk():
-        arrows = (*state.default, *state.transitions, *(t for j in state.junctions for t in j.transitions))
-        actions += [*state.entry, *state.during, *state.exit, *(a for t in arrows for a in (*t.do, *t.then))]
-        guards += [t.guard for t in arrows if t.guard is not None]
+        transitions = (
+            *state.default,
+            *state.transitions,
+            *(t for j in state.junctions for t in j.transitions),
+        )
+        actions += [
+            *state.entry,
+            *state.during,
+            *state.exit,
+            *(a for t in transitions for a in (*t.do, *t.then)),
+        ]
+        guards += [t.guard for t in transitions if t.guard is not None]
     return set(reads(actions)) | set(variables(*guards)), set(writes(actions))
 
 

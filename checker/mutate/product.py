@@ -15,7 +15,7 @@ from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import Program, Statement, TransitionSystem
 from rovercheck.spec_model.lang.walk import structure
 
-TOLD_APART, REFUSED, COMPUTED = "told apart", "refused by one", "computed otherwise"
+DISTINGUISHED, REFUSED, COMPUTED = "distinguished", "refused by one", "computed otherwise"
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ def product(
     twin = _Twin(original, mutant, reached)
     step: list[Statement] = []
     one, other = original.assume, twin.formula(mutant.assume)
-    goal = Var(twin.free(TOLD_APART), boolean, 0, "the mutant and the original are told apart")
+    goal = Var(twin.free(DISTINGUISHED), boolean, 0, "the mutant and the original are distinguished")
     unlike: list[Expr] = []
     if refused:
         refusing = Var(

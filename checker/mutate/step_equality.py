@@ -1,4 +1,4 @@
-"""Whether a mutant does in every tick what the original does, from any valuation: one query, no search.
+"""Whether a mutant does in every tick what the original does, from any state: one query, no search.
 
 What hardware engineers call combinational equivalence: it speaks of no run, so that timers and counters,
 which a search over the product has to count through, cost nothing.  It proves less than the product, too:
@@ -21,10 +21,10 @@ PATIENCE = 3_000_000
 
 
 def equal_in_every_step(original: TransitionSystem, mutant: TransitionSystem) -> bool:
-    """Whether both allow the same inputs and take every valuation to the same one.
+    """Whether both allow the same inputs and take every state to the same one.
 
     Where they begin with other values, the first tick must overwrite them: it takes both beginnings to the
-    same valuation.  False also where the solver gives up.
+    same state.  False also where the solver gives up.
     """
     if not _alike(original, mutant):
         return False

@@ -4,7 +4,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, TypeVar
 
 from rovercheck.checker.results.verdict import Run
-from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.spec_model.lang.evaluate import step
 from rovercheck.spec_model.lang.system import System
 
@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 COUNT, TICKS = 10, 300
 """Random runs of a system, and how long they are: longer than most timers."""
 NEARBY, SOON = 6, 30
-"""Random runs that leave a run on record together, and for how long they go on."""
+"""Random runs that leave a recorded run together, and for how long they go on."""
 BACK = (1, 4)
-"""Ticks before the end of a run on record at which random ones leave it."""
+"""Ticks before the end of a recorded run at which random ones leave it."""
 LONGEST = 1_000
-"""Ticks of a run on record that is still tried on every mutant."""
+"""Ticks of a recorded run that is still tried on every mutant."""
 ON = 60
-"""Ticks for which a run on record goes on with its last inputs: what it leads to may come a little later."""
+"""Ticks for which a recorded run goes on with its last inputs: what it leads to may come a little later."""
 ROUNDS = (16, 4, 1)
 """Every 16th mutant is judged first, then every 4th of the others, then what is left."""
 
@@ -85,7 +85,7 @@ class RandomRuns:
 
 
 def tried(known: Sequence[Run]) -> Iterator[Run]:
-    """Runs on record that are not too long, the shortest first, each going on for a while."""
+    """Recorded runs that are not too long, the shortest first, each going on for a while."""
     for run in sorted(known, key=len):
         if 0 < len(run) <= LONGEST:
             yield Run(run.frozen, run.inputs + run.inputs[-1:] * ON)

@@ -5,7 +5,7 @@ from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.system.slice import sliced
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled, parts

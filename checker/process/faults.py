@@ -1,7 +1,7 @@
-"""Errors of ours in the midst of work that goes on without them: kept, told, and never the end of a verdict.
+"""Internal errors in the midst of work that goes on without them: kept, told, and never the end of a verdict.
 
-An engine that raises is a bug of ours, and no reason for the others to lose their turns.  ``attempted`` is
-put around such a piece of work; whoever leads the whole listens, and says it loudly when all is done.
+An engine that raises is an internal error, and no reason for the others to lose their turns.  ``attempted``
+is put around such a piece of work; whoever leads the whole listens, and says it loudly when all is done.
 """
 
 from collections.abc import Callable, Iterator
@@ -19,7 +19,7 @@ LONGEST = 300
 
 @dataclass(frozen=True)
 class Fault:
-    """An error of ours: ``who`` failed, on which system (empty: not known here), and with what."""
+    """An internal error: ``who`` failed, on which system (empty: not known here), and with what."""
 
     who: str
     system: str
@@ -41,46 +41,46 @@ class InternalError(Exception):
 
 
 T = TypeVar("T")
-Hear = Callable[[Fault], None]
+Listener = Callable[[Fault], None]
 
 
 @dataclass
 class _Listening:
-    hear: list[Hear] = field(default_factory=list)
+    listeners: list[Listener] = field(default_factory=list)
 
 
 _now = _Listening()
 
 
 @contextmanager
-def listening(hear: Hear) -> Iterator[None]:
-    """Have the faults of this process told to ``hear`` alone."""
-    _now.hear.append(hear)
+def listening(listener: Listener) -> Iterator[None]:
+    """Have the faults of this process told to ``listener`` alone."""
+    _now.listeners.append(listener)
     try:
         yield
     finally:
-        _now.hear.pop()
+        _now.listeners.pop()
 
 
-def heard() -> bool:
+def has_listener() -> bool:
     """Whether somebody listens."""
-    return bool(_now.hear)
+    return bool(_now.listeners)
 
 
-def tell(fault: Fault) -> None:
+def report(fault: Fault) -> None:
     """Say it to who listens.  Raises ``InternalError`` if nobody does: no fault is lost."""
-    if not heard():
+    if not has_listener():
         raise InternalError(str(fault))
-    _now.hear[-1](fault)
+    _now.listeners[-1](fault)
 
 
 def attempted(who: str, system: str, work: Callable[[], T], *known: type[Exception]) -> T | Failed:
     """What the work comes to, or that a fault has ended it, which is told.
 
-    What is no fault of ours is raised: mistakes of the model, no memory, what the operating system refuses,
+    What is no internal error is raised: mistakes of the model, no memory, what the operating system refuses,
     and ``known`` kinds of errors, which have a meaning.  So is everything where nobody listens.
     """
-    if not heard():
+    if not has_listener():
         return work()
     within: list[Fault] = []
     try:
@@ -95,7 +95,7 @@ def attempted(who: str, system: str, work: Callable[[], T], *known: type[Excepti
         return Failed(f"{who} failed with {in_short(error)}")
     finally:
         for fault in within:
-            tell(replace(fault, who=fault.who or who, system=fault.system or system))
+            report(replace(fault, who=fault.who or who, system=fault.system or system))
 
 
 def is_fault(error: BaseException) -> bool:

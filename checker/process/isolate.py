@@ -20,7 +20,7 @@ from queue import Empty, SimpleQueue
 from time import monotonic
 from typing import IO, Any
 
-from rovercheck.checker.process.faults import Fault, heard, tell
+from rovercheck.checker.process.faults import Fault, has_listener, report
 
 Send = Callable[[object], None]
 DEEP = 100_000
@@ -32,7 +32,7 @@ _WINDOWS_FAULTS = 0xC0000000
 _MAIN = "from rovercheck.checker.process.child import child; child()"
 
 
-class Stopped(Exception):
+class ChildStopped(Exception):
     """The work did not come to its end; the message says why, for a person."""
 
 
@@ -41,7 +41,7 @@ class End:
     """A child is done with an order: what went wrong, or None.  ``dead``: it takes no further order.
 
     ``crashed``: a fault of the code that it ran has ended it, and nobody from outside.  ``error``: what was
-    raised, with its place, if that was an error of ours.
+    raised, with its place, if that was an internal error.
     """
 
     failure: str | None
@@ -54,18 +54,18 @@ class Child:
     """A process that carries out orders one after the other until it is killed.
 
     ``make(*args)`` is called once in the child and gives the function that is called for each order,
-    as ``do(send, *order)``.  What it sends reaches ``tell`` (in a thread of the parent), after each
+    as ``do(send, *order)``.  What it sends reaches ``report`` (in a thread of the parent), after each
     order an ``End``.  ``memory`` limits the address space, in bytes.  All must be picklable.
     """
 
     def __init__(
         self,
-        tell: Callable[[object], None],
+        report: Callable[[object], None],
         make: Callable[..., Callable[..., None]],
         *args: object,
         memory: int | None = None,
     ) -> None:
-        self._tell = tell
+        self._tell = report
         started = _ready.pop() if _ready else _started()
         self._process, self._errors, self._group = started.process, started.errors, started.group
         self._orders: SimpleQueue[bytes | None] = SimpleQueue()
@@ -200,7 +200,7 @@ def messages(
 ) -> Generator[Any, None, None]:
     """Run ``work(send, *args)`` in a child; yield what it sends, and None after ``beat`` quiet seconds.
 
-    Work and arguments must be picklable, messages never None.  Raises ``Stopped`` when the time or
+    Work and arguments must be picklable, messages never None.  Raises ``ChildStopped`` when the time or
     the memory (bytes of address space) is used up, when the work raises and when the child dies.
     Closing the generator kills the child.
     """
@@ -212,17 +212,17 @@ def messages(
         while True:
             left = beat if end is None else end - monotonic()
             if left <= 0:
-                raise Stopped(f"the time limit of {seconds:g} s is reached")
+                raise ChildStopped(f"the time limit of {seconds:g} s is reached")
             message = _next(inbox, min(beat, left))
             if isinstance(message, End):
                 break
             yield message
     finally:
         child.kill()
-    if message.error and heard():
-        tell(Fault("", "", message.error))
+    if message.error and has_listener():
+        report(Fault("", "", message.error))
     if message.failure is not None:
-        raise Stopped(message.failure)
+        raise ChildStopped(message.failure)
 
 
 def _itself(work: Callable[..., None]) -> Callable[..., None]:
@@ -257,4 +257,4 @@ def _is_child() -> bool:
     return sys.orig_argv[-1] == _MAIN
 
 
-__all__ = ["Child", "End", "Send", "Stopped", "messages", "prepared"]
+__all__ = ["Child", "ChildStopped", "End", "Send", "messages", "prepared"]

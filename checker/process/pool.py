@@ -11,7 +11,7 @@ from rovercheck.checker.process.isolate import Child, End
 
 
 @dataclass(frozen=True)
-class Granted:
+class GrantedTime:
     """What a child sends when it begins something that should be over in so many seconds (None: ever).
 
     The first of an order holds for all of it: later ones can shorten it.  A ``firm`` one is for what cannot
@@ -91,7 +91,7 @@ class _Seat:
     whole: float | None = None
     """When it is killed whatever it is granted."""
 
-    def hold(self, granted: Granted, killed: float | None) -> None:
+    def hold(self, granted: GrantedTime, killed: float | None) -> None:
         """Note what it is granted, and when it is killed for what takes longer."""
         if granted.seconds is not None:
             self.granted = granted.seconds
@@ -99,7 +99,7 @@ class _Seat:
         self.hard = min(moments, default=None)
 
 
-class Late(End):
+class ChildTimeout(End):
     """A child was killed when its time was over."""
 
 
@@ -146,23 +146,30 @@ class _AtWork:
             now = monotonic()
             for key, seat in list(self._seats.items()):
                 if seat.hard is not None and seat.hard <= now:
-                    yield key, Late(f"killed: it did not stop at the time limit of {seat.granted:g} s", True)
+                    yield (
+                        key,
+                        ChildTimeout(
+                            f"killed: it did not stop at the time limit of {seat.granted:g} s", True
+                        ),
+                    )
 
     def _event(self, seat: _Seat, message: object) -> PoolEvent | None:
         assert seat.number is not None
-        if isinstance(message, Granted):
+        if isinstance(message, GrantedTime):
             if seat.whole is None:
-                seat.whole = self._killed_at(Granted(message.seconds))
+                seat.whole = self._killed_at(GrantedTime(message.seconds))
             seat.hold(message, self._killed_at(message))
             return None
         if isinstance(message, End):
             order = self._again(seat.number) if message.crashed else None
             if order is not None:
                 self._left = {seat.number: order, **self._left}
-            return PoolEvent(seat.number, None, order is None, message.failure, isinstance(message, Late))
+            return PoolEvent(
+                seat.number, None, order is None, message.failure, isinstance(message, ChildTimeout)
+            )
         return PoolEvent(seat.number, message)
 
-    def _killed_at(self, granted: Granted) -> float | None:
+    def _killed_at(self, granted: GrantedTime) -> float | None:
         if granted.seconds is None:
             return None
         more = 0.0 if granted.firm else (self._pool.hard - 1) * granted.seconds + self._pool.grace

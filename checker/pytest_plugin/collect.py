@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from rovercheck.checker.commands.shared.failure import told
+from rovercheck.checker.commands.shared.failure import error_message
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.execute import files_of
 from rovercheck.checker.model.load import load
 from rovercheck.checker.model.rover import rover
-from rovercheck.checker.pytest_plugin.deciding import Decider
+from rovercheck.checker.pytest_plugin.decisions import Decider
 from rovercheck.checker.pytest_plugin.item import PropertyItem
 from rovercheck.properties.forms import Property
 from rovercheck.pytest_plugin import whole
@@ -36,7 +36,7 @@ class ModelSource:
             model = rover() if self.path is None else load(self.path)
             model.stated()
         except Exception as error:
-            return error if isinstance(error, ModelError) else ModelError(told(error))
+            return error if isinstance(error, ModelError) else ModelError(error_message(error))
         return model
 
     @cached_property

@@ -1,4 +1,4 @@
-"""A property as a test: it passes if its verdict is the one on record, else it shows why not."""
+"""A property as a test: it passes if its verdict is the expected one, else it shows why not."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -7,10 +7,10 @@ from typing import Any
 import pytest
 
 from rovercheck.checker.commands.check.ci import finding
-from rovercheck.checker.commands.shared.failure import told
-from rovercheck.checker.commands.trace.explain import Explaining
+from rovercheck.checker.commands.shared.failure import error_message
+from rovercheck.checker.commands.trace.explain import ExplanationOptions
 from rovercheck.checker.model import Model
-from rovercheck.checker.pytest_plugin.deciding import Decider, NoVerdict
+from rovercheck.checker.pytest_plugin.decisions import Decider, NoVerdict
 from rovercheck.checker.render.ci import explained
 from rovercheck.checker.render.verdict_text import evidence, recorded
 from rovercheck.checker.results.trace import Trace
@@ -24,43 +24,43 @@ from rovercheck.properties.forms import Property
 def on_record(compared: CheckedProperty) -> str:
     """One line on a verdict that is no proof and was expected."""
     prop, because = compared.result.property, compared.expected.because
-    return f"{prop.id} is {compared.verdict.word}, as on record: {because}"
+    return f"{prop.id} is {compared.verdict.word}, as expected: {because}"
 
 
 def shown(compared: CheckedProperty, model: Model) -> str:
-    """A verdict that is not the one on record, with what forces it as far as that is found."""
+    """A verdict that is not the expected one, with its cause as far as that is found."""
     try:
         return _why(_with_reasons(compared, model), model)
     except Exception as error:  # the verdict stands
         id, expected = compared.result.property.id, recorded(compared.expected)
-        return f"{id} is {compared.word}, on record is {expected}\n{told(error)}"
+        return f"{id} is {compared.word}; expected: {expected}\n{error_message(error)}"
 
 
 def _with_reasons(compared: CheckedProperty, model: Model) -> CheckedProperty:
-    """A counterexample with what forces it, as far as that is found in the time that ``trace`` takes for it.
+    """A counterexample with its cause, as far as that is found in the time that ``trace`` takes for it.
 
     Raises ``ReplayError`` if a run with the same needed inputs ends otherwise.
     """
     result = compared.result
     if not isinstance(result.verdict, Violated) or not isinstance(result.verdict.because, Trace):
         return compared
-    trace = Explaining(quiet=True)(result.verdict.because, result.property, model.systems)
+    trace = ExplanationOptions(quiet=True)(result.verdict.because, result.property, model.systems)
     return replace(compared, result=replace(result, verdict=replace(result.verdict, because=trace)))
 
 
 def _why(compared: CheckedProperty, model: Model) -> str:
-    """A verdict that is not the one on record: what it rests on, and what to do."""
+    """A verdict that is not the expected one: what it rests on, and what to do."""
     found = finding(compared, model.systems, model.options)
     lines = [found.headline, explained(found)]
     if compared.expected.because:
-        lines += ["", f"On record because: {compared.expected.because}"]
+        lines += ["", f"Expected because: {compared.expected.because}"]
     if compared.expected.because and compared.verdict.word == "proved":
         lines += ["If that is over, delete its entry in the baseline."]
     return "\n".join(lines)
 
 
-class Different(Exception):
-    """The verdict is not the one on record; the message shows why."""
+class VerdictMismatch(Exception):
+    """The verdict is not the expected one; the message shows why."""
 
 
 class PropertyItem(pytest.Item):
@@ -77,18 +77,18 @@ class PropertyItem(pytest.Item):
             self.add_marker(pytest.mark.skip(reason="it takes long; --rovercheck-full decides it"))
 
     def runtest(self) -> None:
-        """Raises ``Different``, or ``NoVerdict`` if there is no verdict at all."""
+        """Raises ``VerdictMismatch``, or ``NoVerdict`` if there is no verdict at all."""
         compared = self.decider.compared(self)
         for name, value in _properties(compared):
             self.user_properties.append((name, value))
         if not compared.as_expected:
-            raise Different(shown(compared, self.model))
+            raise VerdictMismatch(shown(compared, self.model))
         if compared.verdict.word != "proved":
             self.add_report_section("call", "verdict", on_record(compared))
 
     def repr_failure(self, excinfo: pytest.ExceptionInfo[BaseException], style: Any = None) -> Any:
         """What there is to read instead of a traceback of ours."""
-        if isinstance(excinfo.value, Different | NoVerdict):
+        if isinstance(excinfo.value, VerdictMismatch | NoVerdict):
             return str(excinfo.value)
         return super().repr_failure(excinfo, style)
 

@@ -1,10 +1,11 @@
-"""From traces, charts and graphs to what people read: one file per exit, found by being here.
+"""From traces, charts and graphs to what people read: one file per format.
 
-An exit has a ``NAME`` (what users type), a ``KIND`` ("statechart", "graph" or "trace"), a file
+The formats are discovered automatically: every module of this folder whose name begins with its kind.
+A format has a ``NAME`` (what users type), a ``KIND`` ("statechart", "graph" or "trace"), a file
 ``SUFFIX``, a one-line ``SUMMARY`` and ``render(thing, **options)``, which returns text or bytes that
 are the same from run to run.  It raises ``ModelError`` for what its format cannot show.
 
-An exit of a trace may ask for more: ``CONCRETE = True`` for the run as the boards see it, and
+A format of a trace may ask for more: ``CONCRETE = True`` for the run as the boards see it, and
 ``BESIDE = "vcd"`` for a file of that format beside its own, whose name it is given as ``dump``.
 """
 
@@ -14,7 +15,7 @@ from typing import Any, Protocol
 
 
 class Renderer(Protocol):
-    """An exit: ``thing`` is a ``Chart``, a ``StateGraph`` or a ``Trace``, as ``KIND`` says."""
+    """A format: ``thing`` is a ``Chart``, a ``StateGraph`` or a ``Trace``, as ``KIND`` says."""
 
     NAME: str
     KIND: str
@@ -28,7 +29,7 @@ KINDS = ("statechart", "graph", "trace")
 
 
 def renderers(kind: str) -> dict[str, Renderer]:
-    """The exits for one kind of thing, by name.  Raises ``ValueError`` for an unknown kind."""
+    """The formats for one kind of thing, by name.  Raises ``ValueError`` for an unknown kind."""
     if kind not in KINDS:
         raise ValueError(f"{kind!r} is no kind of thing to render; write one of {', '.join(KINDS)}.")
     found: dict[str, Renderer] = {}
@@ -40,7 +41,7 @@ def renderers(kind: str) -> dict[str, Renderer]:
 
 
 def named(kind: str, name: str) -> Renderer | None:
-    """The exit of that name, None if there is none; the others, and what they need, are not loaded."""
+    """The format of that name, None if there is none; the others, and what they need, are not loaded."""
     if f"{kind}_{name}" in (entry.name for entry in pkgutil.iter_modules(__path__)):
         module = _loaded(f"{kind}_{name}", kind)
         if module is not None and name == module.NAME:

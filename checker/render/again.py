@@ -1,4 +1,4 @@
-"""What a run does again and again is told once: a story in which the same rows follow each other, folded."""
+"""What a run does again and again is shown once: a story in which the same rows follow each other, folded."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -14,7 +14,7 @@ LONGEST = 200
 
 
 @dataclass(frozen=True)
-class Again:
+class RepeatedTicks:
     """Ticks ``first`` to ``last``, in which the ``period`` ticks before them happen ``times`` more times."""
 
     first: int
@@ -32,7 +32,7 @@ class Again:
         return f"ticks {self.first}–{self.last}: {once} again, {self.times} times; {ticks}"
 
 
-def folded(trace: Trace) -> Iterator[Row | Again]:
+def folded(trace: Trace) -> Iterator[Row | RepeatedTicks]:
     """The rows of a trace; those that repeat the ones before them, as they are, several times in one."""
     told = list(rows(trace))
     numbers: dict[object, int] = {}
@@ -46,7 +46,9 @@ def folded(trace: Trace) -> Iterator[Row | Again]:
             continue
         yield from told[at : at + length]
         first, last = _ticks(told[at + length])[0], _ticks(told[at + length * (times + 1) - 1])[1]
-        yield Again(first, last, (last - first + 1) // times, times, trace.ms(last) - trace.ms(first - 1))
+        yield RepeatedTicks(
+            first, last, (last - first + 1) // times, times, trace.ms(last) - trace.ms(first - 1)
+        )
         at += length * (times + 1)
 
 
@@ -68,7 +70,7 @@ def _kind(row: Row) -> object:
     """What two rows have in common of which one repeats the other; nothing, if no other can."""
     match row:
         case StoryEvent():
-            return row.changes, row.arrows
+            return row.changes, row.transitions
         case Quiet():
             return row.count, row.counters
     return row

@@ -9,7 +9,7 @@ KIND = "graph"
 PICTURE = True
 WAYS = True
 SUFFIX = ".html"
-SUMMARY = "page to pan, zoom and search; a click shows a valuation and a run to it"
+SUMMARY = "page to pan, zoom and search; a click shows a state and a run to it"
 
 
 def render(graph: StateGraph, most: int = MOST_NODES) -> str:

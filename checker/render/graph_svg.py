@@ -42,8 +42,8 @@ STYLE = """
 .cut{fill:#c3241c;font-weight:bold}
 """
 COLOURS = (
-    "Thick border: initial; green: in a cycle of several nodes; grey: never left; double border: a valuation "
-    "that admits no input; orange: on the run shown; red: marked; ↻: stays, (↻): some of the valuations do"
+    "Thick border: initial; green: in a cycle of several nodes; grey: never left; double border: a state "
+    "that admits no input; orange: on the run shown; red: marked; ↻: stays, (↻): some of the states do"
 )
 
 

@@ -67,18 +67,18 @@ def _words(chart: Chart, path: tuple[str, ...], when: When) -> Iterator[Temporal
 
 
 def _guards(chart: Chart, path: tuple[str, ...]) -> Iterator[Expr]:
-    """The guards on arrows that leave a state, and further on behind junctions."""
+    """The guards on transitions that leave a state, and further on behind junctions."""
     state: State | None = chart.states.get(path)
-    arrows = [(path[:-1], t) for t in state.transitions] if state else []
+    transitions = [(path[:-1], t) for t in state.transitions] if state else []
     seen = set[tuple[str, ...]]()
-    while arrows:
-        level, arrow = arrows.pop()
-        if arrow.guard is not None:
-            yield arrow.guard
-        target = chart.resolve(level, arrow.target)
+    while transitions:
+        level, transition = transitions.pop()
+        if transition.guard is not None:
+            yield transition.guard
+        target = chart.resolve(level, transition.target)
         if target in chart.junctions and target not in seen:
             seen.add(target)
-            arrows += [(target[:-1], t) for t in chart.junctions[target].transitions]
+            transitions += [(target[:-1], t) for t in chart.junctions[target].transitions]
 
 
 def bounds(trace: Trace) -> Mapping[str, tuple[tuple[int, str], ...]]:

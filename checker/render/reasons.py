@@ -1,4 +1,4 @@
-"""What forces the end of a run, for people: which inputs, in which ticks, had to be so."""
+"""The cause of a violation, for people: which inputs, in which ticks, determine the end of the run."""
 
 from collections.abc import Collection, Iterator, Sequence
 from dataclasses import dataclass
@@ -37,7 +37,7 @@ class Reason:
 
 
 def reasons(trace: Trace, regular: bool = False) -> tuple[Reason, ...]:
-    """The inputs that force the end of the run, neighbouring ticks together, in order of their start.
+    """The inputs that determine the end of the run, neighbouring ticks together, in order of their start.
 
     With ``regular``, single ticks at one distance from each other are together, too.
     """
@@ -141,7 +141,12 @@ def _spans(domain: Sequence[int], values: Collection[int]) -> Iterator[tuple[int
         yield start, last
 
 
-def forced(trace: Trace) -> str:
+def cause(trace: Trace) -> str:
+    """The heading above the reasons."""
+    return f"Cause: the inputs that determine the {'violation' if trace.breaks() else 'outcome'}"
+
+
+def meaning(trace: Trace) -> str:
     """What the reasons mean, in one sentence; empty for a run whose inputs were not examined."""
     if trace.needed is None:
         return ""
@@ -149,6 +154,6 @@ def forced(trace: Trace) -> str:
     runs = f"every run of {counted_ticks(len(trace))}{fixed}"
     if not trace.needed:
         return f"Nothing but time: {runs} ends like this, whatever its inputs."
-    least = "None of them can be left out" if trace.minimal else "Not minimised: some may not matter"
-    smaller = ", and no other set is smaller" if trace.smallest else ""
-    return f"Whatever the other inputs are, {runs} ends like this. {least}{smaller}."
+    size = "minimal and smallest" if trace.smallest else "minimal"
+    least = f"The set is {size}." if trace.minimal else "Not minimised: some may not matter."
+    return f"Whatever the other inputs are, {runs} ends like this. {least}"

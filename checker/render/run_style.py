@@ -17,7 +17,7 @@ BRIEF = 0.02
 HATCH = "#7a5a10"
 INK, FAINT = "#1d2433", "#8a90a0"
 COLOURS = ("#1f4e9c", "#d1730a", "#3d8f6e", "#8b3a94")
-"""Blue, orange, green, purple: told apart by all eyes, and in grey by their dashes."""
+"""Blue, orange, green, purple: distinguished by all eyes, and in grey by their dashes."""
 DASHES: tuple[tuple[float, tuple[float, ...]], ...] = (
     (0, (1, 0)),
     (0, (5, 2)),

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from rovercheck.checker.render.drawing.scheme import (
+from rovercheck.checker.render.drawing.labels import (
     ChartArrow,
     action_lines,
     arrows,

@@ -4,7 +4,7 @@ from io import BytesIO
 
 import networkx as nx
 
-from rovercheck.checker.render.drawing.scheme import arrows, execution_order, label
+from rovercheck.checker.render.drawing.labels import arrows, execution_order, label
 from rovercheck.spec_model.lang.chart import Chart, Path
 
 NAME = "graphml"

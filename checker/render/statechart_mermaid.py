@@ -7,7 +7,7 @@ is refused rather than drawn wrong.  Names of regions are not shown.
 
 from collections.abc import Iterator
 
-from rovercheck.checker.render.drawing.scheme import ChartArrow, action_lines, arrows, identifiers, label
+from rovercheck.checker.render.drawing.labels import ChartArrow, action_lines, arrows, identifiers, label
 from rovercheck.spec_model.lang.chart import Chart, Path
 from rovercheck.spec_model.lang.errors import ModelError
 
@@ -48,8 +48,9 @@ def _refuse(chart: Chart, every: tuple[ChartArrow, ...]) -> None:
         start, end = _levels(arrow)
         if start != end and _common(arrow):
             raise ModelError(
-                f"{chart.name}: the arrow from {'.'.join(arrow.source)} to {'.'.join(arrow.target)} crosses "
-                f"the border of a composite inside {'.'.join(_common(arrow))}, which Mermaid draws wrong. "
+                f"{chart.name}: the transition from {'.'.join(arrow.source)} to {'.'.join(arrow.target)} "
+                f"crosses the border of a composite inside {'.'.join(_common(arrow))}, "
+                "which Mermaid draws wrong. "
                 f"{_OTHERS}"
             )
 

@@ -4,18 +4,18 @@ from collections.abc import Collection, Sequence
 from functools import lru_cache
 
 from rovercheck.checker.render.drawing import svg
-from rovercheck.checker.render.drawing.highlight import Emphasis, emphasis
-from rovercheck.checker.render.drawing.nested import picture
+from rovercheck.checker.render.drawing.emphasis import Emphasis, emphasis
+from rovercheck.checker.render.drawing.labels import arrows, explained
+from rovercheck.checker.render.drawing.nested_layout import picture
 from rovercheck.checker.render.drawing.picture import Box, PicturePiece, Spot
-from rovercheck.checker.render.drawing.scheme import arrows, explained
 from rovercheck.checker.render.drawing.text import LINE, width, wrap
-from rovercheck.checker.results.trace import Arrow
+from rovercheck.checker.results.trace import TakenTransition
 from rovercheck.spec_model.lang.chart import Chart
 
 NAME = "svg"
 KIND = "statechart"
 SUFFIX = ".svg"
-SUMMARY = "picture with nested boxes, labelled arrows and priorities; no outside resources"
+SUMMARY = "picture with nested boxes, labelled transitions and priorities; no outside resources"
 
 MARGIN = 24
 STYLE = """
@@ -43,12 +43,12 @@ STYLE = """
 """
 LEGEND = (
     "dashed box: parallel region, its number the order of execution",
-    "number at the start of an arrow: its priority",
+    "number at the start of a transition: its priority",
     "label: event [guard] {condition action} / transition action",
 )
 
 
-def render(chart: Chart, active: Collection[str] = (), fired: Collection[Arrow] = ()) -> str:
+def render(chart: Chart, active: Collection[str] = (), fired: Collection[TakenTransition] = ()) -> str:
     """The picture as SVG text.
 
     ``active`` names states to be shown as active (the states around them are too), ``fired`` holds

@@ -1,7 +1,7 @@
 """A trace as a story: the ticks in which something happened, and the quiet stretches between them.
 
-No event is: a timer that counts up; an arrow from a state to itself that fires as it did in the tick
-before; the location of a chart whose arrow is told anyway; the bookkeeping of the property.  A stretch
+No event is: a timer that counts up; a transition from a state to itself that fires as it did in the tick
+before; the location of a chart whose transition is told anyway; the bookkeeping of the property.  A stretch
 of ticks without any event is one line, with the first and the last value of each timer.
 """
 
@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from rovercheck.checker.render.durations import duration
 from rovercheck.checker.render.limits import bounds, timer
-from rovercheck.checker.results.trace import Arrow, Tick, Trace, counted_ticks
+from rovercheck.checker.results.trace import TakenTransition, Tick, Trace, counted_ticks
 from rovercheck.spec_model.lang.domain import Enum, Num
 from rovercheck.spec_model.lang.expr import Expr, Named
 from rovercheck.spec_model.lang.label import text
@@ -50,7 +50,7 @@ class StoryEvent:
     number: int
     ms: int
     changes: tuple[StoryChange, ...]
-    arrows: tuple[Arrow, ...]
+    transitions: tuple[TakenTransition, ...]
 
 
 @dataclass(frozen=True)
@@ -136,17 +136,17 @@ def rows(trace: Trace) -> Iterator[Row]:
                 start = None
             yield Repeats(i + 1, len(trace))
         last = i == len(trace.ticks) - 1
-        arrows = tuple(a for a in tick.arrows if not _repeats(a, trace.ticks[i - 1] if i else None))
-        told = {a.chart for a in arrows}
-        news = [n for n in _changed(trace, at[i], at[i + 1]) if not _tells(trace, n, told)]
+        transitions = tuple(a for a in tick.transitions if not _repeats(a, trace.ticks[i - 1] if i else None))
+        told = {a.chart for a in transitions}
+        news = [n for n in _changed(trace, at[i], at[i + 1]) if not _implies(trace, n, told)]
         news = [n for n in news if last or not _counts(trace, at, n, i)]
-        if not news and not arrows and not last:
+        if not news and not transitions and not last:
             start = i if start is None else start
             continue
         if start is not None:
             yield telling.quiet(start, i)
             start = None
-        yield telling.event(i, arrows, news)
+        yield telling.event(i, transitions, news)
 
 
 def _changed(trace: Trace, old: Mapping[str, int], new: Mapping[str, int]) -> list[str]:
@@ -154,17 +154,18 @@ def _changed(trace: Trace, old: Mapping[str, int], new: Mapping[str, int]) -> li
     return [n for n, v in new.items() if old.get(n) != v and of_model(trace, n)]
 
 
-def _repeats(arrow: Arrow, before: Tick | None) -> bool:
-    """Whether the arrow keeps its state, for the same reason as in the tick before."""
-    if before is None or arrow.source != arrow.target:
+def _repeats(transition: TakenTransition, before: Tick | None) -> bool:
+    """Whether the transition keeps its state, for the same reason as in the tick before."""
+    if before is None or transition.source != transition.target:
         return False
     return any(
-        (a.chart, a.target, a.label) == (arrow.chart, arrow.target, arrow.label) for a in before.arrows
+        (a.chart, a.target, a.label) == (transition.chart, transition.target, transition.label)
+        for a in before.transitions
     )
 
 
-def _tells(trace: Trace, name: str, told: set[str]) -> bool:
-    """Whether an arrow that is told implies this change of a location."""
+def _implies(trace: Trace, name: str, told: set[str]) -> bool:
+    """Whether a transition that is told implies this change of a location."""
     sort = trace.variables[name].sort
     if not isinstance(sort, Enum) or not sort.name.startswith("states of "):
         return False
@@ -189,7 +190,7 @@ class _Telling:
     def __init__(self, trace: Trace) -> None:
         self.trace = trace
         self.at = [dict(trace.before), *({**t.after, **t.inputs} for t in trace.ticks)]
-        """The valuations before the first tick and after each one."""
+        """The states before the first tick and after each one."""
         self._bounds = bounds(trace)
         self._needed = {(one.number, one.name) for one in trace.needed or ()}
 
@@ -198,11 +199,11 @@ class _Telling:
         counters = tuple(self._counted(n, start, end) for n in names)
         return Quiet(start + 1, end, self.trace.ms(end) - self.trace.ms(start), counters)
 
-    def event(self, i: int, arrows: tuple[Arrow, ...], names: list[str]) -> StoryEvent:
+    def event(self, i: int, transitions: tuple[TakenTransition, ...], names: list[str]) -> StoryEvent:
         changes = [self._change(n, i) for n in names]
         changes.sort(key=lambda change: not change.is_input)
         number = self.trace.ticks[i].number
-        return StoryEvent(number, self.trace.ms(number), tuple(changes), arrows)
+        return StoryEvent(number, self.trace.ms(number), tuple(changes), transitions)
 
     def _change(self, name: str, i: int) -> StoryChange:
         trace, old, new = self.trace, self.at[i], self.at[i + 1]
@@ -250,10 +251,7 @@ def _conjunct(trace: Trace, expr: Expr, at: Mapping[str, int]) -> Conjunct:
     return Conjunct(expr.name if isinstance(expr, Named) else "", shown, values, trace.since(expr), true)
 
 
-UNTOLD = (
-    "Not told: steady counts, arrows that keep their state as in the tick before, "
-    "bookkeeping of the property."
-)
+OMITTED = "Omitted: running counters, repeated self-transitions, monitor variables."
 
 
 def heading(trace: Trace) -> str:
@@ -277,22 +275,22 @@ def ending(trace: Trace) -> str:
         back = f"tick {trace.loop}" if trace.loop else "the start"
         return f"Loop: back to {back}, with all that the property depends on as it was then."
     if trace.trapped is not None:
-        count = f"any of the {trace.trapped:,} valuations" if trace.trapped > 1 else "the only valuation"
+        count = f"any of the {trace.trapped:,} states" if trace.trapped > 1 else "the only state"
         return f"No way back: what is false now is false in {count} that can follow."
     return ""
 
 
 def standstill(trace: Trace, event: StoryEvent) -> str:
     """What there is to say of a tick of which nothing else is told; empty if something is."""
-    if event.changes or event.arrows:
+    if event.changes or event.transitions:
         return ""
     broken = event.number == len(trace) and trace.loop is None and trace.breaks()
     return "nothing changes, which breaks the property" if broken else "nothing changes"
 
 
-def start_of(arrow: Arrow) -> str:
-    """Where an arrow starts and ends: ``A → B (arrow 2)``, or ``default → B``."""
-    start = arrow.source if arrow.order else "default"
-    number = f" (arrow {arrow.order})" if arrow.order else ""
-    event = f" on {arrow.event}" if arrow.event and arrow.event not in arrow.label else ""
-    return f"{start} → {arrow.target}{number}{event}"
+def start_of(transition: TakenTransition) -> str:
+    """Where a transition starts and ends: ``A → B (transition 2)``, or ``default → B``."""
+    start = transition.source if transition.order else "default"
+    number = f" (transition {transition.order})" if transition.order else ""
+    event = f" on {transition.event}" if transition.event and transition.event not in transition.label else ""
+    return f"{start} → {transition.target}{number}{event}"

@@ -1,7 +1,7 @@
 """A trace as a C99 program that gives the same run to a supervisor through four functions of its user.
 
-The functions and structures are those of ``rovercheck testgen --format c``.  It needs the run as the boards
-see it (``Trace.concrete``); of a run of several boards, each is compiled by itself.
+The functions and structures are those of ``rovercheck generate-tests --format c``.  It needs the run as the
+boards see it (``Trace.concrete``); of a run of several boards, each is compiled by itself.
 """
 
 from collections.abc import Iterable

@@ -1,6 +1,6 @@
 """A trace as comma-separated values: one row for each tick, for spreadsheets and data frames.
 
-Row 0 is the valuation before the first tick.  Numbers are in their units, truth values ``true`` and
+Row 0 is the state before the first tick.  Numbers are in their units, truth values ``true`` and
 ``false``; a cell is empty where nothing has that value in the tick.  Names and texts that a spreadsheet
 would compute begin with ``'``, as do those that begin so already.  A variable named as one of our columns
 (``tick``, ``time_ms``, ``arrows``) has ``_`` behind its name, as often as no other variable is named so.
@@ -16,7 +16,7 @@ from rovercheck.checker.results.trace import Trace
 NAME = "csv"
 KIND = "trace"
 SUFFIX = ".csv"
-SUMMARY = "one row per tick: time, inputs, variables, arrows that fired"
+SUMMARY = "one row per tick: time, inputs, variables, transitions that fired"
 
 FIRST = ("tick", "time_ms")
 LAST = "arrows"
@@ -34,8 +34,8 @@ def render(trace: Trace) -> str:
     fixed = {n: v for n, v in trace.before.items() if trace.ticks and n not in trace.ticks[0].after}
     for tick in trace.ticks:
         cells = _cells(trace, names, {**fixed, **tick.after, **tick.inputs})
-        arrows = csv_cell("; ".join(map(str, tick.arrows)))
-        table.writerow([tick.number, trace.ms(tick.number), *cells, arrows])
+        transitions = csv_cell("; ".join(map(str, tick.transitions)))
+        table.writerow([tick.number, trace.ms(tick.number), *cells, transitions])
     return out.getvalue()
 
 

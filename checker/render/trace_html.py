@@ -19,7 +19,7 @@ def render(trace: Trace, everything: bool = False) -> str:
     """The page; ``everything``: also what the property does not depend on."""
     title = trace.property or trace.system
     parts = [timeline.part(trace, everything=everything)]
-    parts += [_heading("What happened"), timeline.told(trace, everything=everything)]
+    parts += [_heading("What happened"), timeline.story_part(trace, everything=everything)]
     if trace.statecharts:
         parts += [_heading("Played on the charts"), player.part(trace, everything=everything, printed=False)]
     return page(f"{title}: {_verdict(trace)}", [_head(trace, title), together(parts)])

@@ -1,6 +1,6 @@
 """A trace in the Informal Trace Format of Apalache (its ADR-015), for tools that read that.
 
-State 0 is the valuation before the first tick; state k holds the inputs of tick k and the valuation after
+State 0 is the state before the first tick; state k holds the inputs of tick k and the state after
 it.  Whole numbers are ``{"#bigint": "5"}``, as the format wants them; a number with decimals, which it does
 not have, is counted in the steps that ``#meta`` names.
 """

@@ -8,7 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from rovercheck.checker.render.story import false_parts
-from rovercheck.checker.results.trace import Arrow, Needed, Tick, Trace
+from rovercheck.checker.results.trace import Needed, TakenTransition, Tick, Trace
 from rovercheck.spec_model.lang.domain import Bool, Enum
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.place import Place
@@ -71,7 +71,7 @@ def _state(trace: Trace, tick: Tick) -> dict[str, Any]:
         "#meta": {"tick": tick.number, "ms": trace.ms(tick.number)},
         "inputs": _values(trace, tick.inputs),
         "after": _values(trace, tick.after),
-        "fired": [_arrow(arrow) for arrow in tick.arrows],
+        "fired": [_transition(transition) for transition in tick.transitions],
     }
 
 
@@ -87,10 +87,11 @@ def _value(trace: Trace, name: str, raw: int) -> bool | int | str:
     return int(shown) if shown.lstrip("-").isdigit() else shown
 
 
-def _arrow(arrow: Arrow) -> dict[str, Any]:
+def _transition(transition: TakenTransition) -> dict[str, Any]:
     return {
-        "chart": arrow.chart, "source": arrow.source, "target": arrow.target,
-        "label": arrow.label, "order": arrow.order, "event": arrow.event, "place": _place(arrow.place),
+        "chart": transition.chart, "source": transition.source, "target": transition.target,
+        "label": transition.label, "order": transition.order, "event": transition.event,
+        "place": _place(transition.place),
     }  # fmt: skip
 
 
@@ -187,7 +188,7 @@ SCHEMA: dict[str, Any] = {
         },
         "needed": {"type": ["array", "null"], "items": _NEEDED},  # null: not examined
         "loop": {"type": "integer", "minimum": 0},  # after the last tick it is again as after this one
-        "trapped": {"type": "integer", "minimum": 1},  # valuations that can follow, all false
+        "trapped": {"type": "integer", "minimum": 1},  # states that can follow, all false
         "false": {"type": "array", "items": {"type": "object", "required": ["name", "formula", "values"]}},
     },
     "additionalProperties": False,

@@ -2,10 +2,10 @@
 
 from xml.sax.saxutils import escape
 
-from rovercheck.checker.render.again import Again, folded
-from rovercheck.checker.render.reasons import forced, reasons
+from rovercheck.checker.render.again import RepeatedTicks, folded
+from rovercheck.checker.render.reasons import cause, meaning, reasons
 from rovercheck.checker.render.story import (
-    UNTOLD,
+    OMITTED,
     Quiet,
     Repeats,
     Row,
@@ -32,34 +32,34 @@ def render(trace: Trace) -> str:
     lines = [_plain(heading(trace)) + ".", ""]
     if chosen := start_values(trace):
         lines += ["Fixed for the whole run: " + ", ".join(_code(f"{n} = {v}") for n, v in chosen) + ".", ""]
-    lines += ["| Tick | ms | Inputs | Changes | Arrows that fired |", "|---:|---:|---|---|---|"]
+    lines += ["| Tick | ms | Inputs | Changes | Transitions that fired |", "|---:|---:|---|---|---|"]
     lines += [_row(trace, row) for row in folded(trace)]
     lines += ["", f"**{_plain(last)}**"] if (last := ending(trace)) else []
-    lines += ["", UNTOLD]
+    lines += ["", OMITTED]
     for part in conjuncts(trace):
         lines += ["", f"**{part.verdict}:** {_code(part.name or part.formula)}"]
         if part.true:
             continue
         lines += ["", f"which stands for {_code(part.formula)}"] if part.name else []
         lines += ["", "with " + ", ".join(_code(f"{n} = {v}") for n, v in part.values)] if part.values else []
-    if said := reasons_told(trace):
-        lines += ["", *(["**What forces it**", ""] if trace.needed else []), *said]
+    if said := reasons_table(trace):
+        lines += ["", *([f"**{cause(trace)}**", ""] if trace.needed else []), *said]
     return "\n".join([*lines, ""])
 
 
-def reasons_told(trace: Trace) -> list[str]:
-    """The inputs that force the end as the lines of a table, and what that means; none if not examined."""
-    if not (said := forced(trace)):
+def reasons_table(trace: Trace) -> list[str]:
+    """The inputs that determine the end as a table, and what that means; none if not examined."""
+    if not (said := meaning(trace)):
         return []
     rows = [f"| {r.when} | {r.ms} | {_code(r.what)} |" for r in reasons(trace, regular=True)]
     return [*(["| Ticks | ms | Input |", "|---|---:|---|", *rows, ""] if rows else []), _plain(said)]
 
 
-def _row(trace: Trace, row: Row | Again) -> str:
+def _row(trace: Trace, row: Row | RepeatedTicks) -> str:
     match row:
         case StoryEvent():
             return _event(trace, row)
-        case Quiet() | Again():
+        case Quiet() | RepeatedTicks():
             return f"| … | | | *{_plain(row.what)}* | |"
         case Repeats():
             return f"| ↻ | | | **{_plain(row.what)}** | |"
@@ -69,11 +69,11 @@ def _event(trace: Trace, event: StoryEvent) -> str:
     inputs = [_code(str(c)) + (" needed" if c.needed else "") for c in event.changes if c.is_input]
     others = [_code(str(c)) for c in event.changes if not c.is_input]
     others += [f"*{said}*"] if (said := standstill(trace, event)) else []
-    arrows = [
+    transitions = [
         f"{_plain(a.chart)}: {_plain(start_of(a))}" + (f"<br>{_code(a.label)}" if a.label else "")
-        for a in event.arrows
+        for a in event.transitions
     ]
-    cells = [str(event.number), str(event.ms), *("<br>".join(c) for c in (inputs, others, arrows))]
+    cells = [str(event.number), str(event.ms), *("<br>".join(c) for c in (inputs, others, transitions))]
     return "| " + " | ".join(cells) + " |"
 
 

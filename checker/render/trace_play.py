@@ -9,7 +9,7 @@ from rovercheck.checker.results.trace import Trace
 NAME = "play"
 KIND = "trace"
 SUFFIX = ".html"
-SUMMARY = "page that plays the run on its charts, arrow by arrow; fetches nothing"
+SUMMARY = "page that plays the run on its charts, transition by transition; fetches nothing"
 
 
 def render(trace: Trace, *, everything: bool = False) -> str:

@@ -38,7 +38,7 @@ It runs the supervisor{s} of this project, {names}.  For another:
 
     ROVERCHECK_IMPL=KIND:WHAT pytest {file}{only}
 
-or `pytest --impl KIND:WHAT` where the option is known, as beside the files of `rovercheck testgen`.
+or `pytest --impl KIND:WHAT` where the option is known, as beside the files of `rovercheck generate-tests`.
 """
 
 import os

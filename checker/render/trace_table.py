@@ -7,10 +7,10 @@ from rich.text import Text
 
 from rovercheck.checker.io.console import UnmarkedConsole
 from rovercheck.checker.render.again import folded
-from rovercheck.checker.render.hanging import hanging
-from rovercheck.checker.render.reasons import forced, reasons
+from rovercheck.checker.render.hanging_indent import hanging
+from rovercheck.checker.render.reasons import cause, meaning, reasons
 from rovercheck.checker.render.story import (
-    UNTOLD,
+    OMITTED,
     Conjunct,
     Repeats,
     StoryChange,
@@ -22,7 +22,7 @@ from rovercheck.checker.render.story import (
     start_of,
     start_values,
 )
-from rovercheck.checker.results.trace import Arrow, Trace
+from rovercheck.checker.results.trace import TakenTransition, Trace
 
 NAME = "table"
 KIND = "trace"
@@ -60,13 +60,13 @@ def _parts(trace: Trace) -> Iterator[Part]:
     yield from _table(trace)
     if last := ending(trace):
         yield none, Text(last, style="bold")
-    yield none, Text(UNTOLD, style="dim")
+    yield none, Text(OMITTED, style="dim")
     for part in conjuncts(trace):
         yield none, Text(f"{part.verdict}: {part.name or part.formula}", style=_STYLES[part.true])
         if not part.true:
             yield from ((Text("    "), Text(line)) for line in _explained(part))
-    if said := forced(trace):
-        yield none, Text("What forces it", style="bold")
+    if said := meaning(trace):
+        yield none, Text(cause(trace), style="bold")
         if trace.needed:
             yield from _reasons(trace)
         yield none, Text(said)
@@ -96,8 +96,8 @@ def _event(trace: Trace, event: StoryEvent) -> Iterator[Part]:
             yield _marked(", ".join(given), NEEDED if needed else INPUT, "cyan")
     changed = [c for c in event.changes if c.old]
     yield from map(_changed, changed)
-    yield from map(_fired, event.arrows)
-    if not (event.changes or event.arrows):
+    yield from map(_fired, event.transitions)
+    if not (event.changes or event.transitions):
         yield _marked(standstill(trace, event))
 
 
@@ -106,9 +106,9 @@ def _changed(change: StoryChange) -> Part:
     return _marked(str(change), mark, "cyan" if change.is_input else "")
 
 
-def _fired(arrow: Arrow) -> Part:
-    label = f"  {arrow.label}" if arrow.label else ""
-    return _marked(f"{arrow.chart}: {start_of(arrow)}{label}", "  ▸ ", "green")
+def _fired(transition: TakenTransition) -> Part:
+    label = f"  {transition.label}" if transition.label else ""
+    return _marked(f"{transition.chart}: {start_of(transition)}{label}", "  ▸ ", "green")
 
 
 def _marked(shown: str, mark: str = "    ", style: str = "") -> Part:

@@ -1,6 +1,6 @@
 """A trace as a value change dump, for GTKWave and other wave viewers.
 
-The valuation before the first tick is at time 0; the inputs and results of tick k are at k ticks.
+The state before the first tick is at time 0; the inputs and results of tick k are at k ticks.
 Enumerations are texts, truth values wires, numbers are in their units.  ``property.violated`` rises where
 the property is broken; ``property.repeats`` marks ticks that repeat for ever.
 """

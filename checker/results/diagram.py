@@ -1,4 +1,4 @@
-"""Reduced ordered binary decision diagrams: large sets of valuations as small graphs over bits.
+"""Reduced ordered binary decision diagrams: large sets of states as small graphs over bits.
 
 Bryant, *Graph-based algorithms for Boolean function manipulation*, IEEE ToC 1986.
 """
@@ -11,7 +11,7 @@ from rovercheck.spec_model.lang.expr import FALSE, TRUE, Apply, Const, Expr, Var
 from rovercheck.spec_model.lang.operators import Op
 
 NONE, ALL = 0, 1
-"""The numbers of the two leaves: no valuation that gets there belongs to the set, or every one does."""
+"""The numbers of the two leaves: no state that gets there belongs to the set, or every one does."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class DiagramNode:
 
 @dataclass(frozen=True)
 class Diagram:
-    """A set of valuations.  ``nodes[i - 2]`` is the node with number i, and ``root`` the first to ask.
+    """A set of states.  ``nodes[i - 2]`` is the node with number i, and ``root`` the first to ask.
 
     Edges lead to lower numbers, the bits are asked in one order on every path, each at most once, and
     no two nodes are alike.  Variables that no node asks may have any value.
@@ -39,7 +39,7 @@ class Diagram:
     root: int
 
     def __contains__(self, valuation: Mapping[str, int]) -> bool:
-        """Whether the valuation, which names at least the variables that are asked, belongs to the set."""
+        """Whether the state, which names at least the variables that are asked, belongs to the set."""
         number = self.root
         while number > ALL:
             node = self.nodes[number - 2]

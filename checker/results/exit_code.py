@@ -7,7 +7,7 @@ class Exit(IntEnum):
     """Exit codes of ``rovercheck``."""
 
     AS_EXPECTED = 0
-    CHANGED = 1
+    FAILED = 1
     INCONCLUSIVE = 2
     INTERNAL = 3
     USAGE = 4

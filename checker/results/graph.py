@@ -1,8 +1,8 @@
 """The reachable graph of a system projected on a few variables, as data for the renderers.
 
-A node is one combination of values of the chosen variables; behind it stand all reachable valuations
-that agree on them.  An edge is *sure* if each of the valuations behind its source has a tick to some
-valuation behind its target.  If every edge is sure, all valuations behind a node can go to the same nodes
+A node is one combination of values of the chosen variables; behind it stand all reachable states
+that agree on them.  An edge is *sure* if each of the states behind its source has a tick to some
+state behind its target.  If every edge is sure, all states behind a node can go to the same nodes
 (the nodes are the classes of a bisimulation), and then every path of the graph is a run.
 """
 
@@ -34,9 +34,9 @@ class ProjectionKind(StrEnum):
 
 @dataclass(frozen=True)
 class GraphNode:
-    """A combination of values (raw, and as a person writes them) and the valuations behind it.
+    """A combination of values (raw, and as a person writes them) and the states behind it.
 
-    ``depth`` is the number of ticks after which it is first reached, ``wanted`` the number of valuations
+    ``depth`` is the number of ticks after which it is first reached, ``wanted`` the number of states
     behind it in which the property looked for is broken (or reached), ``dead`` of those from which no
     input is admissible, ``unexpanded`` of those whose ticks are not known.
     """
@@ -55,9 +55,9 @@ class GraphNode:
 
 @dataclass(frozen=True)
 class GraphEdge:
-    """Ticks that lead from one node to another: how many pairs of valuations, and example inputs.
+    """Ticks that lead from one node to another: how many pairs of states, and example inputs.
 
-    ``sources`` counts the valuations behind the source that have such a tick.
+    ``sources`` counts the states behind the source that have such a tick.
     """
 
     source: int
@@ -69,7 +69,7 @@ class GraphEdge:
 
 @dataclass(frozen=True)
 class GraphWay:
-    """How to get to a node: a whole valuation behind it (a marked one, if any), and a shortest run to it."""
+    """How to get to a node: a whole state behind it (a marked one, if any), and a shortest run to it."""
 
     valuation: tuple[tuple[str, str], ...]
     trace: Trace
@@ -83,7 +83,7 @@ class StateGraph:
     projection mixes; ``cut`` is the limit that ended the exploration early, ``depth`` the ticks after which
     it found nothing new.  ``path`` is a run to be shown as a sequence of nodes.  ``bad`` are nodes in which
     ``looked_for`` is broken (or reached, as it says).  ``never`` has the values of a variable that no
-    reachable valuation has; ``exact_with`` the variables with which the projection would mix nothing, and
+    reachable state has; ``exact_with`` the variables with which the projection would mix nothing, and
     how many nodes it would have.
     """
 
@@ -107,13 +107,13 @@ class StateGraph:
 
     @cached_property
     def sure(self) -> frozenset[tuple[int, int]]:
-        """The edges that every valuation behind their source has."""
+        """The edges that every state behind their source has."""
         behind = {n.number: n.valuations for n in self.nodes}
         return frozenset((e.source, e.target) for e in self.edges if e.sources == behind[e.source])
 
     @cached_property
     def mixed(self) -> frozenset[int]:
-        """Nodes whose valuations cannot all go to the same nodes."""
+        """Nodes whose states cannot all go to the same nodes."""
         return frozenset(e.source for e in self.edges if (e.source, e.target) not in self.sure)
 
     @property
@@ -131,7 +131,7 @@ class StateGraph:
 
     @property
     def dead_ends(self) -> frozenset[int]:
-        """Nodes with a valuation from which no input is admissible."""
+        """Nodes with a state from which no input is admissible."""
         return frozenset(n.number for n in self.nodes if n.dead)
 
     @cached_property
@@ -167,8 +167,8 @@ class StateGraph:
 
     @property
     def size(self) -> str:
-        """``9 nodes and 24 edges for 1,234 valuations``."""
-        counts = ((len(self.nodes), "node"), (len(self.edges), "edge"), (self.valuations, "valuation"))
+        """``9 nodes and 24 edges for 1,234 states``."""
+        counts = ((len(self.nodes), "node"), (len(self.edges), "edge"), (self.valuations, "state"))
         nodes, edges, behind = (f"{n:,} {word}{'s' * (n != 1)}" for n, word in counts)
         return f"{nodes} and {edges} for {behind}"
 
@@ -181,7 +181,7 @@ class StateGraph:
     def because(self) -> tuple[str, ...]:
         """Why the graph is not exact; nothing if it is."""
         may = "may" if self.cut else "can"
-        mixed = f"the valuations behind {_some(len(self.mixed), len(self.nodes))} {may} go to different nodes"
+        mixed = f"the states behind {_some(len(self.mixed), len(self.nodes))} {may} go to different nodes"
         cut = f"the exploration is cut: {self.cut}" if self.cut else ""
         return tuple(why for why in (cut, *self.under, mixed if self.mixed else "", *self.over) if why)
 

@@ -17,10 +17,10 @@ def counted_ticks(count: int) -> str:
 
 
 @dataclass(frozen=True)
-class Arrow:
-    """An arrow that fired: its chart, where it starts and ends, and its label as drawn.
+class TakenTransition:
+    """A transition that fired: its chart, where it starts and ends, and its label as drawn.
 
-    ``order`` is its position among the arrows leaving ``source`` (1 is tested first; 0 for a
+    ``order`` is its position among the transitions leaving ``source`` (1 is tested first; 0 for a
     default transition).  ``event`` is the local event during whose processing it fired, if any.
     ``place`` is where it is written.
     """
@@ -35,18 +35,18 @@ class Arrow:
 
     def __str__(self) -> str:
         start = f"{self.source} -> {self.target}" if self.order else f"default -> {self.target}"
-        number = f" (arrow {self.order})" if self.order else ""
+        number = f" (transition {self.order})" if self.order else ""
         return f"{self.chart}: {start}{number}{' ' + self.label if self.label else ''}"
 
 
 @dataclass(frozen=True)
 class Tick:
-    """One tick: its number from 1, its inputs, the valuation after it and the arrows fired in it."""
+    """One tick: its number from 1, its inputs, the state after it and the transitions fired in it."""
 
     number: int
     inputs: Mapping[str, int]
     after: Mapping[str, int]
-    arrows: tuple[Arrow, ...] = ()
+    transitions: tuple[TakenTransition, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -65,13 +65,13 @@ class Needed:
 class Trace:
     """A run with everything a reader needs.
 
-    ``before`` is the valuation before the first tick (frozen variables included); ``false_parts``
+    ``before`` is the state before the first tick (frozen variables included); ``false_parts``
     are the conjuncts of the property that are false after the last tick (for a witness, empty).
     ``relevant`` and ``charts`` name the variables and the charts the property depends on.
 
     ``loop`` is set for a run without end: after the last tick all that the property depends on is as
     after that tick (0: as before the first), and the ticks in between repeat for ever.  ``trapped``
-    is set for a run after which something is out of reach: it counts the valuations still reached.
+    is set for a run after which something is out of reach: it counts the states still reached.
 
     ``property`` and ``text`` are the id and the sentence of the property, which is written at ``place``;
     ``statecharts`` are the charts that executed, by name, as drawn, and ``components`` all that executes in a
@@ -152,7 +152,7 @@ class Trace:
                 t.number,
                 {n: v for n, v in t.inputs.items() if n in shown},
                 {n: v for n, v in t.after.items() if n in shown},
-                tuple(a for a in t.arrows if a.chart in self.charts),
+                tuple(a for a in t.transitions if a.chart in self.charts),
             )
             for t in self.ticks
         )

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Union
 from rovercheck.checker.results.trace import Trace
 
 if TYPE_CHECKING:
-    from rovercheck.checker.results.closed import ClosedSet
+    from rovercheck.checker.results.closed_set import ClosedSet
     from rovercheck.checker.results.diagram import Diagram
     from rovercheck.spec_model.lang.expr import Expr
 
@@ -30,12 +30,12 @@ class Run:
 
 @dataclass(frozen=True)
 class Exhausted:
-    """Every reachable valuation was visited.
+    """Every reachable state was visited.
 
-    ``states`` counts distinct valuations of ``variables`` (those the goals depend on, the others
+    ``states`` counts distinct states of ``variables`` (those the goals depend on, the others
     being sliced away), ``transitions`` the distinct input cells tried (0: not counted), ``depth`` the
     number of ticks after which nothing new appeared.  With ``skipped`` quiet ticks (see docs/timers.md)
-    these are the valuations stored; the others were visited in passing, and ``depth`` is an upper bound.
+    these are the states stored; the others were visited in passing, and ``depth`` is an upper bound.
     """
 
     states: int
@@ -44,14 +44,14 @@ class Exhausted:
     variables: tuple[str, ...]
     skipped: bool = False
     closed: "ClosedSet | None" = field(default=None, compare=False, repr=False)
-    """The valuations themselves, as far as the engine kept them."""
+    """The states themselves, as far as the engine kept them."""
     diagram: "Diagram | None" = field(default=None, compare=False, repr=False)
     """The set of them, where the engine kept a decision diagram of it; constants of the system included."""
 
     @property
     def how(self) -> str:
-        """``154 valuations``, and whether these are only the stored ones of those visited."""
-        what = "stored valuations (quiet ticks skipped)" if self.skipped else "valuations"
+        """``all 154 reachable states``, or that these are only the stored ones of those visited."""
+        what = "stored states (quiet ticks skipped)" if self.skipped else "reachable states"
         return f"all {self.states:,} {what}"
 
 
@@ -63,7 +63,7 @@ class Inductive:
     hold before the first tick and, all together, pass from before a tick to after it.  The goal is
     false after the next tick wherever the conjuncts held and the goal was false for ``ticks`` - 1 ticks
     (``ticks`` = 1: the conjuncts alone exclude it), the first ``ticks`` ticks of every run being free
-    of it.  With ``simple``, valuations on those ticks are taken to differ from each other.  Variables
+    of it.  With ``simple``, states on those ticks are taken to differ from each other.  Variables
     are taken to be within their domains; that no tick takes one out of them is part of the obligations.
     """
 
@@ -115,7 +115,7 @@ Answer = Union[Reached, Unreachable, Open]
 class Proved:
     """The property holds: because the search was exhausted, or (reachability) because of a witness.
 
-    ``claim`` says what was shown of those valuations when that is not the property itself but implies it.
+    ``claim`` says what was shown of those states when that is not the property itself but implies it.
     """
 
     because: Evidence | Trace

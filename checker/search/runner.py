@@ -5,7 +5,7 @@ from contextlib import closing
 from dataclasses import dataclass, field
 from importlib import import_module
 
-from rovercheck.checker.process.isolate import Send, Stopped, messages
+from rovercheck.checker.process.isolate import ChildStopped, Send, messages
 from rovercheck.checker.results.verdict import Answer, Open, Reached, Unreachable
 from rovercheck.checker.search import (
     DepthSearched,
@@ -48,7 +48,7 @@ class SearchJob:
                 for event in events:
                     known.note(event)
                     progress(known.line())
-        except Stopped as error:
+        except ChildStopped as error:
             stopped = str(error)
         return {goal: known.answer(goal, self._reason(known.deep[goal], stopped)) for goal in goals}
 

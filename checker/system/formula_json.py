@@ -3,21 +3,17 @@
 ``["or", ["not", "relay"], ["<=", ["-", "age", "limit"], 3]]``; truth values are ``true`` and ``false``.
 """
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 from rovercheck.spec_model.lang.domain import Bool, Num, Sort
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from rovercheck.spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.walk import children
 
 Tree = Any
 """What JSON makes of a formula: nested lists of texts, whole numbers and truth values."""
 
-_LOGIC = frozenset({Op.AND, Op.OR})
-_CONSTANT_RIGHT = frozenset({Op.SCALE, Op.DIV, Op.MOD, Op.BIT})
-_ONE = frozenset({Op.NEG, Op.ABS})
-_TWO = frozenset({Op.ADD, Op.SUB, Op.MUL, Op.MIN, Op.MAX})
 _MOST = 1 << 63
 """Numbers are smaller than this: no domain holds larger ones."""
 
@@ -93,7 +89,7 @@ def _applied(op: Op, trees: Sequence[Tree], variables: Mapping[str, Var], beside
     sorts = [e.sort for e in known if e is not None and not isinstance(e.sort, Bool)]
     near = sorts[0] if sorts else beside
     args = [_formula(t, variables, near) if e is None else e for e, t in zip(known, trees, strict=True)]
-    sort = _sort(op, args)
+    sort = OPERATIONS[op](args)
     if sort is None:
         raise Unreadable(f"{str([op.value, *trees])[:60]}: {op.value} does not take these arguments")
     return Apply(op, tuple(args), sort)
@@ -103,23 +99,64 @@ def _number(tree: Tree) -> bool:
     return isinstance(tree, int) and not isinstance(tree, bool)
 
 
-def _sort(op: Op, args: Sequence[Expr]) -> Sort | None:
-    """The sort of the result; None where the operator does not take such arguments."""
-    truths = [isinstance(a.sort, Bool) for a in args]
+def _truth(expr: Expr) -> bool:
+    return isinstance(expr.sort, Bool)
+
+
+Sorted = Callable[[Sequence[Expr]], Sort | None]
+"""The sort of an operator's result; None where it does not take such arguments."""
+
+
+def _negation(args: Sequence[Expr]) -> Sort | None:
+    return Bool() if len(args) == 1 and _truth(args[0]) else None
+
+
+def _junction(args: Sequence[Expr]) -> Sort | None:
+    return Bool() if len(args) > 1 and all(map(_truth, args)) else None
+
+
+def _choice(args: Sequence[Expr]) -> Sort | None:
     match args:
-        case [_] if op is Op.NOT and all(truths):
-            return Bool()
-        case [_, *_] if op in _LOGIC and all(truths):
-            return Bool()
-        case [_, then, _] if op is Op.ITE and truths[0] and truths[1] == truths[2]:
+        case [test, then, otherwise] if _truth(test) and _truth(then) == _truth(otherwise):
             return then.sort
-        case [_, _] if op in COMPARISONS and (not any(truths) or (all(truths) and op in (Op.EQ, Op.NE))):
-            return Bool()
-        case [one] if op in _ONE and not any(truths):
-            return one.sort
-        case [one, Const(value)] if op in _CONSTANT_RIGHT and not any(truths):
-            allowed = value >= 0 if op is Op.BIT else value > 0
-            return (Bool() if op is Op.BIT else one.sort) if allowed else None
-        case [one, _] if op in _TWO and not any(truths):
+    return None
+
+
+def _order(args: Sequence[Expr]) -> Sort | None:
+    return Bool() if len(args) == 2 and not any(map(_truth, args)) else None
+
+
+def _equality(args: Sequence[Expr]) -> Sort | None:
+    return Bool() if len(args) == 2 and len({*map(_truth, args)}) == 1 else None
+
+
+def _numbers(count: int) -> Sorted:
+    return lambda args: args[0].sort if len(args) == count and not any(map(_truth, args)) else None
+
+
+def _by_constant(args: Sequence[Expr]) -> Sort | None:
+    match args:
+        case [one, Const(value) as by] if not _truth(one) and not _truth(by) and value > 0:
             return one.sort
     return None
+
+
+def _bit(args: Sequence[Expr]) -> Sort | None:
+    match args:
+        case [one, Const(value) as index] if not _truth(one) and not _truth(index) and value >= 0:
+            return Bool()
+    return None
+
+
+OPERATIONS: Mapping[Op, Sorted] = {
+    Op.NOT: _negation,
+    **dict.fromkeys((Op.AND, Op.OR), _junction),
+    Op.ITE: _choice,
+    **dict.fromkeys((Op.EQ, Op.NE), _equality),
+    **dict.fromkeys((Op.LT, Op.LE, Op.GT, Op.GE), _order),
+    **dict.fromkeys((Op.NEG, Op.ABS), _numbers(1)),
+    **dict.fromkeys((Op.ADD, Op.SUB, Op.MUL, Op.MIN, Op.MAX), _numbers(2)),
+    **dict.fromkeys((Op.SCALE, Op.DIV, Op.MOD), _by_constant),
+    Op.BIT: _bit,
+}
+"""What every operator takes and makes."""

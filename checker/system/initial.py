@@ -14,9 +14,9 @@ TRIED = 100_000
 """Combinations of values after which the search for a first tick is given up."""
 
 
-def check_starts(system: TransitionSystem) -> None:
+def require_initial_tick(system: TransitionSystem) -> None:
     """Raises ``ModelError`` if no inputs at all are allowed in the first tick."""
-    if starts(system) is False:
+    if has_initial_tick(system) is False:
         place = system.source.place if system.source is not None else None
         where = f"{place}: {system.name}" if place else system.name
         raise ModelError(
@@ -25,7 +25,7 @@ def check_starts(system: TransitionSystem) -> None:
         )
 
 
-def starts(system: TransitionSystem) -> bool | None:
+def has_initial_tick(system: TransitionSystem) -> bool | None:
     """Whether some inputs, with some frozen values, are allowed in the first tick; None: not found out."""
     asked = tuple((names([c]), c) for c in conjuncts(system.assume))
     concerned = frozenset[str]().union(*(read for read, _ in asked))
@@ -50,7 +50,7 @@ class _Search:
     left: int
 
     def extended(self, at: Mapping[str, int], order: Sequence[str]) -> Iterator[Mapping[str, int]]:
-        """Valuations with a value for each variable of ``order``, too, in which every conjunct holds."""
+        """States with a value for each variable of ``order``, too, in which every conjunct holds."""
         if not order:
             yield at
             return

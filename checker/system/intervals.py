@@ -4,11 +4,11 @@ Variables range over the hull of their domains; booleans are 0..1.  The analysis
 paths, so an interval may be wider than what is reachable, never narrower.
 """
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 from rovercheck.spec_model.lang.walk import children
 
 
@@ -84,35 +84,29 @@ def interval(expr: Expr, known: Mapping[int, Interval]) -> Interval:
 
 def transfer(op: Op, args: Sequence[Interval]) -> Interval:
     """The interval of an operator's result from those of its arguments."""
-    match op:
-        case Op.NOT | Op.AND | Op.OR | Op.EQ | Op.NE | Op.LT | Op.LE | Op.GT | Op.GE | Op.BIT:
-            return TRUTH
-        case Op.ITE:
-            return args[1] | args[2]
-        case Op.NEG:
-            return Interval(-args[0].high, -args[0].low)
-        case Op.ABS:
-            low, high = args[0].low, args[0].high
-            return Interval(max(low, -high, 0), max(-low, high))
-        case _:
-            return _binary(op, args[0], args[1])
+    return OPERATIONS[op](*args)
 
 
-def _binary(op: Op, a: Interval, b: Interval) -> Interval:
-    match op:
-        case Op.ADD:
-            return Interval(a.low + b.low, a.high + b.high)
-        case Op.SUB:
-            return Interval(a.low - b.high, a.high - b.low)
-        case Op.MUL | Op.SCALE:
-            corners = [x * y for x in (a.low, a.high) for y in (b.low, b.high)]
-            return Interval(min(corners), max(corners))
-        case Op.DIV:
-            return Interval(a.low // b.low, a.high // b.low)
-        case Op.MOD:
-            return a if 0 <= a.low and a.high < b.low else Interval(0, b.low - 1)
-        case Op.MIN:
-            return Interval(min(a.low, b.low), min(a.high, b.high))
-        case Op.MAX:
-            return Interval(max(a.low, b.low), max(a.high, b.high))
-    raise AssertionError(op)
+def _truth(*args: Interval) -> Interval:
+    return TRUTH
+
+
+def _product(a: Interval, b: Interval) -> Interval:
+    corners = [x * y for x in (a.low, a.high) for y in (b.low, b.high)]
+    return Interval(min(corners), max(corners))
+
+
+OPERATIONS: Mapping[Op, Callable[..., Interval]] = {
+    **dict.fromkeys((Op.NOT, Op.AND, Op.OR, Op.BIT, *COMPARISONS), _truth),
+    Op.ITE: lambda test, a, b: a | b,
+    Op.ADD: lambda a, b: Interval(a.low + b.low, a.high + b.high),
+    Op.SUB: lambda a, b: Interval(a.low - b.high, a.high - b.low),
+    Op.NEG: lambda a: Interval(-a.high, -a.low),
+    Op.MUL: _product,
+    Op.SCALE: _product,
+    Op.DIV: lambda a, b: Interval(a.low // b.low, a.high // b.low),
+    Op.MOD: lambda a, b: a if 0 <= a.low and a.high < b.low else Interval(0, b.low - 1),
+    Op.ABS: lambda a: Interval(max(a.low, -a.high, 0), max(-a.low, a.high)),
+    Op.MIN: lambda a, b: Interval(min(a.low, b.low), min(a.high, b.high)),
+    Op.MAX: lambda a, b: Interval(max(a.low, b.low), max(a.high, b.high)),
+}

@@ -1,6 +1,6 @@
 """Slicing: the part of a transition system that a set of goals depends on, and nothing else.
 
-A variable belongs to a valuation only if the next tick may read it before writing it and what is
+A variable belongs to a state only if the next tick may read it before writing it and what is
 read can reach a goal.  Wires and outputs that every tick rewrites first therefore cost nothing.
 """
 
@@ -25,7 +25,7 @@ _MOST_TRIED = 1 << 14
 def sliced(system: TransitionSystem, goals: Sequence[Var]) -> TransitionSystem:
     """The least part of the system in which the goals behave as in the whole.
 
-    ``variables`` are those of the valuation at the tick boundary, in the order of the system; what
+    ``variables`` are those of the state at the tick boundary, in the order of the system; what
     else the sliced step writes is in ``temps``.  Conjuncts of the assumption that can always be met
     by inputs which nothing else reads are left out.
     """
@@ -140,7 +140,7 @@ def _needed(system: TransitionSystem, group: list[Expr], read: Names) -> bool:
 
 
 def _always_met(group: list[Expr], found: Mapping[str, Var], inputs: Mapping[str, Var]) -> bool:
-    """Whether inputs that satisfy the group exist in every valuation (False when too many to try)."""
+    """Whether inputs that satisfy the group exist in every state (False when too many to try)."""
     free = [v for n, v in found.items() if n in inputs]
     given = [v for n, v in found.items() if n not in inputs]
     cells = {v.name: [c.value for c in partition(v, group, found).cells] for v in found.values()}
@@ -164,7 +164,7 @@ def _vectors(chosen: Sequence[Var], cells: Mapping[str, Sequence[int]]) -> Itera
 
 
 def always_met(system: TransitionSystem, condition: Expr) -> bool:
-    """Whether in every valuation some admissible inputs meet a condition on inputs alone.
+    """Whether in every state some admissible inputs meet a condition on inputs alone.
 
     False also when there are too many combinations to try.
     """

@@ -79,8 +79,8 @@ class GoalCoverage:
 
     @property
     def settled(self) -> set[str]:
-        """The goals of which nothing is left to find out: arrows also want a run as short as any."""
-        loose = {g.id for g in self.goals if g.kind is GoalKind.ARROWS} - self.shortest
+        """The goals of which nothing is left to find out: transitions also want a run as short as any."""
+        loose = {g.id for g in self.goals if g.kind is GoalKind.TRANSITIONS} - self.shortest
         return (self.covered.keys() - loose) | self.uncoverable.keys()
 
     @property
@@ -140,20 +140,21 @@ def cover(
     tell: Tell,
     only: Collection[str] | None = None,
 ) -> None:
-    """Search for the goals not settled: engines for short runs to arrows, random runs, engines for the rest.
+    """Search for the goals not settled: engines for short runs to transitions, random runs, engines for the
+    rest.
 
     ``model`` is the board with its environment; ``only``: search for goals of these ids alone.  ``coverage``
     holds what was found, also when this is interrupted.
     """
     asked = [g for g in coverage.goals if only is None or g.id in only]
-    arrows = [g for g in asked if g.kind is GoalKind.ARROWS and g.id in coverage.unknown]
-    _by_engines(coverage, model, arrows, effort, tell)
+    transitions = [g for g in asked if g.kind is GoalKind.TRANSITIONS and g.id in coverage.unknown]
+    _by_engines(coverage, model, transitions, effort, tell)
     _by_weather(coverage, {g.id for g in asked}, effort, tell)
     left = [g for g in asked if g.id in coverage.unknown]
     for answer in refuted(coverage.board, left, Limits(seconds=effort.seconds), effort.jobs):
         _note(coverage, answer, tell)
     loose = coverage.wanted - coverage.settled
-    rest = [g for g in asked if g.id in loose and g not in arrows]
+    rest = [g for g in asked if g.id in loose and g not in transitions]
     _by_engines(coverage, model, sorted(rest, key=lambda g: g not in left), effort, tell)
 
 

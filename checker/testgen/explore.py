@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from random import Random
 
 from rovercheck.checker.system.instrument.goals import Watched
-from rovercheck.checker.testgen.compiled import Step, compiled
+from rovercheck.checker.testgen.compiled_charts import Step, compiled
 from rovercheck.checker.testgen.scripts import CLOCK, Moment, Script
 from rovercheck.spec_model.abstraction import Board, BoardSignal, Value
 from rovercheck.spec_model.abstraction.board import BoardReader, units
@@ -43,7 +43,7 @@ def lengths(board: Board) -> tuple[int, ...]:
     return (*SHORT * 3, *sorted(t + d for t in timers for d in (-2, -1, 0, 1, 2) if t + d > 0))
 
 
-class Weather:
+class RandomInputs:
     """Random inputs of one board."""
 
     def __init__(self, board: Board) -> None:
@@ -125,8 +125,8 @@ class RandomMachine:
 
 
 @dataclass
-class TriedPlace:
-    """A run so far: the valuation, the clock and stamps, what the reader remembers, the inputs given."""
+class TriedRun:
+    """A run so far: the state, the clock and stamps, what the reader remembers, the inputs given."""
 
     machine: RandomMachine
     at: dict[str, int]
@@ -135,18 +135,18 @@ class TriedPlace:
     given: list[Moment]
 
     @staticmethod
-    def power_up(machine: RandomMachine) -> "TriedPlace":
+    def power_up(machine: RandomMachine) -> "TriedRun":
         """Before the first step."""
         stamps = {s.name: s.initial for s in machine.board.inputs if s.stamp}
-        return TriedPlace(machine, dict(machine.start), stamps, machine.board.reader(), [])
+        return TriedRun(machine, dict(machine.start), stamps, machine.board.reader(), [])
 
-    def copy(self) -> "TriedPlace":
-        return TriedPlace(
+    def copy(self) -> "TriedRun":
+        return TriedRun(
             self.machine, dict(self.at), dict(self.stamps), deepcopy(self.reader), list(self.given)
         )
 
     def now(self) -> Mapping[str, int]:
-        """The valuation after the last step."""
+        """The state after the last step."""
         return self.at
 
     def step(self, moment: Moment) -> list[str]:
@@ -161,7 +161,7 @@ class TriedPlace:
 
 
 @dataclass(frozen=True)
-class Find:
+class NewScript:
     """A script and the goals that its last step is the first to reach."""
 
     goals: tuple[str, ...]
@@ -174,40 +174,40 @@ def explored(
     random: Random,
     ticks: int,
     known: Sequence[Script] = (),
-) -> Iterator[Find]:
+) -> Iterator[NewScript]:
     """Scripts for goals, found within so many ticks of random runs that go on, too, where known scripts end.
 
     Reproducible.
     """
     left = set(wanted)
-    places = [TriedPlace.power_up(machine), *(_end(machine, script) for script in known)]
-    weather = Weather(machine.board)
+    places = [TriedRun.power_up(machine), *(_end(machine, script) for script in known)]
+    source = RandomInputs(machine.board)
     while ticks > 0 and left:
         place = (places[0] if random.random() < FROM_START else _recent(random, places)).copy()
-        for moment in weather.run(random, random.randint(1, LONGEST), place.now):
+        for moment in source.run(random, random.randint(1, LONGEST), place.now):
             ticks -= 1
             new = left.intersection(place.step(moment))
             if new:
                 left -= new
                 places.append(place.copy())
-                yield Find(tuple(sorted(new)), tuple(place.given))
+                yield NewScript(tuple(sorted(new)), tuple(place.given))
 
 
-def _end(machine: RandomMachine, script: Script) -> TriedPlace:
-    place = TriedPlace.power_up(machine)
+def _end(machine: RandomMachine, script: Script) -> TriedRun:
+    place = TriedRun.power_up(machine)
     for moment in script:
         place.step(moment)
     return place
 
 
-def _recent(random: Random, places: Sequence[TriedPlace]) -> TriedPlace:
+def _recent(random: Random, places: Sequence[TriedRun]) -> TriedRun:
     """A place, later ones rather than earlier ones: they are deeper in what is hard to reach."""
     return places[-1 - int(len(places) * random.random() ** 2)] if len(places) > 1 else places[0]
 
 
 def first_reached(machine: RandomMachine, script: Sequence[Moment]) -> dict[str, int]:
     """The first step, from 1, in which each goal is reached."""
-    place, found = TriedPlace.power_up(machine), dict[str, int]()
+    place, found = TriedRun.power_up(machine), dict[str, int]()
     for number, moment in enumerate(script, start=1):
         for id in place.step(moment):
             found.setdefault(id, number)

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from hashlib import sha256
 
 from rovercheck.checker.encode.python_text import text_of
-from rovercheck.checker.testgen.compiled import source
+from rovercheck.checker.testgen.compiled_charts import source
 from rovercheck.spec_model.abstraction import Board
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.lower import lower

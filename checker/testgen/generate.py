@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen.formats import FORMATS, ExpectedTest
-from rovercheck.checker.testgen.formats.expected import expected
+from rovercheck.checker.testgen.formats.expected_outputs import expected
 from rovercheck.checker.testgen.keep import KeptTests
 from rovercheck.spec_model.abstraction import Board, boards
 from rovercheck.spec_model.lang.chart import parts

@@ -11,7 +11,7 @@ from rovercheck.checker.results.verdict import Proved, Unknown, Verdict, Violate
 from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind, Watched
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen.scripts import Script, script
-from rovercheck.checker.verify.searches import Over, SearchDoing, Warned, searches
+from rovercheck.checker.verify.searches import MachineWarning, SearchActivity, SearchEnd, searches
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.forms import Property, reachable
 from rovercheck.spec_model.abstraction import Board
@@ -47,7 +47,7 @@ class Uncoverable:
 
     @property
     def text(self) -> str:
-        """``Relay alone: explicit, all 154 valuations``."""
+        """``Relay alone: explicit, all 154 reachable states``."""
         return f"{self.system}: {self.engine}, {self.because}"
 
     @staticmethod
@@ -79,7 +79,7 @@ class SearchProgress:
 def searched(
     board: Board, system: System, goals: Sequence[CoverGoal], limits: Limits, jobs: int | None = None
 ) -> Iterator[Answer | SearchProgress]:
-    """Ask the engines for goals on a system whose runs the board has: those of its model."""
+    """Run the engines for goals on a system whose runs the board has: those of its model."""
     for goal, verdict in _verdicts(system, goals, limits, jobs):
         match verdict:
             case Proved(Trace() as trace, engine):
@@ -132,11 +132,11 @@ def _verdicts(
     with closing(searches(todo, {system.name: looked.system}, AUTO, limits, jobs)) as heard:
         for one in heard:
             match one:
-                case SearchDoing(task, line):
+                case SearchActivity(task, line):
                     yield "", f"{task.title}: {line}"
-                case Warned(text):
+                case MachineWarning(text):
                     yield "", text
-                case Over():
+                case SearchEnd():
                     pass
                 case _:
                     yield one.property.id, one.verdict

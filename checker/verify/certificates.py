@@ -18,7 +18,7 @@ from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 
 @dataclass(frozen=True)
-class Certifying:
+class Certification:
     """What to do with proofs: write them into a ``folder``, check them again, or both.
 
     ``readings``, ``repair`` and ``without`` say how the charts that are checked differ from those specified.

@@ -14,14 +14,14 @@ from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Proved, Unknown, Verdict, Violated
 from rovercheck.checker.system.formula_json import Tree
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.searches import Heard, searches
+from rovercheck.checker.verify.searches import TaskEvent, searches
 from rovercheck.checker.verify.tasks import Task, tasks
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from rovercheck.checker.verify.certificates import Certifying
+    from rovercheck.checker.verify.certificates import Certification
 
 
 NO_LIMITS = Limits()
@@ -39,7 +39,7 @@ class SearchSettings:
     limits: Limits = NO_LIMITS
     jobs: int | None = None
     invariants: Invariants = field(default_factory=dict)
-    certifying: "Certifying | None" = None
+    certifying: "Certification | None" = None
 
 
 @dataclass(frozen=True)
@@ -60,7 +60,7 @@ class PremiseCase:
 
 @dataclass(frozen=True)
 class CheckedProperty:
-    """A result beside the verdict expected; ``variant`` says how the charts differ from those specified.
+    """A result beside the expected verdict; ``variant`` says how the charts differ from those specified.
 
     ``case``: whether the case occurs that a proof speaks of, ``noticed``: whether a fault is known that it
     notices, each if that was asked.  With ``strict``, a proof of a case that never occurs is not enough, nor
@@ -80,9 +80,9 @@ class CheckedProperty:
 
     @property
     def word(self) -> str:
-        """The verdict for people; ``proved in part`` where only some of the runs were searched."""
-        said = f"{self.verdict.word} in part" if self.result.in_part else self.verdict.word
-        return f"{said}, of nothing" if self.empty else said
+        """The verdict for people; ``proved for a restricted model`` if that has only some of the runs."""
+        said = f"{self.verdict.word} for a restricted model" if self.result.in_part else self.verdict.word
+        return f"{said}, vacuously" if self.empty else said
 
     @property
     def empty(self) -> bool:
@@ -96,7 +96,7 @@ class CheckedProperty:
 
     @property
     def as_expected(self) -> bool:
-        """Same verdict, and for a counterexample on record the same length."""
+        """Same verdict, and for a recorded counterexample the same length."""
         if self.verdict.word != self.expected.verdict:
             return False
         depth = None if self.variant else self.expected.depth
@@ -113,12 +113,12 @@ class CheckedProperty:
         if isinstance(self.result.certificate, Rejected):
             return Exit.INTERNAL
         if self.strict and self.case is not None and not self.case.occurs:
-            return Exit.CHANGED if self.empty else Exit.INCONCLUSIVE
+            return Exit.FAILED if self.empty else Exit.INCONCLUSIVE
         if self.strict and self.idle and not self.variant:
             return Exit.INCONCLUSIVE
         if self.as_expected or (self.variant and isinstance(self.verdict, Proved)):
             return Exit.AS_EXPECTED
-        return Exit.INCONCLUSIVE if isinstance(self.verdict, Unknown) else Exit.CHANGED
+        return Exit.INCONCLUSIVE if isinstance(self.verdict, Unknown) else Exit.FAILED
 
 
 def length(verdict: Verdict) -> int | None:
@@ -128,9 +128,9 @@ def length(verdict: Verdict) -> int | None:
 
 
 def worst(found: Sequence[CheckedProperty]) -> Exit:
-    """A bug of ours outweighs a change, and that an inconclusive search."""
+    """An internal error outweighs a change, and that an inconclusive search."""
     codes = {c.code for c in found}
-    for code in (Exit.INTERNAL, Exit.CHANGED, Exit.INCONCLUSIVE):
+    for code in (Exit.INTERNAL, Exit.FAILED, Exit.INCONCLUSIVE):
         if code in codes:
             return code
     return Exit.AS_EXPECTED
@@ -138,28 +138,30 @@ def worst(found: Sequence[CheckedProperty]) -> Exit:
 
 def events(
     properties: Sequence[Property], systems: Mapping[str, System], search: SearchSettings
-) -> Generator[SearchesPlanned | Heard, None, None]:
+) -> Generator[SearchesPlanned | TaskEvent, None, None]:
     """Decide properties, several searches at a time: what these do, and results as they are found.
 
     Raises what ``searches`` raises.  Closing the generator ends all searches.
     """
     # The largest first, so that no long search is left for the end; those of one system together.
-    planned = (replace(t, recorded=_on_record(t, search.invariants)) for t in tasks(properties, systems))
+    planned = (replace(t, recorded=on_record(t, search.invariants)) for t in tasks(properties, systems))
     todo = sorted(planned, key=lambda t: (-t.size, t.system.name, t.title))
     yield SearchesPlanned(len(todo))
     with closing(
         searches(todo, systems, search.engine, search.limits, search.jobs, search.certifying)
     ) as heard:
         for one in heard:
-            if isinstance(one, Result):
-                system = systems.get(one.system, systems[one.property.on])
-                yield replace(one, in_part=_in_part(one, system), limited_to=_limited_to(one, system))
-            else:
-                yield one
+            yield limited(one, systems) if isinstance(one, Result) else one
 
 
-def _on_record(task: Task, invariants: Invariants) -> tuple[Tree, ...] | None:
-    """The conjuncts of all proofs on record of the properties of a task; None if there is none."""
+def limited(one: Result, systems: Mapping[str, System]) -> Result:
+    """The result with what it is limited to by the system that it is about."""
+    system = systems.get(one.system, systems[one.property.on])
+    return replace(one, in_part=_in_part(one, system), limited_to=_limited_to(one, system))
+
+
+def on_record(task: Task, invariants: Invariants) -> tuple[Tree, ...] | None:
+    """The conjuncts of all recorded proofs of the properties of a task; None if there is none."""
     known = [invariants[p.id] for p in task.properties if p.id in invariants]
     return tuple(tree for trees in known for tree in trees) if known else None
 

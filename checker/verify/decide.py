@@ -8,14 +8,14 @@ from rovercheck.checker.engines import ALL, AUTO, Engine, Limits, Progress, Stag
 from rovercheck.checker.process.faults import Failed, attempted
 from rovercheck.checker.results.verdict import Open, Reached, Unknown, Unreachable
 from rovercheck.checker.system.formula_json import Tree, readable
-from rovercheck.checker.system.initial import check_starts
-from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.initial import require_initial_tick
+from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.liveness.verdicts import unbounded
 from rovercheck.checker.verify.portfolio import (
     Callbacks,
     Disagreement,
-    Hint,
     PortfolioQuestion,
+    Prior,
     answers,
     as_found,
 )
@@ -31,13 +31,15 @@ from rovercheck.spec_model.lang.expiry import free_timers
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.system import System, TransitionSystem
 
-# --- properties decided on the system whose timers run out at will, as far as that goes (docs/timers.md)
+# --- properties decided where timers may expire at any time, as far as that goes (docs/timers.md)
 
-Ask = Callable[[TransitionSystem, Sequence[Var]], Answers]
+Query = Callable[[TransitionSystem, Sequence[Var]], Answers]
 """An answer for each goal, and for each check of the system."""
 
 
-def freely(system: System, properties: Sequence[Property], ask: Ask) -> tuple[list[Result], list[Property]]:
+def decide_with_free_timers(
+    system: System, properties: Sequence[Property], query: Query
+) -> tuple[list[Result], list[Property]]:
     """Results that hold for ``system``, and the properties that are left for an exact search.
 
     What is unreachable with free timers is unreachable.  A run with free timers counts if the system
@@ -50,7 +52,7 @@ def freely(system: System, properties: Sequence[Property], ask: Ask) -> tuple[li
     if shape(PortfolioQuestion(here.system, tuple(g.var for g in here.goals))).kind == "driven":
         return [], list(properties)  # free timers would be most of what is free
     there = reduce(lowered(loose), [replace(p, on=loose.name) for p in properties])
-    found = ask(there.system, [g.var for g in there.goals])
+    found = query(there.system, [g.var for g in there.goals])
     if not all(isinstance(found[check.name][0], Unreachable) for check, _ in there.system.checks):
         return [], list(properties)  # a value may leave its domain only because a timer ends early
     done: list[Result] = []
@@ -75,51 +77,51 @@ def decide(
     engine: str | Engine,
     limits: Limits,
     progress: Progress,
-    told: Callbacks | None = None,
+    callbacks: Callbacks | None = None,
     deadline: float | None = None,
 ) -> Iterator[Result]:
     """A verdict for each property of the task, each as soon as it is known.
 
     ``engine`` is one, or the name of one, ``auto`` (engines in turn, see ``checker.verify.portfolio.order``)
-    or ``all`` (every engine, answers compared).  With free timers in ``limits``, what the system with timers
-    that run out at will does not settle is then searched exactly.  The time of ``limits`` is for all of it,
+    or ``all`` (every engine, answers compared).  With free timers in ``limits``, what the system whose timers
+    may expire at any time leaves open is then searched exactly.  The time of ``limits`` is for all of it,
     lowering included, from now on or until the ``deadline``; ``searches`` ends what looks at no clock.
-    Raises ``Disagreement``, ``ReplayError``, and ``ModelError`` when the model leaves a domain or has no
-    run at all.
+    Raises ``Disagreement``, ``ReplayError``, and ``ModelError`` when the model leaves a domain or has no run
+    at all.
     """
     deadline = limits.deadline() if deadline is None else deadline
     progress(Stage(f"lowering {task.system.name}"))
-    check_starts(lowered(task.system))
-    asking = EngineCall(engine, limits, told or Callbacks(progress), deadline, task.recorded)
+    require_initial_tick(lowered(task.system))
+    query = EngineCall(engine, limits, callbacks or Callbacks(progress), deadline, task.recorded)
     for prop in task.properties:
         if isinstance(prop.form, Unbounded):
-            yield _unbounded(prop, systems, asking)
+            yield _unbounded(prop, systems, query)
     left: Sequence[Property] = [p for p in task.properties if not isinstance(p.form, Unbounded)]
     if left and limits.timers is Timers.FREE:
-        done, left = freely(task.system, left, asking)
+        done, left = decide_with_free_timers(task.system, left, query)
         yield from done
     if left:
-        yield from _exactly(Task(task.system, tuple(left), task.recorded), systems, asking)
+        yield from _exactly(Task(task.system, tuple(left), task.recorded), systems, query)
 
 
 @dataclass(frozen=True)
 class EngineCall:
-    """Asks what the user chose: an engine, within limits until the deadline, telling those who listen.
+    """Runs what the user chose: an engine, within limits until the deadline, with callbacks.
 
-    Engines in turn try what is ``recorded`` first, as far as it speaks of what the system still has.
+    Engines in turn try what is ``recorded`` first, as far as the system still has its variables.
     """
 
     engine: str | Engine
     limits: Limits
-    told: Callbacks
+    callbacks: Callbacks
     deadline: float | None = None
     recorded: Sequence[Tree] | None = None
 
-    def __call__(self, system: TransitionSystem, goals: Sequence[Var], hint: Hint = Hint.NONE) -> Answers:
+    def __call__(self, system: TransitionSystem, goals: Sequence[Var], prior: Prior = Prior.NONE) -> Answers:
         """An answer for each goal and for each check of the system."""
-        engine = AUTO if hint is Hint.CONCRETE and self.engine != ALL else self.engine
-        question = PortfolioQuestion(system, tuple(goals), hint, self._candidates(system))
-        return self._late(question) or answers(question, engine, self._left(system), self.told)
+        engine = AUTO if prior is Prior.CONCRETE and self.engine != ALL else self.engine
+        question = PortfolioQuestion(system, tuple(goals), prior, self._candidates(system))
+        return self._late(question) or answers(question, engine, self._left(system), self.callbacks)
 
     def as_found(self, system: TransitionSystem, goals: Sequence[Var]) -> Iterator[Answers]:
         """The same, each as soon as it is known."""
@@ -127,7 +129,7 @@ class EngineCall:
         if late := self._late(question):
             yield late
         else:
-            yield from as_found(question, self.engine, self._left(system), self.told)
+            yield from as_found(question, self.engine, self._left(system), self.callbacks)
 
     def _candidates(self, system: TransitionSystem) -> tuple[Expr, ...] | None:
         if self.recorded is None:
@@ -136,7 +138,7 @@ class EngineCall:
         return tuple(readable(self.recorded, known))
 
     def _left(self, system: TransitionSystem) -> Limits:
-        self.told.progress(Stage(f"slicing {system.name}"))
+        self.callbacks.progress(Stage(f"slicing {system.name}"))
         return self.limits.until(self.deadline)
 
     def _late(self, question: PortfolioQuestion) -> Answers:
@@ -147,11 +149,11 @@ class EngineCall:
         return {goal.name: EngineAnswer(Open(reason, 0), "none") for goal in question.goals}
 
 
-def _unbounded(prop: Property, systems: Mapping[str, System], asking: EngineCall) -> Result:
-    """The result of one property about infinite runs; unknown where an error of ours ends its search."""
+def _unbounded(prop: Property, systems: Mapping[str, System], query: EngineCall) -> Result:
+    """The result of one property about infinite runs; unknown where an internal error ends its search."""
 
     def work() -> Result:
-        return unbounded(prop, systems, asking, asking.told.progress)
+        return unbounded(prop, systems, query, query.callbacks.progress)
 
     found = attempted(f"the search about {prop.id}", prop.on, work, Disagreement, ReplayError)
     if isinstance(found, Failed):
@@ -159,11 +161,11 @@ def _unbounded(prop: Property, systems: Mapping[str, System], asking: EngineCall
     return found
 
 
-def _exactly(task: Task, systems: Mapping[str, System], asking: EngineCall) -> Iterator[Result]:
+def _exactly(task: Task, systems: Mapping[str, System], query: EngineCall) -> Iterator[Result]:
     question = reduce(lowered(task.system), task.properties)
     by_goal = {g.var.name: g for g in question.goals}
     runs: dict[str, tuple[Reached, str]] = {}
-    for found in asking.as_found(question.system, [g.var for g in question.goals]):
+    for found in query.as_found(question.system, [g.var for g in question.goals]):
         check_domains(question.system, found)
         for name, (answer, by) in found.items():
             if isinstance(answer, Reached) and task.system.over:
@@ -171,7 +173,7 @@ def _exactly(task: Task, systems: Mapping[str, System], asking: EngineCall) -> I
             elif name in by_goal:
                 yield result(question.system, by_goal[name], answer, by)
     if runs and task.system.concrete:
-        yield from reproduced(question, runs, systems[task.system.concrete], asking)
+        yield from reproduced(question, runs, systems[task.system.concrete], query)
     elif runs:
         yield from not_reproducible(question, runs)
 

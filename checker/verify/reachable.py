@@ -1,4 +1,4 @@
-"""Every reachable valuation with every tick that leaves it, by plain breadth-first search.
+"""Every reachable state with every tick that leaves it, by plain breadth-first search.
 
 For small systems only: the step is interpreted, not compiled (``checker.explore.graphs`` explores by compiled
 code).  An input is chosen at the moment the step reads it, one value per cell (see
@@ -17,17 +17,17 @@ from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TransitionSystem
 
 Step = tuple[Values, Mapping[str, int]]
-"""The valuation after a tick, and the inputs it looked at in the order in which it did, raw."""
+"""The state after a tick, and the inputs it looked at in the order in which it did, raw."""
 
 _REPORT = 1000
 
 
 class TooLarge(ModelError):
-    """More valuations or ticks than the limits allow."""
+    """More states or ticks than the limits allow."""
 
 
 class ReachableSearch:
-    """Yields each reachable valuation once, with its ticks, in breadth-first order."""
+    """Yields each reachable state once, with its ticks, in breadth-first order."""
 
     def __init__(
         self, system: TransitionSystem, variables: Sequence[Var], most: int, steps: int, progress: Progress
@@ -39,7 +39,7 @@ class ReachableSearch:
         self.cells = {n: [c.value for c in p.cells] for n, p in partitions(system).items()}
 
     def initial(self) -> Iterator[Values]:
-        """One valuation before the first tick for each choice of the frozen variables."""
+        """One state before the first tick for each choice of the frozen variables."""
         frozen = {v.name for v in self.system.frozen}
         domains = [v.domain.values if v.name in frozen else (v.init,) for v in self.variables]
         return product(*domains)
@@ -57,7 +57,7 @@ class ReachableSearch:
                     queue.append(after)
             self._within(len(queue), tried)
             if number % _REPORT == _REPORT - 1:
-                self.progress(f"graph: {number + 1} of {len(queue)} valuations, {tried} ticks tried")
+                self.progress(f"graph: {number + 1} of {len(queue)} states, {tried} ticks tried")
             yield valuation, leaving
 
     def _within(self, valuations: int, tried: int) -> None:
@@ -67,13 +67,13 @@ class ReachableSearch:
         advice = ", ".join(f"{v.name} ({len(v.domain)} values)" for v in widest)
         raise TooLarge(
             f"{self.system.name}: more than {self.most if valuations > self.most else self.steps} "
-            f"{'valuations' if valuations > self.most else 'ticks'} stand behind this graph. "
+            f"{'states' if valuations > self.most else 'ticks'} stand behind this graph. "
             f"Its largest variables are {advice}. Project on variables that do not depend on them, "
             "take a smaller system, or raise the limit."
         )
 
     def _ticks(self, valuation: Values) -> Iterator[Step]:
-        """Every tick from a valuation: one for each way in which the step can read its inputs."""
+        """Every tick from a state: one for each way in which the step can read its inputs."""
         before = dict(zip(self.names, valuation, strict=True))
         for after, drawn in ticks(self.system, before, self.cells):
             yield tuple(after[name] for name in self.names), drawn
@@ -82,7 +82,7 @@ class ReachableSearch:
 def ticks(
     system: TransitionSystem, before: Mapping[str, int], cells: Mapping[str, Sequence[int]]
 ) -> Iterator[tuple[Mapping[str, int], Mapping[str, int]]]:
-    """The valuation after each tick, with the inputs it looked at, which are among ``cells``."""
+    """The state after each tick, with the inputs it looked at, which are among ``cells``."""
     script: list[int] = []
     while True:
         at = _Drawn(before, cells, script)
@@ -95,7 +95,7 @@ def ticks(
 
 
 class _Drawn(dict[str, int]):
-    """A valuation whose inputs are drawn when read: the i-th one read takes its ``script[i]``-th cell."""
+    """A state whose inputs are drawn when read: the i-th one read takes its ``script[i]``-th cell."""
 
     def __init__(
         self, before: Mapping[str, int], cells: Mapping[str, Sequence[int]], script: Sequence[int]

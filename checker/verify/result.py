@@ -15,7 +15,7 @@ from rovercheck.checker.results.verdict import (
     Verdict,
     Violated,
 )
-from rovercheck.checker.verify.portfolio.question import Found, Hint
+from rovercheck.checker.verify.portfolio.question import Found, Prior
 from rovercheck.checker.verify.runs.domains import leaves, stray
 from rovercheck.properties.forms import Property
 from rovercheck.properties.reduce import Goal
@@ -26,10 +26,10 @@ Answers = Found
 """An answer for each goal and the name of the engine that gave it."""
 
 
-class Ask(Protocol):
-    """Asks the engines that the user chose; the hint tells what is known of the answer."""
+class EngineQuery(Protocol):
+    """Runs the engines that the user chose; ``prior`` is what is known of the answer."""
 
-    def __call__(self, system: TransitionSystem, goals: Sequence[Var], hint: Hint = Hint.NONE) -> Answers:
+    def __call__(self, system: TransitionSystem, goals: Sequence[Var], prior: Prior = Prior.NONE) -> Answers:
         """An answer for each goal and for each check of the system."""
         ...
 
@@ -53,17 +53,17 @@ class Result:
 
 
 def result(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Result:
-    """The result of a goal; a run is calmed and replayed first.  Raises ``ReplayError``."""
+    """The result of a goal; a run is minimised and replayed first.  Raises ``ReplayError``."""
     return Result(goal.property, _verdict(system, goal, answer, by), system.name)
 
 
 def _verdict(system: TransitionSystem, goal: Goal, answer: Answer, by: str) -> Verdict:
     match answer:
         case Reached(run, shortest):
-            from rovercheck.checker.verify.runs.calm import calmed
+            from rovercheck.checker.verify.runs.minimise import minimise_inputs
             from rovercheck.checker.verify.runs.replay import replay
 
-            trace = replace(replay(system, goal, calmed(system, goal.var, run)), shortest=shortest)
+            trace = replace(replay(system, goal, minimise_inputs(system, goal.var, run)), shortest=shortest)
             return Proved(trace, by) if goal.reach else Violated(trace, by)
         case Unreachable(because):
             return Violated(because, by) if goal.reach else Proved(because, by)

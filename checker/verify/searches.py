@@ -7,17 +7,17 @@ from dataclasses import dataclass, replace
 from time import monotonic
 from typing import TYPE_CHECKING
 
+from rovercheck.checker.cache.listeners import CachedCodeUse, CacheRefused, listening
 from rovercheck.checker.cache.places import VARIABLE, chosen
-from rovercheck.checker.cache.telling import CacheRefused, Taken, listening
 from rovercheck.checker.certify.outcome import Outcome, Undecided
 from rovercheck.checker.engines import Engine, Limits, Stage
-from rovercheck.checker.process.faults import Fault, described, is_fault, tell
+from rovercheck.checker.process.faults import Fault, described, is_fault, report
 from rovercheck.checker.process.faults import listening as attending
 from rovercheck.checker.process.isolate import Send
-from rovercheck.checker.process.pool import Granted, Order, Pool, PoolEvent
+from rovercheck.checker.process.pool import GrantedTime, Order, Pool, PoolEvent
 from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
 from rovercheck.checker.system.formula_json import Tree
-from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.forms import Property
@@ -26,7 +26,7 @@ from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
     from rovercheck.checker.certify.certificate import Certificate
-    from rovercheck.checker.verify.certificates import Certifying
+    from rovercheck.checker.verify.certificates import Certification
     from rovercheck.checker.verify.portfolio.question import Found, PortfolioQuestion
 
 SLACK = 2 << 30
@@ -35,7 +35,7 @@ _PAUSE = 0.5
 
 
 @dataclass(frozen=True)
-class SearchDoing:
+class SearchActivity:
     """One line on what the search of a task is doing."""
 
     task: Task
@@ -43,7 +43,7 @@ class SearchDoing:
 
 
 @dataclass(frozen=True)
-class Over:
+class SearchEnd:
     """The search of a task is over."""
 
     task: Task
@@ -72,13 +72,13 @@ class _Certified:
 
 
 @dataclass(frozen=True)
-class Warned:
+class MachineWarning:
     """What the user should know of the machine: no verdict is other for it."""
 
     text: str
 
 
-Heard = SearchDoing | Over | Warned | Result
+TaskEvent = SearchActivity | SearchEnd | MachineWarning | Result
 
 
 def cores() -> int:
@@ -92,15 +92,15 @@ def searches(
     engine: str | Engine,
     limits: Limits,
     jobs: int | None = None,
-    certifying: "Certifying | None" = None,
-) -> Generator[Heard, None, None]:
+    certifying: "Certification | None" = None,
+) -> Generator[TaskEvent, None, None]:
     """Search the tasks in order, as many at once as there are ``jobs`` (by default processors).
 
-    A child that dies, or that does not stop within a time limit, makes what it had not yet decided
-    unknown, with the reason.  If it crashes after it took compiled code from the cache, all of the task is
-    first searched once more with code compiled anew.  Raises what ``decide`` raises, and ``Unwritable``.
-    Errors of ours in a child are told to who listens (``checker.process.faults``), or raised where nobody
-    does.  Closing the generator ends all children.
+    A child that dies, or that does not stop within a time limit, makes what it had not yet decided unknown,
+    with the reason.  If it crashes after it took compiled code from the cache, all of the task is first
+    searched once more with code compiled anew.  Raises what ``decide`` raises, and ``Unwritable``.  Internal
+    errors in a child are reported to who listens (``checker.process.faults``), or raised where nobody does.
+    Closing the generator ends all children.
 
     A proof waits until it is known that its system leaves no domain, or not found out by any of its searches:
     nothing is proved of a system that is then refused.
@@ -116,10 +116,10 @@ def searches(
         try:
             for event in events:
                 back = returns[event.number]
-                for one in _passed(gates, back.task.system.name, back.heard(event)):
-                    if isinstance(one, Warned) and one.text in warned:
+                for one in _passed(gates, back.task.system.name, back.on_event(event)):
+                    if isinstance(one, MachineWarning) and one.text in warned:
                         continue
-                    if isinstance(one, Warned):
+                    if isinstance(one, MachineWarning):
                         warned.add(one.text)
                     yield one
         except BaseException as error:
@@ -128,9 +128,11 @@ def searches(
             raise
 
 
-def _passed(gates: Mapping[str, "_Gate"], asked: str, heard: Iterable["Heard | _Stays"]) -> Iterator[Heard]:
+def _passed(
+    gates: Mapping[str, "_Gate"], asked: str, events: Iterable["TaskEvent | _Stays"]
+) -> Iterator[TaskEvent]:
     """What passes the gate of the system that was asked about, and of the one that a verdict is about."""
-    for one in gates[asked].passed(heard):
+    for one in gates[asked].passed(events):
         if isinstance(one, Result) and one.system != asked and one.system in gates:
             yield from gates[one.system].passed([one])
         else:
@@ -145,9 +147,9 @@ class _Gate:
         self._left = searches
         self._open = False
 
-    def passed(self, heard: Iterable[Heard | _Stays]) -> Iterator[Heard]:
-        """What may go on of what is heard, and what is no longer held back after it."""
-        for one in heard:
+    def passed(self, events: Iterable[TaskEvent | _Stays]) -> Iterator[TaskEvent]:
+        """What may go on of what is events, and what is no longer held back after it."""
+        for one in events:
             match one:
                 case Result(verdict=Proved()) if not self._open:
                     self.held.append(one)
@@ -155,7 +157,7 @@ class _Gate:
                     yield from self._opened()
                 case _:
                     yield one
-            if isinstance(one, Over):
+            if isinstance(one, SearchEnd):
                 self._left -= 1
         if not self._left:
             yield from self._opened()
@@ -175,7 +177,7 @@ class _Returns:
         self._doing = ""
         self._left = {p.id: p for p in task.properties}
         self._held: dict[str, Result] = {}
-        self._told: dict[str, str] = {}
+        self._reported: dict[str, str] = {}
         self._taken = False
         self._anew = False
 
@@ -187,55 +189,55 @@ class _Returns:
         """
         if self._anew or not self._taken:
             return None
-        self._left = {p.id: p for p in self.task.properties if p.id not in self._told}
+        self._left = {p.id: p for p in self.task.properties if p.id not in self._reported}
         self._anew, self._held = True, {}
         asked = self.task.system.name, self.task.properties, self.task.recorded, True
         return Order(asked, self.task.system.name)
 
-    def heard(self, event: PoolEvent) -> Iterator[Heard | _Stays]:
+    def on_event(self, event: PoolEvent) -> Iterator[TaskEvent | _Stays]:
         """What an event brings.  Raises the error that is one."""
         if event.done:
             return self.rest(event)
         if event.failure:
-            return iter([Warned(_crashed(self.task, event.failure))])
-        return self.hear(event.message)
+            return iter([MachineWarning(_crashed(self.task, event.failure))])
+        return self.on_message(event.message)
 
-    def hear(self, message: object) -> Iterator[Heard | _Stays]:
+    def on_message(self, message: object) -> Iterator[TaskEvent | _Stays]:
         """What a message brings.  Raises the error that is one."""
         match message:
             case Exception() as error:
                 raise error
             case str(line):
                 self._doing = line
-                yield SearchDoing(self.task, line)
+                yield SearchActivity(self.task, line)
             case _Stays():
                 yield message
             case Fault():
-                tell(message)
-            case Taken():
+                report(message)
+            case CachedCodeUse():
                 self._taken = True
             case CacheRefused(why):
-                yield Warned(f"Compiled searches are compiled every time: there is no cache. {why}")
+                yield MachineWarning(f"Compiled searches are compiled every time: there is no cache. {why}")
             case _Certified(id, outcome) if id in self._held:
-                yield self._tell(replace(self._held.pop(id), certificate=outcome))
-            case _Decided(id, verdict) if id in self._told:
+                yield self._report(replace(self._held.pop(id), certificate=outcome))
+            case _Decided(id, verdict) if id in self._reported:
                 self._same(id, verdict)
             case _Decided(id, verdict, system):
                 result = Result(self._left.pop(id), verdict, system)
                 if self._waiting and self._certified(verdict):
                     self._held[id] = result
                 else:
-                    yield self._tell(result)
+                    yield self._report(result)
 
-    def _tell(self, result: Result) -> Result:
-        self._told[result.property.id] = result.verdict.word
+    def _report(self, result: Result) -> Result:
+        self._reported[result.property.id] = result.verdict.word
         return result
 
     def _same(self, id: str, verdict: Verdict) -> None:
         """What was told before a crash must be so after it."""
-        if {self._told[id], verdict.word} == {"proved", "violated"}:
+        if {self._reported[id], verdict.word} == {"proved", "violated"}:
             raise AssertionError(
-                f"{id} was {self._told[id]}, said a search that then crashed over code from the cache "
+                f"{id} was {self._reported[id]}, said a search that then crashed over code from the cache "
                 f"{chosen()}; with code compiled anew it is {verdict.word}. Delete the files *.o there."
             )
 
@@ -245,7 +247,7 @@ class _Returns:
 
         return rests_on_answers(verdict)
 
-    def rest(self, end: PoolEvent) -> Iterator[Heard]:
+    def rest(self, end: PoolEvent) -> Iterator[TaskEvent]:
         """What is left of a search that is over."""
         reason = end.failure or "the search ended without a word on it"
         if end.late and self._seconds is not None and self._doing:
@@ -254,7 +256,7 @@ class _Returns:
             reason = f"{end.failure}, with code compiled anew after a crash with code from the cache"
         yield from (replace(r, certificate=Undecided(reason)) for r in self._held.values())
         yield from (Result(p, Unknown(reason, 0, "none"), p.on) for p in self._left.values())
-        yield Over(self.task)
+        yield SearchEnd(self.task)
 
 
 def _crashed(task: Task, failure: str) -> str:
@@ -293,7 +295,7 @@ class _Deciding:
         systems: Mapping[str, System],
         engine: str | Engine,
         limits: Limits,
-        certifying: "Certifying | None",
+        certifying: "Certification | None",
     ) -> None:
         self._systems = systems
         self._engine = engine
@@ -331,7 +333,7 @@ class _Deciding:
         from rovercheck.checker.verify.portfolio.question import stays
 
         recorder, results, deadline = Recorder(), list[Result](), self._limits.deadline()
-        send(Granted(self._limits.seconds, firm=True))
+        send(GrantedTime(self._limits.seconds, firm=True))
         send(Stage(f"lowering {task.system.name}"))
         if not any(
             lowered(self._systems[name]).checks for name in (task.system.name, task.system.concrete) if name
@@ -348,18 +350,20 @@ class _Deciding:
             ):
                 send(_Stays())
 
-        told = Callbacks(_Calm(send), lambda seconds: send(Granted(seconds)), answered)
-        for one in decide(task, self._systems, self._engine, self._limits, told.progress, told, deadline):
+        callbacks = Callbacks(_Calm(send), lambda seconds: send(GrantedTime(seconds)), answered)
+        for one in decide(
+            task, self._systems, self._engine, self._limits, callbacks.progress, callbacks, deadline
+        ):
             results.append(replace(one, verdict=_light(one.verdict)))
             send(_Decided(one.property.id, results[-1].verdict, one.system))
-        told.granted(None)
+        callbacks.on_budget(None)
         if self._certifying is not None:
             self._certify(send, self._certifying, task, results, recorder.made)
 
     def _certify(
         self,
         send: Send,
-        certifying: "Certifying",
+        certifying: "Certification",
         task: Task,
         results: Sequence[Result],
         made: Sequence["Certificate"],
@@ -386,7 +390,7 @@ class _Calm:
 
 
 def _light(verdict: Verdict) -> Verdict:
-    """The verdict without the valuations that an exhausted search kept."""
+    """The verdict without the states that an exhausted search kept."""
     if isinstance(verdict, Proved | Violated) and isinstance(verdict.because, Exhausted | Inductive):
         from rovercheck.checker.verify.portfolio.question import light_evidence
 

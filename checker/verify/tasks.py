@@ -21,7 +21,7 @@ MOST = 16
 class Task:
     """Properties of one system that are searched together.
 
-    ``recorded`` are the conjuncts of proofs on record, as ``checker.system.formula_json`` writes formulas;
+    ``recorded`` are the conjuncts of recorded proofs, as ``checker.system.formula_json`` writes formulas;
     None if there is no such proof.
     """
 

@@ -19,8 +19,8 @@ MODULES = ("domain", "expr", "words", "time", "action", "chart", "system", "edit
 HEAD = """# Chart language
 
 A chart is a Python file in the words below. Each word stands with its text in the source, and an example;
-beside the example of a formula is the label that it has on an arrow. What has no meaning is refused when it
-is written, with a message that says what to write.
+beside the example of a formula is the label that it has on a transition. What has no meaning is refused when
+it is written, with a message that says what to write.
 
 In what is expected, an `Operand` is a formula, a number or a truth value; a `Number` may be a decimal, and is
 taken as written; a `Span` is a length of time. The examples use
@@ -120,7 +120,7 @@ def example(code: str, scope: dict[str, Any]) -> str:
     value = eval(code, dict(scope))
     label = text(value) if isinstance(value, Expr) and not isinstance(value, Var | Const) else ""
     shown = fenced(code)
-    return f"{shown}\nOn an arrow: `{label}`\n" if label and label != code else shown
+    return f"{shown}\nOn a transition: `{label}`\n" if label and label != code else shown
 
 
 def fenced(code: str) -> str:

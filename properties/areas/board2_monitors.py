@@ -200,7 +200,7 @@ PB2_21n = _alone("PB2-21n", RX, twin_rx_status, "the reception")
 # --- reachability --------------------------------------------------------------------------------------
 
 
-def _arrow(id: str, source: Source, came: str, went: str, text: str) -> Property:
+def _transition(id: str, source: Source, came: str, went: str, text: str) -> Property:
     region, active = source.region, monitor_sources.active
     return reachable(
         id, text,
@@ -209,19 +209,23 @@ def _arrow(id: str, source: Source, came: str, went: str, text: str) -> Property
     )  # fmt: skip
 
 
-REACH_B2_SUP_OK_DEG = _arrow("REACH-B2-SUP-OK-DEG", SUP, "OK", "DEG", "Board 1 can become slow.")
-REACH_B2_SUP_OK_CRIT = _arrow("REACH-B2-SUP-OK-CRIT", SUP, "OK", "CRIT", "Board 1 can fall silent.")
-REACH_B2_SUP_DEG_CRIT = _arrow("REACH-B2-SUP-DEG-CRIT", SUP, "DEG", "CRIT", "A slow Board 1 can fall silent.")
-REACH_B2_SUP_RETURN = _arrow("REACH-B2-SUP-RETURN", SUP, "CRIT", "OK", "Board 1 can recover.")
-REACH_B2_BLE_OK_DEG = _arrow("REACH-B2-BLE-OK-DEG", BLE, "OK", "DEG", "The joystick link can become slow.")
+REACH_B2_SUP_OK_DEG = _transition("REACH-B2-SUP-OK-DEG", SUP, "OK", "DEG", "Board 1 can become slow.")
+REACH_B2_SUP_OK_CRIT = _transition("REACH-B2-SUP-OK-CRIT", SUP, "OK", "CRIT", "Board 1 can fall silent.")
+REACH_B2_SUP_DEG_CRIT = _transition(
+    "REACH-B2-SUP-DEG-CRIT", SUP, "DEG", "CRIT", "A slow Board 1 can fall silent."
+)
+REACH_B2_SUP_RETURN = _transition("REACH-B2-SUP-RETURN", SUP, "CRIT", "OK", "Board 1 can recover.")
+REACH_B2_BLE_OK_DEG = _transition(
+    "REACH-B2-BLE-OK-DEG", BLE, "OK", "DEG", "The joystick link can become slow."
+)
 REACH_B2_RX_DEG_OK = reachable(
     "REACH-B2-RX-DEG-OK", "A slow reception can recover.",
     that=monitor_sources.active("Rx.OK") & previous(monitor_sources.active("Rx.DEG")),
     covers=["B2-FLT-01"], on="check_board1_fading",
 )  # fmt: skip
-REACH_B2_BLE_CRIT = _arrow("REACH-B2-BLE-CRIT", BLE, "OK", "CRIT", "The joystick link can fall silent.")
-REACH_B2_IMU_CRIT = _arrow("REACH-B2-IMU-CRIT", IMU, "OK", "CRIT", "The IMU can fall silent.")
-REACH_B2_RX_CRIT = _arrow("REACH-B2-RX-CRIT", RX, "OK", "CRIT", "The reception can fall silent.")
+REACH_B2_BLE_CRIT = _transition("REACH-B2-BLE-CRIT", BLE, "OK", "CRIT", "The joystick link can fall silent.")
+REACH_B2_IMU_CRIT = _transition("REACH-B2-IMU-CRIT", IMU, "OK", "CRIT", "The IMU can fall silent.")
+REACH_B2_RX_CRIT = _transition("REACH-B2-RX-CRIT", RX, "OK", "CRIT", "The reception can fall silent.")
 NOT_SHARED = ((SUP, twin_sup_status), (IMU, twin_imu_status), (RX, twin_rx_status))
 REACH_B2_TWICE = reachable(
     "REACH-B2-TWICE", "With the same joystick stamps the two boards can differ in everything else.",

@@ -191,11 +191,11 @@ PB2_16k = never(
     covers=["B2-REF-01"], on=TOGGLE, readings=["S59"],
 )  # fmt: skip
 
-# --- every state and every arrow ---------------------------------------------------------------------
+# --- every state and every transition ---------------------------------------------------------------------
 
 
 def _move(id: str, text: str, source: str, target: str, why: Expr, on: str = EXECUTED) -> Property:
-    """A companion: one arrow of the motion chart can be taken."""
+    """A companion: one transition of the motion chart can be taken."""
     chart = motion_supervision_2
     that = all_of(previous(chart.active(source)), chart.active(target), why)
     return reachable(f"REACH2-{id}", text, that=that, covers=["B2-REF-01"], on=on)
@@ -223,7 +223,9 @@ REACH2_ESTOP_IGNORED = reachable(
     that=rotating & previous(rotating & (v_user > 0)) & (cmd == "CMD_ESTOP"),
     covers=["B2-REF-01"], on=EXECUTED, readings=["S63"],
 )  # fmt: skip
-REACH2_N_R = _move("NORMAL-ROTATE", "The arrow of Normale_marcia.", N, R, current_action == "CMD_ROTATE_180")
+REACH2_N_R = _move(
+    "NORMAL-ROTATE", "The transition of Normale_marcia.", N, R, current_action == "CMD_ROTATE_180"
+)
 REACH2_R_N_INV = _move("ROTATED-INVERTED", "The rotation ends, stick pulled back.", R, N, invert_y)
 REACH2_R_N = _move("ROTATED", "The rotation ends, stick not pulled back.", R, N, ~invert_y)
 REACH2_N_F = _move("NORMAL-STOP", "Running ends by an obstacle.", N, F, cmd == "CMD_ESTOP")
@@ -235,7 +237,7 @@ REACH2_M_N = _move("REST-NORMAL", "The stop is released.", M, N, rover_safety_st
 
 
 def _press(id: str, text: str, source: str, target: str, why: Expr = TRUE) -> Property:
-    """A companion: one arrow of the toggle can be taken."""
+    """A companion: one transition of the toggle can be taken."""
     that = previous(toggle_2.active(source)) & toggle_2.active(target) & why
     return reachable(f"REACH2-{id}", text, that=that, covers=["B2-REF-01"], on=TOGGLE, readings=["S59"])
 

@@ -232,11 +232,11 @@ PB1_27h = always(
     covers=["B1-REF-02"], on=TOGGLE, from_tick=2, readings=["S59"],
 )  # fmt: skip
 
-# --- every state and every arrow ---------------------------------------------------------------------
+# --- every state and every transition ---------------------------------------------------------------------
 
 
 def _move(id: str, text: str, source: str, target: str, why: Expr = TRUE) -> Property:
-    """A companion: one arrow of the motion chart can be taken."""
+    """A companion: one transition of the motion chart can be taken."""
     that = previous(motion_supervision.active(source)) & motion_supervision.active(target) & why
     return reachable(f"REACH1-{id}", text, that=that, covers=["B1-ACT-01"], on=EXECUTED, readings=["S60"])
 
@@ -271,15 +271,19 @@ N, SL, SR, EL, ER, R, F, M = (
 )  # fmt: skip
 COMMANDED = (cmd == "CMD_ESTOP") & (rover_safety_state == "SAFETY_OK")
 
-REACH_N_SL = _move("NORMAL-LEFT", "Arrow 1 of Normale_marcia.", N, SL, cmd == "CMD_GO_LEFT")
-REACH_N_EL = _move("NORMAL-AVOID-LEFT", "Arrow 2 of Normale_marcia.", N, EL, cmd == "CMD_AVOID_LEFT")
-REACH_N_ER = _move("NORMAL-AVOID-RIGHT", "Arrow 3 of Normale_marcia.", N, ER, cmd == "CMD_AVOID_RIGHT")
-REACH_N_SR = _move("NORMAL-RIGHT", "Arrow 4 of Normale_marcia.", N, SR, cmd == "CMD_GO_RIGHT")
-REACH_N_R = _move("NORMAL-ROTATE", "Arrow 5 of Normale_marcia.", N, R, y_norm == -1)
-REACH_SL_N = _move("LEFT-NORMAL", "The arrow of Schivata_a_sinistra.", SL, N)
-REACH_SR_N = _move("RIGHT-NORMAL", "The arrow of Schivata_a_destra.", SR, N)
-REACH_EL_N = _move("AVOID-LEFT-NORMAL", "The arrow of Evita_sinistra.", EL, N)
-REACH_ER_N = _move("AVOID-RIGHT-NORMAL", "The arrow of Evita_destra.", ER, N)
+REACH_N_SL = _move("NORMAL-LEFT", "TakenTransition 1 of Normale_marcia.", N, SL, cmd == "CMD_GO_LEFT")
+REACH_N_EL = _move(
+    "NORMAL-AVOID-LEFT", "TakenTransition 2 of Normale_marcia.", N, EL, cmd == "CMD_AVOID_LEFT"
+)
+REACH_N_ER = _move(
+    "NORMAL-AVOID-RIGHT", "TakenTransition 3 of Normale_marcia.", N, ER, cmd == "CMD_AVOID_RIGHT"
+)
+REACH_N_SR = _move("NORMAL-RIGHT", "TakenTransition 4 of Normale_marcia.", N, SR, cmd == "CMD_GO_RIGHT")
+REACH_N_R = _move("NORMAL-ROTATE", "TakenTransition 5 of Normale_marcia.", N, R, y_norm == -1)
+REACH_SL_N = _move("LEFT-NORMAL", "The transition of Schivata_a_sinistra.", SL, N)
+REACH_SR_N = _move("RIGHT-NORMAL", "The transition of Schivata_a_destra.", SR, N)
+REACH_EL_N = _move("AVOID-LEFT-NORMAL", "The transition of Evita_sinistra.", EL, N)
+REACH_ER_N = _move("AVOID-RIGHT-NORMAL", "The transition of Evita_destra.", ER, N)
 REACH_R_N_INV = _move("ROTATED-INVERTED", "The rotation ends, stick pulled back.", R, N, invert_y)
 REACH_R_N = _move("ROTATED", "The rotation ends, stick not pulled back.", R, N, ~invert_y)
 REACH_N_F = _move("NORMAL-STOP", "Normale_marcia is left by CMD_ESTOP.", N, F, COMMANDED)
@@ -292,7 +296,7 @@ REACH_M_N = _move("REST-NORMAL", "The stop is released.", M, N)
 
 
 def _press(id: str, text: str, source: str, target: str, why: Expr) -> Property:
-    """A companion: one arrow of the toggle can be taken."""
+    """A companion: one transition of the toggle can be taken."""
     that = previous(toggle.active(source)) & toggle.active(target) & why
     return reachable(f"REACH1-{id}", text, that=that, covers=["B1-REF-02"], on=TOGGLE, readings=["S59"])
 

@@ -1,6 +1,6 @@
 """What one step makes of the motion of Board 1: the meaning of the stick, the dodges, the turn, the stop.
 
-The stop is tested before the user's command of the step is read, the arrows of running after it.
+The stop is tested before the user's command of the step is read, the transitions of running after it.
 """
 
 from fractions import Fraction

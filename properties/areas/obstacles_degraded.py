@@ -2,11 +2,20 @@
 
 from rovercheck.properties.document.distances import within
 from rovercheck.properties.forms import always, holds_after
-from rovercheck.spec_model.board2.systems import autorized_prev, crit_mask_b1, deg_mask_b1
 from rovercheck.spec_model.lang.expr import any_of, implies, ite
 from rovercheck.spec_model.lang.time import tick
 from rovercheck.spec_model.lang.words import named, once, previous
-from rovercheck.spec_model.signals.board2 import DEG_B1, B2Dec, B2DecDegraded, B2Decision, command, prevDEG_B1
+from rovercheck.spec_model.signals.board2 import (
+    DEG_B1,
+    B2Dec,
+    B2DecDegraded,
+    B2Decision,
+    autorized_prev,
+    command,
+    crit_mask_b1,
+    deg_mask_b1,
+    prevDEG_B1,
+)
 from rovercheck.spec_model.signals.board2_supervisor import B2DecDriving, autorized_to_send_command, cmd
 
 inside_3m = within(300)

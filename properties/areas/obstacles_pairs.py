@@ -94,7 +94,7 @@ def within_the_window(id: str, pair: Pair) -> Property:
     For decision 3, which has two pairs, this is said of the steps in which the other pair cannot
     be the cause.
     """
-    # A window of these two cannot end and open again in one step; saying so needs far fewer valuations.
+    # A window of these two cannot end and open again in one step; saying so needs far fewer states.
     cause = pair.opens if pair in (PAIR_12, PAIR_21) else lost[pair.first - 1]
     others = [p for p in PAIRS if p is not pair and p.decision == pair.decision]
     another = any_of(*(p.was_open & p.confirming for p in others))

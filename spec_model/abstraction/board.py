@@ -108,7 +108,7 @@ class Output:
         return self.signal.name
 
     def expected(self, after: Mapping[str, int]) -> Value | None:
-        """What the firmware must produce, given the valuation of the charts; ``None``: anything."""
+        """What the firmware must produce, given the state of the charts; ``None``: anything."""
         if evaluate(self.unless, after):
             return None
         return units(self.var.domain, after[self.var.name])
@@ -126,7 +126,7 @@ class Writer(Protocol):
     """Concrete inputs that a run of the model stands for, step by step from power-up."""
 
     def step(self, at: Mapping[str, int]) -> dict[str, Value]:
-        """The inputs of a step whose valuation, inputs included, is ``at`` afterwards.
+        """The inputs of a step whose state, inputs included, is ``at`` afterwards.
 
         What the model does not know keeps its initial value.
         """
@@ -155,7 +155,7 @@ class Board:
         return {s.name: s.initial for s in self.inputs}
 
     def expected(self, after: Mapping[str, int]) -> dict[str, Value]:
-        """The outputs that the charts require in a valuation; what they leave open is left out."""
+        """The outputs that the charts require in a state; what they leave open is left out."""
         found = {o.name: o.expected(after) for o in self.outputs}
         return {name: value for name, value in found.items() if value is not None}
 

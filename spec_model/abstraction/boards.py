@@ -8,6 +8,7 @@ from types import MappingProxyType
 from rovercheck.spec_model.abstraction.board import Board
 from rovercheck.spec_model.abstraction.board1 import BOARD1
 from rovercheck.spec_model.abstraction.board2 import BOARD2
+from rovercheck.spec_model.interpretations import woven
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.readings import fixed
 
@@ -35,4 +36,4 @@ def _boards(chosen: tuple[tuple[str, str], ...]) -> Mapping[str, Board]:
             "default readings only; leave this choice out."
         )
     fixing = fixed(choices)
-    return {board.name: replace(board, system=fixing.system(board.system)) for board in BOARDS}
+    return {b.name: replace(b, system=fixing.system(woven(b.system, choices))) for b in BOARDS}

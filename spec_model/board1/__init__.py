@@ -17,15 +17,13 @@ from rovercheck.spec_model.board1.reception import monitor_reception
 from rovercheck.spec_model.board1.relay import relay
 from rovercheck.spec_model.board1.safety import safety_state
 from rovercheck.spec_model.board1.temperature import monitor_temperature
-from rovercheck.spec_model.board1.temperature_ranges import count_range_steps
 from rovercheck.spec_model.board1.wheels import monitor_wheels
-from rovercheck.spec_model.lang.action import assign, when
-from rovercheck.spec_model.lang.chart import Block, Chart, Component, Enabled
-from rovercheck.spec_model.readings import under
-from rovercheck.spec_model.signals.board1 import give_b2_actuation, omega_ref, v_ref
+from rovercheck.spec_model.lang.chart import Chart, Component, Enabled
+from rovercheck.spec_model.lang.words import named
+from rovercheck.spec_model.signals.board1 import give_b2_actuation
 
 LINKS = (*monitor_wheels, monitor_heartbeat, monitor_reception)
-"""The monitors that read how old the last frame is; those of the wheels with S31=IGNORE."""
+"""The monitors of what Board 2 sends and of what its frames carry."""
 
 
 def monitors(links: Sequence[Chart] = LINKS) -> tuple[Component, ...]:
@@ -33,8 +31,8 @@ def monitors(links: Sequence[Chart] = LINKS) -> tuple[Component, ...]:
     return (monitor_temperature, monitor_battery, *links)
 
 
-computed = ~give_b2_actuation | under("S48", "STILL-COMPUTED")
-safety_computed = computed | under("S49", "STOP-AND-GIVE")
+computed = named("Board 1 computes its references", ~give_b2_actuation)
+safety_computed = named("Board 1 computes its safety state", ~give_b2_actuation)
 
 
 def references(*charts: Component) -> Enabled:
@@ -47,23 +45,15 @@ def references(*charts: Component) -> Enabled:
 
 REFERENCES = references(toggle, motion_supervision)
 
-no_references = Block(
-    "No_references",
-    [when(give_b2_actuation & under("S48", "ZERO"), [assign(v_ref, 0), assign(omega_ref, 0)])],
-    text="References that are not computed are 0.",
-)
-
 
 def supervisor(links: Sequence[Chart] = LINKS) -> tuple[Component, ...]:
     """The whole supervisor of Board 1; ``links`` read how old the last frame is."""
     return (
-        count_range_steps,
         *monitors(links),
         fault_masks,
         own_causes,
         process_b2_masks,
         relay,
-        no_references,
         REFERENCES,
     )
 

@@ -4,10 +4,10 @@ from dataclasses import replace
 
 from rovercheck.spec_model import environment_fine as env
 from rovercheck.spec_model.board1 import SUPERVISOR, supervisor
-from rovercheck.spec_model.board1.heartbeat import heartbeat_monitor
+from rovercheck.spec_model.board1.heartbeat import heartbeat_monitor, monitor_heartbeat
 from rovercheck.spec_model.board1.reception import reception_monitor
 from rovercheck.spec_model.board1.systems import FEW_VALUES, HEADINGS, board1
-from rovercheck.spec_model.board1.wheels import monitor_of_wheel
+from rovercheck.spec_model.board1.wheels import monitor_wheels
 from rovercheck.spec_model.environment import reception_clock
 from rovercheck.spec_model.lang.system import System, in_order
 from rovercheck.spec_model.signals import board1 as b1
@@ -27,7 +27,7 @@ STAMPED_LATE = (
 )
 
 reception = reception_monitor(fine.rx_age_ms)
-heartbeat = heartbeat_monitor(fine.heartbeat_age_ms, fine.rx_age_ms)
+heartbeat = heartbeat_monitor(fine.heartbeat_age_ms)
 
 reception_ms = in_order(
     "reception_ms",
@@ -69,12 +69,8 @@ heartbeat_ms_exact = in_order(
     notes=[STAMPS, STAMPED_LATE],
 )
 
-LINKS_MS = (
-    *(monitor_of_wheel(wheel, fine.rx_age_ms) for wheel in b1.WHEELS),
-    heartbeat_monitor(b1.heartbeat_age, fine.rx_age_ms),
-    reception,
-)
-"""The monitors that read the age of the last frame, which may come between the steps; heartbeats on them."""
+LINKS_MS = (*monitor_wheels, monitor_heartbeat, reception)
+"""The monitors of a link whose frames may come between the steps; heartbeats come on them."""
 
 environment = [
     env.reception_at(b1.rx_phase) if part is reception_clock else part

@@ -15,7 +15,7 @@ from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board1_fine as fine
 
 reception = reception_monitor(fine.rx_age_ms)
-heartbeat = heartbeat_monitor(fine.heartbeat_age_ms, fine.rx_age_ms)
+heartbeat = heartbeat_monitor(fine.heartbeat_age_ms)
 
 reception_jitter = in_order(
     "reception_jitter",

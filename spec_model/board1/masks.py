@@ -6,8 +6,7 @@ its own component (S51).  A component has one level, so no bit is in both masks 
 
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block
-from rovercheck.spec_model.lang.expr import Expr, Var, all_of, any_of, const, ite
-from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.lang.expr import Expr, Var, const, ite
 from rovercheck.spec_model.signals.board1 import (
     b1_critical,
     b1_degraded,
@@ -40,34 +39,11 @@ def _mask(bits: list[Expr]) -> Expr:
     return total
 
 
-def _own(status: Var, level: str) -> Expr:
-    """A component has that level; a wheel, perhaps, where it is the level of the worst wheel (S33)."""
-    wheels = wheel_status.values()
-    if all(status is not wheel for wheel in wheels):
-        return status == level
-    worst = any_of(*(wheel == level for wheel in wheels))
-    if level != "WHEEL_CRITICAL_MOTOR":
-        worst = worst & all_of(*(wheel != "WHEEL_CRITICAL_MOTOR" for wheel in wheels))
-    return choose("S33", {"VECTOR": status == level, "AGGREGATE": worst})
-
-
-def _is(status: Var, level: str, printed: str) -> Expr:
-    """A component has that level, or as Table 3 prints it: the temperature, on every row but reception's."""
-    literal = status == level if status is rx_status else temp_status == printed
-    return choose("S51", {"COMPONENT": _own(status, level), "LITERAL": literal})
-
-
-critical_bits = [_is(status, critical, "TEMP_HEALTH_CRITICAL") for status, critical, _ in COMPONENTS]
-degraded_bits = [_is(status, degraded, "TEMP_HEALTH_DEGRADED") for status, _, degraded in COMPONENTS]
-# What is critical is degraded too, where both masks may carry a bit (S52).
-both = under("S52", "BOTH")
-carried = [d | (c & both) for c, d in zip(critical_bits, degraded_bits, strict=True)]
-
 fault_masks = Block(
     "Fault_masks",
     [
-        assign(critical_mask, _mask(critical_bits)),
-        assign(degraded_mask, _mask(carried)),
+        assign(critical_mask, _mask([status == critical for status, critical, _ in COMPONENTS])),
+        assign(degraded_mask, _mask([status == degraded for status, _, degraded in COMPONENTS])),
     ],
     text="The critical and the degraded mask of Board 1 from the eight statuses.",
 )

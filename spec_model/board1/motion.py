@@ -7,14 +7,6 @@ It is the second region of the reference chart, executed after the toggle of bac
 
 from fractions import Fraction
 
-from rovercheck.spec_model.board1.motion_readings import (
-    follow_user,
-    limited,
-    manoeuvre,
-    may_go_on,
-    must_rotate,
-    must_stop,
-)
 from rovercheck.spec_model.lang.action import assign, when
 from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
 from rovercheck.spec_model.lang.expr import const
@@ -29,6 +21,7 @@ from rovercheck.spec_model.signals.board1 import (
     V_MAX_MANEUVER,
     actuate_emergency_stop,
     angle_err,
+    backward_enabled,
     cmd,
     current_action,
     current_yaw,
@@ -49,11 +42,15 @@ from rovercheck.spec_model.signals.board1 import (
     y_norm,
 )
 
+critical = rover_safety_state == "SAFETY_CRITICAL"
+may_move = backward_enabled | (y_norm > 0)
+stop_commanded = (cmd == "CMD_ESTOP") & (v_user > 0) & ~is_rotating180
+
 back_to_normal = to("Normale_marcia", when=cmd == "CMD_NORMAL")
 
 update_user_command = [  # UPD
-    assign(v_user, limited(y_norm, V_MAX)),
-    assign(omega_user, limited(x_norm, OMEGA_MAX)),
+    assign(v_user, y_norm * V_MAX),
+    assign(omega_user, x_norm * OMEGA_MAX),
     turned_around(v_user, invert_y),
 ]
 
@@ -81,7 +78,7 @@ def motion(rotation: Rotation) -> Chart:
                 transitions=[
                     to(
                         "In_frenata_di_emergenza",
-                        when=must_stop,  # S61, S63
+                        when=stop_commanded | critical,  # S61, S63
                         do=[assign(estop_recover_enabled, False)],
                     ),
                 ],
@@ -90,45 +87,46 @@ def motion(rotation: Rotation) -> Chart:
                     State(
                         "Normale_marcia",
                         entry=[assign(current_action, "CMD_NORMAL")],
-                        during=follow_user(omega_user),  # S59
+                        during=[
+                            when(may_move, [assign(v_ref, v_user)], [assign(v_ref, 0)]),  # S59
+                            assign(omega_ref, omega_user),
+                        ],
                         transitions=[
                             to("Schivata_a_sinistra", when=(v_user > 0) & (cmd == "CMD_GO_LEFT")),
                             to("Evita_sinistra", when=(v_user > 0) & (cmd == "CMD_AVOID_LEFT")),
                             to("Evita_destra", when=(v_user > 0) & (cmd == "CMD_AVOID_RIGHT")),
                             to("Schivata_a_destra", when=(v_user > 0) & (cmd == "CMD_GO_RIGHT")),
-                            to("Retromarcia_180", when=must_rotate),
+                            to("Retromarcia_180", when=(y_norm < -0.5) & ~backward_enabled),
                         ],
                     ),
                     State(
                         "Schivata_a_sinistra",
                         entry=[assign(current_action, "CMD_GO_LEFT")],
-                        during=manoeuvre(  # S60
-                            v=minimum(v_user, V_MAX_MANEUVER),
-                            omega=maximum(omega_user, OMEGA_GO_LEFT),
-                            named_turn=OMEGA_GO_LEFT,
-                        ),
+                        during=[
+                            assign(v_ref, minimum(v_user, V_MAX_MANEUVER)),
+                            assign(omega_ref, maximum(omega_user, OMEGA_GO_LEFT)),
+                        ],
                         transitions=[back_to_normal],
                     ),
                     State(
                         "Schivata_a_destra",
                         entry=[assign(current_action, "CMD_GO_RIGHT")],
-                        during=manoeuvre(
-                            v=minimum(v_user, V_MAX_MANEUVER),
-                            omega=minimum(omega_user, OMEGA_GO_RIGHT),
-                            named_turn=OMEGA_GO_RIGHT,
-                        ),
+                        during=[
+                            assign(v_ref, minimum(v_user, V_MAX_MANEUVER)),
+                            assign(omega_ref, minimum(omega_user, OMEGA_GO_RIGHT)),
+                        ],
                         transitions=[back_to_normal],
                     ),
                     State(
                         "Evita_sinistra",
                         entry=[assign(current_action, "CMD_AVOID_LEFT")],
-                        during=manoeuvre(v=v_user, omega=minimum(omega_user, 0)),
+                        during=[assign(v_ref, v_user), assign(omega_ref, minimum(omega_user, 0))],
                         transitions=[back_to_normal],
                     ),
                     State(
                         "Evita_destra",
                         entry=[assign(current_action, "CMD_AVOID_RIGHT")],
-                        during=manoeuvre(v=v_user, omega=maximum(omega_user, 0)),
+                        during=[assign(v_ref, v_user), assign(omega_ref, maximum(omega_user, 0))],
                         transitions=[back_to_normal],
                     ),
                     State(
@@ -158,7 +156,7 @@ def motion(rotation: Rotation) -> Chart:
                 transitions=[
                     to(
                         "Stato_marcia_rover",
-                        when=may_go_on,
+                        when=~critical & estop_recover_enabled,
                         do=[assign(actuate_emergency_stop, False)],  # latched until at rest (S62)
                     ),
                 ],

@@ -3,38 +3,27 @@
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
 from rovercheck.spec_model.lang.expr import Var
-from rovercheck.spec_model.lang.time import sec
-from rovercheck.spec_model.lang.words import duration, named
-from rovercheck.spec_model.readings import choose, under
+from rovercheck.spec_model.lang.words import named
 from rovercheck.spec_model.signals.board1 import rx_age, rx_slow, rx_status
 
 
 def reception_monitor(age: Var) -> Chart:
     """The monitor for an age of the last valid frame in ms, however fine its steps."""
-    silent = choose(
-        "S37", {"GT": named("age_R > 120 ms", age > 120), "GE": named("age_R >= 120 ms", age >= 120)}
-    )
-    # No hold time is given: 1 s, as the monitors of Board 2 have it (E29).
-    released = choose(
-        "S38", {"FIRST-FRESH": True, "MEAN-BASED": ~rx_slow, "HOLD-TIME": duration(~silent) > 1 * sec}
-    )
+    silent = named("age_R > 120 ms", age > 120)
     return Chart(
         "Monitor_reception",
         [
             State("Rx_OK", entry=[assign(rx_status, "RX_OK")], transitions=[to("decide")]),
             State("Rx_DEG", entry=[assign(rx_status, "RX_DEGRADED")], transitions=[to("decide")]),
-            State(
-                "Rx_CRIT", entry=[assign(rx_status, "RX_CRITICAL")], transitions=[to("decide", when=released)]
-            ),
+            State("Rx_CRIT", entry=[assign(rx_status, "RX_CRITICAL")], transitions=[to("decide")]),
         ],
-        default=[to("decide", when=under("S65", "CLASSIFY")), to("Rx_OK")],
+        default=[to("decide"), to("Rx_OK")],
         junctions=[
             Junction(
                 "decide",
                 [
-                    to("Rx_DEG", when=rx_slow & under("S39", "DEG-WINS")),
                     to("Rx_CRIT", when=silent),  # strict (S37); wins over a slow mean (S39)
-                    to("Rx_DEG", when=rx_slow & under("S39", "CRIT-WINS")),
+                    to("Rx_DEG", when=rx_slow),
                     to("Rx_OK"),  # released by the first fresh frame (S38)
                 ],
             )

@@ -7,7 +7,6 @@ Rover_Safe_State first.
 
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
-from rovercheck.spec_model.readings import choose, under
 from rovercheck.spec_model.signals.board1 import (
     b1_critical,
     b1_degraded,
@@ -19,10 +18,6 @@ from rovercheck.spec_model.signals.board1 import (
 critical = b1_critical | b2_critical
 degraded = b1_degraded | b2_degraded
 
-# With both causes the arrows of the figure decide, or the critical one, or the degraded one (S56).
-critical_first = under("S56", "CRIT-FIRST")
-stops = choose("S56", {"CRIT-FIRST": critical, "FIG21": critical, "DEG-FIRST": critical & ~degraded})
-
 safety_state = Chart(
     "Safety_state",
     [
@@ -30,7 +25,7 @@ safety_state = Chart(
             "Rover_Safe_State",
             entry=[assign(rover_safety_state, "SAFETY_OK")],
             transitions=[
-                to("safe_1", when=stops),
+                to("safe_1", when=critical),
                 to("Rover_Degraded_State", when=degraded),
             ],
         ),
@@ -38,15 +33,14 @@ safety_state = Chart(
             "Rover_Degraded_State",
             entry=[assign(rover_safety_state, "SAFETY_DEGRADED")],
             transitions=[
-                to("degraded_3", when=critical_first),
                 to("degraded_1"),
-                to("degraded_3", when=~critical_first),
+                to("degraded_3"),
             ],
         ),
         State(
             "Rover_Critical_State",
             entry=[assign(rover_safety_state, "SAFETY_CRITICAL")],
-            transitions=[to("critical_1", when=~stops)],
+            transitions=[to("critical_1", when=~critical)],
         ),
     ],
     default="Rover_Safe_State",
@@ -54,7 +48,7 @@ safety_state = Chart(
         Junction("safe_1", [to("Rover_Critical_State")]),
         Junction("degraded_1", [to("degraded_2", when=~degraded)]),
         Junction("degraded_2", [to("Rover_Safe_State")]),
-        Junction("degraded_3", [to("Rover_Critical_State", when=stops)]),
+        Junction("degraded_3", [to("Rover_Critical_State", when=critical)]),
         Junction(
             "critical_1",
             [

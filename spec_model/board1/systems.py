@@ -5,7 +5,7 @@ of it holds in the board too, and a counterexample counts when the board has one
 """
 
 from rovercheck.spec_model import environment as env
-from rovercheck.spec_model.board1 import SUPERVISOR, computed, no_references, references, safety_computed
+from rovercheck.spec_model.board1 import SUPERVISOR, computed, references, safety_computed
 from rovercheck.spec_model.board1.backward import toggle
 from rovercheck.spec_model.board1.battery import monitor_battery
 from rovercheck.spec_model.board1.classify import process_b2_masks
@@ -17,7 +17,6 @@ from rovercheck.spec_model.board1.reception import monitor_reception
 from rovercheck.spec_model.board1.relay import relay
 from rovercheck.spec_model.board1.safety import safety_state
 from rovercheck.spec_model.board1.temperature import monitor_temperature
-from rovercheck.spec_model.board1.temperature_ranges import count_range_steps
 from rovercheck.spec_model.board1.wheels import monitor_wheels
 from rovercheck.spec_model.lang.chart import Enabled
 from rovercheck.spec_model.lang.system import Note, System, in_order
@@ -52,7 +51,6 @@ HEADINGS = "Headings are multiples of 2.5 degrees, arbitrary in every frame."
 temperature = in_order(
     "temperature",
     env.temperature_readings,
-    count_range_steps,
     monitor_temperature,
     text="Temperature monitor with readings that arrive or stay away at will.",
     notes=[GRID, FEW_VALUES],
@@ -163,7 +161,6 @@ references_parts = (safety_state, update_safety_limits, motion_with_free_error)
 
 references_for_any_yaw = in_order(
     "references",
-    no_references,
     references(motion_with_free_error),
     text="Safety state, limits and references, for any relay decision, faults, commands and wheel speeds.",
     notes=[FREE_STATUSES, FREE_CAUSES, FREE_BACKWARD, FREE_ERROR],

@@ -1,65 +1,32 @@
 """Temperature monitor of Board 1: how warm is the board, and is anybody still measuring [seed §2.4, Table 2].
 
 The ranges read the last valid temperature, also when it is old (S11, S12); absence of readings counts
-only through the assumed rise (S13).  The words of the rows under other readings: `temperature_ranges`.
+only through the assumed rise (S13).
 """
 
-from rovercheck.spec_model.board1.temperature_ranges import (
-    T_cold,
-    T_hot,
-    absent,
-    assumed_T,
-    critical_for_4_s,
-    critical_range,
-    for_4_s,
-)
+from fractions import Fraction
+
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
-from rovercheck.spec_model.lang.expr import Expr
+from rovercheck.spec_model.lang.expr import const
 from rovercheck.spec_model.lang.time import sec
 from rovercheck.spec_model.lang.words import held, named
-from rovercheck.spec_model.readings import choose, under
-from rovercheck.spec_model.signals.board1 import temp_age, temp_status
+from rovercheck.spec_model.signals.board1 import temp_age, temp_status, temperature_degC
 
 __all__ = ["critical_range", "degraded_range", "monitor_temperature", "ok_range", "stale_above_65"]
 
-ok_range = named("T in ]-5;55[", (T_cold > -5) & (T_hot < 55))
-degraded_range = named(
-    "T in ]-15;-5] or [55;60[", ((T_cold > -15) & (T_cold <= -5)) | ((T_hot >= 55) & (T_hot < 60))
-)
-to_be_degraded = degraded_range | (under("S01", "DEG-WHILE-PENDING") & critical_range)
-to_be_ok = ok_range | (under("S01", "OK-DEFAULT") & critical_range)
+T = temperature_degC
+absent = temp_age >= 500
 
+ok_range = named("T in ]-5;55[", (T > -5) & (T < 55))
+degraded_range = named("T in ]-15;-5] or [55;60[", ((T > -15) & (T <= -5)) | ((T >= 55) & (T < 60)))
+critical_range = named("T in ]-inf;-15] or [60;+inf[", (T <= -15) | (T >= 60))
 
-def stale_above(limit: int) -> Expr:
-    """Readings are absent and the assumed temperature is above the limit."""
-    old = choose("S08", {"EQ": temp_age == 500, "GE": temp_age >= 500, "GT": temp_age > 500})
-    above = choose("S14", {"GT": assumed_T > limit, "GE": assumed_T >= limit})
-    return choose("S07", {"TEMP": old & above, "RATE": False})  # 1 °C/s is never above 65 °C/s
+RISE = const(Fraction(1, 1000), "°C/ms")
+"""The assumed rise without readings, 1 °C/s."""
 
-
-stale_above_65 = choose(
-    "S06",
-    {
-        "AS-WRITTEN": named("stale_above_65", stale_above(65)),
-        "ALL-60": named("stale_above_60", stale_above(60)),
-    },
-)
-estimated = choose("S10", {"INSTANT": stale_above_65, "SUSTAINED": for_4_s(stale_above_65)})
-
-sustained = choose(
-    "S01",
-    {
-        "HOLD": critical_for_4_s,
-        "DEG-WHILE-PENDING": critical_for_4_s,
-        "OK-DEFAULT": critical_for_4_s,
-        "CRIT-AT-ONCE": critical_range,
-    },
-)
-released = choose(
-    "S05",
-    {"IMMEDIATE": True, "SYMMETRIC": held(~critical_range & ~stale_above_65, for_=4 * sec), "LATCH": False},
-)
+assumed_T = named("assumed_T", T + temp_age * RISE)
+stale_above_65 = named("stale_above_65", absent & (assumed_T > 65))
 
 monitor_temperature = Chart(
     "Monitor_temperature",
@@ -77,20 +44,17 @@ monitor_temperature = Chart(
         State(
             "Temp_CRIT",
             entry=[assign(temp_status, "TEMP_HEALTH_CRITICAL")],
-            transitions=[to("decide", when=released)],
+            transitions=[to("decide")],
         ),
     ],
-    default=[  # classified in the very first step (S65)
-        to("decide", when=under("S65", "CLASSIFY")),
-        to("Temp_OK"),
-    ],
+    default=[to("decide"), to("Temp_OK")],  # classified in the very first step (S65)
     junctions=[
         Junction(
             "decide",
             [
-                to("Temp_CRIT", when=sustained | estimated | (under("S13", "TABLE1-CRIT") & absent)),
-                to("Temp_DEG", when=to_be_degraded | (under("S13", "TABLE1-DEG") & absent)),
-                to("Temp_OK", when=to_be_ok),
+                to("Temp_CRIT", when=held(critical_range, for_=4 * sec) | stale_above_65),
+                to("Temp_DEG", when=degraded_range | critical_range),  # also before the 4 s are over (S01)
+                to("Temp_OK", when=ok_range),
             ],
         )
     ],

@@ -28,9 +28,7 @@ from rovercheck.spec_model.signals.board2_supervisor import (
     SourceSignals,
     autorized_to_send_command,
     crit_mask_b1,
-    critical_mask,
     degr_mask_b1,
-    degraded_mask,
 )
 
 
@@ -42,8 +40,6 @@ def obstacle_decision(heading: Heading = FREE) -> tuple[Component, ...]:
         deg_mask_b1=degr_mask_b1 != 0,
         crit_mask_b1=crit_mask_b1 != 0,
         autorized=autorized_to_send_command,
-        deg_mask_b2=degraded_mask != 0,
-        crit_mask_b2=critical_mask != 0,
     )
 
 

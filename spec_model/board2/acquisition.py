@@ -11,11 +11,9 @@ from fractions import Fraction
 from rovercheck.spec_model.lang.action import Action, assign, when
 from rovercheck.spec_model.lang.chart import Block, Chart, State, to
 from rovercheck.spec_model.lang.domain import boolean, chosen, fixed, integer
-from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var, all_of, any_of, const, flag, ite, var
+from rovercheck.spec_model.lang.expr import FALSE, TRUE, Expr, Var, any_of, const, flag, ite, var
 from rovercheck.spec_model.lang.time import ms
 from rovercheck.spec_model.lang.words import absolute, after, maximum, minimum, modulo, named, quotient
-from rovercheck.spec_model.readings import choose, under
-from rovercheck.spec_model.signals.board2 import sonar_fault
 
 # --- sonar ---------------------------------------------------------------------------------------
 
@@ -53,20 +51,16 @@ period = Block("SonarPeriod", [
 NO_ECHO = 301
 
 
-def _centimetres(old: Var, seen: Var, pulse: Var) -> Expr:
-    """58 µs for each cm, rounded down; without an echo the sonar counts as free (E13).
-
-    HOLD: a scan without all three echoes leaves the old values; NEAR: as an obstacle at 70 cm.
-    """
-    measured = quotient(pulse, 58) * const(1, "cm/µs")
-    free, near = ite(seen, measured, const(NO_ECHO, "cm")), ite(seen, measured, const(70, "cm"))
-    held = ite(all_of(*flags), measured, old)
-    return choose("E13", {"FAR": free, "HOLD": held, "NEAR": near, "FAULT": free})
+def centimetres(pulse: Var) -> Expr:
+    """58 µs for each cm, rounded down."""
+    return quotient(pulse, 58) * const(1, "cm/µs")
 
 
 publish: list[Action] = [
-    *(assign(d, _centimetres(d, s, p)) for d, s, p in zip(distance, flags, captured, strict=True)),
-    when(under("E13", "FAULT"), [assign(sonar_fault, ~all_of(*flags))]),
+    *(  # without an echo the sonar counts as free (E13)
+        assign(d, ite(seen, centimetres(pulse), const(NO_ECHO, "cm")))
+        for d, seen, pulse in zip(distance, flags, captured, strict=True)
+    ),
     assign(published, TRUE),
 ]
 start = [*(assign(seen, FALSE) for seen in flags), assign(count, 0)]
@@ -110,8 +104,6 @@ def axis(raw: Var) -> Expr:
     return ite(absolute(scaled) < const(Fraction(1, 10)), 0, maximum(minimum(scaled, 1), -1))
 
 
-neutral = [assign(axis_x, 0), assign(axis_y, 0), assign(button1, FALSE), assign(button2, FALSE)]
-
 ble_task = Block("BleTask", [
     assign(ticks, modulo(ticks + 1, CLOCK)),
     when(complete, [
@@ -120,6 +112,6 @@ ble_task = Block("BleTask", [
         assign(axis_y, axis(raw_y)),
         assign(button1, raw_btn1),
         assign(button2, raw_btn2),
-    ], [when(under("E28", "NEUTRAL"), neutral)]),
+    ]),
     assign(last_run, ticks),
 ], text="An incomplete read keeps the old data (E28)")  # fmt: skip

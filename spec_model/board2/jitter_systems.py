@@ -14,6 +14,7 @@ from rovercheck.spec_model.board2.obstacles import obstacles_n
 from rovercheck.spec_model.board2.slow2 import Record, exact_ms, forgotten
 from rovercheck.spec_model.board2.systems import AS_DRAWN, FREE_HEADING, TURNS
 from rovercheck.spec_model.environment_fine import clock
+from rovercheck.spec_model.interpretations import woven
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
 from rovercheck.spec_model.lang.expiry import free_timers
@@ -148,7 +149,7 @@ obstacles_passing_jitter = in_order(
 
 window_jitter = replace(
     free_timers(
-        replace(AS_DRAWN, elapsed=env.step_ms, notes=(env.JITTER, *AS_DRAWN.notes)),
+        replace(woven(AS_DRAWN), elapsed=env.step_ms, notes=(env.JITTER, *AS_DRAWN.notes)),
         (*TURNS, "timerSonar12"),
         name="obstacles_n_12_jitter",
         text="As obstacles_n_12, in steps of 19 to 21 ms.",

@@ -12,7 +12,6 @@ from rovercheck.spec_model.lang.chart import Block, Chart, State, to
 from rovercheck.spec_model.lang.expr import Expr
 from rovercheck.spec_model.lang.time import Span, sec
 from rovercheck.spec_model.lang.words import duration, named
-from rovercheck.spec_model.readings import choose
 from rovercheck.spec_model.signals.board2_supervisor import SOURCES, SUP, SourceSignals
 
 
@@ -21,9 +20,9 @@ def silent(source: SourceSignals) -> Expr:
     return named(f"now_ms - ts > {source.limit} ms", source.age > source.limit)
 
 
-def recovered(source: SourceSignals, rest: Span, at_once: Expr) -> Expr:
-    """The gaps have been short enough for longer than ``rest``, or ``at_once`` (E29)."""
-    return choose("E29", {"HYST": duration(~source.deg) > rest, "INSTANT": at_once})
+def recovered(source: SourceSignals, rest: Span) -> Expr:
+    """The gaps have been short enough for longer than ``rest`` (E29)."""
+    return duration(~source.deg) > rest
 
 
 def from_critical(source: SourceSignals) -> Span:
@@ -39,11 +38,11 @@ def _region(source: SourceSignals, slow2: Slow2) -> State:
             to("CRIT", when=silent(source)),
         ]),
         State("DEG", entry=[assign(source.status, degraded)], during=slow2.ask, transitions=[
-            to("OK", when=recovered(source, 1 * sec, ~source.deg)),
+            to("OK", when=recovered(source, 1 * sec)),
             to("CRIT", when=silent(source)),
         ]),
         State("CRIT", entry=[assign(source.status, critical)], during=slow2.ask, transitions=[
-            to("OK", when=recovered(source, from_critical(source), ~silent(source))),
+            to("OK", when=recovered(source, from_critical(source))),
         ]),
     ])  # fmt: skip
 

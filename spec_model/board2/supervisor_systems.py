@@ -22,6 +22,7 @@ from rovercheck.spec_model.board2.selection import selection
 from rovercheck.spec_model.board2.slow2 import exact, forgotten, gaps_of
 from rovercheck.spec_model.environment2 import scanned
 from rovercheck.spec_model.environment_fine import CONSTANT_PHASE
+from rovercheck.spec_model.interpretations import woven
 from rovercheck.spec_model.lang.action import assign, when
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
 from rovercheck.spec_model.lang.expiry import free_timers
@@ -77,14 +78,16 @@ check_links_exact = in_order(
 )
 
 check_links = free_timers(
-    in_order(
-        "check_board1_links_free",
-        *watching(LINKS, forgotten),
-        check_board1,
-        assume=env.heartbeat_travels_in_frames,
-        notes=[GRID, WITH_FRAMES, FORGOTTEN, "Requests to switch are free in every step."],
-        over=True,
-        concrete="check_board1_links",
+    woven(
+        in_order(
+            "check_board1_links_free",
+            *watching(LINKS, forgotten),
+            check_board1,
+            assume=env.heartbeat_travels_in_frames,
+            notes=[GRID, WITH_FRAMES, FORGOTTEN, "Requests to switch are free in every step."],
+            over=True,
+            concrete="check_board1_links",
+        )
     ),
     ["Check_Board1"],
     name="check_board1_links_free",
@@ -263,8 +266,6 @@ def _obstacles_and_monitors() -> tuple[Component, ...]:
         deg_mask_b1=b2.degr_mask_b1 != 0,
         crit_mask_b1=b2.crit_mask_b1 != 0,
         autorized=b2.autorized_to_send_command,
-        deg_mask_b2=b2.degraded_mask != 0,
-        crit_mask_b2=b2.critical_mask != 0,
     )
     return (*charts, *RECORDS, monitor_sources, fault_masks_2, process_masks, check_board1)
 

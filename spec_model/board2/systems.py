@@ -5,17 +5,12 @@ from rovercheck.spec_model.board2.obstacles import WINDOWS, obstacles_n
 from rovercheck.spec_model.board2.obstacles_degraded import obstacles_degraded
 from rovercheck.spec_model.board2.selection import selection
 from rovercheck.spec_model.environment2 import scan_phase, sonar_scan, turns_as_told
+from rovercheck.spec_model.interpretations import woven
 from rovercheck.spec_model.lang.chart import Chart, Component
 from rovercheck.spec_model.lang.expiry import free_timers
-from rovercheck.spec_model.lang.expr import Expr, flag
+from rovercheck.spec_model.lang.expr import Expr
 from rovercheck.spec_model.lang.system import System, in_order
-from rovercheck.spec_model.signals.board2 import d1, d2, d3
-
-deg_mask_b1 = flag("deg_mask_b1", "the degraded mask last received from Board 1 is not zero")
-crit_mask_b1 = flag("crit_mask_b1", "the critical mask last received from Board 1 is not zero")
-autorized_prev = flag("autorized_prev", "Board 2 was authorised to move the rover in the step before")
-own_deg_mask = flag("own_deg_mask", "the degraded mask of Board 2 was not zero in the step before")
-own_crit_mask = flag("own_crit_mask", "the critical mask of Board 2 was not zero in the step before")
+from rovercheck.spec_model.signals.board2 import autorized_prev, crit_mask_b1, d1, d2, d3, deg_mask_b1
 
 ARBITRARY = "The three distances are arbitrary in every step, on both sides of 70, 100 and 300 cm."
 FREE_FLAG = "prevDEG_B1 is arbitrary in every step."
@@ -41,8 +36,6 @@ def _selected(chart: Chart) -> tuple[Component, ...]:
         deg_mask_b1=deg_mask_b1,
         crit_mask_b1=crit_mask_b1,
         autorized=autorized_prev,
-        deg_mask_b2=own_deg_mask,
-        crit_mask_b2=own_crit_mask,
     )
 
 
@@ -104,13 +97,13 @@ TURNS = ("MoveToS1", "MoveToS3")
 def _counting(*kept: str, name: str, text: str) -> System:
     """The non-degraded chart alone; only the timers of the states named are counted."""
     return free_timers(
-        AS_DRAWN, (*TURNS, *kept), name=name, text=f"The non-degraded obstacle chart alone; {text}"
+        woven(AS_DRAWN), (*TURNS, *kept), name=name, text=f"The non-degraded obstacle chart alone; {text}"
     )
 
 
 def _free(system: System) -> System:
     name, text = f"{system.name}_free", f"As {system.name}; every timed stay ends at will."
-    return free_timers(system, TURNS, name=name, text=text)
+    return free_timers(woven(system), TURNS, name=name, text=text)
 
 
 SYSTEMS: tuple[System, ...] = (

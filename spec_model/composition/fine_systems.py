@@ -22,6 +22,7 @@ from rovercheck.spec_model.composition.tasks import (
     phases,
     task,
 )
+from rovercheck.spec_model.interpretations import woven
 from rovercheck.spec_model.lang.action import assign, when
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
 from rovercheck.spec_model.lang.domain import fixed
@@ -58,7 +59,7 @@ def _chain(
         tick_ms=MILLISECOND,
         step_ms=TICK_MS,
     )
-    return replace(free_timers(exact, name=name, text=text), concrete="")
+    return replace(free_timers(woven(exact), name=name, text=text), concrete="")
 
 
 sup1, sup2 = task("SUP1", at_zero=True), task("SUP2")

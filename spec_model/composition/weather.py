@@ -198,14 +198,14 @@ HEARD = ("joystick", "imu", "link21", "supervisor2", "wheel", "hot", "flat")
 """Second faults with which Board 2 still hears Board 1."""
 
 FIRST_HEARD = [BY_NAME[name] for name in ("near", "hot", "flat", "link21")]
-"""Others of which one may be for good.  With a Board 2 that hears nothing they have more valuations than
+"""Others of which one may be for good.  With a Board 2 that hears nothing they have more states than
 8 GiB hold (tried with an obstacle)."""
 
 PAIRS = [(BY_NAME[first], "link21") for first in ("joystick", "imu", "link12", "near")]
 """A source or link that is dead, or an obstacle, and a frame of Board 2 that is lost, or all from then on."""
 
 STEERED_TOO = [BY_NAME[name] for name in ("joystick", "imu", "supervisor2", "wheel", "hot", "flat")]
-"""Faults with which the rover is steered at will.  Where Board 2 drives, its ramp has too many valuations to
+"""Faults with which the rover is steered at will.  Where Board 2 drives, its ramp has too many states to
 be enumerated (a dead link to Board 1: more than 84 million); the others degrade late, or stop nothing."""
 
 SYSTEMS: tuple[System, ...] = (

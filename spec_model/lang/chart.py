@@ -1,8 +1,8 @@
-"""Charts as they are drawn: states in states, junctions, arrows with guards, actions and priorities.
+"""Charts as they are drawn: states in states, junctions, transitions with guards, actions and priorities.
 
 A ``Chart`` is a tree of ``State``s.  A state with ``states`` is composite: exclusive (OR) by
-default, parallel (AND) with ``parallel=True``.  Arrows are listed in priority order, first tested
-first; an arrow ends on a state or on a junction, whose own arrows are again in priority order.
+default, parallel (AND) with ``parallel=True``.  Transitions are listed in priority order, first tested
+first; a transition ends on a state or on a junction, whose own transitions are again in priority order.
 A ``Block`` is a function block: actions run once in every step, with no states.
 """
 
@@ -29,7 +29,7 @@ NOWHERE = "-"
 
 @dataclass(frozen=True)
 class Transition:
-    """One segment of an arrow: ``event [guard] {condition action} / transition action -> target``.
+    """One segment of a transition: ``event [guard] {condition action} / transition action -> target``.
 
     ``place`` is where it is written.
     """
@@ -49,18 +49,18 @@ def to(
     do: Sequence[Action] = (),
     then: Sequence[Action] = (),
 ) -> Transition:
-    """An arrow to a state or junction, by name.
+    """A transition to a state or junction, by name.
 
     ``when`` is the guard, ``on`` the local event, ``do`` the condition action (run as soon as the
     segment is found valid) and ``then`` the transition action (run only on a complete path).
     """
-    of = f"the arrow to {target!r}"
+    of = f"the transition to {target!r}"
     return Transition(target, when, on, several(of, "do", do), several(of, "then", then), here())
 
 
 @dataclass(frozen=True)
 class Junction:
-    """A connective junction; its arrows are tested in order (rule G7)."""
+    """A connective junction; its transitions are tested in order (rule G7)."""
 
     name: str
     transitions: tuple[Transition, ...]
@@ -87,7 +87,7 @@ def _default(
             return several(of, "default", default)
         case _:
             raise ModelError(
-                f"{of}: default={brief(default)}; write the name of a state, or an arrow to one."
+                f"{of}: default={brief(default)}; write the name of a state, or a transition to one."
             )
 
 
@@ -95,8 +95,8 @@ def _default(
 class State:
     """A state and what is inside it.
 
-    ``default`` is the default transition of an exclusive composite: a state's name, an arrow, or
-    several arrows in priority order.  Junctions belong to the composite they are drawn in.  ``place`` is
+    ``default`` is the default transition of an exclusive composite: a state's name, a transition, or
+    several transitions in priority order.  Junctions belong to the composite they are drawn in.  ``place`` is
     where it is written, unless given the line that makes it.
     """
 
@@ -179,7 +179,13 @@ class Chart:
 
     def with_local_data(self, local_to: Sequence[tuple[Var, Sequence[str]]]) -> "Chart":
         """The chart with other data that mean something only in some states."""
-        level = self.root
+        return self._with(self.root, local_to)
+
+    def with_root(self, root: State) -> "Chart":
+        """The chart with another outermost level."""
+        return self._with(root, self.local_to)
+
+    def _with(self, level: State, local_to: Sequence[tuple[Var, Sequence[str]]]) -> "Chart":
         return Chart(
             self.name, level.states, default=level.default, junctions=level.junctions,
             parallel=level.parallel, text=self.text, local_to=local_to, place=level.place,
@@ -223,7 +229,7 @@ class Chart:
         raise ModelError(f"{self.name} has {len(found)} states named {name!r}; write one of: {options}.")
 
     def resolve(self, level: Path, name: str) -> Path | None:
-        """What an arrow drawn at ``level`` means by ``name``: the nearest match, looking outward."""
+        """What a transition drawn at ``level`` means by ``name``: the nearest match, looking outward."""
         wanted = tuple(name.split("."))
         for depth in range(len(level), -1, -1):
             candidate = (*level[:depth], *wanted)
@@ -299,19 +305,19 @@ class Chart:
         found: list[Action] = []
         for state in self.states.values():
             found += [*state.entry, *state.during, *state.exit]
-        for arrow in self.arrows:
-            found += [*arrow.do, *arrow.then]
+        for transition in self.transitions:
+            found += [*transition.do, *transition.then]
         return tuple(found)
 
     @cached_property
-    def arrows(self) -> tuple[Transition, ...]:
+    def transitions(self) -> tuple[Transition, ...]:
         """Every segment of the chart, default transitions included."""
         found = [t for s in self.states.values() for t in (*s.default, *s.transitions)]
         return tuple(found + [t for j in self.junctions.values() for t in j.transitions])
 
     @property
     def guards(self) -> list[Expr]:
-        return [t.guard for t in self.arrows if t.guard is not None]
+        return [t.guard for t in self.transitions if t.guard is not None]
 
     @property
     def expressions(self) -> list[Expr]:

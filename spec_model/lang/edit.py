@@ -3,7 +3,7 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from rovercheck.spec_model.lang.action import Action, Assign, If
+from rovercheck.spec_model.lang.action import Action, Assign, If, assign
 from rovercheck.spec_model.lang.chart import (
     Block,
     Chart,
@@ -22,17 +22,10 @@ from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.time import Span
 
 __all__ = [
-    "also", "arrow", "arrows", "begin", "constant", "drop", "edit_at", "edit_junction", "edit_state", "entry",
-    "everywhere", "guard", "in_actions", "in_block", "in_expressions", "in_system", "instead", "operator",
-    "swap", "timer",
+    "also", "begin", "constant", "drop", "edit_at", "edit_junction", "edit_state", "edit_transition",
+    "edit_transitions", "entry", "everywhere", "guard", "in_actions", "in_block", "in_expressions",
+    "in_system", "instead", "operator", "swap", "timer",
 ]  # fmt: skip
-
-
-def _rebuilt(chart: Chart, root: State) -> Chart:
-    return Chart(
-        chart.name, root.states, default=root.default, junctions=root.junctions,
-        parallel=root.parallel, text=chart.text, local_to=chart.local_to, place=root.place,
-    )  # fmt: skip
 
 
 def edit_state(chart: Chart, name: str, change: Callable[[State], State]) -> Chart:
@@ -42,7 +35,7 @@ def edit_state(chart: Chart, name: str, change: Callable[[State], State]) -> Cha
 
 def edit_at(chart: Chart, path: Path, change: Callable[[State], State]) -> Chart:
     """The chart with one state changed, by its path; the empty path is the outermost level."""
-    return _rebuilt(chart, _down(chart.root, path, change))
+    return chart.with_root(_down(chart.root, path, change))
 
 
 def _down(state: State, path: tuple[str, ...], change: Callable[[State], State]) -> State:
@@ -53,36 +46,47 @@ def _down(state: State, path: tuple[str, ...], change: Callable[[State], State])
 
 
 def edit_junction(chart: Chart, name: str, change: Callable[[Junction], Junction]) -> Chart:
-    """The chart with one junction changed, wherever it is drawn."""
+    """The chart with one junction changed, wherever it is drawn; ``"Waiting_S1.J0"`` in that state only."""
+    wanted = tuple(name.split("."))
 
-    def walk(state: State) -> State:
+    def walk(path: Path, state: State) -> State:
         return replace(
             state,
-            states=tuple(walk(s) for s in state.states),
-            junctions=tuple(change(j) if j.name == name else j for j in state.junctions),
+            states=tuple(walk((*path, s.name), s) for s in state.states),
+            junctions=tuple(change(j) if _ends((*path, j.name), wanted) else j for j in state.junctions),
         )
 
-    if not any(j.name == name for j in chart.junctions.values()):
+    if not _is_junction(chart, name):
         raise ModelError(f"{chart.name} has no junction {name!r}; name a junction that is drawn in it.")
-    return _rebuilt(chart, walk(chart.root))
+    return chart.with_root(walk((), chart.root))
 
 
-def arrows(chart: Chart, name: str, change: Callable[[list[Transition]], list[Transition]]) -> Chart:
-    """The chart with the arrows of a state or junction changed."""
-    if any(j.name == name for j in chart.junctions.values()):
+def _is_junction(chart: Chart, name: str) -> bool:
+    return any(_ends(path, tuple(name.split("."))) for path in chart.junctions)
+
+
+def _ends(path: Path, wanted: Path) -> bool:
+    return path[-len(wanted) :] == wanted
+
+
+def edit_transitions(
+    chart: Chart, name: str, change: Callable[[list[Transition]], list[Transition]]
+) -> Chart:
+    """The chart with the transitions of a state or junction changed."""
+    if _is_junction(chart, name):
         return edit_junction(chart, name, lambda j: Junction(j.name, change(list(j.transitions))))
     return edit_state(chart, name, lambda s: replace(s, transitions=tuple(change(list(s.transitions)))))
 
 
 def also(chart: Chart, name: str, *more: Transition, first: bool = False) -> Chart:
-    """More arrows of a state or junction, tested after those drawn, or before them (``first``)."""
-    return arrows(chart, name, lambda found: [*more, *found] if first else [*found, *more])
+    """More transitions of a state or junction, tested after those drawn, or before them (``first``)."""
+    return edit_transitions(chart, name, lambda found: [*more, *found] if first else [*found, *more])
 
 
 def begin(chart: Chart, default: Sequence[Transition], junctions: Sequence[Junction] = ()) -> Chart:
-    """Other default arrows of the outermost level, with junctions that they lead to."""
+    """Other default transitions of the outermost level, with junctions that they lead to."""
     root = chart.root
-    return _rebuilt(chart, replace(root, default=tuple(default), junctions=(*root.junctions, *junctions)))
+    return chart.with_root(replace(root, default=tuple(default), junctions=(*root.junctions, *junctions)))
 
 
 def swap(chart: Chart, name: str, first: int = 1, second: int = 2) -> Chart:
@@ -92,28 +96,30 @@ def swap(chart: Chart, name: str, first: int = 1, second: int = 2) -> Chart:
         found[first - 1], found[second - 1] = found[second - 1], found[first - 1]
         return found
 
-    return arrows(chart, name, exchanged)
+    return edit_transitions(chart, name, exchanged)
 
 
-def arrow(chart: Chart, name: str, order: int, change: Callable[[Transition], Transition]) -> Chart:
-    """One arrow changed, by its priority."""
-    return arrows(chart, name, lambda found: [change(t) if i == order else t for i, t in enumerate(found, 1)])
+def edit_transition(chart: Chart, name: str, order: int, change: Callable[[Transition], Transition]) -> Chart:
+    """One transition changed, by its priority."""
+    return edit_transitions(
+        chart, name, lambda found: [change(t) if i == order else t for i, t in enumerate(found, 1)]
+    )
 
 
 def drop(chart: Chart, name: str, order: int) -> Chart:
-    """One arrow removed."""
-    return arrows(chart, name, lambda found: [t for i, t in enumerate(found, 1) if i != order])
+    """One transition removed."""
+    return edit_transitions(chart, name, lambda found: [t for i, t in enumerate(found, 1) if i != order])
 
 
 def guard(chart: Chart, name: str, order: int, change: Callable[[Expr], Expr]) -> Chart:
-    """The guard of one arrow changed."""
+    """The guard of one transition changed."""
 
     def changed(segment: Transition) -> Transition:
         if segment.guard is None:
-            raise ModelError(f"{chart.name}: arrow {order} of {name} has no guard to change.")
+            raise ModelError(f"{chart.name}: transition {order} of {name} has no guard to change.")
         return replace(segment, guard=change(segment.guard))
 
-    return arrow(chart, name, order, changed)
+    return edit_transition(chart, name, order, changed)
 
 
 def everywhere(expr: Expr, change: Callable[[Expr], Expr]) -> Expr:
@@ -203,7 +209,7 @@ def _everything(
     guarded: Callable[[Expr], Expr],
     acts: Callable[[tuple[Action, ...]], tuple[Action, ...]],
 ) -> Chart:
-    def arrow(segment: Transition) -> Transition:
+    def transition(segment: Transition) -> Transition:
         changed = None if segment.guard is None else guarded(segment.guard)
         return replace(segment, guard=changed, do=acts(segment.do), then=acts(segment.then))
 
@@ -212,18 +218,21 @@ def _everything(
             state,
             entry=acts(state.entry), during=acts(state.during), exit=acts(state.exit),
             states=tuple(walk(s) for s in state.states),
-            transitions=tuple(map(arrow, state.transitions)), default=tuple(map(arrow, state.default)),
-            junctions=tuple(Junction(j.name, list(map(arrow, j.transitions))) for j in state.junctions),
+            transitions=tuple(map(transition, state.transitions)),
+            default=tuple(map(transition, state.default)),
+            junctions=tuple(Junction(j.name, list(map(transition, j.transitions))) for j in state.junctions),
         )  # fmt: skip
 
-    return _rebuilt(chart, walk(chart.root))
+    return chart.with_root(walk(chart.root))
 
 
 def _acts(actions: tuple[Action, ...], change: Callable[[Expr], Expr]) -> tuple[Action, ...]:
     out: list[Action] = []
     for action in actions:
         if isinstance(action, Assign):
-            out.append(Assign(action.var, change(action.value)))
+            value = change(action.value)
+            same = value.sort == action.value.sort
+            out.append(Assign(action.var, value) if same else assign(action.var, value))
         elif isinstance(action, If):
             then, otherwise = _acts(action.then, change), _acts(action.otherwise, change)
             out.append(If(change(action.condition), then, otherwise))
@@ -260,3 +269,7 @@ def in_system(system: System, part: str, change: Callable[[Chart | Block], Chart
     if hits != 1:
         raise ModelError(f"{system.name} has {hits} parts named {part!r}; name one of its charts or blocks.")
     return changed
+
+
+# The names that these had: what imports them keeps working.
+arrow, arrows = edit_transition, edit_transitions

@@ -10,7 +10,7 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 
 
 def evaluate(expr: Expr, at: Mapping[str, int]) -> int:
-    """The raw value of a formula without temporal words in a valuation (booleans are 0 and 1)."""
+    """The raw value of a formula without temporal words in a state (booleans are 0 and 1)."""
     if isinstance(expr, Apply):
         op, args = expr.op, expr.args
         if op is _AND:
@@ -26,8 +26,8 @@ def evaluate(expr: Expr, at: Mapping[str, int]) -> int:
         if op is _ITE:
             return evaluate(args[1] if evaluate(args[0], at) else args[2], at)
         if len(args) == 2:
-            return _OPERATORS[op](evaluate(args[0], at), evaluate(args[1], at))
-        return _OPERATORS[op](*[evaluate(arg, at) for arg in args])
+            return OPERATIONS[op](evaluate(args[0], at), evaluate(args[1], at))
+        return OPERATIONS[op](*[evaluate(arg, at) for arg in args])
     if isinstance(expr, Var):
         return at[expr.name]
     if isinstance(expr, Const):
@@ -44,10 +44,10 @@ _AND, _OR, _ITE = Op.AND, Op.OR, Op.ITE  # an attribute of an enumeration costs 
 
 def operate(op: Op, *v: int) -> int:
     """An operator on raw values, all of them known."""
-    return _OPERATORS[op](*v)
+    return OPERATIONS[op](*v)
 
 
-_OPERATORS: Mapping[Op, Callable[..., int]] = {
+OPERATIONS: Mapping[Op, Callable[..., int]] = {
     Op.NOT: lambda a: 1 - a,
     Op.AND: lambda *v: int(all(v)),
     Op.OR: lambda *v: int(any(v)),
@@ -84,7 +84,7 @@ def run(program: Sequence[Action], at: MutableMapping[str, int]) -> None:
 
 
 def step(system: TransitionSystem, before: Mapping[str, int], inputs: Mapping[str, int]) -> dict[str, int]:
-    """The valuation after one tick: ``before`` with every variable that the step writes updated.
+    """The state after one tick: ``before`` with every variable that the step writes updated.
 
     ``before`` holds the variables and the frozen variables; the result holds these and the inputs.
     """

@@ -1,4 +1,4 @@
-"""Free expiry: a system whose timers may run out at any moment, so that counters need no memory.
+"""Free expiry: a system whose timers may expire at any time, so that counters need no memory.
 
 The counter behind a temporal word only ever rises tick by tick or returns to 0.  The pass keeps what
 its first tick tells and leaves the rest to a free input:
@@ -24,7 +24,7 @@ from rovercheck.spec_model.lang.walk import nodes, structure
 from rovercheck.spec_model.lang.words import named
 
 Counter = tuple[Path, When, tuple[object, ...]]
-"""What counts: the state whose arrows ask (none for ``held``), the word, its condition."""
+"""What counts: the state whose transitions ask (none for ``held``), the word, its condition."""
 
 Change = Callable[[Expr], Expr]
 
@@ -48,7 +48,7 @@ def free_timers(system: System, keep: Collection[str] = (), *, name: str = "", t
     return replace(
         system,
         name=name or f"{system.name}~free",
-        text=text or f"As {system.name}; timers run out at will.",
+        text=text or f"As {system.name}; timers may expire at any time.",
         components=tuple(_components(system.components, {id(c): free.chart() for c, free in charts})),
         notes=(*system.notes, _note(freed)),
         over=True,
@@ -117,7 +117,7 @@ class Expiry:
                     self._note(node, source)
 
     def _formulas(self) -> Iterator[tuple[Expr, Path | None]]:
-        """Every formula with the state its arrow leaves, where that is one state only."""
+        """Every formula with the state its transition leaves, where that is one state only."""
         for path, state in self.original.states.items():
             yield from ((t.guard, path) for t in state.transitions if t.guard is not None)
         for path, junction in self.original.junctions.items():
@@ -171,14 +171,14 @@ class Expiry:
             during=_actions(state.during, plain),
             exit=_actions(state.exit, plain),
             states=tuple(self._state((*path, s.name), s) for s in state.states),
-            transitions=_arrows(state.transitions, own, plain),
-            default=_arrows(state.default, plain, plain),
+            transitions=_transitions(state.transitions, own, plain),
+            default=_transitions(state.default, plain, plain),
             junctions=tuple(self._junction((*path, j.name), j) for j in state.junctions),
         )
 
     def _junction(self, path: Path, junction: Junction) -> Junction:
         own = self._change(self.leaving.get(path))
-        return Junction(junction.name, _arrows(junction.transitions, own, self._change(None)))
+        return Junction(junction.name, _transitions(junction.transitions, own, self._change(None)))
 
     def _change(self, source: Path | None) -> Change:
         return lambda expr: self._replaced(expr, source) if _asks(expr) else expr
@@ -229,7 +229,7 @@ def _sources(chart: Chart) -> dict[Path, Path]:
     return {junction: sources.pop() for junction, sources in leading.items() if len(sources) == 1}
 
 
-def _arrows(arrows: Sequence[Transition], own: Change, plain: Change) -> tuple[Transition, ...]:
+def _transitions(transitions: Sequence[Transition], own: Change, plain: Change) -> tuple[Transition, ...]:
     return tuple(
         replace(
             t,
@@ -237,7 +237,7 @@ def _arrows(arrows: Sequence[Transition], own: Change, plain: Change) -> tuple[T
             do=_actions(t.do, plain),
             then=_actions(t.then, plain),
         )
-        for t in arrows
+        for t in transitions
     )
 
 

@@ -1,20 +1,14 @@
-"""Print expressions and actions the way Stateflow writes them on an arrow."""
+"""Print expressions and actions the way Stateflow writes them on a transition."""
 
 import re
+from collections.abc import Callable, Mapping, Sequence
 
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num, show
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Temporal, Var, When
-from rovercheck.spec_model.lang.operators import Op
+from rovercheck.spec_model.lang.operators import COMPARISONS, Op
 
-_INFIX = {
-    Op.OR: (1, " || "), Op.AND: (2, " && "),
-    Op.EQ: (3, " == "), Op.NE: (3, " != "), Op.LT: (3, " < "), Op.LE: (3, " <= "),
-    Op.GT: (3, " > "), Op.GE: (3, " >= "),
-    Op.ADD: (4, " + "), Op.SUB: (4, " - "), Op.MUL: (5, "*"), Op.DIV: (5, " div "), Op.MOD: (5, " mod "),
-}  # fmt: skip
 _ATOM = re.compile(r"[\w.]+(\(.*\))?")
 """Names that need no parentheses beside an operator; ``nearest <= 300`` does."""
-_CALL = {Op.ABS: "abs", Op.MIN: "min", Op.MAX: "max", Op.BIT: "bit"}
 
 
 def text(expr: Expr, unfold: bool = False) -> str:
@@ -39,7 +33,7 @@ def _show(expr: Expr, above: int) -> str:
         case Temporal():
             return _temporal(expr)
         case Apply(op, args, _):
-            return _apply(op, args, above)
+            return OPERATIONS[op](args, above)
     raise AssertionError(expr.__class__)
 
 
@@ -54,25 +48,52 @@ def constant(value: int, sort: Bool | Enum | Num) -> str:
             return show(value * resolution)
 
 
-def _apply(op: Op, args: tuple[Expr, ...], above: int) -> str:
-    match op:
-        case Op.NOT:
-            return "!" + _show(args[0], 6)
-        case Op.NEG:
-            return "-" + _show(args[0], 6)
-        case Op.SCALE:
-            return _show(args[0], above)
-        case Op.ITE:
-            shown = f"{_show(args[0], 1)} ? {_show(args[1], 1)} : {_show(args[2], 0)}"
-            return f"({shown})" if above else shown
-    if op in _CALL:
-        return f"{_CALL[op]}({', '.join(_show(a, 0) for a in args)})"
-    level, sign = _INFIX[op]
-    shown = sign.join(
-        _show(a, level if position == 0 or op in (Op.AND, Op.OR, Op.ADD, Op.MUL) else level + 1)
-        for position, a in enumerate(args)
-    )
-    return f"({shown})" if above > level or (above == level == 3) else shown
+Row = Callable[[Sequence[Expr], int], str]
+"""Shows an operator with its arguments, in parentheses where the level around it, ``above``, asks for it."""
+
+
+def _between(level: int, sign: str, alike: bool = False) -> Row:
+    """A sign between the arguments; ``alike``: however they are grouped, the value is the same."""
+
+    def row(args: Sequence[Expr], above: int) -> str:
+        shown = sign.join(_show(a, level + (at > 0 and not alike)) for at, a in enumerate(args))
+        return f"({shown})" if above > level or (above == level == 3) else shown
+
+    return row
+
+
+def _before(sign: str) -> Row:
+    return lambda args, above: sign + _show(args[0], 6)
+
+
+def _called(name: str) -> Row:
+    return lambda args, above: f"{name}({', '.join(_show(a, 0) for a in args)})"
+
+
+def _choice(args: Sequence[Expr], above: int) -> str:
+    shown = f"{_show(args[0], 1)} ? {_show(args[1], 1)} : {_show(args[2], 0)}"
+    return f"({shown})" if above else shown
+
+
+OPERATIONS: Mapping[Op, Row] = {
+    Op.ITE: _choice,
+    Op.OR: _between(1, " || ", alike=True),
+    Op.AND: _between(2, " && ", alike=True),
+    **{op: _between(3, f" {op} ") for op in COMPARISONS},
+    Op.ADD: _between(4, " + ", alike=True),
+    Op.SUB: _between(4, " - "),
+    Op.MUL: _between(5, "*", alike=True),
+    Op.DIV: _between(5, " div "),
+    Op.MOD: _between(5, " mod "),
+    Op.NOT: _before("!"),
+    Op.NEG: _before("-"),
+    Op.SCALE: lambda args, above: _show(args[0], above),
+    Op.ABS: _called("abs"),
+    Op.MIN: _called("min"),
+    Op.MAX: _called("max"),
+    Op.BIT: _called("bit"),
+}
+"""Every operator as it is shown, those that bind least tightly first."""
 
 
 def _temporal(expr: Temporal) -> str:

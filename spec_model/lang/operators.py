@@ -1,10 +1,11 @@
 """The operators of formulas."""
 
+from collections.abc import Mapping
 from enum import StrEnum
 
 
 class Op(StrEnum):
-    """The closed set of operators; every reader of expressions handles all of them.
+    """The closed set of operators; whatever reads expressions has a row for each in a table, ``OPERATIONS``.
 
     SCALE multiplies by a positive constant to change resolution (it is not written by people).
     DIV rounds down, MOD is never negative; both take a positive constant on the right.
@@ -35,6 +36,11 @@ class Op(StrEnum):
 
 
 COMPARISONS = frozenset({Op.EQ, Op.NE, Op.LT, Op.LE, Op.GT, Op.GE})
+SIGNS: Mapping[Op, str] = {
+    Op.EQ: "==", Op.NE: "!=", Op.LT: "<", Op.LE: "<=", Op.GT: ">", Op.GE: ">=",
+    Op.ADD: "+", Op.SUB: "-", Op.MUL: "*", Op.SCALE: "*",
+}  # fmt: skip
+"""What stands between two values in Python and C."""
 
 
 def infix(left: object, sign: str, right: object) -> str:

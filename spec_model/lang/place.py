@@ -1,4 +1,4 @@
-"""Places: where in the source a chart, a state, an arrow or a property is written."""
+"""Places: where in the source a chart, a state, a transition or a property is written."""
 
 import sys
 from dataclasses import dataclass

@@ -1,7 +1,7 @@
 """Fixing variables of a model to constants, and what becomes simpler by it.
 
 A model may hold alternatives that a variable chooses between.  Once the variable is fixed, guards
-and actions fold, an arrow whose guard is false disappears, and the chart is drawn as if the other
+and actions fold, a transition whose guard is false disappears, and the chart is drawn as if the other
 alternatives had never been written.  States stay, so that locations mean the same in every variant.
 """
 
@@ -42,7 +42,7 @@ from rovercheck.spec_model.lang.walk import variables
 T = TypeVar("T")
 
 
-class Fixing:
+class Specialiser:
     """Replaces variables by constants in formulas, charts and systems; what does not change stays itself."""
 
     def __init__(self, values: Mapping[str, Const]) -> None:
@@ -77,7 +77,7 @@ class Fixing:
                 return expr if same else _fold(replace(expr, args=changed))
         return expr
 
-    # --- actions and arrows ----------------------------------------------------------------------
+    # --- actions and transitions ----------------------------------------------------------------------
 
     def actions(self, actions: Sequence[Action]) -> tuple[Action, ...]:
         return tuple(made for action in actions for made in self._action(action))
@@ -94,18 +94,20 @@ class Fixing:
                 return (If(test, *branches),) if any(branches) else ()
         return (action,)
 
-    def arrows(self, arrows: Sequence[Transition]) -> tuple[Transition, ...]:
-        """The arrows that can still be taken."""
-        made = (self._arrow(arrow) for arrow in arrows)
-        return tuple(arrow for arrow in made if arrow is not None)
+    def transitions(self, transitions: Sequence[Transition]) -> tuple[Transition, ...]:
+        """The transitions that can still be taken."""
+        made = (self._transition(transition) for transition in transitions)
+        return tuple(transition for transition in made if transition is not None)
 
-    def _arrow(self, arrow: Transition) -> Transition | None:
-        guard = None if arrow.guard is None else self.expr(arrow.guard)
-        if guard is not arrow.guard and isinstance(guard, Const):
+    def _transition(self, transition: Transition) -> Transition | None:
+        guard = None if transition.guard is None else self.expr(transition.guard)
+        if guard is not transition.guard and isinstance(guard, Const):
             if not guard.value:
                 return None
             guard = None
-        return replace(arrow, guard=guard, do=self.actions(arrow.do), then=self.actions(arrow.then))
+        return replace(
+            transition, guard=guard, do=self.actions(transition.do), then=self.actions(transition.then)
+        )
 
     # --- components --------------------------------------------------------------------------------
 
@@ -151,9 +153,9 @@ class Fixing:
             during=self.actions(state.during),
             exit=self.actions(state.exit),
             states=[self._state(inner) for inner in state.states],
-            transitions=self.arrows(state.transitions),
-            junctions=[Junction(j.name, self.arrows(j.transitions)) for j in state.junctions],
-            default=self.arrows(state.default),
+            transitions=self.transitions(state.transitions),
+            junctions=[Junction(j.name, self.transitions(j.transitions)) for j in state.junctions],
+            default=self.transitions(state.default),
             parallel=state.parallel,
             place=state.place,
         )
@@ -205,17 +207,17 @@ def _chart(chart: Chart, root: State) -> Chart:
 
 
 def _reached(chart: Chart) -> set[Path]:
-    """The junctions that some arrow from a state, or from another such junction, leads to."""
+    """The junctions that some transition from a state, or from another such junction, leads to."""
     found: set[Path] = set()
     stack = [
         (level, t)
         for path, state in chart.states.items()
-        for level, arrows in ((path[:-1], state.transitions), (path, state.default))
-        for t in arrows
+        for level, transitions in ((path[:-1], state.transitions), (path, state.default))
+        for t in transitions
     ]
     while stack:
-        level, arrow = stack.pop()
-        target = chart.resolve(level, arrow.target)
+        level, transition = stack.pop()
+        target = chart.resolve(level, transition.target)
         if target in chart.junctions and target not in found:
             found.add(target)
             stack += [(target[:-1], t) for t in chart.junctions[target].transitions]

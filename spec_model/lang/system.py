@@ -2,7 +2,7 @@
 
 ``System`` is what people write: components in execution order, what is frozen, what is assumed.
 ``TransitionSystem`` is what engines read: finite variables and a ``step``, a structured program
-that maps the valuation before a tick and the inputs of the tick to the valuation after it.
+that maps the state before a tick and the inputs of the tick to the state after it.
 All nondeterminism is an input or a frozen variable.
 """
 
@@ -50,7 +50,7 @@ class Note(str):
 class Assumption:
     """What a system takes for granted of its environment: an id, in words, and as a formula.
 
-    The formula restricts the inputs of a tick and may read the valuation before the tick.
+    The formula restricts the inputs of a tick and may read the state before the tick.
     """
 
     id: str
@@ -62,7 +62,7 @@ class Assumption:
 class System:
     """Components executed in order in every tick.
 
-    ``assume`` restricts the inputs of a tick (it may read the valuation before the tick), and so do the
+    ``assume`` restricts the inputs of a tick (it may read the state before the tick), and so do the
     ``assumptions``, which have names and can be dropped one by one; ``notes``
     say in words what the system abstracts and assumes; ``over`` and ``under`` say whether it has
     more or fewer behaviours than the specification.  ``concrete`` names the system that a violation
@@ -204,7 +204,7 @@ class TransitionSystem:
     frozen     free once, before the first tick, then constant
     variables  everything ``step`` writes (temporaries excluded); ``init`` of each is its value
                before the first tick
-    temps      written before being read in every tick; they are no part of a valuation
+    temps      written before being read in every tick; they are no part of a state
     step       the program of one tick
     assume     condition on the inputs of a tick, read before ``step`` runs
     elapsed    the input that says how many ms a tick lasts, where that varies
@@ -236,7 +236,7 @@ class TransitionSystem:
 
     @property
     def init(self) -> dict[str, int]:
-        """The valuation before the first tick, frozen variables left out."""
+        """The state before the first tick, frozen variables left out."""
         return {v.name: v.init for v in self.variables}
 
     def var(self, name: str) -> Var:

@@ -64,3 +64,29 @@ def structure(expr: Expr) -> tuple[object, ...]:
         case Temporal(when, arg, span, strict):
             return (when, None if arg is None else structure(arg), span, strict)
     raise AssertionError(expr.__class__)
+
+
+class Shapes:
+    """A number for each formula, one for all that are built alike: ``structure`` for many questions."""
+
+    def __init__(self) -> None:
+        self._numbers: dict[tuple[object, ...], int] = {}
+        self._known: dict[int, tuple[Expr, int]] = {}
+
+    def __call__(self, expr: Expr) -> int:
+        known = self._known.get(id(expr))
+        if known is None:
+            known = self._known[id(expr)] = (expr, self._number(expr))  # kept, so that its id stays its own
+        return known[1]
+
+    def _number(self, expr: Expr) -> int:
+        match expr:
+            case Named(_, body):
+                return self(body)
+            case Apply(op, args, _):
+                key: tuple[object, ...] = (op, *map(self, args))
+            case Temporal(when, arg, span, strict):
+                key = (when, None if arg is None else self(arg), span, strict)
+            case _:
+                key = structure(expr)
+        return self._numbers.setdefault(key, len(self._numbers))

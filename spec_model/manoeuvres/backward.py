@@ -41,7 +41,7 @@ def backward_mode_toggle(
                         ],
                     ),
                 ],
-                # Three arrows meet here; each counts the time of the step it leaves.
+                # Three transitions meet here; each counts the time of the step it leaves.
                 junctions=[Junction("too_late", [to("Combo_starting_point")])],
             ),
         ],

@@ -7,7 +7,7 @@ from rovercheck.spec_model.repairs import Repair
 
 
 def look_first(chart: Chart) -> Chart:
-    """A default arrow without a guard lets the rover go on for one step, whatever is before it."""
+    """A default transition without a guard lets the rover go on for one step, whatever is before it."""
     first = Junction(
         "first",
         [to("check_sonars_for_moving_again", when=check300), to("check_sonars_for_stopping")],
@@ -17,7 +17,8 @@ def look_first(chart: Chart) -> Chart:
 
 first_step = Repair(
     name="degraded-first-step",
-    text="The default arrow of the degraded obstacle chart leads to a junction that tests the distances.",
+    text="The default transition of the degraded obstacle chart leads to a junction that tests the "
+    "distances.",
     fixes=("PB2-12-first",),
     charts={"ObstaclesDegraded": look_first},
 )

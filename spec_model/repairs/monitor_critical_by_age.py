@@ -28,7 +28,9 @@ def _one_region(chart: Chart, source: SourceSignals) -> Chart:
     for level in ("OK", "DEG"):
         chart = swap(chart, f"{source.region}.{level}", 1, 2)
     silent = next(
-        arrow.guard for arrow in chart.states[source.region, "OK"].transitions if arrow.target == "CRIT"
+        transition.guard
+        for transition in chart.states[source.region, "OK"].transitions
+        if transition.target == "CRIT"
     )
     assert silent is not None
     return guard(chart, f"{source.region}.CRIT", 1, partial(all_of, ~silent))
@@ -37,8 +39,8 @@ def _one_region(chart: Chart, source: SourceSignals) -> Chart:
 by_age = Repair(
     name="monitor-critical-by-age",
     text=(
-        "In a monitor of Board 2, OK and DEG test their arrow to CRIT first, and the arrow that leaves CRIT "
-        "asks in addition that the source is not silent."
+        "In a monitor of Board 2, OK and DEG test their transition to CRIT first, and the transition that "
+        "leaves CRIT asks in addition that the source is not silent."
     ),
     fixes=(
         "PB2-14c",

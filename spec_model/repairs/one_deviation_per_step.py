@@ -3,7 +3,7 @@
 from dataclasses import replace
 
 from rovercheck.spec_model.lang.chart import Chart, Transition
-from rovercheck.spec_model.lang.edit import arrows
+from rovercheck.spec_model.lang.edit import edit_transitions
 from rovercheck.spec_model.lang.expr import all_of
 from rovercheck.spec_model.lang.time import tick
 from rovercheck.spec_model.lang.words import after
@@ -13,13 +13,17 @@ from rovercheck.spec_model.repairs import Repair
 def from_the_next_step_on(chart: Chart) -> Chart:
     """Two signals in one step execute B2Decisions twice: the second finds the Waiting of the first."""
 
-    def wait(arrow: Transition) -> Transition:
-        if not (arrow.event or "").startswith("moveTo"):
-            return arrow
+    def wait(transition: Transition) -> Transition:
+        if not (transition.event or "").startswith("moveTo"):
+            return transition
         later = after(1 * tick)
-        return replace(arrow, guard=later if arrow.guard is None else all_of(arrow.guard, later))
+        return replace(
+            transition, guard=later if transition.guard is None else all_of(transition.guard, later)
+        )
 
-    return arrows(chart, "B2Decisions.Waiting", lambda found: [wait(arrow) for arrow in found])
+    return edit_transitions(
+        chart, "B2Decisions.Waiting", lambda found: [wait(transition) for transition in found]
+    )
 
 
 one_per_step = Repair(

@@ -16,7 +16,7 @@ MANOEUVRES = ("Schivata_a_sinistra", "Schivata_a_destra", "Evita_sinistra", "Evi
 
 
 def write_on_entry(state: State) -> State:
-    """The during action runs on entry too: in the step of an arrow into the state it would not run."""
+    """The during action runs on entry too: in the step of a transition into the state it would not run."""
     return replace(state, entry=(*state.entry, *state.during))
 
 

@@ -7,7 +7,7 @@ _EXCLUDES = "It states the delay of Fig 16, which PB1-15 and the text of §2.5 e
 
 relay_without_delay = Repair(
     name="relay-without-delay",
-    text="The arrow B2_actuating -> B1_actuating of Fig 16 waits for no time (S45).",
+    text="The transition B2_actuating -> B1_actuating of Fig 16 waits for no time (S45).",
     fixes=("PB1-15",),
     readings={"S45": "IMMEDIATE"},
     gives_up={

@@ -24,9 +24,9 @@ def _measured(chart: Chart) -> Chart:
 return_by_the_clock = Repair(
     name="return-by-the-clock",
     text=(
-        "The arrows back to B1_actuating of Fig 16 and of its counterpart on Board 2 compare now_ms with the "
-        "time of the first step of the sound stretch, as the monitors of Table 2 do: 3.02 s, in steps of "
-        "20 ms as today."
+        "The transitions back to B1_actuating of Fig 16 and of its counterpart on Board 2 compare now_ms "
+        "with the time of the first step of the sound stretch, as the monitors of Table 2 do: 3.02 s, in "
+        "steps of 20 ms as today."
     ),
     fixes=("PB1-44a", "PB2-58a"),
     charts={"Relay": _measured, "Check_Board1": _measured},

@@ -7,7 +7,9 @@ from rovercheck.spec_model.repairs import Repair
 
 
 def critical_cause_first(chart: Chart) -> Chart:
-    """A default arrow that tests nothing would let a critical cause pass for one step, as arrow 1 does."""
+    """A default transition that tests nothing would let a critical cause pass for one step, as does
+    transition 1.
+    """
     first = Junction(
         "first",
         [
@@ -22,8 +24,8 @@ def critical_cause_first(chart: Chart) -> Chart:
 critical_first = Repair(
     name="safety-critical-first",
     text=(
-        "Rover_Degraded_State tests its arrow to Rover_Critical_State first, and the default arrow leads to "
-        "the state that the causes ask for."
+        "Rover_Degraded_State tests its transition to Rover_Critical_State first, and the default transition "
+        "leads to the state that the causes ask for."
     ),
     fixes=("PB1-16a", "PB1-16b", "PB1-16d", "PB1-16e", "PB1-17a"),
     charts={"Safety_state": critical_cause_first},

@@ -25,8 +25,8 @@ def stop_while_commanded(cmd: Var, safety: Var) -> Callable[[Chart], Chart]:
 unconditional = Repair(
     name="stop-unconditional",
     text=(
-        "The arrow to In_frenata_di_emergenza asks for CMD_ESTOP alone, the default arrow tests it too, and "
-        "Procedura_emergency_stop is not left while CMD_ESTOP lasts."
+        "The transition to In_frenata_di_emergenza asks for CMD_ESTOP alone, the default transition tests it "
+        "too, and Procedura_emergency_stop is not left while CMD_ESTOP lasts."
     ),
     fixes=(
         "PB1-23a",

@@ -1,7 +1,7 @@
 """Signals of the obstacle logic of Board 2: what the sonars measure, what the charts keep and decide."""
 
 from rovercheck.spec_model.lang.domain import chosen, integer
-from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, any_of, flag, var
+from rovercheck.spec_model.lang.expr import Expr, Var, any_of, flag, var
 from rovercheck.spec_model.lang.words import named
 from rovercheck.spec_model.readings import choose
 from rovercheck.spec_model.signals.common import COMMAND, USER_X
@@ -51,6 +51,15 @@ command = var("command", COMMAND, doc="the decision as a command for Board 1 [se
 x_sent = var("x_sent", USER_X, 0, "the turning command that Board 2 transmits (E31 ZERO-TURN)")
 
 
+# --- what selects, where the obstacle charts are checked without the rest of the board -------------
+
+deg_mask_b1 = flag("deg_mask_b1", "the degraded mask last received from Board 1 is not zero")
+crit_mask_b1 = flag("crit_mask_b1", "the critical mask last received from Board 1 is not zero")
+autorized_prev = flag("autorized_prev", "Board 2 was authorised to move the rover in the step before")
+own_deg_mask = flag("own_deg_mask", "the degraded mask of Board 2 was not zero in the step before")
+own_crit_mask = flag("own_crit_mask", "the critical mask of Board 2 was not zero in the step before")
+
+
 def within(limit: int) -> Expr:
     """Some sonar measures an obstacle at ``limit`` cm or less."""
     return named(f"nearest <= {limit}", any_of(*(d <= limit for d in SONARS)))
@@ -58,17 +67,9 @@ def within(limit: int) -> Expr:
 
 def in_range(d: Var) -> Expr:
     """The range in which a moving obstacle is looked for: above 100, up to 300 cm (E01, E03)."""
-    beyond_100 = choose("E03", {"OPEN": d > 100, "CLOSED": d >= 100, "HALF": d > 100, "UNBOUNDED": d > 100})
-    least = choose("E01", {"GAP-NONE": beyond_100, "GAP-STOP": beyond_100, "GAP-MOVING": d > 70})
-    return named(f"closeRange({d.name})", least & up_to_300(d))
-
-
-def up_to_300(d: Var) -> Expr:
-    """The far end of that range (E03)."""
-    return choose("E03", {"OPEN": d < 300, "CLOSED": d <= 300, "HALF": d <= 300, "UNBOUNDED": TRUE})
+    return named(f"closeRange({d.name})", (d > 100) & (d <= 300))
 
 
 def touching(d: Var) -> Expr:
     """So near that the rover must stop: 70 cm or less (E01, E02)."""
-    at_70 = choose("E02", {"B70-STOP": d <= 70, "B70-BOTH": d <= 70, "B70-LT": d < 70})
-    return choose("E01", {"GAP-NONE": at_70, "GAP-STOP": d <= 100, "GAP-MOVING": at_70})
+    return d <= 70

@@ -10,7 +10,7 @@ from rovercheck.supervisor.board2.distances import STOP_DEGRADED_CM, Distances, 
 class DegradedObstacles:
     """The obstacle chart of the degraded state [seed §3.4.2, Fig 28].
 
-    In its first execution it lets the rover move whatever the distances: no arrow is tested yet.
+    In its first execution it lets the rover move whatever the distances: no transition is tested yet.
     """
 
     _decision: Decision | None = None

@@ -2,7 +2,7 @@
 
 from playwright.sync_api import Page, expect
 
-from rovercheck.checker.explore.graphs.making import made
+from rovercheck.checker.explore.graphs.construction import made
 from rovercheck.checker.render.graph_html import render
 from tests import toys
 from tests.render.zoo import GRAPHS, ring

@@ -41,7 +41,7 @@ def opened(show: Show) -> Page:
     return show(trace_play.render(long()))
 
 
-def test_next_steps_from_arrow_to_arrow(opened: Page) -> None:
+def test_next_steps_from_transition_to_transition(opened: Page) -> None:
     assert where(opened) == "Before the first tick" and active(opened) == set()
     opened.locator(".player-next").click()
     assert where(opened) == "Tick 1 of 10 · 20 ms"
@@ -54,7 +54,7 @@ def test_next_steps_from_arrow_to_arrow(opened: Page) -> None:
     assert active(opened) == {"Sensor", "Bright", "Light", "On", "Low"}
     assert marked(opened, "fired") == {"Sensor.Dark#1", "Sensor.seen#1"}
     assert marked(opened, "taken") == {"Light.Off#1", "Light.On*#1"}
-    current = opened.locator(".player-arrows [aria-current]").all_inner_texts()
+    current = opened.locator(".player-transitions [aria-current]").all_inner_texts()
     assert len(current) == 1 and "Sensor.Dark → Sensor.Bright" in current[0]
     assert "alarm: false → true" in opened.locator(".player-changes").inner_text()
     opened.locator(".player-back").click()

@@ -99,7 +99,7 @@ def test_a_state_graph_shows_valuations_runs_and_keeps_its_keys(opened: Page) ->
     stage = entry.locator(".sg-live .sg-stage")
     stage.scroll_into_view_if_needed()
     entry.locator(".node").last.click()
-    expect(entry.locator(".sg-node")).to_contain_text("A shortest run to a marked valuation")
+    expect(entry.locator(".sg-node")).to_contain_text("A shortest run to a marked state")
     entry.locator(".sg-run").select_option("T-1")
     assert entry.locator(".node.on-path").count() == 2 and entry.locator(".edge.fired").count() == 1
     assert entry.locator(".node.last").get_attribute("data-node") == "1"

@@ -64,8 +64,8 @@ def must_agree(system: TransitionSystem, goal: Var, answer: Answer, expected: na
         case Unreachable(Exhausted() as because):
             must(goal.name not in expected.reached, f"{goal.name} is reachable")
             states = naive.projected(expected.states, because.variables)
-            must(because.skipped or because.states == len(states), f"{because.states} valuations")
-            must(because.closed is None or _closed(because) == states, "other valuations")
+            must(because.skipped or because.states == len(states), f"{because.states} states")
+            must(because.closed is None or _closed(because) == states, "other states")
         case _:
             raise Differs(answer)
 
@@ -121,7 +121,7 @@ def long() -> Group:
 
 
 def wide() -> Group:
-    """A valuation of two words."""
+    """A state of two words."""
     values = [0, 5, (1 << 60) - 1]
     a, b = var("a", chosen(values)), var("b", chosen(values))
     source, end, never = var("source", chosen(values)), flag("end"), flag("never")
@@ -135,7 +135,7 @@ def wide() -> Group:
 
 
 def many() -> Group:
-    """More valuations in a level than one batch holds."""
+    """More states in a level than one batch holds."""
     tag, go, count = var("tag", integer(0, 2500)), flag("go"), var("count", integer(0, 2))
     end, never = flag("end"), flag("never")
     step = (

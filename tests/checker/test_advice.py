@@ -1,10 +1,10 @@
-"""What the explicit search says of the variable that multiplies its valuations."""
+"""What the explicit search says of the variable that multiplies its states."""
 
 import re
 
 import pytest
 
-from rovercheck.checker.encode.counting import counters
+from rovercheck.checker.encode.counters import counters
 from rovercheck.checker.encode.native import NativeSearch, NativeTask, layout, shifts
 from rovercheck.checker.engines import Limits, Timers, explicit, quiet
 from rovercheck.checker.engines.explicit.advice import Advisor
@@ -92,7 +92,7 @@ def counting(*, always: bool) -> TransitionSystem:
 
 def test_the_reason_names_the_limit_the_valuations_and_the_variable() -> None:
     said = re.fullmatch(
-        r"the memory limit of 1 MiB is reached at ([\d,]+) valuations: (\w+) multiplies them by about "
+        r"the memory limit of 1 MiB is reached at ([\d,]+) states: (\w+) multiplies them by about "
         r"([\d.,]+)( \(try --timers skip\))?",
         stopped(counting(always=False), end),
     )

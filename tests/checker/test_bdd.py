@@ -1,10 +1,10 @@
-"""Symbolic search against a naive search: answers, shortest runs, and the very set of valuations."""
+"""Symbolic search against a naive search: answers, shortest runs, and the very set of states."""
 
 from dataclasses import replace
 from itertools import product
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmarks.roverlite import roverlite
@@ -25,6 +25,7 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.words import minimum
 from tests import naive
 from tests.engine_children import LIMIT, cut_off
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 
 NODES = 1 << 18
@@ -53,7 +54,7 @@ def check(system: TransitionSystem, wanted: Var, limits: Limits = UNLIMITED) -> 
 
 
 def agrees(system: TransitionSystem, names: list[str], expected: naive.Searched) -> None:
-    """Answers, lengths, the runs themselves, the number of valuations, and which ones they are."""
+    """Answers, lengths, the runs themselves, the number of states, and which ones they are."""
     for name, answer in searched(system, *names).items():
         match answer:
             case Reached(run, True):
@@ -71,7 +72,7 @@ def agrees(system: TransitionSystem, names: list[str], expected: naive.Searched)
 def holds_exactly(
     diagram: Diagram, system: TransitionSystem, because: Exhausted, expected: naive.Searched
 ) -> None:
-    """Of the valuations of its variables, those that are reachable belong to the diagram and no others."""
+    """Of the states of its variables, those that are reachable belong to the diagram and no others."""
     names = {*because.variables, *diagram.variables}
     own = [v for v in (*system.frozen, *system.variables) if v.name in names]
     reachable = naive.projected(expected.states, [v.name for v in own])
@@ -80,13 +81,13 @@ def holds_exactly(
         assert (at in diagram) == (state in reachable)
 
 
-@settings(max_examples=150)
+@examples(150)
 @given(transition_systems())
 def test_random_systems(system: TransitionSystem) -> None:
     agrees(system, [g.name for g in goals(system)], naive.search(system, goals(system)))
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(transition_systems())
 def test_random_systems_goal_by_goal(system: TransitionSystem) -> None:
     expected = naive.search(system, goals(system))
@@ -94,7 +95,7 @@ def test_random_systems_goal_by_goal(system: TransitionSystem) -> None:
         agrees(system, [goal.name], expected)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(transition_systems(), st.integers(0, 3))
 def test_a_depth_limit_never_proves_more_than_was_seen(system: TransitionSystem, most: int) -> None:
     names = [g.name for g in goals(system)]
@@ -106,7 +107,7 @@ def test_a_depth_limit_never_proves_more_than_was_seen(system: TransitionSystem,
         assert not isinstance(answer, Unreachable) or first is None
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(transition_systems())
 def test_an_order_has_every_variable_once(system: TransitionSystem) -> None:
     made = circuit(system, [g.name for g in goals(system)])
@@ -170,9 +171,7 @@ def test_progress_is_reported() -> None:
     lines: list[str] = []
     answers = bdd.check(system, [end, never], Limits(), lines.append)
     assert isinstance(answers["end"], Reached) and isinstance(answers["never"], Unreachable)
-    assert lines[-1].startswith("bdd: depth 6, 36 valuations") and lines[-1].endswith(
-        "0 goals open, 2 decided"
-    )
+    assert lines[-1].startswith("bdd: depth 6, 36 states") and lines[-1].endswith("0 goals open, 2 decided")
 
 
 def test_a_depth_limit_leaves_the_goal_open() -> None:
@@ -265,7 +264,7 @@ def test_frozen_values_are_chosen_once() -> None:
 
 
 def test_constants_belong_to_the_diagram() -> None:
-    """The valuations are closed only where the constant has its value."""
+    """The states are closed only where the constant has its value."""
     fixed, count, goal = var("fixed", integer(-2, 5), -2), var("count", integer(0, 3)), flag("goal")
     step = (Assign(count, ite(count == 2, 0, count + 1) + (fixed + 2)), Assign(goal, count > 2))
     system = TransitionSystem("fixed", (), (), (fixed, count, goal), (), step)

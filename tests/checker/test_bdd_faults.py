@@ -139,7 +139,7 @@ def current_and_next_are_swapped_for_one_bit(patch: Patch) -> None:
 
 
 def the_image_is_not_merged(patch: Patch) -> None:
-    """Only the valuations of the last ring count as reached; since that has no end, it ends after 20."""
+    """Only the states of the last ring count as reached; since that has no end, it ends after 20."""
 
     def step(self: Layers) -> bool:
         self.closed = len(self.rings) == 20 or not _step(self)
@@ -187,7 +187,7 @@ def the_outside_inputs_ignore_the_assumption(patch: Patch) -> None:
 
 
 def a_run_is_rebuilt_from_the_wrong_ring(patch: Patch) -> None:
-    """Whatever leads to the valuation, whether it is reached or not."""
+    """Whatever leads to the state, whether it is reached or not."""
 
     def before(layers: Layers, ring: Function, after: runs.Bits) -> runs.Bits:
         found = layers.assume

@@ -87,7 +87,7 @@ def test_all_targets_can_be_met() -> None:
         (wrong, ["every engine and tool agrees"]),
         (another_count, ["every engine and tool agrees"]),
         (late, ["all six properties decided"]),
-        (large, ["60 million valuations"]),
+        (large, ["60 million states"]),
         (start, ["a cached run of the command line"]),
     ],
 )

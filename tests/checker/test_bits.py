@@ -5,7 +5,7 @@ from collections.abc import Mapping, Sequence
 from itertools import product
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.checker.encode.bits import FALSE, TRUE, Aig, Bit, Blaster, Circuit, circuit
@@ -17,6 +17,7 @@ from rovercheck.spec_model.lang.expr import Apply, Expr, Var
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.checker.test_bitvector import CASES, sort_of
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 
 
@@ -62,7 +63,7 @@ def true(made: Circuit, literal: int, at: Mapping[str, int]) -> bool:
     return bool(made.aig.evaluate([literal], values(made, at))[0] & 1)
 
 
-@settings(max_examples=400)
+@examples(400)
 @given(transition_systems(), st.randoms(use_true_random=False))
 def test_random_systems_tick_by_tick(system: TransitionSystem, seed: random.Random) -> None:
     made = circuit(system, [g.name for g in goals(system)])

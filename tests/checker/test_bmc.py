@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from rovercheck.checker.engines import Limits, bmc, engines, quiet
 from rovercheck.checker.engines.bmc.search import search
@@ -18,6 +18,7 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.words import minimum
 from tests import naive
 from tests.engine_children import LIMIT, cut_off
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 from tests.toys import GOAL, filling, overflowing
 
@@ -42,7 +43,7 @@ def searched(system: TransitionSystem, names: Sequence[str], most: int) -> Searc
     return result
 
 
-@settings(max_examples=150)
+@examples(150)
 @given(transition_systems())
 def test_random_systems_against_a_naive_search(system: TransitionSystem) -> None:
     names, most = [g.name for g in goals(system)], 20

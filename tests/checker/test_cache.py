@@ -12,7 +12,7 @@ import pytest
 
 from rovercheck.checker import cache
 from rovercheck.checker.encode import native
-from rovercheck.checker.encode.counting import counters
+from rovercheck.checker.encode.counters import counters
 from rovercheck.checker.encode.native import NativeSearch, NativeTask, fingerprint, jit, layout, shifts
 from rovercheck.checker.encode.native.jit import OptimisationLevel
 from rovercheck.checker.engines import Limits, explicit, quiet

@@ -13,13 +13,20 @@ from pathlib import Path
 import pytest
 
 from rovercheck.checker import cache
-from rovercheck.checker.cache import Taken
+from rovercheck.checker.cache import CachedCodeUse
 from rovercheck.checker.encode.native.jit import OptimisationLevel, object_code
 from rovercheck.checker.engines import Engine, Limits, Progress, explicit
 from rovercheck.checker.process.pool import PoolEvent
 from rovercheck.checker.results.verdict import Answer, Exhausted, Proved, Unknown, Violated
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.searches import Heard, Over, Warned, _Decided, _Returns, searches
+from rovercheck.checker.verify.searches import (
+    MachineWarning,
+    SearchEnd,
+    TaskEvent,
+    _Decided,
+    _Returns,
+    searches,
+)
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.checker.test_cache import folder
@@ -49,20 +56,20 @@ class Late(Erratic):
         return {}
 
 
-def heard(engine: str | Engine = "explicit", tasks: int = 1) -> list[Heard]:
+def heard(engine: str | Engine = "explicit", tasks: int = 1) -> list[TaskEvent]:
     """What is heard of a search in a child."""
     known = {task.system.name: task.system for task in work()[:tasks]}
     todo = work()[:tasks]
     with closing(searches(todo, known, engine, Limits(memory=1 << 30), 1)) as said:
-        return [one for one in said if isinstance(one, Result | Warned | Over)]
+        return [one for one in said if isinstance(one, Result | MachineWarning | SearchEnd)]
 
 
-def words(said: list[Heard]) -> dict[str, str]:
+def words(said: list[TaskEvent]) -> dict[str, str]:
     return {one.property.id: one.verdict.word for one in said if isinstance(one, Result)}
 
 
-def warnings(said: list[Heard]) -> list[str]:
-    return [one.text for one in said if isinstance(one, Warned)]
+def warnings(said: list[TaskEvent]) -> list[str]:
+    return [one.text for one in said if isinstance(one, MachineWarning)]
 
 
 def spoil(folder: Path, code: bytes) -> list[Path]:
@@ -85,7 +92,7 @@ def truth(folder: Path) -> Iterator[dict[str, str]]:
 def test_it_is_searched_anew_and_the_cache_is_mended(how: str, folder: Path, truth: dict[str, str]) -> None:
     files = spoil(folder, object_code(FAULTS[how], OptimisationLevel.QUICK))
     said = heard()
-    assert words(said) == truth and sum(isinstance(one, Over) for one in said) == 1
+    assert words(said) == truth and sum(isinstance(one, SearchEnd) for one in said) == 1
     [text] = warnings(said)
     for part in ("one one-a and 1 more", "ended by SIG", f"from the cache {folder}", "delete the files *.o",
                  "ROVERCHECK_CACHE="):  # fmt: skip
@@ -108,7 +115,7 @@ def test_what_crashes_anyhow_is_searched_twice_and_told(truth: dict[str, str]) -
         one.verdict.reason for one in said if isinstance(one, Result) and isinstance(one.verdict, Unknown)
     }
     assert "ended by SIGSEGV, with code compiled anew after a crash with code from the cache" in text
-    assert len(warnings(said)) == 1 and sum(isinstance(one, Over) for one in said) == 1
+    assert len(warnings(said)) == 1 and sum(isinstance(one, SearchEnd) for one in said) == 1
 
 
 def test_what_crashes_without_the_cache_is_not_searched_again(truth: dict[str, str]) -> None:
@@ -127,7 +134,7 @@ def test_the_other_searches_go_on(folder: Path, truth: dict[str, str]) -> None:
     spoil(folder, code)
     said = heard(tasks=3)
     assert words(said) == every and len(every) == 6
-    assert 1 <= len(warnings(said)) <= 3 and sum(isinstance(one, Over) for one in said) == 3
+    assert 1 <= len(warnings(said)) <= 3 and sum(isinstance(one, SearchEnd) for one in said) == 3
 
 
 def test_what_was_said_before_a_crash_is_searched_again_and_must_be_so(folder: Path) -> None:
@@ -136,14 +143,14 @@ def test_what_was_said_before_a_crash_is_searched_again_and_must_be_so(folder: P
     back = _Returns(task, False, None)
     visited = Exhausted(1, 1, 1, ("a",))
     proved, run = Proved(visited, "explicit"), Unknown("late", 0, "none")
-    told = [_Decided("one-a", proved, "one"), Taken("key"), _Decided("one-b", proved, "one")]
-    assert [len(list(back.heard(PoolEvent(0, message)))) for message in told] == [1, 0, 1]
+    told = [_Decided("one-a", proved, "one"), CachedCodeUse("key"), _Decided("one-b", proved, "one")]
+    assert [len(list(back.on_event(PoolEvent(0, message)))) for message in told] == [1, 0, 1]
     order = back.again()
     assert order is not None and order.args == ("one", task.properties, task.recorded, True)
-    assert not list(back.heard(PoolEvent(0, _Decided("one-a", proved, "one"))))
-    assert not list(back.heard(PoolEvent(0, _Decided("one-a", run, "one"))))
+    assert not list(back.on_event(PoolEvent(0, _Decided("one-a", proved, "one"))))
+    assert not list(back.on_event(PoolEvent(0, _Decided("one-a", run, "one"))))
     with pytest.raises(AssertionError, match="with code compiled anew it is violated"):
-        list(back.heard(PoolEvent(0, _Decided("one-b", Violated(visited, "explicit"), "one"))))
+        list(back.on_event(PoolEvent(0, _Decided("one-b", Violated(visited, "explicit"), "one"))))
     assert back.again() is None, "once"
 
 
@@ -173,9 +180,9 @@ def test_the_command_says_it_on_standard_error(folder: Path, tmp_path: Path) -> 
 # --- in a process that nobody listens to, as `graph` is ----------------------------------------------
 
 ALONE = """
-from rovercheck.checker.cache import running
+from rovercheck.checker.cache import run_marks
 from tests.checker.test_cache import answers, system
-print(*answers(system()), len(running._marks))
+print(*answers(system()), len(run_marks._marks))
 """
 
 

@@ -12,7 +12,7 @@ from rovercheck.checker.certify.check import check
 from rovercheck.checker.certify.diagram import CertifiedDiagram, CertifiedNode, Nodes
 from rovercheck.checker.certify.outcome import Accepted, Rejected
 from rovercheck.checker.certify.reduction import diagram
-from rovercheck.checker.results.closed import ClosedSet
+from rovercheck.checker.results.closed_set import ClosedSet
 from rovercheck.checker.results.verdict import Exhausted, Unreachable
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.domain import integer

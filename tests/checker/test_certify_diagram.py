@@ -1,4 +1,4 @@
-"""Decision diagrams of sets of valuations: exact, reduced, and never trusting a hash."""
+"""Decision diagrams of sets of states: exact, reduced, and never trusting a hash."""
 
 import numpy as np
 import pytest
@@ -8,7 +8,7 @@ from hypothesis.strategies import DrawFn
 
 from rovercheck.checker.certify import reduction
 from rovercheck.checker.certify.diagram import CertifiedDiagram, Nodes, count, members
-from rovercheck.checker.results.closed import BitPlace, ClosedSet
+from rovercheck.checker.results.closed_set import BitPlace, ClosedSet
 from rovercheck.spec_model.lang.expr import Var
 from tests.certifying import closed_set
 from tests.naive import vectors
@@ -19,7 +19,7 @@ Row = tuple[int, ...]
 
 @st.composite
 def sets(draw: DrawFn) -> tuple[tuple[Var, ...], set[Row]]:
-    """Up to five variables and some valuations of them, at least one."""
+    """Up to five variables and some states of them, at least one."""
     domains = draw(st.lists(st.sampled_from(DOMAINS), min_size=1, max_size=5))
     variables = tuple(Var(f"x{i}", d, d.low) for i, d in enumerate(domains))
     row = st.tuples(*(st.sampled_from(list(d.values)) for d in domains))

@@ -110,7 +110,7 @@ def test_a_number_of_ticks_out_of_all_reason_is_undecided(ticks: int, simple: bo
 
 
 def test_a_variable_starts_within_its_domain() -> None:
-    """Or no valuation would be before the first tick, and anything could be shown of it."""
+    """Or no state would be before the first tick, and anything could be shown of it."""
     with pytest.raises(ModelError):
         var("count", integer(0, 7), 9)
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from rovercheck.checker.certify import solver
-from rovercheck.checker.certify.check import By, CheckEffort, check
+from rovercheck.checker.certify.check import CheckEffort, CheckMethod, check
 from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from rovercheck.checker.process.isolate import Send
 from tests.certifying import BACK, BOTH, COUNT, SOLVER, claimed, counting, inline
@@ -64,7 +64,7 @@ def outcome(solve: Solve, effort: CheckEffort, monkeypatch: pytest.MonkeyPatch) 
     ],
 )
 def test_a_solver_that_does_not_answer(solve: Solve, said: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    found = outcome(solve, CheckEffort(By.SOLVER, 5), monkeypatch)
+    found = outcome(solve, CheckEffort(CheckMethod.SOLVER, 5), monkeypatch)
     assert isinstance(found, Undecided) and said in found.reason, found
 
 

@@ -3,18 +3,19 @@
 from collections.abc import Mapping, Sequence
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.checker.results.verdict import Run
-from rovercheck.checker.verify.runs.compiled import CompiledStep, TooDeep
-from rovercheck.checker.verify.runs.known import reached
+from rovercheck.checker.verify.runs.compiled_step import CompiledStep, TooDeep
+from rovercheck.checker.verify.runs.known_runs import reached
 from rovercheck.spec_model.lang.action import Assign, If
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.evaluate import admissible, step
 from rovercheck.spec_model.lang.expr import Expr, Var, flag, ite, var
 from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.mutate.lamp import LIT, lamps
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 from tests.toys import GOAL, filling, relay
 
@@ -40,7 +41,7 @@ def plainly(
     return found
 
 
-@settings(max_examples=80)
+@examples(80)
 @given(st.data())
 def test_the_same_goals_after_the_same_ticks(data: st.DataObject) -> None:
     system = data.draw(transition_systems())
@@ -96,6 +97,6 @@ def test_branches_beyond_all_measure_are_told() -> None:
 
 
 def test_what_only_compiled_code_finds_is_a_bug_of_ours(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("rovercheck.checker.verify.runs.known._first", lambda _: lambda run: {"LIT": 1})
+    monkeypatch.setattr("rovercheck.checker.verify.runs.known_runs._first", lambda _: lambda run: {"LIT": 1})
     with pytest.raises(AssertionError, match="LIT: a run of 1 ticks reaches it only as compiled"):
         reached(lamps, [LIT], [Run({}, ({"press": 0, "level": 0},))])

@@ -8,7 +8,7 @@ from rovercheck.spec_model.rover import systems
 
 
 def test_a_bounded_property_is_never_searched_as_a_loop() -> None:
-    """One of two was violated on record and came out proved: no loop closes on a finite run."""
+    """One of two was expected to be violated and came out proved: no loop closes on a finite run."""
     unbounded, violated = (catalogue()[id] for id in ("PB1-25-turned", "PSY-12"))
     assert unbounded.on == violated.on
     task = Task(systems()[violated.on], (unbounded, violated))

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from benchmarks.roverlite import roverlite
 from rovercheck.checker.encode.native import OutsideDomain
 from rovercheck.checker.engines import Limits, explicit, quiet
-from rovercheck.checker.results.closed import ClosedSet
+from rovercheck.checker.results.closed_set import ClosedSet
 from rovercheck.checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
 from rovercheck.checker.system.slice import sliced
 from rovercheck.spec_model.lang.action import Assign
@@ -36,7 +36,7 @@ def exhausted(answer: Answer) -> Exhausted:
 
 
 def unpacked(closed: ClosedSet) -> set[State]:
-    """The valuations of a closed set, read by its places alone."""
+    """The states of a closed set, read by its places alone."""
     rows = [tuple(map(int, row)) for row in closed.words]
     places = closed.places
     return {
@@ -46,7 +46,7 @@ def unpacked(closed: ClosedSet) -> set[State]:
 
 
 def agrees(system: TransitionSystem, wanted: tuple[Var, ...], naive: Searched) -> None:
-    """Verdicts, lengths of runs, the runs themselves, and the number of valuations."""
+    """Verdicts, lengths of runs, the runs themselves, and the number of states."""
     for goal, answer in zip(wanted, check(system, *wanted), strict=True):
         match answer:
             case Reached(run, True):
@@ -122,7 +122,7 @@ def test_many_bits_in_many_variables() -> None:
 
 
 def test_valuations_with_the_same_hash_are_told_apart() -> None:
-    """The hash of the table, computed here to make two valuations collide in all its bits."""
+    """The hash of the table, computed here to make two states collide in all its bits."""
     first = next(n for n in range((1 << 62) + 5, 1 << 63) if _mix(n) >> 63 == 0)
     a, b = var("a", chosen([0, 1, first])), var("b", chosen([0, 1, _mix(first)]))
     never = flag("never")

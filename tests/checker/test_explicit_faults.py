@@ -1,6 +1,6 @@
 """Faults put into the explicit engine on purpose: the comparison with the naive search sees each of them.
 
-The comparison asks for verdicts, lengths of runs, runs that replay, and the very set of valuations.
+The comparison asks for verdicts, lengths of runs, runs that replay, and the very set of states.
 Every fault is first shown to be one: without it the same systems agree.
 """
 
@@ -11,8 +11,8 @@ from typing import Any
 import pytest
 
 from rovercheck.checker.encode import native, path_statements, paths
-from rovercheck.checker.encode.native import Field, Layout, body, quiet, retrace, search, table
-from rovercheck.checker.encode.native.expressions import BIT, INT, Expressions
+from rovercheck.checker.encode.native import Field, Layout, body, expressions, quiet, retrace, search, table
+from rovercheck.checker.encode.native.expressions import BIT, INT
 from rovercheck.checker.engines import Limits, Timers, explicit
 from rovercheck.checker.engines import quiet as silent
 from rovercheck.checker.engines.explicit import answers, levels, parents, runs
@@ -60,12 +60,8 @@ def no_domain_is_checked(patch: pytest.MonkeyPatch) -> None:
 
 def a_minimum_is_its_first_argument(patch: pytest.MonkeyPatch) -> None:
     """A counter does not saturate."""
-
-    def number(self: Expressions, op: Op, args: Any) -> Any:
-        return self.as_int(args[0]) if op is Op.MIN else real(self, op, args)
-
-    real = Expressions._number
-    patch.setattr(Expressions, "_number", number)
+    first = {Op.MIN: lambda emit, args: emit.as_int(args[0])}
+    patch.setattr(expressions, "OPERATIONS", {**expressions.OPERATIONS, **first})
 
 
 def a_batch_is_dropped(patch: pytest.MonkeyPatch) -> None:
@@ -173,12 +169,12 @@ def the_else_branch_is_lost(patch: pytest.MonkeyPatch) -> None:
 
 
 def all_is_known(patch: pytest.MonkeyPatch) -> None:
-    """The table says "known" whenever another valuation lies where one belongs."""
+    """The table says "known" whenever another state lies where one belongs."""
     patch.setattr(table.StateTable, "_same", lambda *_: BIT(1))
 
 
 def nothing_is_known(patch: pytest.MonkeyPatch) -> None:
-    """The table never recognises a valuation; the search ends all the same, by its depth."""
+    """The table never recognises a state; the search ends all the same, by its depth."""
     patch.setattr(table.StateTable, "_same", lambda *_: BIT(0))
     patch.setattr(
         answers,
@@ -326,7 +322,7 @@ def test_a_fault_of_quiet_ticks_is_seen(lost: str, monkeypatch: pytest.MonkeyPat
 
 
 def test_a_constant_of_the_comparison() -> None:
-    """The comparison itself tells a wrong number of valuations from a right one."""
+    """The comparison itself tells a wrong number of states from a right one."""
     system, goals = chain()
     longer = replace(system, step=(*system.step, Assign(goals[0], const(False))))
     with pytest.raises(Differs):

@@ -117,7 +117,7 @@ def test_no_more_valuations_than_have_numbers(monkeypatch: pytest.MonkeyPatch) -
     system, end = counters(50, 50)
     (answer,) = check(system, end)
     assert isinstance(answer, Open)
-    assert " can number, 1,000, is reached at 1,000 valuations" in answer.reason
+    assert " can number, 1,000, is reached at 1,000 states" in answer.reason
 
 
 def test_a_goal_that_the_system_does_not_write_is_refused() -> None:
@@ -145,7 +145,7 @@ def test_the_time_ends_in_the_middle_of_a_tick_that_leads_to_nothing_to_store(
     system, never = summed(forbidden=forbidden)
     (answer,) = check(system, never, limits=Limits(seconds=0, timers=timers))
     assert isinstance(answer, Open) and answer.depth == 0
-    assert answer.reason.startswith("the time limit of 0 s is reached at 1 valuations")
+    assert answer.reason.startswith("the time limit of 0 s is reached at 1 states")
 
 
 def test_the_store_grows_and_forgets_nothing() -> None:

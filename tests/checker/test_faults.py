@@ -1,4 +1,4 @@
-"""An engine that raises is a bug of ours: the others have their turns, and it is told."""
+"""An engine that raises is an internal error: the others have their turns, and it is told."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -6,8 +6,8 @@ from dataclasses import dataclass
 import pytest
 
 from rovercheck.checker.engines import ALL, AUTO, Engine, Limits, Progress
-from rovercheck.checker.process.faults import Fault, InternalError, attempted, listening, tell
-from rovercheck.checker.process.isolate import Send, Stopped, messages
+from rovercheck.checker.process.faults import Fault, InternalError, attempted, listening, report
+from rovercheck.checker.process.isolate import ChildStopped, Send, messages
 from rovercheck.checker.results.verdict import Answer, Inductive, Open, Reached, Run, Unreachable
 from rovercheck.checker.verify.portfolio import Callbacks, PortfolioQuestion, answers, turns
 from rovercheck.checker.verify.portfolio.order import ORDERS, Turn
@@ -118,7 +118,7 @@ def test_an_error_in_a_process_of_an_engine_is_told(monkeypatch: pytest.MonkeyPa
         ) -> Mapping[str, Answer]:
             try:
                 return super().check(system, goals, limits, progress)
-            except Stopped as stopped:
+            except ChildStopped as stopped:
                 return {g.name: Open(str(stopped), 2) for g in goals}
 
     found, faults = asked(monkeypatch, Patient("middle", ValueError("deep inside")))
@@ -143,7 +143,7 @@ def test_a_fault_to_which_nobody_listens_is_raised() -> None:
     with pytest.raises(ValueError, match="no such"):
         answers(PortfolioQuestion(SYSTEM, (ON,)), Broken("start", ValueError("no such")), LIMITS, Callbacks())
     with pytest.raises(InternalError, match="one failed on two with three"):
-        tell(Fault("one", "two", "three"))
+        report(Fault("one", "two", "three"))
 
 
 def test_only_the_innermost_listener_hears() -> None:
@@ -151,7 +151,7 @@ def test_only_the_innermost_listener_hears() -> None:
     inner: list[Fault] = []
     with listening(outer.append):
         with listening(inner.append):
-            tell(Fault("one", "two", "three"))
+            report(Fault("one", "two", "three"))
         assert outer == [] and len(inner) == 1
-        attempted("all", "toggle", lambda: tell(Fault("", "", "three")))
+        attempted("all", "toggle", lambda: report(Fault("", "", "three")))
     assert outer == [Fault("all", "toggle", "three")]

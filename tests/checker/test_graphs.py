@@ -10,8 +10,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.checker.engines import Limits
-from rovercheck.checker.explore.graphs.making import LIMITS, Made, made
-from rovercheck.checker.explore.graphs.projecting import exact_with
+from rovercheck.checker.explore.graphs.construction import LIMITS, BuiltGraph, made
+from rovercheck.checker.explore.graphs.projection import exact_with
 from rovercheck.checker.results.graph import ProjectionKind, StateGraph
 from rovercheck.checker.system.slice import sliced
 from rovercheck.spec_model.lang.errors import ModelError
@@ -26,7 +26,7 @@ Raw = tuple[int, ...]
 
 
 class Naive(NamedTuple):
-    """All reachable valuations of some variables with their followers and depths, by the plainest loop."""
+    """All reachable states of some variables with their followers and depths, by the plainest loop."""
 
     names: tuple[str, ...]
     initial: set[Raw]
@@ -35,7 +35,7 @@ class Naive(NamedTuple):
 
 
 def naive(system: TransitionSystem, names: tuple[str, ...]) -> Naive:
-    """The whole system is run, and its valuations restricted to variables that determine themselves."""
+    """The whole system is run, and its states restricted to variables that determine themselves."""
 
     def cut(at: Mapping[str, int]) -> Raw:
         return tuple(at[n] for n in names)
@@ -58,7 +58,7 @@ def naive(system: TransitionSystem, names: tuple[str, ...]) -> Naive:
 
 
 def relevant(system: TransitionSystem, onto: tuple[str, ...]) -> tuple[str, ...]:
-    """The names of the valuation that the graph counts."""
+    """The names of the state that the graph counts."""
     part = sliced(system, [system.var(n) for n in onto])
     kept = {v.name for v in (*part.variables, *part.frozen)} | set(onto)
     return tuple(v.name for v in (*system.frozen, *system.variables) if v.name in kept)
@@ -99,7 +99,7 @@ def check_against(found: Naive, graph: StateGraph) -> None:
     assert graph.valuations == len(found.following)
 
 
-def check_ways(system: TransitionSystem, one: Made) -> None:
+def check_ways(system: TransitionSystem, one: BuiltGraph) -> None:
     """Each way replays by the reference semantics, in as few ticks as can be, and ends behind its node."""
     graph = one.with_ways()
     assert set(graph.ways) == {n.number for n in graph.nodes}
@@ -111,8 +111,8 @@ def check_ways(system: TransitionSystem, one: Made) -> None:
         assert len(graph.ways[node.number].trace) == node.depth
 
 
-def check_examples(system: TransitionSystem, one: Made) -> None:
-    """From some valuation behind its source, every tick with the example inputs of an edge takes it."""
+def check_examples(system: TransitionSystem, one: BuiltGraph) -> None:
+    """From some state behind its source, every tick with the example inputs of an edge takes it."""
     explored, graph = one.exploration.explored, one.graph
     shown = {v.name: {v.domain.show(raw): raw for raw in v.domain.values} for v in system.inputs}
     part = one.exploration.task.system

@@ -2,15 +2,17 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from rovercheck.checker.encode.cone import Slice, cone
 from rovercheck.checker.encode.invariants import Candidates, TemplateCube, TemplatePool
-from rovercheck.checker.encode.simulate import Columns, Simulator, Vectorised
+from rovercheck.checker.encode.simulate import Simulator
 from rovercheck.checker.encode.symbolic import transition
+from rovercheck.checker.system.arrays import ArrayProgram, Columns
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Expr
 from rovercheck.spec_model.lang.system import TransitionSystem
+from tests.profiles import examples
 from tests.strategies_ts import transition_systems
 from tests.toys import counter, relay, waiting
 
@@ -26,12 +28,12 @@ def everything(candidates: Candidates) -> list[Expr]:
     return [candidate for template in made for candidate in template]
 
 
-@settings(max_examples=50)
+@examples(50)
 @given(transition_systems())
 def test_every_candidate_holds_in_the_sample(system: TransitionSystem) -> None:
     part, sample = sampled(system, 30)
     made = everything(Candidates(part, sample))
-    assert all(np.all(holds) for holds in Vectorised(made)(sample))
+    assert all(np.all(holds) for holds in ArrayProgram(made)(sample))
 
 
 @pytest.mark.parametrize(
@@ -55,7 +57,7 @@ def test_a_clause_that_excludes_a_cube() -> None:
     never = TemplateCube({"on": 1, "hold": 5, "since": 3, "goal": 0}, frozenset({"on", "hold", "since"}))
     clause = Candidates(part, sample).excluding(never, np.random.default_rng(0))
     assert clause is not None and not evaluate(clause, never.valuation)
-    assert np.all(Vectorised([clause])(sample)[0])
+    assert np.all(ArrayProgram([clause])(sample)[0])
 
 
 def test_a_cube_that_runs_visit_is_not_excluded() -> None:

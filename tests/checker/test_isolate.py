@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from rovercheck.checker.process.isolate import Send, Stopped, messages
+from rovercheck.checker.process.isolate import ChildStopped, Send, messages
 from rovercheck.spec_model.lang.expr import flag
 from rovercheck.spec_model.lang.walk import nodes
 
@@ -107,13 +107,13 @@ def test_a_deep_formula_reaches_the_child() -> None:
     ],
 )
 def test_a_failure_is_a_reason_and_no_traceback(work: object, reason: str) -> None:
-    with pytest.raises(Stopped, match=reason):
+    with pytest.raises(ChildStopped, match=reason):
         list(messages(work, seconds=30))  # type: ignore[arg-type]
 
 
 @pytest.mark.skipif(sys.platform != "linux", reason="signals for real time")
 def test_a_signal_without_a_name_is_a_reason_too() -> None:
-    with pytest.raises(Stopped, match="ended by signal 40"):
+    with pytest.raises(ChildStopped, match="ended by signal 40"):
         list(messages(_signalled, 40, seconds=30))
 
 
@@ -127,13 +127,13 @@ def test_no_module_is_taken_from_the_folder_we_are_in(
 
 @pytest.mark.skipif(sys.platform != "linux", reason="address space limits")
 def test_the_memory_limit() -> None:
-    with pytest.raises(Stopped, match="the memory limit is reached"):
+    with pytest.raises(ChildStopped, match="the memory limit is reached"):
         list(messages(_fill, memory=1 << 30))
 
 
 def test_the_time_limit_kills_and_quiet_seconds_are_told() -> None:
     heard = []
-    with pytest.raises(Stopped, match="time limit of 5 s"):
+    with pytest.raises(ChildStopped, match="time limit of 5 s"):
         for message in messages(_tell_and_sleep, 600, seconds=5, beat=0.2):
             heard.append(message)
     [pid] = [m for m in heard if m is not None]

@@ -4,7 +4,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from benchmarks.roverlite import roverlite
 from rovercheck.checker.engines import Limits, engines, kinduction, quiet
@@ -26,6 +26,7 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.words import minimum
 from tests import naive
 from tests.inductive import problems
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 from tests.toys import GOAL, counter, once, overflowing, relay, waiting
 
@@ -74,13 +75,13 @@ def agrees(system: TransitionSystem, wanted: Sequence[Var], answers: Mapping[str
                 raise AssertionError(other)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(transition_systems())
 def test_random_systems(system: TransitionSystem) -> None:
     agrees(system, goals(system), searched(system, goals(system)))
 
 
-@settings(max_examples=20)
+@examples(20)
 @given(transition_systems())
 def test_a_depth_limit_bounds_the_runs(system: TransitionSystem) -> None:
     for depth in (0, 2):
@@ -120,7 +121,7 @@ def test_simple_paths_where_no_invariant_is_found(monkeypatch: pytest.MonkeyPatc
 def test_simple_paths_are_simple_in_all_that_the_goal_is_written_with(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
-    """``turn`` is simplified away, and valuations that differ in it alone are different to who checks."""
+    """``turn`` is simplified away, and states that differ in it alone are different to who checks."""
     monkeypatch.setattr(InvariantHunt, "phases", lambda self: iter(()))
     turn, plain = var("turn", integer(0, 1)), waiting()
     step = (*plain.step, Assign(GOAL, GOAL | (turn > 1)), Assign(turn, 1 - turn))

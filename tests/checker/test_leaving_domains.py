@@ -11,7 +11,7 @@ from typing import get_args
 import pytest
 
 from rovercheck.checker.engines import Engine, Limits, Progress, engines, explicit, quiet
-from rovercheck.checker.explore.graphs.making import made
+from rovercheck.checker.explore.graphs.construction import made
 from rovercheck.checker.results.graph import ProjectionKind
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import (
@@ -24,13 +24,13 @@ from rovercheck.checker.results.verdict import (
     Unknown,
     Violated,
 )
-from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.decide import ALL, AUTO, Task, decide
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.runs.calm import calmed
 from rovercheck.checker.verify.runs.domains import LeavesDomain, stray
+from rovercheck.checker.verify.runs.minimise import minimise_inputs
 from rovercheck.checker.verify.runs.replay import replay
-from rovercheck.checker.verify.searches import Heard, searches
+from rovercheck.checker.verify.searches import TaskEvent, searches
 from rovercheck.properties import forms
 from rovercheck.properties.forms import Form, Property
 from rovercheck.properties.reduce import reduce
@@ -161,7 +161,7 @@ def after(count: int) -> Run:
 
 @pytest.mark.usefixtures("engines_in_this_process")
 def test_a_run_through_an_exit_is_a_mistake_of_the_model() -> None:
-    """It was told as a bug of ours when the engine had not come to the check, or found a longer run to it."""
+    """It was told as an internal error when the engine had not come to the check, or found a longer run."""
     system = MODELS["in every run"]
     engine = Deep(("x.out_of_domain",), {"P": after(6)})
     expected = r"_domains\.py:\d+: every: x := x \+ 1 gives 4, outside integer in 0\.\.3, in tick 4 of a run"
@@ -184,7 +184,7 @@ def test_a_run_is_not_calmed_into_an_exit() -> None:
     )
     question = reduce(lowered(system), [prop(system, forms.Never((Y == 7) & ON))])
     run = Run({}, ({"push": 1, "stop": 1},) * 7)
-    calm = calmed(question.system, question.goals[0].var, run)
+    calm = minimise_inputs(question.system, question.goals[0].var, run)
     assert stray(question.system, calm) is None and stray(question.system, run) is None
     assert len(calm) == 7 and any(tick["stop"] for tick in calm.inputs)
 
@@ -247,7 +247,7 @@ def test_a_proof_waits_for_the_searches_of_the_system_that_it_is_about() -> None
     assert not results
 
 
-def heard(system: System, engine: Engine, *properties: Property) -> Iterator[Heard]:
+def heard(system: System, engine: Engine, *properties: Property) -> Iterator[TaskEvent]:
     todo = [Task(system, (p,)) for p in properties]
     yield from searches(todo, {system.name: system}, engine, Limits(memory=1 << 30), jobs=1)
 
@@ -292,9 +292,9 @@ def test_checks_are_no_variables_to_project_on() -> None:
 
 
 def test_valuations_are_counted_without_the_flag_of_the_property() -> None:
-    """The lamp has three valuations, none yet, off and on; with the flag of the property there were four."""
+    """The lamp has three states, none yet, off and on; with the flag of the property there were four."""
     system = in_order("lamp", LAMP)
     verdict = asked(system, forms.Recoverable(ON & PUSH), AUTO, Limits()).verdict
     assert isinstance(verdict, Proved) and isinstance(verdict.because, Exhausted)
     assert verdict.because.states == 3 and verdict.because.variables == ("Lamp",)
-    assert verdict.because.depth == 2, "ticks to its own valuations"
+    assert verdict.because.depth == 2, "ticks to its own states"

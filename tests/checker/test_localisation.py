@@ -10,10 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.checker.engines import Limits, engines, localisation, quiet
-from rovercheck.checker.engines.localisation.bounded import BoundedEngine, BoundedHit, Core
+from rovercheck.checker.engines.localisation.bounded_search import BoundedEngine, BoundedHit, Core
 from rovercheck.checker.engines.localisation.cuts import with_cuts, with_switches, written
 from rovercheck.checker.engines.localisation.orders import Orders
-from rovercheck.checker.process.isolate import Stopped
+from rovercheck.checker.process.isolate import ChildStopped
 from rovercheck.checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
 from rovercheck.spec_model.lang.action import If, assign, when
 from rovercheck.spec_model.lang.domain import integer
@@ -66,7 +66,7 @@ def test_with_all_switches_on_nothing_is_other(system: TransitionSystem, pick: i
 
 
 def _ticks(system: TransitionSystem) -> Iterator[tuple[dict[str, int], dict[str, int]]]:
-    """Some valuations on one run, and the inputs that lead on."""
+    """Some states on one run, and the inputs that lead on."""
     at = {**system.init, **{v.name: v.init for v in system.frozen}}
     for inputs in islice(naive.vectors(system.inputs), 8):
         yield at, inputs
@@ -163,7 +163,7 @@ def test_no_time_is_told() -> None:
 
 
 def test_a_child_that_dies_is_told() -> None:
-    with Orders(board(2), None, 1) as asked, pytest.raises(Stopped):  # a byte of memory
+    with Orders(board(2), None, 1) as asked, pytest.raises(ChildStopped):  # a byte of memory
         asked.why(GOAL.name, 2, frozenset())
 
 

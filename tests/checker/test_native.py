@@ -32,7 +32,7 @@ SCOPE = (
 
 
 def compiled(expr: Expr) -> Callable[[dict[str, int]], int]:
-    """The formula as a native function of a valuation of its variables."""
+    """The formula as a native function of a state of its variables."""
     used = list(variables(expr).values())
     module = ir.Module("formula")
     _, a, build = function(module, "formula", INT, {"at": WORDS})
@@ -56,7 +56,7 @@ def compiled(expr: Expr) -> Callable[[dict[str, int]], int]:
 
 
 def points(used: Sequence[Var]) -> list[dict[str, int]]:
-    """Valuations that meet the ends of every domain and what lies between."""
+    """States that meet the ends of every domain and what lies between."""
     longest = max([len(v.domain) for v in used], default=1)
     return [
         {v.name: v.domain.values[(i * (k + 1)) % len(v.domain)] for k, v in enumerate(used)}

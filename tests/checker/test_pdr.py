@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from rovercheck.checker.encode.bits import circuit
 from rovercheck.checker.encode.bits.aig import Aig, Literal
@@ -22,6 +22,7 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.words import minimum
 from tests import naive
 from tests.engine_children import LIMIT, cut_off
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 from tests.toys import filling
 
@@ -44,7 +45,7 @@ def decided(
 
 
 def within(system: TransitionSystem, invariant: Sequence[Expr]) -> Iterator[dict[str, int]]:
-    """Every valuation within the domains that satisfies an invariant."""
+    """Every state within the domains that satisfies an invariant."""
     for at in naive.vectors((*system.frozen, *system.variables)):
         if all(evaluate(c, at) for c in invariant):
             yield at
@@ -56,7 +57,7 @@ def holds_initially(system: TransitionSystem, invariant: Sequence[Expr]) -> bool
 
 
 def passes_on(system: TransitionSystem, invariant: Sequence[Expr], goal: str) -> bool:
-    """Whether every tick from a valuation of the invariant leads to another, and not to the goal."""
+    """Whether every tick from a state of the invariant leads to another, and not to the goal."""
     for at in within(system, invariant):
         for inputs in naive.vectors(system.inputs):
             if admissible(system, at, inputs):
@@ -68,12 +69,12 @@ def passes_on(system: TransitionSystem, invariant: Sequence[Expr], goal: str) ->
 
 
 def justified(system: TransitionSystem, goal: str, because: object) -> bool:
-    """Whether evidence is an inductive invariant that excludes a goal, by trying every valuation."""
+    """Whether evidence is an inductive invariant that excludes a goal, by trying every state."""
     assert isinstance(because, Inductive) and because.ticks == 1
     return holds_initially(system, because.conjuncts) and passes_on(system, because.conjuncts, goal)
 
 
-@settings(max_examples=400)
+@examples(400)
 @given(transition_systems())
 def test_random_systems_against_a_naive_search(system: TransitionSystem) -> None:
     shortest = naive.search(system, goals(system)).reached
@@ -87,14 +88,14 @@ def test_random_systems_against_a_naive_search(system: TransitionSystem) -> None
             assert holds_initially(system, answer.because.conjuncts)
 
 
-@settings(max_examples=150)
+@examples(150)
 @given(transition_systems(2))
 def test_invariants_of_random_systems_by_enumeration(system: TransitionSystem) -> None:
     for name, answer in decided(system, [g.name for g in goals(system)]).items():
         assert isinstance(answer, Reached) or justified(system, name, answer.because)
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(transition_systems(2))
 def test_invariants_found_without_candidates(system: TransitionSystem) -> None:
     for name, answer in decided(system, [g.name for g in goals(system)], ()).items():
@@ -161,7 +162,7 @@ def test_a_variable_that_leaves_its_domain_leaves_the_goals_open() -> None:
 
 
 def test_a_variable_that_could_leave_its_domain_from_elsewhere_only() -> None:
-    """Growing beyond the domain takes a valuation that no run comes to, which is part of the proof."""
+    """Growing beyond the domain takes a state that no run comes to, which is part of the proof."""
     count, stop, goal = var("count", integer(0, 40)), flag("stop"), flag("goal")
     body = (
         If(~stop, (Assign(count, count + 2),)),
@@ -227,10 +228,10 @@ def test_a_dying_solver_leaves_the_goals_open(monkeypatch: pytest.MonkeyPatch) -
 # --- clauses of graphs ------------------------------------------------------------------------------
 
 
-@settings(max_examples=200)
+@examples(200)
 @given(transition_systems())
 def test_clauses_mean_what_the_graph_means(system: TransitionSystem) -> None:
-    """One valuation and all that depends on it: the solver must find the values that the graph has."""
+    """One state and all that depends on it: the solver must find the values that the graph has."""
     from pysat.solvers import Minisat22
 
     made = circuit(system, [g.name for g in goals(system)])

@@ -136,7 +136,7 @@ def _never_initial(self: Frames, wanted: Cube) -> bool:
 
 
 def _without_initiation(self: Generaliser, blocked: Cube, level: int) -> Cube:
-    """Literals are dropped as long as the rest is blocked, initial valuations or not."""
+    """Literals are dropped as long as the rest is blocked, initial states or not."""
     for literal in blocked.literals:
         part = cube(x for x in blocked.literals if x != literal)
         if self._frames.blocked(part, level - 1) is not None:
@@ -187,7 +187,7 @@ FAULTS = (
     Fault("a clause dropped at propagation", search.PdrSearch, "_try", _lost_when_pushed),
     Fault("a clause pushed without asking", search.PdrSearch, "_try", _pushed_without_asking),
     Fault("generalisation without the initiation test", Generaliser, "_smallest", _without_initiation),
-    Fault("initial valuations overlooked", Frames, "initial", _never_initial),
+    Fault("initial states overlooked", Frames, "initial", _never_initial),
     Fault("generalisation without the induction test", Generaliser, "_smallest", _unguarded_drop),
     Fault("lifting that drops a needed literal", Lifter, "into", _too_general),
     Fault("a missing assumption", groups, "machine", _no_assumption),

@@ -9,7 +9,7 @@ from dataclasses import replace
 import pytest
 
 from rovercheck.checker.process.isolate import Send, messages
-from rovercheck.checker.process.pool import Granted, Order, Pool, PoolEvent
+from rovercheck.checker.process.pool import GrantedTime, Order, Pool, PoolEvent
 from tests.checker.test_isolate import _tell_and_sleep as tell_and_sleep
 from tests.checker.test_isolate import gone
 
@@ -30,7 +30,7 @@ class Doing:
             case "fail":
                 raise ValueError("no such thing")
             case "hang":
-                send(Granted(0.2))
+                send(GrantedTime(0.2))
                 time.sleep(60)
             case "sleep":
                 time.sleep(60)

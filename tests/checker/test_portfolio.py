@@ -16,8 +16,8 @@ from rovercheck.checker.verify.portfolio import (
     Callbacks,
     Disagreement,
     Found,
-    Hint,
     PortfolioQuestion,
+    Prior,
     answers,
     as_found,
     question,
@@ -120,7 +120,7 @@ def test_time_is_shared_out(using) -> None:
     using(first, second)
     granted: list[float | None] = []
     answers(
-        PortfolioQuestion(system(), (ON, OFF)), AUTO, Limits(seconds=100), Callbacks(granted=granted.append)
+        PortfolioQuestion(system(), (ON, OFF)), AUTO, Limits(seconds=100), Callbacks(on_budget=granted.append)
     )
     [(_, early)], [(_, late)] = first.asked, second.asked
     assert early.seconds is not None and late.seconds is not None and late.seconds <= early.seconds <= 100
@@ -140,7 +140,7 @@ def test_that_a_goal_is_never_reached_counts_only_if_the_model_stays_in_its_doma
 def test_answers_are_given_once_as_they_are_found(using) -> None:
     using(Fake("first", {"on": run(4)}), Fake("second", {"off": NEVER}), Fake("third", {STRAY.name: NEVER}))
     heard: list[set[str]] = []
-    told = Callbacks(answered=lambda _, found: heard.append(set(found)))
+    told = Callbacks(on_answer=lambda _, found: heard.append(set(found)))
     given = [
         set(found) for found in as_found(PortfolioQuestion(system(STRAY), (ON, OFF)), AUTO, Limits(), told)
     ]
@@ -155,7 +155,7 @@ def test_one_engine_may_be_given_as_it_is() -> None:
 def test_a_short_run_is_enough_for_who_wants_one(using) -> None:
     first, second = Fake("first", {"on": run(1), "off": run(2)}), Fake("second", {})
     using(first, second)
-    answers(PortfolioQuestion(system(STRAY), (ON, OFF), Hint.SHORT), AUTO, Limits(), Callbacks())
+    answers(PortfolioQuestion(system(STRAY), (ON, OFF), Prior.SHORT), AUTO, Limits(), Callbacks())
     assert second.asked == []
 
 
@@ -229,8 +229,8 @@ def test_every_turn_of_the_table_can_be_taken() -> None:
 
 
 @pytest.mark.parametrize("bits", [0, WIDE, WIDE + 1, VAST, VAST + 1])
-@pytest.mark.parametrize("hint", Hint)
-def test_every_question_has_an_order(bits: int, hint: Hint) -> None:
+@pytest.mark.parametrize("hint", Prior)
+def test_every_question_has_an_order(bits: int, hint: Prior) -> None:
     assert ORDERS[Shape(bits, hint).kind]
 
 

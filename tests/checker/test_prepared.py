@@ -7,7 +7,7 @@ from collections.abc import Callable
 import pytest
 
 from rovercheck.checker.process import isolate
-from rovercheck.checker.process.isolate import Send, Stopped, messages, prepared
+from rovercheck.checker.process.isolate import ChildStopped, Send, messages, prepared
 from tests.checker.test_isolate import gone
 
 SELDOM_READ = "wave"
@@ -51,10 +51,10 @@ def test_an_error_does_not_leave_it_behind() -> None:
 def test_one_that_dies_says_so() -> None:
     with prepared(SELDOM_READ):
         isolate._ready[0].process.kill()
-        with pytest.raises(Stopped, match="ended by SIGKILL"):
+        with pytest.raises(ChildStopped, match="ended by SIGKILL"):
             _first(_tell)
 
 
 def test_a_module_that_is_not_there_is_reported() -> None:
-    with prepared("no_such_module"), pytest.raises(Stopped, match="no_such_module"):
+    with prepared("no_such_module"), pytest.raises(ChildStopped, match="no_such_module"):
         _first(_tell)

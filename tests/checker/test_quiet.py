@@ -8,7 +8,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from hypothesis.strategies import DrawFn
 
-from rovercheck.checker.encode.counting import counters
+from rovercheck.checker.encode.counters import counters
 from rovercheck.checker.encode.native import Layout, layout, moved_on, shifts
 from rovercheck.checker.engines import Limits, Timers, explicit, quiet
 from rovercheck.checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
@@ -21,6 +21,7 @@ from rovercheck.spec_model.lang.system import Statement, TransitionSystem, in_or
 from rovercheck.spec_model.lang.time import ticks
 from rovercheck.spec_model.lang.words import after, duration, maximum, minimum
 from tests.naive import replay, search
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 
 SKIP = Limits(timers=Timers.SKIP)
@@ -100,7 +101,7 @@ def _timer(draw: DrawFn, name: str, kind: str, scope: Sequence[Expr]) -> tuple[V
             return c, [If((c > 0) | runs, (Assign(c, onward),)), If(stops, (Assign(c, const(0)),))], full
 
 
-@settings(max_examples=60, suppress_health_check=list(HealthCheck))
+@settings(examples(60), suppress_health_check=list(HealthCheck))
 @given(timed_systems())
 def test_random_timers(system: TransitionSystem) -> None:
     wanted = goals(system)
@@ -111,13 +112,13 @@ def test_random_timers(system: TransitionSystem) -> None:
         assert found == reached.get(goal.name)
 
 
-@settings(max_examples=20, suppress_health_check=list(HealthCheck))
+@settings(examples(20), suppress_health_check=list(HealthCheck))
 @given(transition_systems())
 def test_any_random_system(system: TransitionSystem) -> None:
     both(system, *goals(system))
 
 
-@settings(max_examples=20, suppress_health_check=list(HealthCheck))
+@settings(examples(20), suppress_health_check=list(HealthCheck))
 @given(timed_systems(), st.integers(1, 9))
 def test_the_depth_limit(system: TransitionSystem, depth: int) -> None:
     both(system, *goals(system), limits=replace(SKIP, depth=depth))
@@ -202,7 +203,7 @@ def test_an_event_in_the_middle_of_a_line_is_found_in_time() -> None:
 
 
 def test_a_line_that_meets_an_anchor_ends_there() -> None:
-    """A valuation may be reached by an event first and by quiet ticks later, or the other way round."""
+    """A state may be reached by an event first and by quiet ticks later, or the other way round."""
     a, jumped = var("a", integer(0, 40)), flag("jumped")
     step = (
         Assign(jumped, go),

@@ -1,11 +1,11 @@
-"""Invariants on record: formulas that are written and read again, and tried before anything is searched."""
+"""Recorded invariants: formulas that are written and read again, and tried before anything is searched."""
 
 import json
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.checker.engines import AUTO, Engine, Limits
@@ -22,6 +22,7 @@ from rovercheck.spec_model.lang.expr import Expr, Var, flag, var
 from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.checker.test_kinduction import agrees, answered, searched
 from tests.inductive import problems
+from tests.profiles import examples
 from tests.strategies_ts import booleans, goals, transition_systems
 from tests.toys import GOAL, counter, overflowing, relay
 
@@ -113,7 +114,7 @@ def shown(
     return answered(with_given(system, [g.name for g in wanted], candidates), wanted)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.data())
 def test_whatever_is_on_record_nothing_wrong_is_shown(data: st.DataObject) -> None:
     system = data.draw(transition_systems())
@@ -122,7 +123,7 @@ def test_whatever_is_on_record_nothing_wrong_is_shown(data: st.DataObject) -> No
     agrees(system, goals(system), shown(system, goals(system), tried))
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(transition_systems())
 def test_what_was_proved_once_is_shown_again(system: TransitionSystem) -> None:
     first = searched(system, goals(system))
@@ -168,13 +169,13 @@ def test_a_run_is_left_to_engines_that_find_plainer_ones() -> None:
 
 def test_what_a_record_leaves_open_is_enumerated_next(monkeypatch: pytest.MonkeyPatch) -> None:
     """It was not proved with the rest: k-induction is not asked to prove a broad question once more."""
-    order, asked_by = list[str](), turns.asked
+    order, asked_by = list[str](), turns.run_turn
 
     def noted(engine: Engine, *rest: Any) -> dict[str, EngineAnswer]:
         order.append(engine.SUMMARY if isinstance(engine, RecordedInvariants) else engine.NAME)
         return asked_by(engine, *rest)
 
-    monkeypatch.setattr(turns, "asked", noted)
+    monkeypatch.setattr(turns, "run_turn", noted)
     monkeypatch.setattr(
         "rovercheck.checker.verify.portfolio.turns.ORDERS", dict.fromkeys(ORDERS, (SOON, ORDERS["narrow"][0]))
     )

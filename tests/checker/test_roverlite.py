@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from benchmarks import rivals
@@ -21,6 +21,7 @@ from rovercheck.spec_model.lang.domain import Enum
 from rovercheck.spec_model.lang.evaluate import step
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import TransitionSystem
+from tests.profiles import examples
 
 ALL = 127
 Inputs = Mapping[str, int]
@@ -186,7 +187,7 @@ ONE_TICK = st.fixed_dictionaries({v.name: st.sampled_from(list(v.domain.values))
 HELD_RUNS = st.lists(st.tuples(ONE_TICK, st.integers(1, 30)), min_size=1, max_size=12)
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(k=st.sampled_from([1, 10, 25, 100]), held=HELD_RUNS)
 def test_a_step_is_that_of_the_reference(k: int, held: list[tuple[dict[str, int], int]]) -> None:
     system, goals = roverlite(ALL, k)

@@ -12,7 +12,7 @@ from rovercheck.checker.engines import Limits, Progress, explicit
 from rovercheck.checker.process.faults import Fault, listening
 from rovercheck.checker.results.verdict import Answer, Proved, Unknown, Violated
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.searches import Over, searches
+from rovercheck.checker.verify.searches import SearchEnd, searches
 from rovercheck.checker.verify.tasks import MOST, Task, tasks
 from rovercheck.properties.catalogue import catalogue
 from rovercheck.properties.forms import Always, Never, Property
@@ -82,7 +82,7 @@ def decided(what: str, seconds: float | None = None) -> dict[str, Result]:
     with listening(faults.append):
         heard = list(searches(work(), KNOWN, Erratic("two", what), limits, 2))
     assert [(f.who, f.system) for f in faults] == ([("erratic", "two")] if what == "raise" else [])
-    assert sum(isinstance(one, Over) for one in heard) == len(KNOWN)
+    assert sum(isinstance(one, SearchEnd) for one in heard) == len(KNOWN)
     return {one.property.id: one for one in heard if isinstance(one, Result)}
 
 

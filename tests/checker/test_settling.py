@@ -4,7 +4,7 @@ from rovercheck.checker.encode.bits import circuit
 from rovercheck.checker.encode.bits.simulate import BitSimulation
 from rovercheck.checker.engines import quiet
 from rovercheck.checker.verify.liveness.loops import LoopHunt, hunt, looped
-from rovercheck.checker.verify.liveness.settling import settled
+from rovercheck.checker.verify.liveness.repetition import repeating_loop
 from rovercheck.properties.forms import settles
 from rovercheck.properties.reduce import reduce
 from rovercheck.spec_model.lang.action import assign
@@ -39,18 +39,18 @@ def hunted(then: Expr) -> LoopHunt:
 
 
 def test_a_loop_of_a_year_is_found_and_replays() -> None:
-    found = settled(hunted(~wet), quiet, runs=64)
+    found = repeating_loop(hunted(~wet), quiet, runs=64)
     assert found is not None and not found.shortest
     trace = looped(hunted(~wet), found.run)
     assert trace.loop is not None and len(trace) - trace.loop == DAYS
 
 
 def test_the_same_question_has_the_same_answer() -> None:
-    assert settled(hunted(~wet), quiet, runs=64) == settled(hunted(~wet), quiet, runs=64)
+    assert repeating_loop(hunted(~wet), quiet, runs=64) == repeating_loop(hunted(~wet), quiet, runs=64)
 
 
 def test_nothing_is_found_where_there_is_no_loop() -> None:
-    assert settled(hunted(~wet | locked), quiet, runs=32) is None
+    assert repeating_loop(hunted(~wet | locked), quiet, runs=32) is None
 
 
 def test_runs_of_a_simulation_are_independent() -> None:

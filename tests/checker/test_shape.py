@@ -1,8 +1,8 @@
-"""What counts as a wide question: what one valuation can hold at once, not all that is declared."""
+"""What counts as a wide question: what one state can hold at once, not all that is declared."""
 
 import pytest
 
-from rovercheck.checker.verify.portfolio import Hint, PortfolioQuestion
+from rovercheck.checker.verify.portfolio import PortfolioQuestion, Prior
 from rovercheck.checker.verify.portfolio.order import ORDERS
 from rovercheck.checker.verify.portfolio.shape import BROAD, FEW, MANY, VAST, WIDE, Shape, shape
 from rovercheck.spec_model.composition.motors import motors_zero
@@ -55,11 +55,11 @@ def test_a_wide_valuation_with_few_free_bits_is_enumerated_first(bits: int, free
 
 
 @pytest.mark.parametrize(("bits", "free", "hint", "kind"), [
-    (WIDE, MANY + 1, Hint.NONE, "broad"), (WIDE + 1, MANY, Hint.NONE, "wide"),
-    (WIDE + 1, MANY + 1, Hint.NONE, "vast"), (WIDE + 1, MANY + 1, Hint.CONCRETE, "concrete"),
+    (WIDE, MANY + 1, Prior.NONE, "broad"), (WIDE + 1, MANY, Prior.NONE, "wide"),
+    (WIDE + 1, MANY + 1, Prior.NONE, "vast"), (WIDE + 1, MANY + 1, Prior.CONCRETE, "concrete"),
 ])  # fmt: skip
 def test_a_wide_valuation_with_many_free_bits_is_not_enumerated(
-    bits: int, free: int, hint: Hint, kind: str
+    bits: int, free: int, hint: Prior, kind: str
 ) -> None:
     assert Shape(bits, hint, free=free).kind == kind
     assert kind != "vast" or "explicit" not in {turn.engine for turn in ORDERS[kind]}

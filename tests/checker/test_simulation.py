@@ -50,7 +50,7 @@ def reached(system: TransitionSystem, goal: Expr, depth: int | None = None) -> R
 
 @pytest.mark.parametrize("seconds", [20, 120])
 def test_a_witness_of_a_thousand_ticks_is_found_by_holding_the_inputs(seconds: int) -> None:
-    """A breadth-first search visited 68 million valuations on the way, in eleven minutes."""
+    """A breadth-first search visited 68 million states on the way, in eleven minutes."""
     system = patient(seconds)
     lit = system.charts[0].active("On")
     noise = [v for v in system.written.values() if v.name.startswith("kept")]

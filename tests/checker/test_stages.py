@@ -1,4 +1,4 @@
-"""Inputs chosen coarsely until the valuation is complete, and finely for the goals alone: nothing is lost."""
+"""Inputs chosen coarsely until the state is complete, and finely for the goals alone: nothing is lost."""
 
 from collections.abc import Callable, Iterator, Mapping
 
@@ -7,6 +7,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.strategies import DataObject
 
+from rovercheck.checker.encode.code_motion import sunk
 from rovercheck.checker.encode.native import NativeTask, OutsideDomain, layout, search
 from rovercheck.checker.encode.path_statements import (
     Branch,
@@ -17,7 +18,6 @@ from rovercheck.checker.encode.path_statements import (
     PathStatement,
     Require,
 )
-from rovercheck.checker.encode.sinking import sunk
 from rovercheck.checker.engines import Limits, Timers
 from rovercheck.checker.results.verdict import Open, Reached
 from rovercheck.checker.system.slice import sliced
@@ -52,7 +52,7 @@ def statements(program: PathProgram) -> Iterator[PathStatement]:
 
 
 def stages(made: NativeTask) -> tuple[PathProgram, PathProgram]:
-    """The statements before and after the valuation is complete."""
+    """The statements before and after the state is complete."""
     (at,) = (i for i, s in enumerate(made.stages) if isinstance(s, Complete))
     return made.stages[:at], made.stages[at + 1 :]
 
@@ -244,7 +244,7 @@ def test_without_coarser_cells_there_is_one_stage() -> None:
 
 
 def codes(number: int) -> tuple[TransitionSystem, Var]:
-    """A goal that needs many values of many inputs, in a valuation that has one successor."""
+    """A goal that needs many values of many inputs, in a state that has one successor."""
     many = tuple(var(f"i{n}", integer(0, 9)) for n in range(number))
     count, never = var("count", integer(0, 2)), flag("never")
     beyond = sum(many, start=count + 0) > 200
@@ -262,7 +262,7 @@ def test_a_search_with_too_many_inputs_for_a_goal_is_given_up(monkeypatch: pytes
 def test_the_time_ends_in_the_middle_of_the_second_stage() -> None:
     (answer,) = check(*codes(12), limits=Limits(seconds=0))
     assert isinstance(answer, Open)
-    assert answer.reason.startswith("the time limit of 0 s is reached at 1 valuations")
+    assert answer.reason.startswith("the time limit of 0 s is reached at 1 states")
 
 
 def test_a_goal_is_reached_by_a_tick_that_breaks_the_model() -> None:

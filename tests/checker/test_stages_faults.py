@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from rovercheck.checker.encode import path_statements, paths, sinking
+from rovercheck.checker.encode import code_motion, path_statements, paths
 from rovercheck.checker.encode.native import body, search
 from rovercheck.checker.encode.path_statements import Choose
 from rovercheck.checker.system import partition
@@ -61,7 +61,7 @@ def the_coarse_choice_is_not_restored(patch: pytest.MonkeyPatch) -> None:
 
 def statements_overtake_others(patch: pytest.MonkeyPatch) -> None:
     """What a goal reads is overwritten before."""
-    patch.setattr(sinking, "_overtaken", lambda *_: iter(()))
+    patch.setattr(code_motion, "_overtaken", lambda *_: iter(()))
 
 
 def what_is_stored_is_sunk(patch: pytest.MonkeyPatch) -> None:
@@ -70,8 +70,8 @@ def what_is_stored_is_sunk(patch: pytest.MonkeyPatch) -> None:
     def needed(*args: Any) -> Iterator[int]:
         return iter(list(real(*args))[1:])
 
-    real = sinking._needed
-    patch.setattr(sinking, "_needed", needed)
+    real = code_motion._needed
+    patch.setattr(code_motion, "_needed", needed)
 
 
 FAULTS: tuple[Fault, ...] = (

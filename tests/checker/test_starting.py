@@ -5,7 +5,7 @@ from hypothesis import given
 
 from rovercheck.checker.engines import Limits, quiet
 from rovercheck.checker.system import initial as starting
-from rovercheck.checker.system.initial import check_starts, starts
+from rovercheck.checker.system.initial import has_initial_tick, require_initial_tick
 from rovercheck.checker.verify.decide import AUTO, Task, decide
 from rovercheck.properties.forms import never
 from rovercheck.spec_model.lang.action import assign
@@ -26,28 +26,28 @@ def system(assume: Expr) -> TransitionSystem:
 
 @pytest.mark.parametrize("assume", [TRUE, (X == 301 - Y) & (Y > 299), (COUNT == 5) & (X < Y), X + Y == 600])
 def test_some_first_tick_is_found(assume: Expr) -> None:
-    assert starts(system(assume)) is True
+    assert has_initial_tick(system(assume)) is True
 
 
 @pytest.mark.parametrize(
     "assume", [FALSE, (X < 5) & (X > 5), COUNT == 6, (COUNT < 9) & (X < 3) & (Y < 3) & (X + Y == 5)]
 )
 def test_that_there_is_none_is_found(assume: Expr) -> None:
-    assert starts(system(assume)) is False
+    assert has_initial_tick(system(assume)) is False
     with pytest.raises(ModelError, match="allows no first tick"):
-        check_starts(system(assume))
+        require_initial_tick(system(assume))
 
 
 def test_what_is_not_found_out_is_no_error(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(starting, "TRIED", 1000)
-    assert starts(system(X + Y == 601)) is None
-    check_starts(system(X + Y == 601))
+    assert has_initial_tick(system(X + Y == 601)) is None
+    require_initial_tick(system(X + Y == 601))
 
 
 @given(transition_systems())
 def test_first_ticks_by_definition(drawn: TransitionSystem) -> None:
     ticks = (any(successors(drawn, {**drawn.init, **frozen})) for frozen in vectors(drawn.frozen))
-    assert starts(drawn) is any(ticks)
+    assert has_initial_tick(drawn) is any(ticks)
 
 
 def test_nothing_is_proved_of_a_system_without_a_run() -> None:

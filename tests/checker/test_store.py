@@ -1,4 +1,4 @@
-"""The memory of the explicit search: parents in two bits, tables that grow, valuations that stay."""
+"""The memory of the explicit search: parents in two bits, tables that grow, states that stay."""
 
 from dataclasses import dataclass
 from typing import cast

@@ -2,7 +2,7 @@
 
 import random
 
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.checker.encode.cone import cone, constants, folded, settled
@@ -16,6 +16,7 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.walk import nodes
 from rovercheck.spec_model.lang.words import minimum
 from tests.naive import search, vectors
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 
 
@@ -27,7 +28,7 @@ def made(variables: tuple[Var, ...], *program: Assign | If, inputs: tuple[Var, .
     return TransitionSystem("made", inputs, (), variables, (), program)
 
 
-@settings(max_examples=400)
+@examples(400)
 @given(transition_systems(), st.randoms(use_true_random=False))
 def test_next_functions_agree_with_the_step(system: TransitionSystem, seed: random.Random) -> None:
     found = transition(system)
@@ -42,7 +43,7 @@ def test_next_functions_agree_with_the_step(system: TransitionSystem, seed: rand
         assert all(evaluate(e, at) for e in found.assume) == bool(evaluate(system.assume, at))
 
 
-@settings(max_examples=300)
+@examples(300)
 @given(transition_systems(), st.randoms(use_true_random=False))
 def test_the_cone_computes_its_goals_alone(system: TransitionSystem, seed: random.Random) -> None:
     part = cone(folded(transition(system)), [goals(system)[0].name])
@@ -122,10 +123,10 @@ def test_children_come_before_parents() -> None:
 # --- folding --------------------------------------------------------------------------------------
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(transition_systems())
 def test_what_is_folded_away_never_changes(system: TransitionSystem) -> None:
-    """On every reachable valuation, under the assumption, the folded formulas give what a tick gives."""
+    """On every reachable state, under the assumption, the folded formulas give what a tick gives."""
     whole = folded(transition(system))
     for state in sorted(search(system, ()).states)[:40]:
         at = dict(state)

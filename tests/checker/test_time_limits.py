@@ -9,9 +9,9 @@ import pytest
 
 from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.results.verdict import Unknown
-from rovercheck.checker.verify.certificates import Certifying
+from rovercheck.checker.verify.certificates import Certification
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.searches import Over, searches
+from rovercheck.checker.verify.searches import SearchEnd, searches
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.forms import Always, Property
 from rovercheck.spec_model.lang.action import assign
@@ -55,20 +55,20 @@ def heard(*functions: str, certify: bool = False) -> tuple[Result, float]:
     plain = in_order("lamp", LAMP, notes=functions)
     system = Slow(**{f.name: getattr(plain, f.name) for f in fields(plain)})
     prop = Property("LAMP", "", Always(lamp | ~lamp), (), "lamp")
-    certifying = Certifying(again=True) if certify else None
+    certifying = Certification(again=True) if certify else None
     began = time.monotonic()
     work = searches([Task(system, (prop,))], {"lamp": system}, AUTO, Limits(seconds=SECONDS), 1, certifying)
     found = list(work)
     took = time.monotonic() - began
     [result] = [one for one in found if isinstance(one, Result)]
-    assert isinstance(found[-1], Over)
+    assert isinstance(found[-1], SearchEnd)
     return result, took
 
 
 @pytest.mark.parametrize(
     ("function", "stage"),
     [
-        ("rovercheck.checker.system.lowered.lower", "while lowering lamp"),
+        ("rovercheck.checker.system.lowering_cache.lower", "while lowering lamp"),
         ("rovercheck.checker.verify.decide.check_starts", "while lowering lamp"),
         ("rovercheck.checker.verify.portfolio.shape.sliced", "while slicing lamp"),
         (

@@ -187,7 +187,7 @@ counting = replace(
     frozen=(which,),
     variables=(level, spare, over),
 )
-"""Never over; only one case has more than a few valuations."""
+"""Never over; only one case has more than a few states."""
 
 
 def test_a_case_says_which_limit_it_met_and_gives_its_memory_back(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -11,9 +11,9 @@ from pathlib import Path
 from unittest.mock import patch
 
 from rovercheck.checker.cli import run
+from rovercheck.checker.commands.generate_tests import run as generating
 from rovercheck.checker.commands.reports import run as reporting
-from rovercheck.checker.commands.testgen import run as generating
-from rovercheck.checker.compare import check, recorded
+from rovercheck.checker.compare import check, recorded_runs
 from rovercheck.checker.compare.environment import Environment
 from rovercheck.checker.compare.search import Run
 from rovercheck.checker.system.instrument.watch import watched
@@ -34,16 +34,16 @@ COMMANDS = (
     f"certify certificates {LIFT}",
     f"graph lift {LIFT} --project Door -o door.svg",
     "reports -o reports",
-    "crosscheck --system board2 --impl python:tests.conform.cross_faults:StopsLate --examples 1",
-    "conform examples/logs",
+    "compare --system board2 --impl python:tests.conform.cross_faults:StopsLate --examples 1",
+    "check-log examples/logs",
     "simulate examples/scenarios/link_loss.toml -o motion.csv",
-    "testgen --system toy --ticks 200 --jobs 1 -o tests",
+    "generate-tests --system toy --ticks 200 --jobs 1 -o tests",
     f"explore lift {LIFT} --trace LIFT-3 --script {ROOT}/tests/cli/conversation.txt",
 )
 
 
 def _known(env: Environment, folder: Path | None) -> Iterator[Run]:
-    yield from islice(recorded.counterexamples(env.board), 9)
+    yield from islice(recorded_runs.counterexamples(env.board), 9)
 
 
 def _few() -> dict[str, object]:
@@ -58,7 +58,7 @@ def main() -> None:
     with (
         patch.object(check, "_known", _known),
         patch.object(reporting, "catalogue", _few),
-        patch.object(reporting, "proofs", lambda: ()),
+        patch.object(reporting, "proofs", lambda record: ()),
         patch.object(reporting, "repair_pages", lambda proved: {}),
         patch.object(generating, "aims", lambda names, kinds: toy),
         patch.object(generating, "systems", lambda: {cover_toys.TOY.name: cover_toys.SYSTEM}),

@@ -42,7 +42,7 @@ def test_outcomes_for_machines_are_as_the_schema_says(
     schema = json.loads((Path(checker.__file__).parent / "schemas" / "certify-1.json").read_text("utf-8"))
     changes: list[tuple[Callable[[Any], None], Exit, str]] = [
         (lambda _: None, Exit.AS_EXPECTED, "accepted"),
-        (lambda d: d["certificates"][0].update(digest="0" * 64), Exit.CHANGED, "rejected"),
+        (lambda d: d["certificates"][0].update(digest="0" * 64), Exit.FAILED, "rejected"),
         (lambda d: d["certificates"].clear(), Exit.INCONCLUSIVE, "undecided"),
     ]
     for change, code, word in changes:
@@ -57,7 +57,7 @@ def test_every_outcome_names_its_file(made: Path, tmp_path: Path, capsys: pytest
     """Of two files about one property nobody could tell which was rejected."""
     good = counters(made)
     bad = changed(good, tmp_path, lambda d: d["certificates"][0].update(digest="0" * 64))
-    assert cli.run(["certify", str(good), str(bad), "--solver", "bitwuzla", "--json"]) is Exit.CHANGED
+    assert cli.run(["certify", str(good), str(bad), "--solver", "bitwuzla", "--json"]) is Exit.FAILED
     told = [(one["file"], one["outcome"]) for one in json.loads(capsys.readouterr().out)["properties"]]
     assert sorted(told) == sorted([(str(good), "accepted"), (str(bad), "rejected")])
     cli.run(["certify", str(good), str(bad), "--solver", "bitwuzla"])
@@ -140,7 +140,7 @@ def test_a_proof_under_another_reading_is_derived_under_it(tmp_path: Path) -> No
     assert read(path).origin.readings == {"S27": "OK"}
     assert certify([path], SOLVER, None, False) is Exit.AS_EXPECTED
     otherwise = changed(path, tmp_path, lambda document: document["origin"].update(readings={}))
-    assert certify([otherwise], SOLVER, None, False) is Exit.CHANGED
+    assert certify([otherwise], SOLVER, None, False) is Exit.FAILED
 
 
 def test_the_obligations_are_unsatisfiable_for_other_solvers_too(made: Path, tmp_path: Path) -> None:

@@ -7,11 +7,11 @@ from typing import Any
 import pytest
 
 from rovercheck.checker import cli
-from rovercheck.checker.certify.file import CertificateOrigin, Written, read, write
+from rovercheck.checker.certify.file import CertificateFile, CertificateOrigin, read, write
 from rovercheck.checker.certify.outcome import Rejected
 from rovercheck.checker.certify.terms import Malformed
 from rovercheck.checker.commands.certify import derive as deriving
-from rovercheck.checker.commands.certify.derive import Checking, DerivedVerdict, told_of
+from rovercheck.checker.commands.certify.derive import CertificateCheck, DerivedVerdict, derived_verdicts
 from rovercheck.checker.commands.certify.run import certify
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.process.pool import Order, Pool, PoolEvent
@@ -31,7 +31,7 @@ def test_a_corrupted_invariant_is_rejected(
     def drop(document: Any) -> None:
         document["certificates"][0]["invariant"]["nodes"][-1][1:4] = []
 
-    assert cli.run(["certify", str(changed(counters(made), tmp_path, drop))]) is Exit.CHANGED
+    assert cli.run(["certify", str(changed(counters(made), tmp_path, drop))]) is Exit.FAILED
     assert f"✗ {COUNTERS[0]}" in capsys.readouterr().out
 
 
@@ -41,7 +41,7 @@ def test_a_certificate_of_another_model_is_rejected(
     def other(document: Any) -> None:
         document["certificates"][0]["digest"] = "0" * 64
 
-    assert cli.run(["certify", str(changed(counters(made), tmp_path, other))]) is Exit.CHANGED
+    assert cli.run(["certify", str(changed(counters(made), tmp_path, other))]) is Exit.FAILED
     assert "question: it is about another counters" in capsys.readouterr().out
 
 
@@ -68,7 +68,7 @@ def test_an_origin_that_does_not_exist_is_rejected(
         lambda d: d["origin"].update(properties=["PX-1"], proved=["PX-1"]),
     ]
     for change in changes:
-        assert certify([changed(counters(made), tmp_path, change)], SOLVER, None, False) is Exit.CHANGED
+        assert certify([changed(counters(made), tmp_path, change)], SOLVER, None, False) is Exit.FAILED
         assert "rejected  origin" in capsys.readouterr().out
 
 
@@ -86,7 +86,7 @@ def test_properties_with_and_without_a_bound_are_never_searched_together(tmp_pat
     ids = "PB1-25-turned", "PSY-12"
     for order in (ids, ids[::-1]):
         path = write(tmp_path, CertificateOrigin("references_executed", order, order, {}), [])
-        told = told_of(read(path), Checking("", SOLVER, None))
+        told = derived_verdicts(read(path), CertificateCheck("", SOLVER, None))
         assert [type(one.outcome) for one in told] == [Rejected, Rejected]
 
 
@@ -97,7 +97,7 @@ def test_a_file_cannot_write_lines_of_its_own(
         id = "PX\n✓ PB1-15 accepted \x1b[2K\ud800"
         document["origin"].update(properties=[id], proved=[id])
 
-    assert certify([changed(counters(made), tmp_path, spoof)], SOLVER, None, False) is Exit.CHANGED
+    assert certify([changed(counters(made), tmp_path, spoof)], SOLVER, None, False) is Exit.FAILED
     said = capsys.readouterr().out
     assert "\n✓" not in said and "\x1b" not in said and r"\n✓ PB1-15" in said
 
@@ -113,10 +113,12 @@ def test_nothing_is_counted_twice(made: Path, tmp_path: Path) -> None:
 def test_a_file_that_kills_its_reader_is_undecided(
     made: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    def told(written: Written, checking: Checking, model: Path | None) -> list[DerivedVerdict]:
+    def told(
+        written: CertificateFile, checking: CertificateCheck, model: Path | None
+    ) -> list[DerivedVerdict]:
         raise MemoryError if written.origin.system == "counters" else AssertionError("what is this")
 
-    monkeypatch.setattr(deriving, "told_of", told)
+    monkeypatch.setattr(deriving, "derived_verdicts", told)
     monkeypatch.setattr(Pool, "run", here)
     assert certify([made], SOLVER, None, False) is Exit.INCONCLUSIVE
     said = capsys.readouterr().out

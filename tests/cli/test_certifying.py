@@ -13,7 +13,7 @@ from rovercheck.checker.certify.record import Recorder
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.engines import Limits, quiet
-from rovercheck.checker.verify.certificates import Certifying
+from rovercheck.checker.verify.certificates import Certification
 from rovercheck.checker.verify.decide import decide
 from rovercheck.checker.verify.portfolio.question import Callbacks
 from rovercheck.checker.verify.result import Result
@@ -52,7 +52,7 @@ def test_a_verdict_tells_why_it_is_not(capfd: pytest.CaptureFixture[str]) -> Non
 def test_a_proof_stands_that_is_too_large_for_a_certificate(
     known: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """Two promises ended as unknown when diagrams were made of their 20 to 40 million valuations."""
+    """Two promises ended as unknown when diagrams were made of their 20 to 40 million states."""
 
     def no_room(*_: object) -> None:
         raise MemoryError
@@ -63,11 +63,11 @@ def test_a_proof_stands_that_is_too_large_for_a_certificate(
         monkeypatch.setattr("rovercheck.checker.certify.certificate.diagram", no_room)
     [task] = tasks([catalogue()["PB1-11"]], systems())
     recorder = Recorder()
-    told = Callbacks(answered=recorder.answered)
+    told = Callbacks(on_answer=recorder.answered)
     found = list(decide(task, systems(), "explicit", Limits(), quiet, told))
     [result] = found
     assert result.verdict.word == "proved" and recorder.made == []
-    outcomes = Certifying(again=True).outcomes(task, systems(), Limits(), found, recorder.made, quiet)
+    outcomes = Certification(again=True).outcomes(task, systems(), Limits(), found, recorder.made, quiet)
     assert isinstance(outcome := outcomes["PB1-11"], Undecided)
     assert "explicit wrote no certificate of all" in outcome.reason and "too many" in outcome.reason
 
@@ -81,9 +81,9 @@ def test_certifying_within_little_memory(monkeypatch: pytest.MonkeyPatch) -> Non
     monkeypatch.setattr("rovercheck.checker.verify.certificates.check", no_room)
     [task] = tasks([catalogue()["PB1-11"]], systems())
     recorder = Recorder()
-    told = Callbacks(answered=recorder.answered)
+    told = Callbacks(on_answer=recorder.answered)
     found = list(decide(task, systems(), "explicit", Limits(), quiet, told))
-    outcome = Certifying(again=True).outcomes(task, systems(), Limits(), found, recorder.made, quiet)[
+    outcome = Certification(again=True).outcomes(task, systems(), Limits(), found, recorder.made, quiet)[
         "PB1-11"
     ]
     assert outcome == Undecided("the memory limit is reached")
@@ -122,7 +122,7 @@ def test_a_folder_that_cannot_be_written_any_more(
     (tmp_path / "taken").write_text("a file")
     assert run(["check", "PB1-11", "--certificates", str(tmp_path / "taken" / "in")]) == Exit.USAGE
     shown = capfd.readouterr()
-    assert "PB1-11" in shown.out and "The verdicts stand." in shown.err and "INTERNAL" not in shown.err
+    assert "PB1-11" in shown.out and "The verdicts stand." in shown.err and "Internal error" not in shown.err
 
 
 def test_no_folder_is_left_where_nothing_is_proved(tmp_path: Path) -> None:

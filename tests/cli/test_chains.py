@@ -6,10 +6,10 @@ from dataclasses import replace
 import pytest
 
 from rovercheck.checker.cli import run
-from rovercheck.checker.commands.check import standing
-from rovercheck.checker.commands.check.further import Further
+from rovercheck.checker.commands.check import chain_status
+from rovercheck.checker.commands.check.chain_status import Chains
+from rovercheck.checker.commands.check.further import CheckExtras
 from rovercheck.checker.commands.check.run import CheckOutput, CheckRequest, check
-from rovercheck.checker.commands.check.standing import Chains
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.model.variant import Variant
@@ -41,7 +41,7 @@ RELAY = next(promise for promise in promises() if promise.id == "RELAY")
 def test_a_hole_and_a_circle_are_told_with_place_before_anything_is_searched(
     promise: Promise, hole: str, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(standing, "promises", lambda: (promise,))
+    monkeypatch.setattr(chain_status, "promises", lambda: (promise,))
     assert run(["check", "--repair", "wheel-by-feedback"]) == Exit.USAGE
     shown = capsys.readouterr()
     said = " ".join(shown.err.split())
@@ -77,7 +77,7 @@ def test_what_becomes_of_chains_is_told_after_the_verdicts(capsys: pytest.Captur
     chains = Chains(Variant({}))
     [first, *others] = chains.standings([])
     broken = replace(first, holds=False, failing=("PSY-10m",))
-    further = Further(chains=lambda _: [broken, *(replace(o, holds=True, failing=()) for o in others)])
+    further = CheckExtras(chains=lambda _: [broken, *(replace(o, holds=True, failing=()) for o in others)])
     for as_json in (False, True):
         capsys.readouterr()
         prop = chains.variant.properties()["PB1-12"]

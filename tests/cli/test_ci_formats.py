@@ -89,19 +89,19 @@ def written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Written:
 def test_all_as_on_record(written: Written, capsys: pytest.CaptureFixture[str]) -> None:
     assert written.check(AS_RECORDED) == Exit.AS_EXPECTED
     assert all(case.is_passed for case in written.cases.values())
-    assert "as on record" in written.cases["PB1-15"].system_out
+    assert "as expected" in written.cases["PB1-15"].system_out
     assert [r["level"] for r in written.log["results"]] == ["note"]
     assert "::notice file=properties/areas/relay.py,line=" in capsys.readouterr().out
-    assert "Every verdict is as on record." in written.summary.read_text(encoding="utf-8")
+    assert "Every verdict is as expected." in written.summary.read_text(encoding="utf-8")
 
 
 def test_what_changed_fails_with_the_explained_run(
     written: Written, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    assert written.check(CHANGED) == Exit.CHANGED
+    assert written.check(CHANGED) == Exit.FAILED
     kinds = {name: [type(r) for r in case.result] for name, case in written.cases.items()}
     assert kinds == {"PB1-11": [Failure], "PB1-12": [Error], "PB1-14": [], "PB1-15": [Failure]}
-    assert "Relay: Ours → Theirs (arrow 1)" in written.cases["PB1-11"].result[0].text
+    assert "Relay: Ours → Theirs (transition 1)" in written.cases["PB1-11"].result[0].text
     said = capsys.readouterr().out
     assert said.count("::error ") == 2 and said.count("::warning ") == 1
     assert "▸ Relay: Ours → Theirs" in said, "in the log"
@@ -115,7 +115,7 @@ def test_what_changed_fails_with_the_explained_run(
     ("end", "code", "case", "why"),
     [
         (KeyboardInterrupt(), Exit.INTERRUPTED, "interrupted", ""),
-        (RuntimeError("a bug"), Exit.INTERNAL, "stopped", "INTERNAL: RuntimeError: a bug"),
+        (RuntimeError("a bug"), Exit.INTERNAL, "stopped", "Internal error: RuntimeError: a bug"),
         (ModelError("toy: x gives 4."), Exit.USAGE, "stopped", "toy: x gives 4. Incomplete:"),
     ],
 )
@@ -143,7 +143,7 @@ def test_what_is_printed_commands_nothing(written: Written, capsys: pytest.Captu
 def test_json_stays_json(written: Written, capsys: pytest.CaptureFixture[str]) -> None:
     written.check(CHANGED, "--json")
     said = capsys.readouterr()
-    assert json.loads(said.out)["exit"] == Exit.CHANGED and "::error" in said.err
+    assert json.loads(said.out)["exit"] == Exit.FAILED and "::error" in said.err
 
 
 def test_nothing_is_decided_for_a_place_that_cannot_be_written(

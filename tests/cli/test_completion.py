@@ -10,7 +10,7 @@ import pytest
 
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.completing import BY_NAME, IN_VERB
+from rovercheck.checker.commands.shared.completion import BY_NAME, IN_VERB
 from rovercheck.checker.engines import engines
 from rovercheck.checker.render import renderers
 
@@ -67,7 +67,7 @@ def test_a_model_of_your_own_that_cannot_be_read_offers_nothing() -> None:
 def test_no_solver_is_loaded() -> None:
     program = (
         "import sys, click; from rovercheck.checker.cli import app\n"
-        "from rovercheck.checker.commands.shared.completing import BY_NAME\n"
+        "from rovercheck.checker.commands.shared.completion import BY_NAME\n"
         "found = BY_NAME['id'](click.Context(app), click.Option(['--id']), 'PB1')\n"
         f"assert found; print([m for m in {SOLVERS} if m in sys.modules])"
     )

@@ -65,7 +65,7 @@ def test_a_missing_requirement_is_told_and_fails(
 
     monkeypatch.setattr(doctor, "version", without_oxidd)
     monkeypatch.setattr(doctor, "find_spec", lambda name: None)
-    assert run(["doctor"]) is Exit.CHANGED
+    assert run(["doctor"]) is Exit.FAILED
     seen = capsys.readouterr().out
     assert "✗ oxidd" in seen and "Broken: oxidd." in seen
 
@@ -80,7 +80,7 @@ def test_an_engine_that_fails_is_told_and_fails(
         return "says proved of what is violated" if engine == "bmc" else ""
 
     monkeypatch.setattr(doctor, "tried", fails)
-    assert run(["doctor"]) is Exit.CHANGED
+    assert run(["doctor"]) is Exit.FAILED
     seen = capsys.readouterr().out
     assert type(raised).__name__ in seen and "Broken: engine bdd, engine bmc." in seen
 

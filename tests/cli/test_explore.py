@@ -11,7 +11,7 @@ import pytest
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.explore.run import COMMANDS, named
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput
 from tests.cli.terminal import Terminal
 
 COMMAND = [sys.executable, "-m", "rovercheck", "explore"]
@@ -37,7 +37,7 @@ def test_a_session_shows_what_was_typed_and_what_happened(told) -> None:
     )
     assert (code, said) == (Exit.AS_EXPECTED, "")
     assert "tick 0, 0 ms> step\n" in seen
-    assert "▸ Relay: B1_actuating → B2_actuating (arrow 1)" in seen
+    assert "▸ Relay: B1_actuating → B2_actuating (transition 1)" in seen
     assert "tick 2, 40 ms> show\ncharts  Relay: B2_actuating\n" in seen
     assert "junk" not in seen, "after quit nothing is read"
     assert max(map(len, seen.splitlines())) <= 80

@@ -1,4 +1,4 @@
-"""Engines that fail with an error of ours: verdicts of the others, exit code 3, and a message."""
+"""Engines that fail with an internal error: verdicts of the others, exit code 3, and a message."""
 
 import json
 import os
@@ -47,10 +47,10 @@ def test_another_engine_decides_and_the_error_is_told(environment: dict[str, str
     shown = command(environment, tmp_path, "check", "PB1-11", "--junit", "j.xml")
     assert shown.returncode == Exit.INTERNAL, shown.stderr
     assert "PB1-11" in shown.stdout and "proved" in shown.stdout
-    assert shown.stderr.count("INTERNAL: explicit " + FAILED.format(system="relay")) == 1
+    assert shown.stderr.count("Internal error: explicit " + FAILED.format(system="relay")) == 1
     assert "The verdicts of others stand." in shown.stderr and "please report it" in shown.stderr
     cases = {c.name: c for suite in JUnitXml.fromfile(str(tmp_path / "j.xml")) for c in suite}
-    assert cases["PB1-11"].is_passed and "INTERNAL: explicit" in cases["faulty"].result[0].message
+    assert cases["PB1-11"].is_passed and "Internal error: explicit" in cases["faulty"].result[0].message
 
 
 @pytest.mark.parametrize("how", [(), ("--all-engines",)])
@@ -61,7 +61,7 @@ def test_machines_are_told_the_code_and_every_verdict(
     found = json.loads(shown.stdout)
     assert shown.returncode == found["exit"] == Exit.INTERNAL and found["complete"] is True
     assert [row["verdict"] for row in found["results"]] == ["proved"]
-    assert "INTERNAL: explicit failed" in shown.stderr
+    assert "Internal error: explicit failed" in shown.stderr
 
 
 def test_one_engine_alone_leaves_it_unknown(environment: dict[str, str], tmp_path: Path) -> None:
@@ -73,11 +73,11 @@ def test_one_engine_alone_leaves_it_unknown(environment: dict[str, str], tmp_pat
 def test_a_counterexample_is_shown_all_the_same(environment: dict[str, str], tmp_path: Path) -> None:
     shown = command(environment, tmp_path, "trace", "PB1-15")
     assert shown.returncode == Exit.INTERNAL
-    assert "tick" in shown.stdout and "INTERNAL: explicit failed" in shown.stderr
+    assert "tick" in shown.stdout and "Internal error: explicit failed" in shown.stderr
 
 
 def test_the_doctor_names_the_engine(environment: dict[str, str], tmp_path: Path) -> None:
     shown = command(environment, tmp_path, "doctor", "--json")
     found = {f["name"]: f for f in json.loads(shown.stdout)["findings"]}
     assert found["engine explicit"]["ok"] is False and "AssertionError" in found["engine explicit"]["found"]
-    assert found["engine bmc"]["ok"] and shown.returncode == Exit.CHANGED
+    assert found["engine bmc"]["ok"] and shown.returncode == Exit.FAILED

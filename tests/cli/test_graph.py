@@ -16,7 +16,7 @@ Capture = pytest.CaptureFixture[str]
 def test_a_system_alone_is_told_how_to_project(capsys: Capture) -> None:
     assert run(["graph", "relay"]) == Exit.AS_EXPECTED
     told = capsys.readouterr().out
-    assert "relay: 154 reachable valuations" in told
+    assert "relay: 154 reachable states" in told
     assert "Relay              3 of 3" in told
     assert "    3  some                 rovercheck graph relay --project Relay\n" in told
     assert "154  all                  rovercheck graph relay --project Relay,Relay.B2_actuating.dur" in told
@@ -65,7 +65,7 @@ def test_a_format_that_is_named_may_have_any_suffix(tmp_path: Path) -> None:
 
 def test_the_offer_of_a_cut_exploration_is_a_lower_bound(capsys: Capture) -> None:
     assert run(["graph", "relay", "--depth", "2"]) == Exit.INCONCLUSIVE
-    assert "at least 3 reachable valuations" in capsys.readouterr().out
+    assert "at least 3 reachable states" in capsys.readouterr().out
 
 
 def test_a_picture_and_what_it_shows(capsys: Capture, tmp_path: Path) -> None:
@@ -73,7 +73,7 @@ def test_a_picture_and_what_it_shows(capsys: Capture, tmp_path: Path) -> None:
     assert run(["graph", "relay", "--project", "Relay", "-o", str(target)]) == Exit.AS_EXPECTED
     assert target.read_text(encoding="utf-8").startswith("<svg")
     told = capsys.readouterr()
-    assert "3 nodes and 5 edges for 154 valuations" in told.err and told.out == ""
+    assert "3 nodes and 5 edges for 154 states" in told.err and told.out == ""
 
 
 def test_the_summary_alone(capsys: Capture) -> None:
@@ -91,7 +91,7 @@ def test_marks_and_the_run_of_a_property(capsys: Capture) -> None:
     assert [names[n] for n in found["path"]] == ["-", *["B1_actuating"] * 6, *["B2_actuating"] * 2]
     assert {names[n] for n in found["bad"]} == {"B2_actuating"}
     assert found["looked_for"] == "PB1-15 is broken"
-    assert "PB1-15 is broken in 151 valuations behind 1 node" in told.err
+    assert "PB1-15 is broken in 151 states behind 1 node" in told.err
 
 
 def test_a_cut_graph_is_written_and_inconclusive(capsys: Capture, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Proofs that notice no known fault of the charts are told by `check`."""
+"""Proofs that kill no known mutant of the charts are named by `check`."""
 
 import json
 from pathlib import Path
@@ -30,24 +30,24 @@ def recorded(hall: Path) -> None:
 
 
 def test_a_proof_that_notices_no_fault_is_told(hall: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    said = "no fault of the charts is known that it notices: IDLE."
-    assert checked(hall, "FULL", "IDLE") == Exit.AS_EXPECTED, "no faults are on record"
+    said = "no mutant of the charts is known that they kill: IDLE."
+    assert checked(hall, "FULL", "IDLE") == Exit.AS_EXPECTED, "no faults are recorded"
     assert said not in capsys.readouterr().out
     recorded(hall)
     assert "None was found for IDLE." in capsys.readouterr().out
     assert checked(hall, "FULL", "IDLE") == Exit.AS_EXPECTED
     assert said in capsys.readouterr().out
     assert checked(hall, "FULL") == Exit.AS_EXPECTED
-    assert "no fault of the charts is known" not in capsys.readouterr().out
+    assert "no mutant of the charts is known" not in capsys.readouterr().out
 
 
 def test_strict_makes_it_an_error(hall: Path, capsys: pytest.CaptureFixture[str]) -> None:
     recorded(hall)
     assert checked(hall, "FULL", "IDLE", "--strict") == Exit.INCONCLUSIVE
     assert checked(hall, "FULL", "--strict") == Exit.AS_EXPECTED
-    assert "1 proof notices a fault that was put into the charts." in capsys.readouterr().out
+    assert "1 proof kills a mutant of the charts." in capsys.readouterr().out
     assert checked(hall, "FULL", "IDLE", "--strict", "--quiet") == Exit.INCONCLUSIVE
-    assert "no fault of the charts is known that it notices: IDLE." in capsys.readouterr().out
+    assert "no mutant of the charts is known that they kill: IDLE." in capsys.readouterr().out
     hall.with_name("baseline.toml").write_text('[IDLE]\nno_fault = "A tautology."\n', encoding="utf-8")
     assert checked(hall, "FULL", "IDLE", "--strict") == Exit.AS_EXPECTED
 
@@ -67,7 +67,7 @@ def test_a_reason_in_the_baseline_excuses_it(hall: Path, capsys: pytest.CaptureF
     baseline = hall.with_name("baseline.toml")
     baseline.write_text('[IDLE]\nno_fault = "A tautology, for the tests."\n', encoding="utf-8")
     assert checked(hall, "FULL", "IDLE") == Exit.AS_EXPECTED
-    assert "no fault of the charts is known" not in capsys.readouterr().out
+    assert "no mutant of the charts is known" not in capsys.readouterr().out
     baseline.write_text('[IDLE]\nno_fault = ""\n', encoding="utf-8")
     assert checked(hall, "IDLE") == Exit.USAGE
     assert "IDLE needs because = and verdict =" in " ".join(capsys.readouterr().err.split())

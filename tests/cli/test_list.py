@@ -59,7 +59,7 @@ def test_a_list_has_all_there_is(what: str, names: Any, capsys: pytest.CaptureFi
 def test_a_property_is_told_with_its_verdict_on_record(capsys: pytest.CaptureFixture[str]) -> None:
     [one] = listed(capsys, "properties", "PB1-15")
     assert (one["system"], one["expected"]) == ("relay", "violated")
-    assert one["formally"][0].startswith("Formally: ") and one["because"].startswith("The arrow")
+    assert one["formally"][0].startswith("Formally: ") and one["because"].startswith("The transition")
     assert one["place"]["file"] == "properties/areas/relay.py"
 
 

@@ -12,8 +12,8 @@ from rovercheck import checker
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.mutate import judge as mutating_judging
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.mutate import planning
-from rovercheck.checker.mutate.running import MutantJudged, fates
+from rovercheck.checker.mutate import plan
+from rovercheck.checker.mutate.workers import MutantJudged, fates
 from tests.cli.test_widths import at_terminal, too_long
 from tests.mutate import lamp
 
@@ -50,12 +50,12 @@ def test_a_strong_property_leaves_no_survivor(tmp_path: Path, capsys: pytest.Cap
 
 
 def test_a_weak_property_leaves_survivors(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(model(tmp_path, "~out | go")) is Exit.CHANGED
+    assert run(model(tmp_path, "~out | go")) is Exit.FAILED
     said = capsys.readouterr().out
-    assert "Survivors: no property notices the fault, and a run shows what it changes (2):" in said
+    assert "Survived: no property kills the mutant, and a run shows in what it differs (2):" in said
     assert "copy_model.py:9: `out := go` is missing" in said
     assert "tick 1  go = true" in said and "then out is true, in the mutant false" in said
-    assert "Nothing demands: when go = true, then out is true." in said
+    assert "No property requires: when go = true, then out is true." in said
 
 
 NOTICED_AT_HOME = """
@@ -138,21 +138,21 @@ def test_what_a_search_has_killed_once_needs_none_again(
     monkeypatch: pytest.MonkeyPatch, searched: list[str],
 ) -> None:  # fmt: skip
     """Also where it was killed in a system too large to try every mutant in."""
-    monkeypatch.setattr(planning, "SMALL", 0)
+    monkeypatch.setattr(plan, "SMALL", 0)
     file = tmp_path / "lock_model.py"
     file.write_text(RARE.replace("THAT", text) + OPENED, encoding="utf-8")
     command = ["mutate", "--model", str(file), "--part", "Lock", "--record-mutants", "--json"]
-    assert run(command) is Exit.CHANGED
+    assert run(command) is Exit.FAILED
     first, needed = json.loads(capsys.readouterr().out)["mutants"], set(searched)
     kept = json.loads((tmp_path / "mutants.json").read_text(encoding="utf-8"))
     assert kept["runs"] and kept["runs"].keys() <= needed
     assert {row["system"] for row in kept["runs"].values()} == {on}
     searched.clear()
-    assert run(command) is Exit.CHANGED
+    assert run(command) is Exit.FAILED
     said = capsys.readouterr()
     again = json.loads(said.out)["mutants"]
     assert not kept["runs"].keys() & set(searched)
-    assert "0 runs are on record that searches found now." in " ".join(said.err.split())
+    assert "0 runs are recorded that searches found now." in " ".join(said.err.split())
     assert [(m["id"], m["killer"]) for m in again] == [(m["id"], m["killer"]) for m in first]
     assert json.loads((tmp_path / "mutants.json").read_text(encoding="utf-8")) == kept
 
@@ -167,7 +167,7 @@ def test_runs_of_mutants_that_are_gone_are_dropped(
     on_file = {"schema": "rovercheck/mutants/1", "runs": rows}
     (tmp_path / "mutants.json").write_text(json.dumps(on_file), encoding="utf-8")
     command = ["mutate", "--model", str(file), "--quiet", "--record-mutants"]
-    assert run(command) is Exit.CHANGED
+    assert run(command) is Exit.FAILED
     kept = json.loads((tmp_path / "mutants.json").read_text(encoding="utf-8"))["runs"]
     assert "Lock/block/gone" not in kept and "Door/block/dead" in kept
 
@@ -180,7 +180,7 @@ def test_what_survives_alone_keeps_its_run_of_another_system(tmp_path: Path) -> 
     run(command)
     before = (tmp_path / "mutants.json").read_text(encoding="utf-8")
     assert json.loads(before)["runs"]
-    assert run([*command, "--system", "locked", "--alone"]) is Exit.CHANGED
+    assert run([*command, "--system", "locked", "--alone"]) is Exit.FAILED
     assert (tmp_path / "mutants.json").read_text(encoding="utf-8") == before
 
 
@@ -199,7 +199,7 @@ def test_a_file_of_mutants_that_holds_something_else_stays_as_it_is(
 def test_what_the_original_breaks_as_well_kills_nothing(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    """On record Q is proved, which it is not: what is on record is found out before it counts."""
+    """Q is expected to be proved, which it is not: that is found out before it counts."""
     file = tmp_path / "echo_model.py"
     wrong = NOTICED_AT_HOME.replace("(echo & go) | (~echo & ~go)", "~echo")
     file.write_text(WEAK.replace("THAT", "go | ~go") + wrong, encoding="utf-8")
@@ -275,11 +275,11 @@ def test_mistakes_are_told_at_once(
 def test_survivors_are_readable_at_any_width(columns: int, tmp_path: Path) -> None:
     seen = at_terminal(columns, *model(tmp_path, "~out | go")).seen
     assert too_long(seen, columns) == []
-    assert "Nothing demands" in seen
+    assert "No property requires" in seen
 
 
 def test_one_part_alone_is_made_faulty(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run([*LAMP, "--part", "Alarm", "--json"]) in (Exit.CHANGED, Exit.AS_EXPECTED, Exit.INCONCLUSIVE)
+    assert run([*LAMP, "--part", "Alarm", "--json"]) in (Exit.FAILED, Exit.AS_EXPECTED, Exit.INCONCLUSIVE)
     ids = [one["id"] for one in json.loads(capsys.readouterr().out)["mutants"]]
     assert ids and all(id.startswith("Alarm/") for id in ids)
 

@@ -1,4 +1,4 @@
-"""Output that cannot be written: never a pass, never a violation, never taken for a bug of ours."""
+"""Output that cannot be written: never a pass, never a violation, never taken for an internal error."""
 
 import json
 import os

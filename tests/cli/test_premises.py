@@ -30,19 +30,19 @@ def checked(hall: Path, *options: str) -> Exit:
 def test_a_proof_of_nothing_is_told(hall: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert checked(hall) == Exit.AS_EXPECTED
     said = capsys.readouterr().out
-    assert "Proved of nothing, as the case never occurs that is spoken of:\n  EMPTY, hall: Nothing." in said
+    assert "Vacuous proofs, whose premise never occurs:\n  EMPTY, hall: Nothing." in said
     assert "FULL, hall" not in said
 
 
 def test_with_strict_it_is_an_error(hall: Path, capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     junit = tmp_path / "verdicts.xml"
-    assert checked(hall, "--strict", "--quiet", "--junit", str(junit)) == Exit.CHANGED
+    assert checked(hall, "--strict", "--quiet", "--junit", str(junit)) == Exit.FAILED
     assert "EMPTY, hall: Nothing." in capsys.readouterr().out
     whole = junit.read_text(encoding="utf-8")
     assert 'failures="1"' in whole
-    assert "EMPTY is proved, of nothing" in whole
+    assert "EMPTY is proved, vacuously" in whole
     assert checked(hall, "--strict", "FULL") == Exit.AS_EXPECTED
-    assert "1 proof speaks of a case (whenever ..., then ...): it occurs." in capsys.readouterr().out
+    assert "1 proof has a premise (whenever ..., then ...): it occurs." in capsys.readouterr().out
 
 
 def test_what_is_not_known_is_no_pass_with_strict(hall: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -52,7 +52,7 @@ def test_what_is_not_known_is_no_pass_with_strict(hall: Path, capsys: pytest.Cap
         patch.setattr(premises, "cases", lambda *_, **__: {"FULL": PremiseCase(None, "not known")})
         assert checked(hall) == Exit.AS_EXPECTED
         assert checked(hall, "--strict") == Exit.INCONCLUSIVE
-    assert "not known whether the case occurs that is spoken of: FULL." in capsys.readouterr().out
+    assert "unknown whether the premise occurs: FULL." in capsys.readouterr().out
 
 
 def test_json_has_the_case(hall: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -70,9 +70,7 @@ def test_runs_are_kept_and_gone_through_again(hall: Path, capsys: pytest.Capture
     assert checked(hall, "--record-premises") == Exit.AS_EXPECTED
     assert set(json.loads(kept.read_text(encoding="utf-8"))["runs"]) == {"FULL"}
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(
-            premises, "results", lambda *_, **__: pytest.fail("searched, though a run is on record")
-        )
+        patch.setattr(premises, "results", lambda *_, **__: pytest.fail("searched, though a run is recorded"))
         assert checked(hall, "FULL") == Exit.AS_EXPECTED
     capsys.readouterr()
 
@@ -140,8 +138,8 @@ def test_runs_of_others_stay(hall: Path, capsys: pytest.CaptureFixture[str]) -> 
 @pytest.mark.parametrize(
     ("options", "said"),
     [
-        (["--strict", "--no-premises"], "--no-premises leaves out what --strict asks for"),
-        (["--record-premises", "--no-premises"], "--no-premises leaves out what --record-premises asks for"),
+        (["--strict", "--no-premises"], "--no-premises leaves out what --strict needs"),
+        (["--record-premises", "--no-premises"], "--no-premises leaves out what --record-premises needs"),
         (
             ["--record-premises", "--reading", "S43=AND"],
             "--record-premises keeps runs of the charts as they are",

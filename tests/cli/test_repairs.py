@@ -47,17 +47,17 @@ def test_every_repair_is_listed_with_what_it_repairs(capfd: pytest.CaptureFixtur
     assert all(name in listed for name in (*repairs(), "all"))
 
 
-def test_the_pages_show_the_changed_arrows_and_the_picture_of_the_repaired_chart() -> None:
+def test_the_pages_show_the_changed_transitions_and_the_picture_of_the_repaired_chart() -> None:
     proof = Proof(repairs()["battery-gap-releases"], ())
     page = "\n".join(sections("PB1-29", expected("PB1-29"), [proof]))
     assert "[Monitor_battery, repaired](../repairs/battery-gap-releases/Monitor_battery.svg)" in page
-    assert "| arrows of Batt_CRIT | <code>1: → decide</code> |" in page and "2: → Batt_DEG" in page
+    assert "| transitions of Batt_CRIT | <code>1: → decide</code> |" in page and "2: → Batt_DEG" in page
     made = repair_pages([proof])
     assert set(made) == {"repairs/README.md", "repairs/battery-gap-releases/Monitor_battery.svg"}
 
 
 def test_the_page_of_promises_says_what_holds_with_each_repair() -> None:
-    """Decided now, or as on record, which ``check --repair NAME`` decides again."""
+    """Decided now, or as expected, which ``check --repair NAME`` decides again."""
     repair = repairs()["relay-without-delay"]
     variant = Variant(repair.readings, repair)
     decided = results([variant.properties()["PB1-15"]], variant.systems())
@@ -65,7 +65,7 @@ def test_the_page_of_promises_says_what_holds_with_each_repair() -> None:
     rows = [row.split(" | ") for row in text.splitlines() if row.startswith("| [")]
     told = {(row[0].partition("]")[0][3:], row[1]): row[2] for row in rows}
     assert told["relay-without-delay", "PB1-15"] == "proved"
-    assert told["monitor-critical-by-age", "P-WEATHER-IMU-2"] == "proved in part*"
+    assert told["monitor-critical-by-age", "P-WEATHER-IMU-2"] == "proved for a restricted model*"
     for promise in promises():
         for id in promise.required:
             for name in (name for name, one in repairs().items() if id in one.fixes):

@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from rovercheck.checker.cli import run
-from rovercheck.checker.commands.check.premises import told
+from rovercheck.checker.commands.check.premises import premise_case
 from rovercheck.checker.commands.report import command
 from rovercheck.checker.commands.report import graphs as reviewing_graphs
 from rovercheck.checker.commands.report import report as verb
@@ -17,7 +17,7 @@ from rovercheck.checker.commands.report.rover import coverage
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.model.rover import rover
-from rovercheck.checker.render.review.model import Seen
+from rovercheck.checker.render.review.model import StateGraphView
 from rovercheck.checker.results.verdict import Unknown, Violated
 from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.result import Result
@@ -46,7 +46,7 @@ def entry(document: str, id: str) -> str:
 def test_a_violation_on_record_is_as_expected(made: tuple[Exit, str]) -> None:
     code, document = made
     assert code == Exit.AS_EXPECTED
-    assert "Exit code 0: every verdict is as on record." in document
+    assert "Exit code 0: every verdict is as expected." in document
 
 
 def test_a_finding_has_reason_formula_requirement_and_readings(made: tuple[Exit, str]) -> None:
@@ -56,7 +56,7 @@ def test_a_finding_has_reason_formula_requirement_and_readings(made: tuple[Exit,
     assert "!(rx_status == RX_OK &amp;&amp; b2_sup_status == SUP_OK) || !give_b2_actuation" in finding
     assert 'href="#requirement-B1-REL-04"' in finding
     assert 'href="#reading-S45"' in finding
-    assert "B1_actuating → B2_actuating (arrow 1)" in finding
+    assert "B1_actuating → B2_actuating (transition 1)" in finding
     assert 'stated of <a href="#system-relay">relay</a>' in finding
     assert "told-reasons" in finding
 
@@ -64,8 +64,8 @@ def test_a_finding_has_reason_formula_requirement_and_readings(made: tuple[Exit,
 def test_the_states_of_its_chart_are_there_with_where_it_is_broken(made: tuple[Exit, str]) -> None:
     start = made[1].index('id="graph-relay"')
     graph = made[1][start : made[1].index("</section>", start)]
-    assert "3 nodes and 5 edges for 305 valuations; marked: where PB1-15 is broken" in graph
-    assert "PB1-15 is broken in 151 valuations behind 1 node: B2_actuating." in graph
+    assert "3 nodes and 5 edges for 305 states; marked: where PB1-15 is broken" in graph
+    assert "PB1-15 is broken in 151 states behind 1 node: B2_actuating." in graph
     assert '<a href="#system-board1">board1</a> (12 charts)' in graph
 
 
@@ -136,24 +136,24 @@ def test_an_unfinished_search_is_a_finding_and_no_pass(tmp_path: Path) -> None:
     code = run(["report", "PB1-15", "--engine", "bmc", "--depth", "2", "--no-repairs", "-o", str(file)])
     document = file.read_text(encoding="utf-8")
     assert code == Exit.INCONCLUSIVE
-    assert "Not as on record" in document
-    assert "On record is <b>violated after 8 ticks</b>" in entry(document, "PB1-15")
+    assert "Not as expected" in document
+    assert "Expected: <b>violated after 8 ticks</b>" in entry(document, "PB1-15")
 
 
 def test_of_a_case_that_nobody_reproduced_the_limits_are_not_listed() -> None:
     reason = "reached after 2 ticks on x_free; not reproduced on x: bmc: the time limit of 11.9 s is reached"
     case = Result(catalogue()["PB1-11"], Unknown(reason, 3, "bmc"), "x")
     assert (
-        told(case, {}).said
+        premise_case(case, {}).said
         == "not known: reached after 2 ticks on x_free; not reproduced on x within the limits"
     )
     gave_up = replace(case, verdict=Unknown("gave up", 3, "bmc"))
-    assert told(gave_up, {}).said == "not known: gave up"
+    assert premise_case(gave_up, {}).said == "not known: gave up"
 
 
 def test_the_reason_of_another_finding_is_followed_to_the_first() -> None:
     reasons = {
-        "A-1": "The arrow.",
+        "A-1": "The transition.",
         "A-2b": "As A-1: again.",
         "A-3": "As A-2b.",
         "A-4": "As Z-9.",
@@ -166,7 +166,7 @@ def test_a_model_of_the_user_gets_the_same_page(tmp_path: Path) -> None:
     file, model = tmp_path / "x.html", ROOT / "examples" / "models" / "lift"
     code = run(["report", "--model", str(model), "-o", str(file)])
     document = file.read_text(encoding="utf-8")
-    assert code in (Exit.AS_EXPECTED, Exit.CHANGED)
+    assert code in (Exit.AS_EXPECTED, Exit.FAILED)
     ids = {a.get("id") or "" for _, a in Reader(document).elements}
     assert {"section-summary", "section-requirements", "section-charts", "chart-Drive", "graph-lift"} <= ids
     assert not [id for id in ids if id.startswith(("reading-", "repair-"))]
@@ -192,7 +192,7 @@ def test_a_property_is_written_part_by_part() -> None:
 def test_the_figures_of_the_covering_tests_add_up() -> None:
     rows = list(coverage())
     assert {(r.board, r.kind) for r in rows} == {
-        (b, k) for b in ("board1", "board2") for k in ("arrows", "boundaries", "pairs")
+        (b, k) for b in ("board1", "board2") for k in ("transitions", "boundaries", "pairs")
     }
     assert all(r.goals == r.reached + r.unreachable + r.unknown for r in rows)
 
@@ -219,13 +219,13 @@ def test_a_proof_about_nothing_is_a_finding(tmp_path: Path) -> None:
     model.write_text(EMPTY, encoding="utf-8")
     run(["report", "--model", str(model), "--premises", "-o", str(file)])
     document = file.read_text(encoding="utf-8")
-    assert "it NEVER occurs, so nothing is said" in entry(document, "EMPTY")
+    assert "it NEVER occurs, so the proof is vacuous" in entry(document, "EMPTY")
     start = document.index('id="FULL"')
     assert "it occurs: " in document[start : document.index("</details>", start)]
     assert 'It never does for <a class="violated" href="#EMPTY">EMPTY</a>.' in document
 
 
-def on_relay(limits: Limits) -> tuple[list[Seen], dict[str, str]]:
+def on_relay(limits: Limits) -> tuple[list[StateGraphView], dict[str, str]]:
     """The state graphs of two systems, one of them with a finding whose run is of neither."""
     finding = Result(catalogue()["PB1-15"], Violated(replace(long_trace(), variables={}), "bmc"), "relay")
     both = [systems()["relay"], systems()["board1"]]
@@ -246,6 +246,6 @@ def test_what_is_too_much_for_a_state_graph_is_said() -> None:
     [relay], _ = on_relay(Limits(memory=90_000))
     assert relay.asked == () and relay.unmarked == ("PB1-15",) and relay.graph.valuations == 154
     graphs, undrawn = on_relay(Limits(memory=10_000))
-    assert not graphs and undrawn["relay"].startswith("more than ") and "valuation" in undrawn["relay"]
+    assert not graphs and undrawn["relay"].startswith("more than ") and "state" in undrawn["relay"]
     _, undrawn = on_relay(Limits(seconds=0.0))
     assert undrawn["relay"] == "the time limit of 0 s is reached"

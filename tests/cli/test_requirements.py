@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from rovercheck.checker.cli import run
-from rovercheck.checker.commands.report.forced import with_reasons
-from rovercheck.checker.commands.reports.run import NOT_ASKED, differences, pages_of_verdicts
+from rovercheck.checker.commands.report.causes import with_reasons
+from rovercheck.checker.commands.reports.run import CAUSE, NOT_ASKED, differences, pages_of_verdicts
 from rovercheck.checker.commands.requirements.run import (
     DECIDED,
-    ON_RECORD,
+    EXPECTED,
     because,
     counts,
     page,
@@ -101,14 +101,14 @@ def test_the_counts_say_what_is_open() -> None:
     )
 
 
-@pytest.mark.parametrize(("rows", "code"), [(ROWS, Exit.CHANGED), (ROWS[:3], Exit.AS_EXPECTED)])
+@pytest.mark.parametrize(("rows", "code"), [(ROWS, Exit.FAILED), (ROWS[:3], Exit.AS_EXPECTED)])
 @pytest.mark.parametrize("as_json", [False, True])
 def test_an_open_row_is_exit_code_1(
     rows: tuple[RequirementCoverage, ...], code: Exit, as_json: bool, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    assert show(rows, VERDICTS, ON_RECORD, as_json) == code
+    assert show(rows, VERDICTS, EXPECTED, as_json) == code
     shown = capfd.readouterr().out
-    assert ON_RECORD in (json.loads(shown)["verdicts"] if as_json else shown)
+    assert EXPECTED in (json.loads(shown)["verdicts"] if as_json else shown)
 
 
 # --- the command on the rover --------------------------------------------------------------------
@@ -139,7 +139,7 @@ def test_verdicts_can_be_decided_now(
     monkeypatch.setattr("rovercheck.checker.commands.requirements.run.rover", lambda: model)
     code = run(["requirements", "--check", "--json"])
     found = json.loads(capfd.readouterr().out)
-    assert (code, found["verdicts"]) == (Exit.CHANGED, DECIDED)
+    assert (code, found["verdicts"]) == (Exit.FAILED, DECIDED)
     [row] = [row for row in found["requirements"] if row["id"] == "B2-OBS-04"]
     assert row["properties"] == [{"id": "PB2-12-first", "verdict": "violated", "covers": True}]
 
@@ -193,7 +193,7 @@ def test_the_reports_say_what_is_checked(found: list[CheckedProperty]) -> None:
     assert "“a link is critical” means: rx_status is RX_CRITICAL or" in made["README.md"]
 
 
-def test_a_finding_says_what_forces_it_and_that_is_not_looked_for_again(
+def test_a_finding_names_its_cause_and_that_is_not_looked_for_again(
     found: list[CheckedProperty], tmp_path: Path
 ) -> None:
     name, without = "findings/PB2-12-first.md", pages_of_verdicts(found)
@@ -201,13 +201,13 @@ def test_a_finding_says_what_forces_it_and_that_is_not_looked_for_again(
     needed = (
         "| tick 1 | 20 ms | <code>d3 != 301 cm</code> |\n\nWhatever the other inputs are, every run of 1 tick"
     )
-    assert f"\n## What forces it\n\n| Ticks | ms | Input |\n|---|---:|---|\n{needed}" in made[name]
+    assert f"\n{CAUSE}\n\n| Ticks | ms | Input |\n|---|---:|---|\n{needed}" in made[name]
     assert NOT_ASKED in without[name] and NOT_ASKED not in made[name]
     for file, text in made.items():
         (tmp_path / file).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / file).write_text(text, encoding="utf-8")
     assert list(differences(tmp_path, made)) == list(differences(tmp_path, without)) == []
-    (tmp_path / name).write_text(made[name].replace("## What forces it", "## What"), encoding="utf-8")
+    (tmp_path / name).write_text(made[name].replace(CAUSE, "## What"), encoding="utf-8")
     assert name in differences(tmp_path, without), "some answer must be there"
     (tmp_path / name).write_text(made[name].replace("d3 !=", "d2 !="), encoding="utf-8")
     assert name in differences(tmp_path, made)

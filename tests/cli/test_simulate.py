@@ -79,7 +79,7 @@ def test_the_table_tells_what_happened_in_80_columns(place: Path, capfd: pytest.
 
 def test_an_unmet_expectation_is_exit_code_1(place: Path, capfd: pytest.CaptureFixture[str]) -> None:
     (place / "cut.toml").write_text(UNMET, encoding="utf-8")
-    assert run(["simulate", "cut.toml", "--no-plot"]) == Exit.CHANGED
+    assert run(["simulate", "cut.toml", "--no-plot"]) == Exit.FAILED
     told = " ".join(capfd.readouterr().out.split())
     assert "✗ expect[1]: rover.relay = BOARD_2 at 600 ms; it was BOARD_1 until 620 ms." in told
     assert told.endswith("1 expectation: 1 not met.")

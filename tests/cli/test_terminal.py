@@ -32,10 +32,10 @@ SAID = {
     "certify": "file checked",
     "graph": "searches done",
     "reports": "searches done",
-    "crosscheck": "mismatches",
-    "conform": "2 of 2: good.csv",
+    "compare": "mismatches",
+    "check-log": "2 of 2: good.csv",
     "simulate": " of 16 s",
-    "testgen": "goals decided",
+    "generate-tests": "goals decided",
     "explore": "searches done",
 }
 """What the progress line of each verb says last."""
@@ -238,7 +238,7 @@ def test_a_program_that_is_killed_or_stopped_has_hidden_no_cursor() -> None:
 @pytest.mark.parametrize(
     ("error", "code", "said"),
     [
-        ("RuntimeError('nothing')", Exit.INTERNAL, "INTERNAL: RuntimeError: nothing."),
+        ("RuntimeError('nothing')", Exit.INTERNAL, "Internal error: RuntimeError: nothing."),
         ("MemoryError", Exit.INCONCLUSIVE, "Out of memory."),
         ("KeyboardInterrupt", Exit.INTERRUPTED, "Interrupted: 1 of 4 properties decided."),
     ],
@@ -254,7 +254,7 @@ def test_an_error_in_the_middle_leaves_the_screen_clean(error: str, code: Exit, 
 def test_what_was_decided_is_a_document_in_its_file_when_a_result_is_interrupted(tmp_path: Path) -> None:
     """And not on the terminal, where the progress line was."""
     program = RAISING.format(error="KeyboardInterrupt").replace(
-        "check.line = broken", "check.Compared = broken"
+        "check.line = broken", "check.CheckedProperty = broken"
     )
     program = program.replace("def broken(compared)", "def broken(*_)").replace(
         "'check',", "'check', '--json',"

@@ -23,7 +23,7 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.commands.trace.board_steps import concrete
 from rovercheck.checker.commands.trace.formats import exit_written
-from rovercheck.checker.commands.trace.run import Showing
+from rovercheck.checker.commands.trace.run import TraceDisplay
 from rovercheck.checker.render import renderers, trace_itf, trace_json
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
@@ -89,7 +89,7 @@ def pb1_15() -> Trace:
 def written(name: str, folder: Path) -> Path:
     """The run in a format, as ``rovercheck trace --format NAME --output FILE`` writes it."""
     file = folder / f"run{renderers('trace')[name].SUFFIX}"
-    exit_written(renderers("trace")[name], Showing(name).cut(pb1_15()), systems(), file)
+    exit_written(renderers("trace")[name], TraceDisplay(name).cut(pb1_15()), systems(), file)
     return file
 
 

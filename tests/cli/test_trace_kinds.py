@@ -8,17 +8,22 @@ import pytest
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.variant import pick_variant
 from rovercheck.checker.commands.trace import run as tracing
-from rovercheck.checker.commands.trace.examples import TraceRequest, asked, of_arrow, of_state
-from rovercheck.checker.commands.trace.explain import Explaining
+from rovercheck.checker.commands.trace.examples import (
+    TraceRequest,
+    of_state,
+    of_transition,
+    trace_request,
+)
+from rovercheck.checker.commands.trace.explain import ExplanationOptions
 from rovercheck.checker.commands.trace.formats import exit_written
-from rovercheck.checker.commands.trace.run import Showing, trace
+from rovercheck.checker.commands.trace.run import TraceDisplay, trace
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.render import renderers
 from rovercheck.checker.render.ci import FindingLevel, of_trace
 from rovercheck.checker.render.waves import outcome
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Reached, Run, Unknown, Violated
-from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.result import Result, result
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, reachable
@@ -28,7 +33,7 @@ from tests.explain.test_others import CHART, ENDS, SYSTEM, first, left
 
 PARTLESS = replace(first(), false_parts=(), parts=(), truths=())
 """Of a violated property of which no part is false after the last tick, such as one about several ticks."""
-QUIET = Explaining(wanted=False)
+QUIET = ExplanationOptions(wanted=False)
 
 
 def test_a_counterexample_without_a_false_part_is_one_in_every_exit() -> None:
@@ -70,7 +75,7 @@ def test_an_example_that_may_not_be_shortest_says_so(
     for shortest in (True, False):
         found = Result(ENDS, Violated(replace(first(), shortest=shortest), ""), "way")
         monkeypatch.setattr(tracing, "results", lambda *_, found=found: [found])
-        trace(example(ENDS), "bdd", Limits(), Showing(explaining=QUIET))
+        trace(example(ENDS), "bdd", Limits(), TraceDisplay(explaining=QUIET))
         assert ("Not known to be a shortest run" in capfd.readouterr().err) is not shortest
 
 
@@ -82,7 +87,7 @@ def test_what_only_some_runs_were_searched_for_is_said_to_be_so(capfd: pytest.Ca
     nowhere = reachable("state Way.Nowhere", "", that=left & ~left, covers=["R"], on="way")
     some = "way has only some of the runs there are: this says nothing of the others."
     for system in (SYSTEM, replace(SYSTEM, under=True)):
-        assert trace(example(nowhere, system), "bdd", Limits(), Showing()) == Exit.AS_EXPECTED
+        assert trace(example(nowhere, system), "bdd", Limits(), TraceDisplay()) == Exit.AS_EXPECTED
         assert (some in capfd.readouterr().err) is system.under
 
 
@@ -90,16 +95,16 @@ def test_that_there_is_no_other_among_some_runs_is_no_word_on_the_rest(
     capfd: pytest.CaptureFixture[str],
 ) -> None:
     part = replace(SYSTEM, under=True)
-    trace(example(ENDS, part), "bdd", Limits(), Showing(runs=3, explaining=QUIET))
+    trace(example(ENDS, part), "bdd", Limits(), TraceDisplay(runs=3, explaining=QUIET))
     told = " ".join(capfd.readouterr().out.split())
     assert "No run 3" in told and "way has only some of the runs there are" in told
 
 
-def test_several_runs_through_an_arrow_are_shown_on_the_chart_as_drawn(
+def test_several_runs_through_a_transition_are_shown_on_the_chart_as_drawn(
     capfd: pytest.CaptureFixture[str],
 ) -> None:
-    wanted = of_arrow("Way: Right -> End", {"way": SYSTEM}, None)
-    assert trace(wanted, "bdd", Limits(), Showing(runs=2, explaining=QUIET)) == Exit.AS_EXPECTED
+    wanted = of_transition("Way: Right -> End", {"way": SYSTEM}, None)
+    assert trace(wanted, "bdd", Limits(), TraceDisplay(runs=2, explaining=QUIET)) == Exit.AS_EXPECTED
     told = capfd.readouterr().out
     assert "--- Run 1 ---" in told and "--- No run 2 ---" in told
     assert "goal" not in told
@@ -133,7 +138,7 @@ def test_what_a_property_does_not_depend_on_is_shown_by_exits_that_can(tmp_path:
     ],
 )
 def test_a_file_says_how_its_run_was_asked_for(named: tuple[str | None, ...], again: str) -> None:
-    wanted = asked(pick_variant(["S43=AND"], None, []), *named)
+    wanted = trace_request(pick_variant(["S43=AND"], None, []), *named)
     [finding] = of_trace(wanted.drawn(first())).findings
     assert finding.shown_with == f"{again} --reading S43=AND"
 
@@ -141,5 +146,5 @@ def test_a_file_says_how_its_run_was_asked_for(named: tuple[str | None, ...], ag
 def test_an_example_is_written_nowhere() -> None:
     """A reader of the run is not led to a line of the checker."""
     there = {"way": SYSTEM}
-    for made in (of_state("Way.End", there, None), of_arrow("Way: Right -> End", there, None)):
+    for made in (of_state("Way.End", there, None), of_transition("Way: Right -> End", there, None)):
         assert made.property.place is None

@@ -11,7 +11,7 @@ import pytest
 from click.testing import CliRunner
 
 from rovercheck.checker.cli import app
-from rovercheck.checker.commands.shared.wrapping import filled, fitted, plain, whole
+from rovercheck.checker.commands.shared.text_wrap import filled, fitted, plain, whole
 from tests.cli.terminal import PATIENCE, Terminal
 from tests.model_files.files import START
 

@@ -1,4 +1,4 @@
-"""A toy board: a lamp that a button lights, that a timer puts out, and an arrow that can never be taken."""
+"""A toy board: a lamp that a button lights and a timer puts out; one transition can never be taken."""
 
 from collections.abc import Mapping
 

@@ -9,9 +9,9 @@ from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen.coverage import NOT_TRIED, GenerationEffort, GoalCoverage, chosen, cover
 from rovercheck.checker.testgen.explore import (
+    RandomInputs,
     RandomMachine,
-    TriedPlace,
-    Weather,
+    TriedRun,
     explored,
     first_reached,
     shortened,
@@ -36,7 +36,7 @@ BOTH = ["board1", "board2"]
 
 
 def random_script(name: str, ticks: int, seed: int = 0) -> Script:
-    return tuple(Weather(boards()[name]).run(Random(seed), ticks, lambda: {}))
+    return tuple(RandomInputs(boards()[name]).run(Random(seed), ticks, lambda: {}))
 
 
 def texts(*kinds: GoalKind) -> list[str]:
@@ -56,12 +56,12 @@ def reached(moments: Script) -> dict[str, int]:
 # --- goals ---------------------------------------------------------------------------------------------
 
 
-def test_every_arrow_of_the_chart_is_a_goal() -> None:
-    assert len(LOOKED.of(GoalKind.ARROWS)) == 4
-    assert [t for t in texts(GoalKind.ARROWS) if t.startswith("Off -> Broken")]
+def test_every_transition_of_the_chart_is_a_goal() -> None:
+    assert len(LOOKED.of(GoalKind.TRANSITIONS)) == 4
+    assert [t for t in texts(GoalKind.TRANSITIONS) if t.startswith("Off -> Broken")]
 
 
-def test_every_arrow_into_a_state_is_paired_with_every_arrow_out_of_it() -> None:
+def test_every_transition_into_a_state_is_paired_with_every_transition_out_of_it() -> None:
     ids = {g.id for g in LOOKED.of(GoalKind.PAIRS)}
     assert ids == {"Lamp.pair.1-2", "Lamp.pair.4-2", AFTER_NEVER, "Lamp.pair.4-3", "Lamp.pair.2-4"}
 
@@ -75,7 +75,7 @@ def test_a_comparison_has_both_nearest_values_beside_its_limit_as_goals() -> Non
 
 def test_a_timer_is_asked_a_step_early_in_time_and_a_step_late() -> None:
     found = reached(toy("01111110"))
-    lit_at = found["Off -> On (arrow 1) [rising(press) && light_lx < 10]"]
+    lit_at = found["Off -> On (transition 1) [rising(press) && light_lx < 10]"]
     early, due, late = (
         found[next(t for t in found if t.startswith(f"after(3 ticks) {side}"))]
         for side in ("one step early", "just run out", "one step late")
@@ -84,12 +84,14 @@ def test_a_timer_is_asked_a_step_early_in_time_and_a_step_late() -> None:
 
 
 @pytest.mark.parametrize("name", BOTH)
-def test_goals_have_ids_of_their_own_and_arrows_are_the_same_in_the_model_of_the_board(name: str) -> None:
+def test_goals_have_ids_of_their_own_and_transitions_are_the_same_in_the_model_of_the_board(
+    name: str,
+) -> None:
     goals = watched(boards()[name].system).goals
     assert len({g.id for g in goals}) == len(goals) > 500
     assert len({g.flag.name for g in goals}) == len(goals)
-    arrows = {(g.id, g.text) for g in goals if g.kind is GoalKind.ARROWS}
-    assert arrows <= {(g.id, g.text) for g in watched(systems()[name], [GoalKind.ARROWS]).goals}
+    transitions = {(g.id, g.text) for g in goals if g.kind is GoalKind.TRANSITIONS}
+    assert transitions <= {(g.id, g.text) for g in watched(systems()[name], [GoalKind.TRANSITIONS]).goals}
 
 
 @pytest.mark.parametrize("name", BOTH)
@@ -113,7 +115,7 @@ def test_looking_changes_nothing(name: str) -> None:
 def test_compiled_charts_reach_what_the_interpreter_reaches(name: str) -> None:
     board, looked = boards()[name], watched(boards()[name].system)
     machine, moments = RandomMachine(board, looked), random_script(name, 120, seed=1)
-    place = TriedPlace.power_up(machine)
+    place = TriedRun.power_up(machine)
     for moment, step in zip(moments, played(board, looked, steps(board, moments)), strict=True):
         assert set(place.step(moment)) == step.reached
         assert board.expected(place.at) == step.outputs
@@ -167,7 +169,7 @@ def test_every_goal_of_the_toy_is_covered_or_proved_uncoverable(covered: GoalCov
     assert not covered.covered.keys() & covered.uncoverable.keys()
 
 
-def test_an_arrow_that_is_never_taken_is_proved_uncoverable(covered: GoalCoverage) -> None:
+def test_a_transition_that_is_never_taken_is_proved_uncoverable(covered: GoalCoverage) -> None:
     answer = covered.answers[NEVER]
     assert isinstance(answer, Uncoverable) and answer.because
 
@@ -176,7 +178,7 @@ def test_a_pair_that_cannot_follow_is_proved_uncoverable(covered: GoalCoverage) 
     assert AFTER_NEVER in covered.uncoverable and "Lamp.pair.4-3" in covered.uncoverable
 
 
-def test_runs_to_arrows_are_as_short_as_any(covered: GoalCoverage) -> None:
+def test_runs_to_transitions_are_as_short_as_any(covered: GoalCoverage) -> None:
     lengths = {g: covered.covered[g] for g in ("Lamp.arrow.1", "Lamp.arrow.2", "Lamp.arrow.4")}
     assert lengths == {"Lamp.arrow.1": 1, "Lamp.arrow.2": 2, "Lamp.arrow.4": 5}
     assert lengths.keys() <= covered.shortest
@@ -251,10 +253,10 @@ def test_why_a_goal_is_unknown_is_remembered_until_something_else_is_known() -> 
     again = GoalCoverage(TOY, LOOKED.goals)
     again.go_on(KeptTests((), unknown={NEVER: "too long"}), "")
     assert again.unknown[NEVER] == "too long" and again.unknown[AFTER_NEVER] == NOT_TRIED
-    again.answers[NEVER] = Uncoverable.of(NEVER, "Lamp alone: explicit, all 5 valuations, twice")
+    again.answers[NEVER] = Uncoverable.of(NEVER, "Lamp alone: explicit, all 5 reachable states, twice")
     assert NEVER not in again.unknown
-    assert again.uncoverable[NEVER].because == "all 5 valuations, twice"
-    assert again.kept().uncoverable[NEVER] == "Lamp alone: explicit, all 5 valuations, twice"
+    assert again.uncoverable[NEVER].because == "all 5 reachable states, twice"
+    assert again.kept().uncoverable[NEVER] == "Lamp alone: explicit, all 5 reachable states, twice"
 
 
 def test_a_fingerprint_is_of_the_charts_and_of_nothing_else() -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from rovercheck.checker.testgen import kept_text
 from rovercheck.checker.testgen.formats import FORMATS
-from rovercheck.checker.testgen.formats.expected import ExpectedTest, expected, rows
+from rovercheck.checker.testgen.formats.expected_outputs import ExpectedTest, expected, rows
 from rovercheck.checker.testgen.keep import kept_of
 from rovercheck.checker.testgen.scripts import Script, unfolded
 from rovercheck.spec_model.abstraction import boards

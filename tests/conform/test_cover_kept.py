@@ -7,7 +7,7 @@ from rovercheck.checker.system.instrument.goals import GoalKind
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen import kept, kept_text
 from rovercheck.checker.testgen.fingerprint import fingerprint
-from rovercheck.checker.testgen.formats.expected import required
+from rovercheck.checker.testgen.formats.expected_outputs import required
 from rovercheck.checker.testgen.keep import kept_of
 from rovercheck.checker.testgen.replay import first_reached
 from rovercheck.spec_model.abstraction import boards
@@ -19,7 +19,7 @@ OURS = {
     "board2": "rovercheck.supervisor.board2.board:Board2",
 }
 LEAST = {"board1": 104, "board2": 127}
-"""Arrows that the kept tests reach at least."""
+"""Transitions that the kept tests reach at least."""
 
 
 @pytest.mark.parametrize("name", BOARDS)
@@ -43,16 +43,16 @@ def test_every_goal_is_covered_or_said_not_to_be(name: str) -> None:
 
 @pytest.mark.parametrize("name", BOARDS)
 def test_what_is_proved_is_proved_of_the_charts_as_drawn(name: str) -> None:
-    """After a change of charts: ``rovercheck testgen --keep checker/testgen/kept``."""
+    """After a change of charts: ``rovercheck generate-tests --keep checker/testgen/kept``."""
     document = kept_of(boards()[name], kept_text(name))
     assert document.charts == fingerprint(boards()[name], systems()[name])
 
 
 @pytest.mark.parametrize("name", BOARDS)
-def test_kept_tests_cover_the_arrows(name: str) -> None:
-    arrows = {g.id for g in watched(boards()[name].system, [GoalKind.ARROWS]).goals}
+def test_kept_tests_cover_the_transitions(name: str) -> None:
+    transitions = {g.id for g in watched(boards()[name].system, [GoalKind.TRANSITIONS]).goals}
     covered = {goal for test in kept(name) for goal in test.goals}
-    assert len(arrows & covered) >= LEAST[name]
+    assert len(transitions & covered) >= LEAST[name]
 
 
 @pytest.mark.parametrize("name", BOARDS)

@@ -12,9 +12,9 @@ from rovercheck.checker.adapters import python
 from rovercheck.checker.adapters.implementation import Implementation, ImplementationError, Values
 from rovercheck.checker.compare import StepMismatch, cross_check, effort, quick_check, replay
 from rovercheck.checker.compare.beside import rerun
-from rovercheck.checker.compare.check import Remembered, recorded_suite
-from rovercheck.checker.compare.coverage import arrows
-from rovercheck.checker.compare.recorded import counterexamples
+from rovercheck.checker.compare.check import RunCache, recorded_suite
+from rovercheck.checker.compare.coverage import transitions
+from rovercheck.checker.compare.recorded_runs import counterexamples
 from rovercheck.checker.compare.reproduce import file_name, pytest_file, stimulus_of
 from rovercheck.checker.compare.result import ALLOWED, FIXED, RANDOM, Allowance
 from rovercheck.checker.compare.search import CompareSearch, Run
@@ -85,10 +85,10 @@ def run_test(place: Path, text: str) -> None:
     test()
 
 
-def test_a_deep_mismatch_is_small_and_names_the_arrow() -> None:
+def test_a_deep_mismatch_is_small_and_names_the_transition() -> None:
     mismatch = made_small("board1", "LateRelay")
     assert mismatch.tick < 400
-    assert mismatch.arrows[0].chart == "Relay" and mismatch.arrows[0].target == ("B1_actuating",)
+    assert mismatch.transitions[0].chart == "Relay" and mismatch.transitions[0].target == ("B1_actuating",)
     assert replay("board1", f"python:{HERE}:LateRelay", stimulus_of(mismatch)) is not None
 
 
@@ -107,7 +107,7 @@ def test_the_same_profile_tries_the_same() -> None:
         cross_check("board2", running("board2", OURS["board2"]), effort("ci", 4, 9)) for _ in range(2)
     )
     assert first.coverage.steps == second.coverage.steps and first.coverage.taken == second.coverage.taken
-    assert first.conforms and first.arrows[1] == len(arrows(first.board))
+    assert first.conforms and first.transitions[1] == len(transitions(first.board))
     other = cross_check("board2", running("board2", OURS["board2"]), effort("ci", 4, 10))
     assert other.coverage.steps != first.coverage.steps
 
@@ -202,7 +202,7 @@ def test_ctrl_c_while_runs_are_made_leaves_none_out_the_next_time() -> None:
             raise ends.pop()
         yield "second", []
 
-    remembered = Remembered(runs)
+    remembered = RunCache(runs)
     with pytest.raises(KeyboardInterrupt):
         list(remembered)
     assert [name for name, _ in remembered] == [name for name, _ in remembered] == ["first", "second"]

@@ -8,7 +8,7 @@ import pytest
 from rovercheck.checker.compare.aims import aims
 from rovercheck.checker.compare.beside import SteppedCharts, played, rerun
 from rovercheck.checker.compare.environment import AROUND
-from rovercheck.checker.compare.fixed import fixed
+from rovercheck.checker.compare.fixed_runs import fixed
 from rovercheck.checker.compare.smaller import columns
 from rovercheck.checker.compare.stimulus import SILENT, Every, InputBlock, Stimulus, StimulusPlayer, Toward
 from rovercheck.checker.compare.strategy import ENVIRONMENTS

@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import pytest
 
 from rovercheck.checker.adapters.python_calls import Instance
-from rovercheck.checker.commands.crosscheck.record import in_steps_of
+from rovercheck.checker.commands.compare.record import in_steps_of
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.compare.beside import differs, rerun
 from rovercheck.checker.results.trace import Trace

@@ -1,4 +1,4 @@
-"""Own logs cut at any tick, outputs perturbed at any tick, columns left out: judged, no error of ours."""
+"""Own logs cut at any tick, outputs perturbed at any tick, columns left out: judged, no internal error."""
 
 import csv
 from functools import cache

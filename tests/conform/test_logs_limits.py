@@ -174,10 +174,10 @@ def test_cells_that_never_repeat_are_not_all_remembered(tmp_path: Path) -> None:
 
 def test_damaged_parquet_is_told(tmp_path: Path) -> None:
     """Wherever it is damaged: names, texts and pages that cannot be read are the file's fault, not ours."""
-    arrow, parquet = import_module("pyarrow"), import_module("pyarrow.parquet")
+    transition, parquet = import_module("pyarrow"), import_module("pyarrow.parquet")
     file = tmp_path / "log.parquet"
     cells = {"now_ms": list(range(20, 4020, 20)), "temp_status": ["0"] * 200}
-    parquet.write_table(arrow.table(cells), file)
+    parquet.write_table(transition.table(cells), file)
     assert count(file) == 200
     whole, random = file.read_bytes(), Random(1)
     for _ in range(40):

@@ -19,7 +19,7 @@ MAKES = Instead("runs everything; the test looks whether the Makefile has the ta
 CROSSCHECKS = Instead(
     "20 s and more for a board; tests/conform runs cross-checks, and tests/cli their command line"
 )
-COVERS = Instead("searches for minutes; tests/cli/test_testgen.py runs the command on small charts")
+COVERS = Instead("searches for minutes; tests/cli/test_generate_tests.py runs the command on small charts")
 MUTATES = Instead("minutes of searches; tests/cli/test_mutate.py runs the command on small models")
 OUTSIDE = Instead("a program that pip does not install; tests/export asks it where there is one")
 PICKS = Instead("the tutorial runs tests of this kind; tests/plugin picks some of them in these ways")
@@ -36,23 +36,26 @@ COMMANDS = {
     "pip install ../rovercheck": INSTALLS,
     "make check": Instead(MAKES.because, "rovercheck check PB1-15 PB2-01"),
     "make test": MAKES,
+    "make test-full": MAKES,
     "make check-full": MAKES,
-    "rovercheck crosscheck": CROSSCHECKS,
-    "rovercheck crosscheck --system board1 --impl python:mine.py:Board1": CROSSCHECKS,
-    "rovercheck crosscheck --system board1 --impl c:supervisor.toml --profile nightly": CROSSCHECKS,
-    "rovercheck crosscheck --system board1 --reading S43=AND": CROSSCHECKS,
-    "rovercheck crosscheck --system board1 --impl c:FOLDER": CROSSCHECKS,
-    "rovercheck crosscheck --system board1 --impl c:examples/board1_c": CROSSCHECKS,
-    f"rovercheck crosscheck --system board1 --impl {FAULTY}": CROSSCHECKS,
+    "rovercheck compare": CROSSCHECKS,
+    "rovercheck compare --system board1 --impl python:mine.py:Board1": CROSSCHECKS,
+    "rovercheck compare --system board1 --impl c:supervisor.toml --profile nightly": CROSSCHECKS,
+    "rovercheck compare --system board1 --reading S43=AND": CROSSCHECKS,
+    "rovercheck compare --system board1 --impl c:FOLDER": CROSSCHECKS,
+    "rovercheck compare --system board1 --impl c:examples/board1_c": CROSSCHECKS,
+    f"rovercheck compare --system board1 --impl {FAULTY}": CROSSCHECKS,
     "rovercheck doctor": Instead("tests/cli/test_doctor.py puts its questions to every engine"),
-    "rovercheck testgen": COVERS,
-    "rovercheck testgen --system board1 --cover arrows --cover pairs": COVERS,
-    "rovercheck testgen --system Relay --cover boundaries": COVERS,
-    "rovercheck testgen --format pytest -o tests_b1": COVERS,
-    "rovercheck testgen --format c -o tests_c": COVERS,
-    "rovercheck testgen --kept": Instead("tests/cli/test_testgen.py writes the kept set of a board"),
-    "rovercheck testgen --keep FOLDER": COVERS,
-    "rovercheck testgen --keep checker/testgen/kept": COVERS,
+    "rovercheck generate-tests": COVERS,
+    "rovercheck generate-tests --system board1 --cover transitions --cover pairs": COVERS,
+    "rovercheck generate-tests --system Relay --cover boundaries": COVERS,
+    "rovercheck generate-tests --format pytest -o tests_b1": COVERS,
+    "rovercheck generate-tests --format c -o tests_c": COVERS,
+    "rovercheck generate-tests --kept": Instead(
+        "tests/cli/test_generate_tests.py writes the kept set of a board"
+    ),
+    "rovercheck generate-tests --keep FOLDER": COVERS,
+    "rovercheck generate-tests --keep checker/testgen/kept": COVERS,
     "rovercheck mutate": MUTATES,
     "rovercheck mutate --system rover": MUTATES,
     "rovercheck mutate --part Relay": MUTATES,
@@ -110,8 +113,8 @@ COMMANDS = {
         "explained in the run of the format before it",
         "rovercheck trace PB1-15 --format c --no-explain -o pb1_15.c",
     ),
-    "rovercheck trace --arrow 'Relay: B2_actuating -> B1_actuating'": Instead(
-        "12 s; tests/cli/test_trace_kinds.py runs through an arrow"
+    "rovercheck trace --transition 'Relay: B2_actuating -> B1_actuating'": Instead(
+        "12 s; tests/cli/test_trace_kinds.py runs through a transition"
     ),
     r"printf 'step 3\nwhy\n' | rovercheck explore Relay": Instead(
         "a pipe of the shell", "rovercheck explore Relay --script session.txt"
@@ -151,12 +154,12 @@ SHOWN = {
         "docs/certificates.md",
         "✓ PSY-21a               accepted  proved of counters: 4 obligations by Bitwuzla 0.9.1",
     ): ("tests/cli/test_certify.py has the line"),
-    ("docs/testgen.md", "board1"): MADE,
+    ("docs/generate-tests.md", "board1"): MADE,
     ("docs/inside.md", "spec_model/         properties/        a user's file"): (
         "a drawing; tests/test_architecture.py has the order of the folders"
     ),
     ("docs/mutate.md", "Relay/default.1/target"): "tests/cli/test_mutate.py has the survivor",
-    ("docs/timers.md", "all 425 valuations of references                                exact"): (
+    ("docs/timers.md", "all 425 reachable states of references                                exact"): (
         "three ways to count, of three systems; tests/checker has the texts"
     ),
 }
@@ -165,7 +168,7 @@ SHOWN = {
 PROGRAMS = {
     ("docs/adapters.md", "class Supervisor:"): "python",
     ("docs/adapters.md", "import json, sys"): "python",
-    ("docs/crosscheck.md", "from rovercheck.checker.compare import cross_check, quick_check"): "imports",
+    ("docs/compare.md", "from rovercheck.checker.compare import cross_check, quick_check"): "imports",
     ("docs/models.md", "from rovercheck.properties.forms import always"): "model",
 }
 """Python of a page: compiled; its imports executed; or read as a model."""

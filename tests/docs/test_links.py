@@ -96,7 +96,7 @@ def test_what_is_generated_and_kept_is_as_the_sources_are_today() -> None:
 
 def test_the_readme_leads_to_the_documentation_near_its_top() -> None:
     top = (ROOT / "README.md").read_text(encoding="utf-8").partition("\n    $ make check\n")[0]
-    assert {"docs/tutorial.md", "docs/index.md", "docs/crosscheck.md"} <= set(Document(top).targets)
+    assert {"docs/tutorial.md", "docs/index.md", "docs/compare.md"} <= set(Document(top).targets)
     assert len(top.splitlines()) < 25
 
 

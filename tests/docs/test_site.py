@@ -127,7 +127,7 @@ def test_an_example_without_meaning_is_refused() -> None:
 
 
 def test_the_label_of_an_example_is_shown() -> None:
-    assert "On an arrow: `duration(level > 80) >= 3 s`" in language.page()
+    assert "On a transition: `duration(level > 80) >= 3 s`" in language.page()
 
 
 def test_every_verb_and_option_is_in_the_reference(site: Path) -> None:

@@ -5,13 +5,13 @@ from dataclasses import replace
 from itertools import combinations
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 
 from rovercheck.checker.engines.bdd.space import DDMemoryError, Overdrawn
-from rovercheck.checker.explain import backwards, fewest, needed
-from rovercheck.checker.explain.explained import check
-from rovercheck.checker.explain.needed import Forcing, forcing
-from rovercheck.checker.explain.unrolled import OutOfTime, Unrolled
+from rovercheck.checker.explain import backwards, fewest, necessary_inputs
+from rovercheck.checker.explain.explanation import check
+from rovercheck.checker.explain.necessary_inputs import NecessaryInputs, forcing
+from rovercheck.checker.explain.unrolled_run import OutOfTime, Unrolled
 from rovercheck.checker.results.trace import Needed
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.verify.runs.replay import ReplayError
@@ -22,6 +22,7 @@ from rovercheck.spec_model.lang.expr import Var, flag, ite, var
 from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.words import minimum
 from tests.naive import vectors
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 from tests.toys import GOAL, counter, filling, once
 
@@ -59,22 +60,22 @@ def some_run(system: TransitionSystem, goal: Var, most: int) -> Run | None:
     return found
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(transition_systems(most=2))
 def test_what_is_needed_forces_the_end_and_nothing_of_it_can_be_left_out(system: TransitionSystem) -> None:
     goal = goals(system)[0]
     run = some_run(system, goal, 3)
     assume(run is not None)
     assert run is not None
-    for large in (needed.LARGE, 0):  # a short run is gone through backwards, too
+    for large in (necessary_inputs.LARGE, 0):  # a short run is gone through backwards, too
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(needed, "LARGE", large)
+            patch.setattr(necessary_inputs, "LARGE", large)
             found = forcing(system, goal, run)
             judge(system, goal, run, found)
             assert found.smallest or not large, "so few inputs are all tried"
 
 
-def judge(system: TransitionSystem, goal: Var, run: Run, found: Forcing) -> None:
+def judge(system: TransitionSystem, goal: Var, run: Run, found: NecessaryInputs) -> None:
     """The needed inputs against all runs."""
     assert found.minimal
     assert ends(system, goal, run, found.needed) == {1}
@@ -93,8 +94,8 @@ def judge(system: TransitionSystem, goal: Var, run: Run, found: Forcing) -> None
 def way(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
     """Both ways, whatever the size of the run."""
     if request.param == "backwards":
-        monkeypatch.setattr(needed, "LARGE", 0)
-        monkeypatch.setattr(needed, "Unrolled", None)
+        monkeypatch.setattr(necessary_inputs, "LARGE", 0)
+        monkeypatch.setattr(necessary_inputs, "Unrolled", None)
 
 
 both_ways = pytest.mark.usefixtures("way")
@@ -105,7 +106,7 @@ def held(ticks: int, before: int = 0) -> Run:
     return Run({}, ({"hold": 0},) * before + ({"hold": 1},) * ticks)
 
 
-def told(found: Forcing) -> dict[tuple[int, str], list[int]]:
+def told(found: NecessaryInputs) -> dict[tuple[int, str], list[int]]:
     return {(n.number, n.name): sorted(n.values) for n in found.needed}
 
 
@@ -129,7 +130,7 @@ def test_an_input_that_must_not_come_too_early_is_needed_too() -> None:
 @both_ways
 def test_an_end_that_nothing_avoids_needs_nothing() -> None:
     found = forcing(once(), GOAL, Run({}, ({}, {})))
-    assert found == Forcing((), True, True)
+    assert found == NecessaryInputs((), True, True)
 
 
 def either() -> tuple[TransitionSystem, Run]:
@@ -149,7 +150,7 @@ def test_a_set_that_need_not_be_the_smallest_is_not_called_so(monkeypatch: pytes
     system, run = either()
     monkeypatch.setattr(fewest, "ROUNDS", 0)
     assert not forcing(system, GOAL, run).smallest
-    monkeypatch.setattr(needed, "LARGE", 0)
+    monkeypatch.setattr(necessary_inputs, "LARGE", 0)
     assert not forcing(system, GOAL, run).smallest, "gone through backwards, only what has no other is"
 
 
@@ -245,13 +246,13 @@ def test_a_set_that_does_not_force_the_end_is_noticed() -> None:
     system, run = counter(3, top=3), held(3, before=2)
     found = forcing(system, GOAL, run)
     for one in found.needed:
-        less = Forcing(tuple(n for n in found.needed if n is not one), True)
+        less = NecessaryInputs(tuple(n for n in found.needed if n is not one), True)
         with pytest.raises(ReplayError, match="does not force it"):
             check(system, GOAL, run, less)
 
 
 def test_a_solver_that_takes_anything_for_forced_is_noticed(monkeypatch: pytest.MonkeyPatch) -> None:
-    from rovercheck.checker.explain.unrolled import Answer
+    from rovercheck.checker.explain.unrolled_run import Answer
 
     monkeypatch.setattr(Unrolled, "asked", lambda *_: Answer(True))
     monkeypatch.setattr(Unrolled, "avoids", lambda _, changes: iter([False] * len(changes)))
@@ -280,7 +281,7 @@ def test_when_time_is_over_what_was_found_is_not_called_minimal() -> None:
 
 
 def test_a_long_run_is_explained_as_far_as_the_time_goes(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(needed, "LARGE", 0)
+    monkeypatch.setattr(necessary_inputs, "LARGE", 0)
     system, run = counter(120, top=120), held(120, before=400)
     whole = forcing(system, GOAL, run)
     assert told(whole) == {(k, "hold"): [1] for k in range(401, 521)} and whole.minimal
@@ -297,7 +298,7 @@ def test_what_is_too_large_for_sets_is_unrolled(
     def full(*_: object) -> None:
         raise error("full")
 
-    monkeypatch.setattr(needed, "LARGE", 0)
+    monkeypatch.setattr(necessary_inputs, "LARGE", 0)
     monkeypatch.setattr(backwards, "_Ticks", full)
     found = forcing(counter(3, top=3), GOAL, held(3, before=4))
     assert told(found) == {(k, "hold"): [1] for k in (5, 6, 7)}

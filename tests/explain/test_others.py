@@ -1,16 +1,16 @@
-"""Other runs to the same end, each through other arrows or for another reason, until there is no more."""
+"""Other runs to the same end, each by other transitions or for another reason, until there is none."""
 
 from dataclasses import replace
 
 from rovercheck.checker.engines import Limits
-from rovercheck.checker.explain.explained import explained, unexplained
-from rovercheck.checker.explain.others import NoMore, Other, Others
-from rovercheck.checker.explain.unlike import Unlike
+from rovercheck.checker.explain.explanation import explained, unexplained
+from rovercheck.checker.explain.other_causes import OtherCauses
+from rovercheck.checker.explain.other_runs import NoOtherRun, OtherRun, OtherRuns
 from rovercheck.checker.render.reasons import in_reason
 from rovercheck.checker.render.trace_table import render as table
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Reached, Run, Violated
-from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.result import result
 from rovercheck.properties.forms import Property, never
 from rovercheck.properties.reduce import reduce
@@ -45,23 +45,23 @@ def first(system: System = SYSTEM, prop: Property = ENDS) -> Trace:
 
 
 def test_both_ways_are_found_and_that_there_is_no_third() -> None:
-    others = Others(first(), ENDS, SYSTEM)
+    others = OtherRuns(first(), ENDS, SYSTEM)
     second = others.next("bdd", Limits())
-    assert isinstance(second, Other)
+    assert isinstance(second, OtherRun)
     [difference] = second.differences
     assert difference == (
-        "takes Way: Start -> Right (arrow 2) [right], Way: Right -> End (arrow 1) [quick]; "
-        "does not take Way: Start -> Left (arrow 1) [left], Way: Left -> End (arrow 1)"
+        "takes Way: Start -> Right (transition 2) [right], Way: Right -> End (transition 1) [quick]; "
+        "does not take Way: Start -> Left (transition 1) [left], Way: Left -> End (transition 1)"
     )
-    assert [a.target for t in second.trace.ticks for a in t.arrows] == ["Start", "Right", "End"]
+    assert [a.target for t in second.trace.ticks for a in t.transitions] == ["Start", "Right", "End"]
     assert "goal" not in str(second.trace.ticks), "the run is replayed on the charts as drawn"
     third = others.next("bdd", Limits())
-    assert isinstance(third, NoMore) and third.proved and "valuations" in third.reason
+    assert isinstance(third, NoOtherRun) and third.proved and "reachable states" in third.reason
 
 
 def test_a_search_that_gives_up_proves_nothing() -> None:
-    others = Others(first(), ENDS, SYSTEM)
-    assert others.next("bmc", Limits(depth=2)) == NoMore(False, "none within 2 ticks")
+    others = OtherRuns(first(), ENDS, SYSTEM)
+    assert others.next("bmc", Limits(depth=2)) == NoOtherRun(False, "none within 2 ticks")
 
 
 def test_explained_by_the_inputs_that_decide_the_way() -> None:
@@ -88,14 +88,14 @@ BOTH = way(
 
 
 def test_another_reason_is_found_and_that_there_is_no_third() -> None:
-    unlike, known = Unlike(ENDS, BOTH), [explained(first(BOTH), ENDS, BOTH)]
+    unlike, known = OtherCauses(ENDS, BOTH), [explained(first(BOTH), ENDS, BOTH)]
     second = unlike.next(known, "bdd", Limits())
     assert isinstance(second, Trace)
     known.append(explained(second, ENDS, BOTH))
     assert [(n.number, n.name, set(n.values)) for n in known[1].needed or ()] == [(2, "right", {1})]
     assert in_reason(known[1], known[0]) == "needs right; does not need left"
     third = unlike.next(known, "bdd", Limits())
-    assert isinstance(third, NoMore) and third.proved, "to wait for left or right is no other reason"
+    assert isinstance(third, NoOtherRun) and third.proved, "to wait for left or right is no other reason"
     assert in_reason(known[1], replace(known[1], ticks=known[1].ticks * 2)) == (
         "needs right in other ticks or with other values"
     )
@@ -106,7 +106,7 @@ def test_a_run_with_other_fixed_values_ends_for_another_reason() -> None:
     left_and_right = [State(side, transitions=[to("End")]) for side in ("Left", "Right")]
     system = replace(way(start, *left_and_right), frozen=(quick,))
     known = [explained(first(system), ENDS, system)]
-    other = Unlike(ENDS, system).next(known, "bdd", Limits())
+    other = OtherCauses(ENDS, system).next(known, "bdd", Limits())
     assert isinstance(other, Trace)
     told = in_reason(explained(other, ENDS, system), known[0])
     assert told == "begins with quick = true; does not need left"

@@ -4,7 +4,7 @@ import pytest
 
 from rovercheck.checker.explore.by_hand.condition import condition
 from rovercheck.checker.explore.by_hand.names import Names
-from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput
 from rovercheck.spec_model.lang.domain import enumeration, integer
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import flag, var

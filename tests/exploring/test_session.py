@@ -4,7 +4,7 @@ import pytest
 
 from rovercheck.checker.explore.by_hand import session
 from rovercheck.checker.explore.by_hand.session import Session
-from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.expr import flag

@@ -9,9 +9,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.checker.explore.by_hand import simulation
-from rovercheck.checker.explore.by_hand.admitted import broken, drawn
+from rovercheck.checker.explore.by_hand.admissible_inputs import broken, drawn
 from rovercheck.checker.explore.by_hand.simulation import HandSimulation
-from rovercheck.checker.explore.by_hand.written import RefusedInput, value
+from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput, value
 from rovercheck.checker.verify.runs.replay import ReplayError
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block, Chart, State, to
@@ -121,7 +121,7 @@ def test_after_a_value_left_its_domain_the_run_goes_on_from_before() -> None:
     assert sim.state()["small"] == 1 and len(sim) == 2
 
 
-def test_tested_tells_what_was_true_when_the_arrow_was_tested() -> None:
+def test_tested_tells_what_was_true_when_the_transition_was_tested() -> None:
     sim = ran(0, 150)
     [one] = sim.tested()
     assert one.source == ("Low",) and one.valid
@@ -143,7 +143,9 @@ def test_the_trace_holds_the_run_up_to_the_tick_looked_at() -> None:
     sim.goto(2)
     trace = sim.trace()
     assert [dict(t.inputs) for t in trace.ticks] == [{"level": 0}, {"level": 150}]
-    assert [str(a) for a in trace.ticks[1].arrows] == ["Tank: Low -> High (arrow 1) [level >= top && pump]"]
+    assert [str(a) for a in trace.ticks[1].transitions] == [
+        "Tank: Low -> High (transition 1) [level >= top && pump]"
+    ]
     assert [t.number for t in sim.trace(2).ticks] == [2]
 
 

@@ -5,7 +5,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from rovercheck.checker.engines import Limits, engines, quiet
 from rovercheck.checker.export import Bad, Problem, exporters, problem
@@ -22,6 +22,7 @@ from tests.export import read_aiger, read_btor2, read_smv
 from tests.export.outside import Outcome, abc, needs_abc, needs_spin, spin
 from tests.export.reading import Machine
 from tests.naive import search
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 
 FOR_ABC = ("PB1-10a", "PB1-11", "PB1-11b", "PB1-15", "PB1-17a")
@@ -38,7 +39,7 @@ def each(system: TransitionSystem) -> list[tuple[Problem, Outcome]]:
 
 
 @needs_abc
-@settings(max_examples=40)
+@examples(40)
 @given(transition_systems())
 def test_abc_agrees_on_random_systems(system: TransitionSystem) -> None:
     with tempfile.TemporaryDirectory() as folder:
@@ -49,7 +50,7 @@ def test_abc_agrees_on_random_systems(system: TransitionSystem) -> None:
 
 
 @needs_spin
-@settings(max_examples=8)
+@examples(8)
 @given(transition_systems())
 def test_spin_agrees_on_random_systems(system: TransitionSystem) -> None:
     with tempfile.TemporaryDirectory() as folder:

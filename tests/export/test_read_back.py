@@ -4,7 +4,7 @@ import random
 from collections.abc import Callable, Sequence
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.checker.export import Bad, Problem, exporters
@@ -19,6 +19,7 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 from tests.checker.test_bitvector import CASES, sort_of
 from tests.export import read_aiger, read_btor2, read_smv
 from tests.export.reading import Machine
+from tests.profiles import examples
 from tests.strategies_ts import goals, transition_systems
 
 READERS: dict[str, Callable[[bytes], Machine]] = {
@@ -71,7 +72,7 @@ def beside(
 
 
 @pytest.mark.parametrize("format", FORMATS)
-@settings(max_examples=60)
+@examples(60)
 @given(transition_systems(), st.randoms(use_true_random=False))
 def test_random_systems_tick_by_tick(format: str, system: TransitionSystem, seed: random.Random) -> None:
     wanted = goals(system)

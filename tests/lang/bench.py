@@ -6,7 +6,7 @@ from rovercheck.spec_model.lang.action import Action, assign
 from rovercheck.spec_model.lang.chart import Block, Component, Junction, State, Transition
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.expr import Var, flag, var
-from rovercheck.spec_model.lang.interpret import Fired, Interpreter
+from rovercheck.spec_model.lang.interpret import FiredTransition, Interpreter
 from rovercheck.spec_model.lang.system import in_order
 
 log = var("log", integer(0, 10**9))
@@ -38,7 +38,7 @@ class Bench:
     def __init__(self, *components: Component, frozen: Sequence[Var] = ()) -> None:
         clear = Block("Clear", [assign(log, 0)])
         self.interpreter = Interpreter(in_order("Bench", clear, *components, frozen=frozen))
-        self.fired: tuple[Fired, ...] = ()
+        self.fired: tuple[FiredTransition, ...] = ()
 
     def tick(self, *true: Var, **values: int) -> str:
         """One tick with the flags named true; returns the digits noted in it."""

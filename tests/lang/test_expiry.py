@@ -18,6 +18,7 @@ from rovercheck.spec_model.lang.system import System, in_order
 from rovercheck.spec_model.lang.time import sec, ticks
 from rovercheck.spec_model.lang.walk import structure
 from rovercheck.spec_model.lang.words import after, duration, held
+from tests.profiles import examples
 from tests.strategies import frozen_values, input_blocks, systems
 
 
@@ -63,7 +64,7 @@ def follow(
     return used
 
 
-@settings(max_examples=100, suppress_health_check=list(HealthCheck))
+@settings(examples(100), suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_every_run_is_a_run_with_free_timers(data: st.DataObject) -> None:
     system = data.draw(systems())
@@ -73,7 +74,7 @@ def test_every_run_is_a_run_with_free_timers(data: st.DataObject) -> None:
     follow(system, keep, data.draw(input_blocks(system)), frozen)
 
 
-@settings(max_examples=30, suppress_health_check=list(HealthCheck))
+@settings(examples(30), suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_both_readings_of_a_chart_with_free_timers_agree(data: st.DataObject) -> None:
     system = free_timers(data.draw(systems()))

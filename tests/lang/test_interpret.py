@@ -1,8 +1,8 @@
-"""Executions, arrows, paths and sends in the reference interpreter (rules G1 to G10)."""
+"""Executions, transitions, paths and sends in the reference interpreter (rules G1 to G10)."""
 
 from rovercheck.spec_model.lang.action import assign, send, when
 from rovercheck.spec_model.lang.chart import Chart, Enabled, Junction, State, to
-from rovercheck.spec_model.lang.interpret import Fired
+from rovercheck.spec_model.lang.interpret import FiredTransition
 from tests.lang.bench import Bench, a, b, c, n, note, state
 
 # --- executions and the order of states (G1 to G5) ---------------------------------------------
@@ -50,7 +50,7 @@ def test_g4_superstate_first_then_its_during_then_the_child() -> None:
     assert bench.tick(a, b) == "9"
 
 
-def test_g4_arrows_in_priority_order() -> None:
+def test_g4_transitions_in_priority_order() -> None:
     chart = Chart("C", [state("A", transitions=[to("B", when=a), to("D", when=a | b)]), state("B"),
                         state("D")], default="A")  # fmt: skip
     for true, target, order in ((a, "B", 1), (b, "D", 2)):
@@ -90,7 +90,7 @@ def test_g5_a_composite_that_is_left_and_entered_again_is_not_executed_again() -
 # --- labels, paths, actions (G6 to G9) --------------------------------------------------------
 
 
-def test_g6_an_arrow_with_an_event_needs_that_event() -> None:
+def test_g6_a_transition_with_an_event_needs_that_event() -> None:
     sender = State("R1", during=[when(a, [send("go", "R2")])])
     receiver = State(
         "R2", states=[state("X", transitions=[to("Y", on="go", when=b)]), state("Y")], default="X"
@@ -100,10 +100,10 @@ def test_g6_an_arrow_with_an_event_needs_that_event() -> None:
         bench.tick(*true)
         if true:
             assert bench.at("C.R2") == place
-    assert bench.fired == (Fired("C", ("R2", "X"), ("R2", "Y"), "go [b]", 1, "go"),)
+    assert bench.fired == (FiredTransition("C", ("R2", "X"), ("R2", "Y"), "go [b]", 1, "go"),)
 
 
-def test_g7_backtracking_to_the_previous_point_and_to_the_next_arrow() -> None:
+def test_g7_backtracking_to_the_previous_point_and_to_the_next_transition() -> None:
     chart = Chart(
         "C",
         [state("A", transitions=[to("J", when=a), to("D")]), state("B"), state("D")],
@@ -131,7 +131,7 @@ def test_g8_condition_actions_run_at_once_transition_actions_only_on_a_complete_
     assert bench.tick() == "19"
     assert bench.tick(a) == "124576"
     label = "{log := log*10 + 1} / log := log*10 + 5 → [a] {log := log*10 + 2} / log := log*10 + 7"
-    assert bench.fired == (Fired("C", ("A",), ("B",), label, 1, None),)
+    assert bench.fired == (FiredTransition("C", ("A",), ("B",), label, 1, None),)
 
 
 def test_g9_exit_inside_out_transition_action_entry_outside_in() -> None:
@@ -151,7 +151,7 @@ def test_g9_a_self_loop_leaves_and_enters() -> None:
     assert [bench.tick(), bench.tick(), bench.tick(a)] == ["1", "9", "21"]
 
 
-def test_g9_an_arrow_to_a_child_leaves_and_enters_the_superstate() -> None:
+def test_g9_a_transition_to_a_child_leaves_and_enters_the_superstate() -> None:
     outer = state("Out", 1, 0, 4, states=[state("In", 2, 0, 3), state("Two", 5)], default="In",
                   transitions=[to("Two", when=a)])  # fmt: skip
     bench = Bench(Chart("C", [outer], default="Out"))
@@ -208,7 +208,7 @@ def test_g10_the_event_ceases_and_one_that_nobody_wants_is_lost() -> None:
     assert bench.at("C.R2") == "P"
 
 
-def test_g10_arrows_without_event_are_tested_in_a_nested_execution_too() -> None:
+def test_g10_transitions_without_event_are_tested_in_a_nested_execution_too() -> None:
     one = State("R1", during=[when(a, [send("e", "R2")])])
     two = State("R2", states=[state("P", transitions=[to("Q", when=a)]),
                               state("Q", 0, 0, transitions=[to("P", on="e"), to("S", when=b)]),

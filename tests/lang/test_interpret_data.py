@@ -1,4 +1,4 @@
-"""Data, frozen subsystems, inputs and valuations of the reference interpreter (rules G11 and G12)."""
+"""Data, frozen subsystems, inputs and states of the reference interpreter (rules G11 and G12)."""
 
 import pytest
 

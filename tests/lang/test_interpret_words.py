@@ -14,7 +14,7 @@ from tests.lang.bench import Bench, a, b, c, n, note
 
 
 def first_true(word: Temporal, at: Iterable[int] = range(1, 100), chart_input: Var = a) -> int:
-    """The tick in which an arrow A -> B with this guard is taken, its input being true in ``at``."""
+    """The tick in which a transition A -> B with this guard is taken, its input being true in ``at``."""
     bench = Bench(Chart("C", [State("A", transitions=[to("B", when=word)]), State("B")], default="A"))
     true = set(at)
     reads = chart_input.name in bench.interpreter.system.inputs

@@ -1,4 +1,4 @@
-"""Charts of many states and arrows: lowered flat enough for whatever walks them, and in the same meaning."""
+"""Charts of many states and transitions: lowered flat enough for any walk, and with the same meaning."""
 
 import sys
 from collections.abc import Sequence
@@ -34,7 +34,7 @@ go, number, seen = flag("go"), var("number", integer(0, MANY)), var("seen", inte
 
 
 def ring(n: int) -> Chart:
-    """States one after the other, each with a timer, and a hub with an arrow to every one of them."""
+    """States one after the other, each with a timer, and a hub with a transition to every one of them."""
     spokes = [to(f"S{i}", when=go & (number == i), then=[assign(seen, i % 10)]) for i in range(n)]
     states = [
         State(
@@ -55,7 +55,7 @@ def depth(program: Sequence[object]) -> int:
     return found
 
 
-def test_a_step_is_nested_much_less_than_its_chart_has_states_and_arrows() -> None:
+def test_a_step_is_nested_much_less_than_its_chart_has_states_and_transitions() -> None:
     for n in (150, MANY):
         assert depth(lower(in_order("ring", ring(n))).step) < 40
 
@@ -97,7 +97,7 @@ BACKTRACKING = Chart(
 
 
 @pytest.mark.parametrize("go_now", [0, 1])
-def test_many_arrows_are_tried_in_order_also_after_one_that_completes_no_path(go_now: int) -> None:
+def test_many_transitions_are_tried_in_order_also_after_one_that_completes_no_path(go_now: int) -> None:
     moves = [at for n in range(30) for at in (n, 0)]
     compare(in_order("tries", BACKTRACKING), [{"go": go_now, "number": at} for at in moves])
 
@@ -132,7 +132,7 @@ def test_each_send_and_each_event_of_a_large_chart_is_looked_at() -> None:
         check_system(sends(n, hears=False))
     lines = str(told.value).splitlines()
     assert sum("waits for the event f, which is never sent" in line for line in lines) == n
-    assert sum("no arrow inside Two waits for the event e" in line for line in lines) == n
+    assert sum("no transition inside Two waits for the event e" in line for line in lines) == n
 
 
 def test_long_names_of_nested_states_are_told_apart_in_compiled_code() -> None:

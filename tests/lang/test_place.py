@@ -1,4 +1,4 @@
-"""Places: arrows, states, charts and properties know the line at which they are written."""
+"""Places: transitions, states, charts and properties know the line at which they are written."""
 
 import pickle
 from dataclasses import replace
@@ -15,7 +15,7 @@ from rovercheck.spec_model.lang.expr import FALSE, TRUE, Const, flag
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.place import Place, here
-from rovercheck.spec_model.lang.specialise import Fixing
+from rovercheck.spec_model.lang.specialise import Specialiser
 from rovercheck.spec_model.lang.system import in_order
 from rovercheck.spec_model.rover import systems
 
@@ -47,14 +47,14 @@ lamp = Chart(
 
 
 def lines(chart: Chart) -> list[int]:
-    """The line of the chart, and of each arrow in drawing order, as distances from ``START``."""
-    found = [chart.place, *(arrow.place for arrow in chart.arrows)]
+    """The line of the chart, and of each transition in drawing order, as distances from ``START``."""
+    found = [chart.place, *(transition.place for transition in chart.transitions)]
     assert all(place is not None and place.file == __file__ for place in found)
     return [place.line - START for place in found if place is not None]
 
 
 def test_lines_are_those_of_the_words() -> None:
-    assert lines(lamp) == [1, 1, 4, 8, 9], "the default arrow is written with the chart"
+    assert lines(lamp) == [1, 1, 4, 8, 9], "the default transition is written with the chart"
     places = [state.place for state in lamp.states.values()]
     assert [place.line - START for place in places if place is not None] == [1, 4, 5]
 
@@ -65,11 +65,11 @@ def test_a_property_knows_its_line() -> None:
     assert made.place == Place(__file__, at)
 
 
-def test_every_arrow_and_property_of_the_rover_has_a_place() -> None:
+def test_every_transition_and_property_of_the_rover_has_a_place() -> None:
     for system in systems().values():
         for chart in system.charts:
             assert chart.place and (ROOT / chart.place.path).is_file()
-            assert all(arrow.place for arrow in chart.arrows)
+            assert all(transition.place for transition in chart.transitions)
     for prop in as_written().values():
         assert prop.place and prop.place.path.startswith(("properties/areas/", "properties/promises/"))
         written = (ROOT / prop.place.path).read_text(encoding="utf-8").splitlines()
@@ -80,18 +80,18 @@ def test_every_arrow_and_property_of_the_rover_has_a_place() -> None:
 
 def test_places_survive_what_is_done_to_charts() -> None:
     assert lines(pickle.loads(pickle.dumps(lamp))) == lines(lamp)
-    fixed = Fixing({"elsewhere": Const(1, TRUE.sort)}).chart(lamp)
+    fixed = Specialiser({"elsewhere": Const(1, TRUE.sort)}).chart(lamp)
     assert lines(fixed) == lines(lamp)
-    assert lines(Fixing({"go": Const(1, TRUE.sort)}).chart(lamp)) == [1, 1, 4, 9]
+    assert lines(Specialiser({"go": Const(1, TRUE.sort)}).chart(lamp)) == [1, 1, 4, 9]
     assert lines(drop(lamp, "On", 1)) == [1, 1, 4, 9]
     assert lines(guard(lamp, "On", 1, lambda g: g | FALSE)) == lines(lamp)
     assert lines(lamp.with_local_data([])) == lines(lamp)
 
 
 def test_places_are_no_part_of_what_is_equal_or_shown() -> None:
-    arrow = Transition("On")
-    moved = replace(arrow, place=Place("other.py", 3))
-    assert arrow == moved and hash(arrow) == hash(moved) and repr(arrow) == repr(moved)
+    transition = Transition("On")
+    moved = replace(transition, place=Place("other.py", 3))
+    assert transition == moved and hash(transition) == hash(moved) and repr(transition) == repr(moved)
     state = lamp.states[("Off",)]
     assert state == replace(state, place=None) and "place" not in repr(state)
     prop = next(iter(catalogue().values()))
@@ -100,9 +100,11 @@ def test_places_are_no_part_of_what_is_equal_or_shown() -> None:
 
 def test_what_engines_and_certificates_see_is_the_same() -> None:
     def bare(state: State) -> State:
-        arrows = [replace(t, place=None) for t in state.transitions]
+        transitions = [replace(t, place=None) for t in state.transitions]
         inside = [bare(s) for s in state.states]
-        return replace(state, transitions=tuple(arrows), states=tuple(inside), place=Place("other.py", 1))
+        return replace(
+            state, transitions=tuple(transitions), states=tuple(inside), place=Place("other.py", 1)
+        )
 
     moved = Chart("Lamp", bare(lamp.root).states, default="Off")
     assert lines(lamp) and moved.place != lamp.place

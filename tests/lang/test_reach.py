@@ -54,7 +54,7 @@ def same(chart: Chart, all_legs: list[Leg]) -> None:
 @settings(examples(100), suppress_health_check=list(HealthCheck))
 @given(st.data())
 def test_the_states_that_can_be_active_are_those_of_the_definition(data: st.DataObject) -> None:
-    """Also where some arrows are left out, so that not every state is reached."""
+    """Also where some transitions are left out, so that not every state is reached."""
     for chart in data.draw(systems()).charts:
         every = list(legs(chart))
         same(chart, every)
@@ -64,8 +64,8 @@ def test_the_states_that_can_be_active_are_those_of_the_definition(data: st.Data
 
 @settings(examples(300), suppress_health_check=list(HealthCheck))
 @given(st.data())
-def test_also_in_deep_trees_with_arrows_from_anywhere_to_anywhere(data: st.DataObject) -> None:
-    """Regions entered by name complete the others, in any order of arrows."""
+def test_also_in_deep_trees_with_transitions_from_anywhere_to_anywhere(data: st.DataObject) -> None:
+    """Regions entered by name complete the others, in any order of transitions."""
     counter = iter(range(1_000))
 
     def tree(depth: int) -> State:
@@ -75,8 +75,8 @@ def test_also_in_deep_trees_with_arrows_from_anywhere_to_anywhere(data: st.DataO
     chart = Chart("Deep", [tree(3), tree(3)], parallel=data.draw(st.booleans()))
     states = [path for path in chart.states if path]
     ends = st.tuples(st.sampled_from(list(chart.states)), st.booleans(), st.sampled_from(states))
-    arrows = data.draw(st.lists(ends, max_size=12))
-    same(chart, [Leg(source, default, "", to(end[-1]), end, True) for source, default, end in arrows])
+    transitions = data.draw(st.lists(ends, max_size=12))
+    same(chart, [Leg(source, default, "", to(end[-1]), end, True) for source, default, end in transitions])
 
 
 def test_two_regions_that_are_entered_by_name_each_complete_the_other() -> None:
@@ -88,8 +88,8 @@ def test_two_regions_that_are_entered_by_name_each_complete_the_other() -> None:
     assert {("On", "R1"), ("On", "R2")} <= PathReach(chart, jumps).completed
 
 
-def test_each_arrow_is_followed_once_however_deep_it_lies(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Arrows that lead inward, against the order of the tree, took a pass over all arrows for each level."""
+def test_each_transition_is_followed_once_however_deep_it_lies(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Transitions that lead inward, against the order of the tree, took a pass over all for each level."""
     inner = State("C150")
     for level in range(149, -1, -1):
         near = State(f"B{level}", transitions=[to(f"C{level + 1}")])

@@ -8,7 +8,7 @@ from rovercheck.spec_model.lang.chart import Block, Chart, Enabled, Junction, St
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.expr import Const, Expr, flag, ite, var
 from rovercheck.spec_model.lang.interpret import Interpreter
-from rovercheck.spec_model.lang.specialise import Fixing
+from rovercheck.spec_model.lang.specialise import Specialiser
 from rovercheck.spec_model.lang.system import in_order
 from rovercheck.spec_model.lang.time import tick
 from rovercheck.spec_model.lang.walk import variables
@@ -18,8 +18,8 @@ switch, a, b = flag("switch"), flag("a"), flag("b")
 n, log = var("n", integer(0, 3)), var("log", integer(0, 99))
 
 
-def fixing(value: int) -> Fixing:
-    return Fixing({"switch": Const(value, switch.sort)})
+def fixing(value: int) -> Specialiser:
+    return Specialiser({"switch": Const(value, switch.sort)})
 
 
 def folded(expr: Expr, value: int) -> str:
@@ -43,7 +43,7 @@ def test_a_formula_without_the_variable_is_itself() -> None:
 
 
 def swapped() -> Chart:
-    """Two arrows whose order depends on the switch, and a junction that only one order needs."""
+    """Two transitions whose order depends on the switch, and a junction that only one order needs."""
     return Chart(
         "C",
         [
@@ -60,7 +60,7 @@ def swapped() -> Chart:
     )
 
 
-def test_arrows_that_can_never_be_taken_disappear_and_states_stay() -> None:
+def test_transitions_that_can_never_be_taken_disappear_and_states_stay() -> None:
     chart = fixing(1).chart(swapped())
     assert [t.target for t in chart.states[("A",)].transitions] == ["B", "C"]
     assert not chart.junctions

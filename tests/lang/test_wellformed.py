@@ -19,7 +19,7 @@ def test_a_chart_that_uses_everything_has_no_fault() -> None:
     assert of(one, two, parallel=True, local_to=[(kept, ["R2.X"])]) == []
 
 
-# --- names, composites, ends of arrows ----------------------------------------------------------
+# --- names, composites, ends of transitions ----------------------------------------------------------
 
 
 def test_a_misspelt_target() -> None:
@@ -29,16 +29,16 @@ def test_a_misspelt_target() -> None:
         default="Battery_ok",
     )
     assert faults(lambda: check_chart(monitor)) == [
-        "MonitorBattery: arrow 1 of Battery_ok goes to 'Batery_degraded', which is no state of this chart. "
-        "Did you mean 'Battery_degraded'?"
+        "MonitorBattery: transition 1 of Battery_ok goes to 'Batery_degraded', which is no state of this "
+        "chart. Did you mean 'Battery_degraded'?"
     ]
 
 
 def test_all_faults_are_said_together() -> None:
     assert of(leaf("A", to("B"), to("Aa")), default="X") == [
         "C: the default transition of the chart goes to 'X', which is no state of this chart. Known: A.",
-        "C: arrow 1 of A goes to 'B', which is no state of this chart. Known: A.",
-        "C: arrow 2 of A goes to 'Aa', which is no state of this chart. Did you mean 'A'?",
+        "C: transition 1 of A goes to 'B', which is no state of this chart. Known: A.",
+        "C: transition 2 of A goes to 'Aa', which is no state of this chart. Did you mean 'A'?",
     ]
 
 
@@ -46,16 +46,16 @@ def test_an_ambiguous_target() -> None:
     left = State("L", states=[leaf("X")], default="X")
     right = State("R", states=[leaf("X")], default="X")
     assert of(leaf("A", to("X"), to("L"), to("R")), left, right) == [
-        "C: arrow 1 of A goes to 'X', which is 2 states of this chart; write one of: L.X, R.X."
+        "C: transition 1 of A goes to 'X', which is 2 states of this chart; write one of: L.X, R.X."
     ]
 
 
-def test_an_arrow_from_a_junction_and_a_default_among_several_are_pointed_at() -> None:
+def test_a_transition_from_a_junction_and_a_default_among_several_are_pointed_at() -> None:
     found = of(leaf("A", to("J")), default=[to("Z", when=a), to("A")], junctions=[Junction("J", [to("Q")])])
     assert found == [
-        "C: arrow 1 of the default transitions of the chart goes to 'Z', which is no state of this chart. "
-        "Known: A, J.",
-        "C: arrow 1 of J goes to 'Q', which is no state of this chart. Known: A, J.",
+        "C: transition 1 of the default transitions of the chart goes to 'Z', which is no state of this "
+        "chart. Known: A, J.",
+        "C: transition 1 of J goes to 'Q', which is no state of this chart. Known: A, J.",
     ]
 
 
@@ -75,11 +75,13 @@ SHAPES = {
         State("A", parallel=True)
     ),
     "C: A has a default transition and no states; remove it.": lambda: of(State("A", default="B")),
-    "C: junction J has no arrows, so that no path through it is complete; draw one.": lambda: of(
+    "C: junction J has no transitions, so that no path through it is complete; draw one.": lambda: of(
         leaf("A", to("J")), junctions=[Junction("J", [])]
     ),
-    "C: A is a region of the parallel chart and has arrows; a region is left only with all its siblings: "
-    "draw the arrow from the composite.": lambda: of(leaf("A", to("B")), leaf("B"), parallel=True),
+    "C: A is a region of the parallel chart and has transitions; a region is left only with all its "
+    "siblings: draw the transition from the composite.": lambda: of(
+        leaf("A", to("B")), leaf("B"), parallel=True
+    ),
 }
 
 
@@ -91,7 +93,8 @@ def test_shape(message: str) -> None:
 def test_junction_cycle() -> None:
     junctions = [Junction("J", [to("K"), to("A")]), Junction("K", [to("J", when=a)])]
     assert of(leaf("A", to("J")), junctions=junctions) == [
-        f"C: the arrows from junction {j} lead back to it without a state; break the cycle." for j in "JK"
+        f"C: the transitions from junction {j} lead back to it without a state; break the cycle."
+        for j in "JK"
     ]
 
 
@@ -121,20 +124,22 @@ PATHS = {
     "C: the default transition of B goes to A, which is not inside B.": lambda: of(
         leaf("A", to("B"), to("Z")), composite(default="A")
     ),
-    "C: arrow 1 of the default transitions of the chart waits for the event e, but a default path of "
+    "C: transition 1 of the default transitions of the chart waits for the event e, but a default path of "
     "the chart is followed at once; remove the event.": lambda: of(
         leaf("A"), default=[to("A", on="e"), to("A")]
     ),
-    "C: no arrow and no default transition leads to B; draw one or remove it.": lambda: of(
+    "C: no transition and no default transition leads to B; draw one or remove it.": lambda: of(
         leaf("A"), leaf("B", to("A"))
     ),
-    "C: no arrow leads to junction J; draw one or remove the junction.": lambda: of(
+    "C: no transition leads to junction J; draw one or remove the junction.": lambda: of(
         leaf("A"), junctions=[Junction("J", [to("A")])]
     ),
-    "C: arrow 1 of X goes from X to Y across the regions of the parallel Both; regions are active together, "
-    "send an event instead.": lambda: of(both(leaf("X", to("Y")))),
-    "C: arrow 1 of J goes from X to Y across the regions of the parallel Both; regions are active together, "
-    "send an event instead.": lambda: of(both(leaf("X", to("J"))), junctions=[Junction("J", [to("Y")])]),
+    "C: transition 1 of X goes from X to Y across the regions of the parallel Both; regions are active "
+    "together, send an event instead.": lambda: of(both(leaf("X", to("Y")))),
+    "C: transition 1 of J goes from X to Y across the regions of the parallel Both; regions are active "
+    "together, send an event instead.": lambda: of(
+        both(leaf("X", to("J"))), junctions=[Junction("J", [to("Y")])]
+    ),
 }  # fmt: skip
 
 
@@ -147,7 +152,7 @@ def test_after_in_a_default_path() -> None:
     inner = State("B", states=[leaf("X")], default=[to("J", when=a), to("X")],
                   junctions=[Junction("J", [to("X", when=after(2 * ticks))])])  # fmt: skip
     assert of(leaf("A", to("B")), inner) == [
-        "C: the guard of arrow 1 of J: `after(2 ticks)` counts from a state's entry, "
+        "C: the guard of transition 1 of J: `after(2 ticks)` counts from a state's entry, "
         "but a default path leaves none."
     ]
 
@@ -156,7 +161,7 @@ def test_a_composite_only_entered_through_a_child_needs_no_default() -> None:
     assert of(leaf("A", to("X"), to("Z")), composite()) == []
 
 
-def test_an_arrow_may_leave_a_parallel_composite_from_inside() -> None:
+def test_a_transition_may_leave_a_parallel_composite_from_inside() -> None:
     assert of(both(leaf("X", to("Away"))), leaf("Away")) == []
 
 
@@ -176,15 +181,15 @@ def test_sends_between_regions_are_fine() -> None:
 
 def test_an_event_without_reaction_and_a_reaction_without_event() -> None:
     assert regions(send("f", "R2")) == [
-        "C: `send(f, R2)` in the during action of R1: no arrow inside R2 waits for the event f.",
-        "C: arrow 1 of P waits for the event e, which is never sent to P.",
+        "C: `send(f, R2)` in the during action of R1: no transition inside R2 waits for the event f.",
+        "C: transition 1 of P waits for the event e, which is never sent to P.",
     ]
 
 
 def test_an_event_sent_elsewhere() -> None:
     assert regions(send("e", "Q"), event="e") == [
-        "C: `send(e, Q)` in the during action of R1: no arrow inside Q waits for the event e.",
-        "C: arrow 1 of P waits for the event e, which is never sent to P.",
+        "C: `send(e, Q)` in the during action of R1: no transition inside Q waits for the event e.",
+        "C: transition 1 of P waits for the event e, which is never sent to P.",
     ]
 
 
@@ -197,7 +202,7 @@ def test_an_unknown_receiver() -> None:
 
 def test_sends_that_recurse() -> None:
     assert regions(send("e", "R2"), during=[send("g", "R1")])[:2] == [
-        "C: `send(g, R1)` in the during action of Q: no arrow inside R1 waits for the event g.",
+        "C: `send(g, R1)` in the during action of Q: no transition inside R1 waits for the event g.",
         "C: `send(e, R2)` in the during action of R1 can lead to the same send again, for ever; "
         "break the cycle of sends.",
     ]
@@ -214,7 +219,7 @@ def test_a_send_that_would_leave_its_sender() -> None:
     inner = State("In", states=[leaf("P", to("Away", on="e"))], default="P")
     outer = State("Out", states=[inner], default="In", during=[send("e", "In")])
     assert of(outer, leaf("Away")) == [
-        "C: `send(e, In)` in the during action of Out executes In, where arrow 1 of P would leave Out "
+        "C: `send(e, In)` in the during action of Out executes In, where transition 1 of P would leave Out "
         "in the middle of its own action."
     ]
 

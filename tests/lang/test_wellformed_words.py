@@ -22,22 +22,25 @@ def guarded(guard) -> list[str]:
 
 
 GUARDS: dict[str, object] = {
-    "C: the guard of arrow 1 of A, `n`, is an integer; write a condition, such as a comparison.": n,
-    "C: the guard of arrow 1 of A: `after(30 ms)`: 30 ms is not a whole number of ticks of 20 ms; "
+    "C: the guard of transition 1 of A, `n`, is an integer; write a condition, such as a comparison.": n,
+    "C: the guard of transition 1 of A: `after(30 ms)`: 30 ms is not a whole number of ticks of 20 ms; "
     "write a multiple of the tick.": after(30 * ms),
-    "C: the guard of arrow 1 of A: `after(0 s)` is always true; remove it or give it a time.": after(0 * ms),
-    "C: the guard of arrow 1 of A: `duration(a) >= 0 ticks` is always true; remove it or give it a time.": (
+    "C: the guard of transition 1 of A: `after(0 s)` is always true; remove it or give it a time.": (
+        after(0 * ms)
+    ),
+    "C: the guard of transition 1 of A: `duration(a) >= 0 ticks` is always true; "
+    "remove it or give it a time.": (
         duration(a) >= 0 * ticks
     ),
-    "C: the guard of arrow 1 of A: `previous(a)` belongs in properties; in a chart, "
+    "C: the guard of transition 1 of A: `previous(a)` belongs in properties; in a chart, "
     "keep the past in a datum.": (
         previous(a)
     ),
-    "C: the guard of arrow 1 of A: `once(a)` belongs in properties; in a chart, "
+    "C: the guard of transition 1 of A: `once(a)` belongs in properties; in a chart, "
     "keep the past in a datum.": (
         once(a)
     ),
-    "C: the guard of arrow 1 of A: `duration(rising(a)) > 2 ticks` has a temporal word inside another; "
+    "C: the guard of transition 1 of A: `duration(rising(a)) > 2 ticks` has a temporal word inside another; "
     "keep the inner one in a datum.": duration(rising(a)) > 2 * ticks,
 }  # fmt: skip
 
@@ -50,7 +53,7 @@ def test_guard(message: str) -> None:
 @pytest.mark.parametrize("word", [rising(n), held(n > 2, 3 * ticks)])
 def test_rising_and_held_of_what_the_chart_writes(word) -> None:
     assert of(leaf("A", to("A", when=word), during=[assign(n, 1)])) == [
-        f"C: the guard of arrow 1 of A: `{word}` is read at the start of the step, but the chart itself "
+        f"C: the guard of transition 1 of A: `{word}` is read at the start of the step, but the chart itself "
         "writes n; use data of earlier components."
     ]
 
@@ -63,7 +66,7 @@ def test_rising_of_the_own_location() -> None:
 
 def test_words_in_actions() -> None:
     assert of(State("A", during=[when(after(2 * ticks), [assign(b, rising(a))])])) == [
-        "C: the during action of A: `after(2 ticks)` belongs in a guard of an arrow that leaves a state."
+        "C: the during action of A: `after(2 ticks)` belongs in a guard of a transition that leaves a state."
     ]
 
 
@@ -124,7 +127,7 @@ def test_local_data() -> None:
         leaf("A", to("B"), entry=sets), leaf("B", to("A", when=kept > 1), during=[assign(n, kept)])
     ) == [
         "C: the during action of B reads kept, which has a value only in A.",
-        "C: the guard of arrow 1 of B reads kept, which has a value only in A.",
+        "C: the guard of transition 1 of B reads kept, which has a value only in A.",
     ]
     assert local(leaf("A", entry=sets), owners=["AA"]) == [
         "C: kept is local to an unknown state: C has no state 'AA'. Did you mean 'A'?"
@@ -159,7 +162,7 @@ def test_frozen_data_are_not_assigned() -> None:
 def test_locations_are_not_assigned() -> None:
     place = simple().location()
     assert faults(lambda: check_chart(simple("C", assign(place, "A")))) == [
-        "C: the during action of A assigns C, which says where the chart is; draw an arrow instead."
+        "C: the during action of A assigns C, which says where the chart is; draw a transition instead."
     ]
     assert of_system(simple(), Block("F", [assign(place, "A")])) == [
         "S: F assigns C, which says where a chart is."

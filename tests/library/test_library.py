@@ -68,7 +68,7 @@ def test_a_run_is_looked_at(tmp_path: Path) -> None:
     assert len(json.loads(run.write(tmp_path / "run.json").read_text())["states"]) == 4
     with pytest.raises(ModelError, match="no suffix of a format"):
         run.write(tmp_path / "run.docx")
-    with pytest.raises(ModelError, match="No trace format 'docx'"):
+    with pytest.raises(ModelError, match="no trace format 'docx'"):
         run.write(tmp_path / "run.docx", "docx")
     assert "<svg" in run.write(tmp_path / "run.txt", "svg").read_text()
 

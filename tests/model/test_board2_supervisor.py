@@ -21,6 +21,7 @@ from rovercheck.spec_model.readings import fixed
 from rovercheck.spec_model.signals import board2_motion as motion
 from rovercheck.spec_model.signals import board2_supervisor as b2
 from rovercheck.spec_model.signals.board2_supervisor import BLE, IMU, RX, SOURCES, SUP, SourceSignals
+from tests.profiles import examples
 from tests.test_lowering import compare
 
 SYSTEM = {system.name: fixed({}).system(system) for system in (*MONITORS, *OTHERS)}
@@ -109,7 +110,7 @@ def test_a_mean_on_the_limit_is_no_fault() -> None:
     assert "DEG" in statuses(IMU, [*stamps(1, 5, 6), False])
 
 
-def test_a_stamp_in_a_step_with_an_arrow_is_seen_at_the_next_question() -> None:
+def test_a_stamp_in_a_step_with_a_transition_is_seen_at_the_next_question() -> None:
     # Gap of 3 at the first stamp; DEG in step 4, whose stamp merges with that of step 5: gaps 3, 2, 1.
     shown = statuses(BLE, [*stamps(3), *[True] * 60])
     assert shown[:4] == ["OK", "OK", "OK", "DEG"]
@@ -131,9 +132,9 @@ def test_degradation_comes_before_silence_and_a_slow_critical_source_stays_criti
 
 
 def lone(source: SourceSignals, record: Sequence[object]) -> System:
-    """The record questioned in every step but the first, as a region that never takes an arrow does."""
+    """The record questioned in every step but the first, as a region that never takes a transition does."""
     slow2 = exact(source) if record == [exact] else runs(source)
-    chart = Chart("Ask", [State("OK", during=slow2.ask)], default="OK")
+    chart = Chart("EngineQuery", [State("OK", during=slow2.ask)], default="OK")
     return in_order("ask", slow2.note, chart)
 
 
@@ -362,7 +363,7 @@ AGREE = [n for n in SYSTEM if n not in ("board2", "board2_ms", "board2_on_its_ow
 
 
 @pytest.mark.parametrize("name", AGREE)
-@settings(max_examples=3, deadline=None)
+@settings(examples(3), deadline=None)
 @given(seed=st.integers(0, 10_000))
 def test_the_lowered_system_steps_as_the_interpreter_does(name: str, seed: int) -> None:
     draw, system = Random(seed), SYSTEM[name]

@@ -111,7 +111,7 @@ def names(state: State) -> tuple[str, ...]:
     return tuple(s.name for s in state.states)
 
 
-def arrows(*path: str) -> Iterator[Transition]:
+def transitions(*path: str) -> Iterator[Transition]:
     """Every segment inside a state, its own included, default transitions not."""
     for place, state in OBSTACLES.states.items():
         if place[: len(path)] == path:
@@ -121,13 +121,13 @@ def arrows(*path: str) -> Iterator[Transition]:
 
 
 def sent(*path: str) -> set[str]:
-    """The events that arrows inside a state send to B2Decisions."""
-    actions = [a for t in arrows(*path) for a in each_action([*t.do, *t.then])]
+    """The events that transitions inside a state send to B2Decisions."""
+    actions = [a for t in transitions(*path) for a in each_action([*t.do, *t.then])]
     return {a.event for a in actions if isinstance(a, Send) and a.receiver == "B2Decisions"}
 
 
-def test_B2_OBS_06_the_arrows_of_B2Decisions_wait_for_events_of_Sonars() -> None:
-    waited_for = {t.event for t in arrows("B2Decisions") if t.event}
+def test_B2_OBS_06_the_transitions_of_B2Decisions_wait_for_events_of_Sonars() -> None:
+    waited_for = {t.event for t in transitions("B2Decisions") if t.event}
     assert waited_for == sent("Sonars") == {"emergency", "safe", "moveToS1", "moveToS2", "moveToS3"}
     unprompted = [s.name for s in below("B2Decisions").states for t in s.transitions if t.event is None]
     assert unprompted == ["MoveToS1", "MoveToS2", "MoveToS3"], "a deviation ends by itself"

@@ -2,20 +2,20 @@
 
 import pytest
 
-from rovercheck.spec_model.board1.battery import stale_below_15
-from rovercheck.spec_model.board1.temperature import stale_above_65
 from rovercheck.spec_model.environment import (
     battery_readings,
     heartbeat_clock,
     reception_clock,
     temperature_readings,
 )
+from rovercheck.spec_model.lang.change import formula_of
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.evaluate import evaluate
-from rovercheck.spec_model.lang.expr import Expr, Var
+from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.system import in_order
 from rovercheck.spec_model.readings import fixed
+from rovercheck.spec_model.rover import systems
 from rovercheck.spec_model.signals.board1 import (
     batt_age,
     battery_pct,
@@ -25,22 +25,33 @@ from rovercheck.spec_model.signals.board1 import (
     temperature_degC,
 )
 
+TEMPERATURE = ("temperature", temperature_readings, "stale_above_65")
+BATTERY = ("battery", battery_readings, "stale_below_15")
+
 
 @pytest.mark.parametrize(
-    ("block", "estimate", "value", "age", "last_ms", "slowest", "choices"),
+    ("name", "block", "estimate", "value", "age", "last_ms", "slowest", "choices"),
     [
-        (temperature_readings, stale_above_65, temperature_degC, temp_age, 81_020, -16, {}),
-        (temperature_readings, stale_above_65, temperature_degC, temp_age, 81_520, -16, {"S09": "FROM-0.5"}),
-        (battery_readings, stale_below_15, battery_pct, batt_age, 154_780, 80, {}),
-        (battery_readings, stale_below_15, battery_pct, batt_age, 155_280, 80, {"S24": "FROM-0.5-INSTANT"}),
+        (*TEMPERATURE, temperature_degC, temp_age, 81_020, -16, {}),
+        (*TEMPERATURE, temperature_degC, temp_age, 81_520, -16, {"S09": "FROM-0.5"}),
+        (*BATTERY, battery_pct, batt_age, 154_780, 80, {}),
+        (*BATTERY, battery_pct, batt_age, 155_280, 80, {"S24": "FROM-0.5-INSTANT"}),
     ],
     ids=["temperature", "temperature from 0.5 s", "battery", "battery from 0.5 s"],
 )
 def test_an_age_stops_where_every_estimate_is_past_its_limit(
-    block: Block, estimate: Expr, value: Var, age: Var, last_ms: int, slowest: int, choices: dict[str, str]
+    name: str,
+    block: Block,
+    estimate: str,
+    value: Var,
+    age: Var,
+    last_ms: int,
+    slowest: int,
+    choices: dict[str, str],
 ) -> None:
     reading, last = fixed(choices), age.domain.raw(last_ms)
-    past = reading.expr(estimate)
+    [chart] = systems(choices)[name].charts
+    past = formula_of(chart, estimate)
     assert all(evaluate(past, {value.name: raw, age.name: last}) for raw in value.domain.values)
     assert not evaluate(past, {value.name: value.domain.raw(slowest), age.name: last - 1})
     board = Interpreter(in_order("board", *reading.components([block])))

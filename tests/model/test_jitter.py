@@ -44,7 +44,7 @@ def test_a_step_sees_the_latest_frame_before_it(steps: list[int], periods: list[
 
 @given(steps=PERIODS, periods=st.lists(st.sampled_from([19, 20, 21]), min_size=40, max_size=40))
 def test_the_mean_of_gaps_is_that_of_the_stamps_asked_for(steps: list[int], periods: list[int]) -> None:
-    """A region asks in each step in which it takes no arrow; the first question only takes the stamp."""
+    """A region asks in each step in which it takes no transition; the first question only takes the stamp."""
     machine, sender = Interpreter(systems()["frames_2_jitter"]), Sender(periods)
     asked: list[int] = []
     before, slow = 0, 0

@@ -1,4 +1,4 @@
-"""Runs that show cases: the file beside the baseline, and what is on record of the rover."""
+"""Runs that show cases: the file beside the baseline, and what is recorded of the rover."""
 
 import json
 from dataclasses import replace
@@ -10,8 +10,8 @@ from rovercheck.checker.model.kept_runs import PREMISES, KeptRun, file_of, read,
 from rovercheck.checker.model.kept_runs import SCHEMA as SCHEMAS
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.results.verdict import Run
-from rovercheck.checker.system.lowered import lowered
-from rovercheck.checker.verify.runs.known import reached
+from rovercheck.checker.system.lowering_cache import lowered
+from rovercheck.checker.verify.runs.known_runs import reached
 from rovercheck.checker.verify.runs.replay import replay
 from rovercheck.properties.premise import premise
 from rovercheck.properties.reduce import reduce

@@ -8,7 +8,7 @@ from fractions import Fraction
 from itertools import pairwise
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.spec_model.lang.chart import Block
@@ -17,6 +17,7 @@ from rovercheck.spec_model.lang.system import TICK_MS, in_order
 from rovercheck.spec_model.readings import fixed
 from rovercheck.spec_model.records import arrival_window, slow_record
 from rovercheck.spec_model.signals.board1 import rx_update
+from tests.profiles import examples
 
 blocks = st.lists(st.tuples(st.integers(1, 26), st.integers(1, 12)), min_size=1, max_size=8)
 """Intervals in ticks, and how often each is repeated."""
@@ -75,7 +76,7 @@ def by_time_stamps(sequence: list[bool], choices: Mapping[str, str] = AS_READ) -
 
 @pytest.mark.parametrize("choices", READINGS, ids=lambda choices: "-".join(choices.values()) or "as read")
 @pytest.mark.parametrize("record", EXACT, ids=lambda record: record.name)
-@settings(max_examples=40)
+@examples(40)
 @given(sequence=blocks)
 def test_an_exact_record_computes_the_mean_of_the_time_stamps(
     record: Block, choices: Mapping[str, str], sequence: list[tuple[int, int]]
@@ -102,7 +103,7 @@ def test_an_exact_record_on_the_limit(record: Block, gaps: list[int], slow: bool
 
 
 @pytest.mark.parametrize("choices", READINGS, ids=lambda choices: "-".join(choices.values()) or "as read")
-@settings(max_examples=40)
+@examples(40)
 @given(sequence=blocks)
 def test_every_run_of_the_exact_record_is_a_run_of_the_over_approximation(
     choices: Mapping[str, str], sequence: list[tuple[int, int]]

@@ -5,7 +5,7 @@ from fractions import Fraction
 from itertools import accumulate, pairwise
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.spec_model.environment_fine import heartbeat_record, reception_any_mean, reception_record
@@ -13,6 +13,7 @@ from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.system import TICK_MS, in_order
 from rovercheck.spec_model.readings import fixed
+from tests.profiles import examples
 from tests.readings.arrivals import at
 
 intervals = st.lists(
@@ -82,7 +83,7 @@ def by_time_stamps(times: Sequence[int], choices: Mapping[str, str]) -> Iterator
 
 
 @under_each
-@settings(max_examples=25)
+@examples(25)
 @given(sequence=intervals)
 def test_the_record_computes_the_mean_of_the_time_stamps(
     choices: Mapping[str, str], sequence: list[tuple[int, int]]
@@ -92,7 +93,7 @@ def test_the_record_computes_the_mean_of_the_time_stamps(
 
 
 @under_each
-@settings(max_examples=25)
+@examples(25)
 @given(sequence=intervals)
 def test_every_run_of_the_record_is_a_run_of_the_over_approximation(
     choices: Mapping[str, str], sequence: list[tuple[int, int]]

@@ -89,8 +89,8 @@ def test_all_repairs_together_are_those_that_edit_charts_in_the_order_of_their_n
     drawn = both.charts["Relay"](charts()["Relay"])
     assert isinstance(drawn, Chart)
     assert [c.place for c in changes(charts()["Relay"], drawn)] == [
-        "default arrow of Relay",
-        "arrows of B1_actuating",
+        "default transition of Relay",
+        "transitions of B1_actuating",
     ]
     assert len(drawn.states[("B1_actuating",)].transitions) == 2
 
@@ -98,5 +98,5 @@ def test_all_repairs_together_are_those_that_edit_charts_in_the_order_of_their_n
 def test_a_change_shows_both_versions_of_a_place() -> None:
     relay = charts()["Relay"]
     (change,) = changes(relay, also(relay, "B1_actuating", to("B2_actuating")))
-    assert change.place == "arrows of B1_actuating"
+    assert change.place == "transitions of B1_actuating"
     assert change.after == (*change.before, "2: → B2_actuating")

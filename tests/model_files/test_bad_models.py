@@ -77,9 +77,9 @@ FILES = {
         f"m.py:{len(HEATER.splitlines()) + 2}: the name 'Heater' is taken in "
         f"m.py:{line_of('Chart(', HEATER)}: two systems have it",
     ),
-    "an arrow to nowhere": (
+    "a transition to nowhere": (
         but('to("Pause"', 'to("Pausee"'),
-        f"m.py:{TO_PAUSE}: Heater: arrow 2 of On goes to 'Pausee', which is no state of "
+        f"m.py:{TO_PAUSE}: Heater: transition 2 of On goes to 'Pausee', which is no state of "
         "this chart. Did you mean 'Pause'?",
     ),
     "an unknown variable": (
@@ -138,7 +138,7 @@ def refused(capfd: pytest.CaptureFixture[str], *arguments: str) -> str:
     assert run([*arguments]) == Exit.USAGE
     said = capfd.readouterr()
     assert said.out == ""
-    assert "Traceback" not in said.err and "INTERNAL" not in said.err
+    assert "Traceback" not in said.err and "Internal error" not in said.err
     return said.err
 
 

@@ -47,9 +47,9 @@ def test_a_changed_verdict_is_told_with_the_command_that_shows_it(
 ) -> None:
     (here / "heater.py").write_text(HEATER)
     (here / "baseline.toml").write_text(BASELINE.replace("HEAT-3", "HEAT-1"))
-    shown = said(capfd, "check", "--model", "heater.py", code=Exit.CHANGED)
-    assert "HEAT-1 is proved, on record is violated after 4 ticks." in shown
-    assert "HEAT-3 is violated, on record is proved." in shown
+    shown = said(capfd, "check", "--model", "heater.py", code=Exit.FAILED)
+    assert "HEAT-1 is proved; expected: violated after 4 ticks." in shown
+    assert "HEAT-3 is violated; expected: proved." in shown
     assert "See it whole: rovercheck trace HEAT-3 --model heater.py" in shown
 
 

@@ -41,8 +41,8 @@ def test_every_command_is_understood(file: Path) -> None:
 
 
 OUTPUT = {
-    "check --model heater.py": "✗ HEAT-3 violated 4 ticks = 0.08 s of Heater, as on record",
-    "trace HEAT-3 --model heater.py": "Why: Only Pause waits: the arrow On -> Off leads past it",
+    "check --model heater.py": "✗ HEAT-3 violated 4 ticks = 0.08 s of Heater, as expected",
+    "trace HEAT-3 --model heater.py": "Why: Only Pause waits: the transition On -> Off leads past it",
     "certify proofs --model heater.py": "2 properties in 2 files: 2 accepted.",
     "requirements --model heater.py": "2 requirements: 2 covered",
     "list properties --english --model heater.py": "one of the next 500 (10000 ms) heating is false",

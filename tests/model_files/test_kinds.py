@@ -1,6 +1,6 @@
 """Things of the wrong kind in a user's model, and all that is wrong with it at once.
 
-Each was found out by some part of the checker and told as a bug of ours, or not found out at all.
+Each was found out by some part of the checker and told as an internal error, or not found out at all.
 """
 
 import re
@@ -65,30 +65,30 @@ WRONG = {
     ),
     "a number for a time of a chart": (
         chart('State("A", transitions=[to("A", when=after(3))])'),
-        "the arrow to 'A': span is 3, a number; write a length of time, such as `3 * sec`",
+        "the transition to 'A': span is 3, a number; write a length of time, such as `3 * sec`",
     ),
     "a number for a held time": (
         chart('State("A", transitions=[to("A", when=held(hot, 3))])'),
-        "the arrow to 'A': span is 3, a number; write a length of time",
+        "the transition to 'A': span is 3, a number; write a length of time",
     ),
     "the past of a number": (
         chart('State("A", transitions=[to("A", when=previous(3))])'),
-        "the arrow to 'A': the condition is 3, a number; write a formula",
+        "the transition to 'A': the condition is 3, a number; write a formula",
     ),
     "a text for a guard": (
         chart('State("A", transitions=[to("A", when="hot")])'),
-        "the arrow to 'A': when is 'hot', a text; write a formula",
+        "the transition to 'A': when is 'hot', a text; write a formula",
     ),
-    "a text for an arrow": (
+    "a text for a transition": (
         chart('State("A", transitions=["B"])'),
-        "State 'A': transitions holds 'B', a text; write an arrow, to(...) there.",
+        "State 'A': transitions holds 'B', a text; write a transition, to(...) there.",
     ),
-    "one arrow for several": (
+    "one transition for several": (
         chart('State("A", transitions=to("A"))'),
         "m.py:13: State 'A': transitions is a Transition, no list; write transitions=[...].",
     ),
     "a text for a state": (chart('"A"'), "State 'C': states holds 'A', a text; write a state, State(...)"),
-    "an arrow to a number": (
+    "a transition to a number": (
         chart('State("A", transitions=[to(3)])'),
         "target is 3, a number; write a text.",
     ),
@@ -259,7 +259,7 @@ def refused(capfd: pytest.CaptureFixture[str], text: str, path: str = "m.py") ->
         Path(path).write_text(f"{HEAD}{text}\n", encoding="utf-8")
     assert run(["check", "--model", path]) is Exit.USAGE
     said = capfd.readouterr()
-    assert said.out == "" and "INTERNAL" not in said.err
+    assert said.out == "" and "Internal error" not in said.err
     return said.err.splitlines()
 
 
@@ -315,5 +315,5 @@ def test_a_tick_of_another_length_counts_the_times_of_charts(
         always('~C.active("B")', "S"),
     ]
     (here / "m.py").write_text("\n".join((HEAD, *lines)), encoding="utf-8")
-    assert run(["check", "--model", "m.py"]) is Exit.CHANGED
+    assert run(["check", "--model", "m.py"]) is Exit.FAILED
     assert "violated 11 ticks = 0.11 s of S" in capfd.readouterr().out

@@ -1,4 +1,4 @@
-"""Every fault of a user's model has a file and a line, also where no arrow and no state is at fault."""
+"""Every fault of a user's model has a file and a line, also where no transition and no state is at fault."""
 
 from dataclasses import replace
 from pathlib import Path

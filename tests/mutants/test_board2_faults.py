@@ -9,9 +9,9 @@ from rovercheck.spec_model.board2 import acquisition as acq
 from rovercheck.spec_model.board2 import coherence as coh
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.edit import (
-    arrow,
     constant,
     drop,
+    edit_transition,
     guard,
     in_expressions,
     instead,
@@ -112,7 +112,7 @@ CHARTS: dict[str, list[tuple[str, str, ChartEdit]]] = {
         ("20 ms become 19 ms", "PB2-27d", lambda c: guard(c, "Scanning", 2, timer(19 * ms))),
         ("the notification is not waited for", "REACH-SONAR-NOTIFIED", lambda c: drop(c, "Scanning", 1)),
         ("nothing published after 20 ms", "PB2-27d",
-         lambda c: arrow(c, "Scanning", 2, lambda t: replace(t, do=()))),
+         lambda c: edit_transition(c, "Scanning", 2, lambda t: replace(t, do=()))),
         ("a missing echo counts as 70 cm", "PB2-27e", lambda c: in_expressions(c, constant(301, 70))),
         ("57 µs for each cm", "PB2-27g", lambda c: in_expressions(c, constant(58, 57))),
         ("the count survives the trigger", "PB2-26a", no_entry("Scanning", 3)),

@@ -155,17 +155,17 @@ def test_every_chart_has_at_least_three_faults() -> None:
     assert {name for name in charts() if count[name] < 3} == set()
 
 
-ARROWS = {
+TRANSITIONS = {
     "Monitor_battery: degraded tested before critical": "Monitor_battery: ",
     "Obstacles: 70 becomes 71": "Obstacles: ",
-    "Relay: > 3 s becomes >= 3 s": "Relay: B2_actuating -> B1_actuating (arrow 1)",
+    "Relay: > 3 s becomes >= 3 s": "Relay: B2_actuating -> B1_actuating (transition 1)",
 }
 
 
-@pytest.mark.parametrize("name", ARROWS)
-def test_the_counterexample_names_the_arrow(name: str) -> None:
+@pytest.mark.parametrize("name", TRANSITIONS)
+def test_the_counterexample_names_the_transition(name: str) -> None:
     [fault] = [f for f in FAULTS if str(f) == name]
     verdict = with_fault(fault)
     assert isinstance(verdict, Violated) and isinstance(verdict.because, Trace)
-    fired = [str(a) for t in verdict.because.ticks for a in t.arrows]
-    assert any(ARROWS[name] in a for a in fired), fired
+    fired = [str(a) for t in verdict.because.ticks for a in t.transitions]
+    assert any(TRANSITIONS[name] in a for a in fired), fired

@@ -7,10 +7,10 @@ import pytest
 
 from rovercheck.spec_model.lang.action import Action
 from rovercheck.spec_model.lang.edit import (
-    arrow,
     constant,
     drop,
     edit_state,
+    edit_transition,
     entry,
     guard,
     in_expressions,
@@ -48,7 +48,11 @@ def _toggle(board: int, too_long: str) -> list[tuple[str, str, ChartEdit]]:
     return [
         ("1 s becomes 1.02 s", too_long, lambda c: guard(c, "Step3", 2, timer(1.02 * sec))),
         ("the stick does not end it", f"{reach}-TOUCHED", lambda c: drop(c, "Combo_toggle_backward", 1)),
-        ("nothing is toggled", f"{reach}-ON", lambda c: arrow(c, "Step4", 1, lambda t: replace(t, do=()))),
+        (
+            "nothing is toggled",
+            f"{reach}-ON",
+            lambda c: edit_transition(c, "Step4", 1, lambda t: replace(t, do=())),
+        ),
         ("no limit for the last press", f"{reach}-LATE-4", lambda c: drop(c, "Step4", 2)),
     ]
 
@@ -57,7 +61,7 @@ CHARTS: dict[str, list[tuple[str, str, ChartEdit]]] = {
     "Backward_mode_toggle": [
         *_toggle(1, "PB1-27f"),
         ("too late for a press only", "PB1-27e",
-         lambda c: arrow(c, "Step4", 2, lambda t: replace(t, target="Step3"))),
+         lambda c: edit_transition(c, "Step4", 2, lambda t: replace(t, target="Step3"))),
         ("the stick does not end it", "PB1-27h", lambda c: drop(c, "Combo_toggle_backward", 1)),
     ],
     "Backward_mode_toggle_2": _toggle(2, "PB2-16k"),

@@ -1,4 +1,4 @@
-"""The fate of every mutant of a small model, against a naive search of pairs of valuations."""
+"""The fate of every mutant of a small model, against a naive search of pairs of states."""
 
 from dataclasses import replace
 from functools import cache
@@ -6,13 +6,13 @@ from functools import cache
 import pytest
 
 from rovercheck.checker.engines import Limits, quiet
-from rovercheck.checker.mutate.asked import as_it_is, cones
-from rovercheck.checker.mutate.judging import DOMAINS, Fate, Judged, MutantCase, judged
+from rovercheck.checker.mutate.fate import DOMAINS, Fate, MutantCase, MutantFate, judged
 from rovercheck.checker.mutate.mutants import Mutant, mutants
-from rovercheck.checker.mutate.observing import observable
-from rovercheck.checker.mutate.planning import Plan, homes
+from rovercheck.checker.mutate.observation import observable
+from rovercheck.checker.mutate.plan import Plan, homes
+from rovercheck.checker.mutate.relevance import as_it_is, cones
 from rovercheck.checker.verify.decide import decide
-from rovercheck.checker.verify.runs.known import reached, run_of
+from rovercheck.checker.verify.runs.known_runs import reached, run_of
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.forms import Reachable
 from rovercheck.properties.reduce import reduce
@@ -36,7 +36,7 @@ MUTANTS = mutants(lamps)
 
 
 @cache
-def fate(mutant: Mutant) -> Judged:
+def fate(mutant: Mutant) -> MutantFate:
     return judged(PLAN.own(mutant, "lamps").cases, Limits(), quiet)
 
 

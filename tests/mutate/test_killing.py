@@ -1,4 +1,4 @@
-"""For each property a fault that it notices: found by runs on record and random ones, and kept."""
+"""For each property a fault that it notices: found by recorded runs and random ones, and kept."""
 
 import json
 import os
@@ -15,13 +15,13 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.model.kept_runs import KILLS, file_of, read
 from rovercheck.checker.model.load import load
 from rovercheck.checker.model.rover import rover
-from rovercheck.checker.mutate.asked import as_it_is, changed
-from rovercheck.checker.mutate.killing import kills, noticed, searched, still
+from rovercheck.checker.mutate.kills import kills, noticed, searched, still
 from rovercheck.checker.mutate.mutants import Mutant, mutants
+from rovercheck.checker.mutate.relevance import as_it_is, changed
 from rovercheck.checker.mutate.tries import BACK, COUNT, ON, TICKS, RandomRuns, spread, tried
 from rovercheck.checker.results.verdict import Run
-from rovercheck.checker.system.lowered import lowered
-from rovercheck.checker.verify.runs.known import reached
+from rovercheck.checker.system.lowering_cache import lowered
+from rovercheck.checker.verify.runs.known_runs import reached
 from rovercheck.properties.coverage import matrix
 from rovercheck.properties.forms import Always, always
 from rovercheck.spec_model.lang.evaluate import admissible, step
@@ -124,7 +124,7 @@ class Dying:
 def test_a_child_that_dies_is_no_success(
     tmp_path: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    """It was told, and the exit code was 0; what is on record of its system stays."""
+    """It was told, and the exit code was 0; what is recorded of its system stays."""
     file = tmp_path / "hall.py"
     file.write_text(EMPTY, encoding="utf-8")
     assert run(["mutate", "--model", str(file), "--record-kills"]) == Exit.AS_EXPECTED
@@ -171,8 +171,8 @@ def test_kills_are_kept_beside_a_model(tmp_path: Path, capsys: pytest.CaptureFix
     file.write_text(EMPTY, encoding="utf-8")
     assert noticing(load(file)) is None
     assert run(["mutate", "--model", str(file), "--record-kills"]) == Exit.AS_EXPECTED
-    assert "2 of 2 proved demands notice a fault" in capsys.readouterr().out
+    assert "2 of 2 proved demands kill a mutant" in capsys.readouterr().out
     assert set(json.loads((tmp_path / "kills.json").read_text(encoding="utf-8"))["runs"]) == {"EMPTY", "FULL"}
     assert noticing(load(file)) == frozenset({"EMPTY", "FULL"})
     assert run(["requirements", "--model", str(file)]) == Exit.AS_EXPECTED
-    assert "must notice a fault put into the charts" in " ".join(capsys.readouterr().out.split())
+    assert "must kill a mutant of the charts" in " ".join(capsys.readouterr().out.split())

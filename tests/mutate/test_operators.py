@@ -26,19 +26,19 @@ ALL = {m.id: m for m in mutants(lamps)}
     [
         ("Lamp/arrow/Off.1/guard-negated", "`[press && level >= 2]` is negated"),
         ("Lamp/arrow/Off.1/guard-true", "`[press && level >= 2]` is always true"),
-        ("Lamp/arrow/Off.1/guard-false", "`[press && level >= 2]` is never true: the arrow is missing"),
+        ("Lamp/arrow/Off.1/guard-false", "`[press && level >= 2]` is never true: the transition is missing"),
         ("Lamp/arrow/Off.1/and-or", "`press && level >= 2` is joined by or"),
         ("Lamp/arrow/Off.1/dropped", "`press` is missing in `press && level >= 2`"),
         ("Lamp/arrow/Off.1/dropped#2", "`level >= 2` is missing in `press && level >= 2`"),
         ("Lamp/arrow/Off.1/comparison", "`level >= 2` is written with >"),
         ("Lamp/arrow/Off.1/limit-up", "`2` is 3 in `level >= 2`"),
         ("Lamp/arrow/Off.1/limit-down", "`2` is 1 in `level >= 2`"),
-        ("Lamp/arrow/Off.1/priority", "the arrows 1 and 2 are tested in the other order"),
-        ("Lamp/arrow/On.2/target", "the arrow to Night leads to Off"),
-        ("Lamp/default.1/target", "the arrow to Off leads to On"),
+        ("Lamp/arrow/Off.1/priority", "the transitions 1 and 2 are tested in the other order"),
+        ("Lamp/arrow/On.2/target", "the transition to Night leads to Off"),
+        ("Lamp/default.1/target", "the transition to Off leads to On"),
         ("Lamp/arrow/On.1/timer-up", "`after(2 ticks)` is `after(3 ticks)`"),
         ("Lamp/arrow/On.1/timer-down", "`after(2 ticks)` is `after(1 tick)`"),
-        ("Lamp/arrow/Night.1/arrow-missing", "the arrow to Off is missing"),
+        ("Lamp/arrow/Night.1/arrow-missing", "the transition to Off is missing"),
         ("Lamp/state/On/entry/action-missing", "`lit := true` is missing"),
         ("Lamp/state/On/entry/value", "`lit := true` is `lit := false`"),
         ("Lamp/state/On/entry/value#2", "`shade := WARM` is `shade := COLD`"),
@@ -127,7 +127,7 @@ def test_regions_that_share_data_are_exchanged() -> None:
     assert [s.name for s in found[0].system.charts[0].root.states] == ["Two", "One"]
 
 
-def test_arrows_of_a_junction_are_faulty_too() -> None:
+def test_transitions_of_a_junction_are_faulty_too() -> None:
     from rovercheck.spec_model.lang.chart import Junction
 
     chart = Chart(

@@ -2,13 +2,13 @@
 
 import hypothesis.strategies as st
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 
 from rovercheck.checker.engines import Limits, quiet
-from rovercheck.checker.mutate.judging import EQUAL_STEPS, OVERWRITTEN, Fate, MutantCase, judged
+from rovercheck.checker.mutate.fate import EQUAL_STEPS, OVERWRITTEN, Fate, MutantCase, judged
 from rovercheck.checker.mutate.mutants import mutants
 from rovercheck.checker.mutate.step_equality import equal_in_every_step
-from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Chart, State, to
 from rovercheck.spec_model.lang.domain import integer
@@ -19,6 +19,7 @@ from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import in_order
 from rovercheck.spec_model.lang.time import sec
 from rovercheck.spec_model.lang.words import after
+from tests.profiles import examples
 from tests.strategies import frozen_values, input_blocks, systems
 
 level = var("level", integer(0, 3))
@@ -35,7 +36,7 @@ patient = Chart(
 
 
 @given(st.data())
-@settings(max_examples=10)
+@examples(10)
 def test_runs_do_not_tell_apart_what_is_equal_in_every_step(data: st.DataObject) -> None:
     system = data.draw(systems())
     frozen = data.draw(frozen_values(system))

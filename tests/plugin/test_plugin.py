@@ -11,10 +11,10 @@ from xml.etree import ElementTree
 import pytest
 
 from rovercheck.checker.commands.shared import verdicts
-from rovercheck.checker.commands.trace.explain import Explaining
-from rovercheck.checker.process.faults import Fault, tell
-from rovercheck.checker.pytest_plugin import deciding
-from rovercheck.checker.pytest_plugin.deciding import Decider
+from rovercheck.checker.commands.trace.explain import ExplanationOptions
+from rovercheck.checker.process.faults import Fault, report
+from rovercheck.checker.pytest_plugin import decisions
+from rovercheck.checker.pytest_plugin.decisions import Decider
 from rovercheck.checker.pytest_plugin.item import PropertyItem
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.runs.replay import ReplayError
@@ -99,9 +99,9 @@ def test_a_session_decides_each_system_once_and_leaves_evidence(
     assert asked == [["HEAT-1", "HEAT-2", "HEAT-3"]]
     result.assert_outcomes(passed=3, failed=1)
     told = result.stdout.str()
-    assert "HEAT-3 is violated, as on record: Only Pause waits" in told
+    assert "HEAT-3 is violated, as expected: Only Pause waits" in told
     failure = told[told.index("HEAT-1 of Heater") : told.index("= PASSES =")]
-    assert "HEAT-1 is violated, on record is proved\nWith the door open the heater is off.\n" in failure
+    assert "HEAT-1 is violated; expected: proved\nWith the door open the heater is off.\n" in failure
     assert "▸ Heater: default → Off" in failure
     assert "in* tick 3 60 ms door_open = true" in " ".join(failure.split())
     assert "rovercheck trace HEAT-1 --model heater.py" in failure
@@ -109,14 +109,14 @@ def test_a_session_decides_each_system_once_and_leaves_evidence(
     cases = {c.get("name"): c for c in ElementTree.parse(project.path / "j.xml").iter("testcase")}
     said = {p.get("name"): p.get("value") for p in cases["HEAT-2"].iter("property")}
     assert (said["verdict"], said["system"], said["requirements"]) == ("proved", "Heater", "R2")
-    assert "all 752 valuations of Heater" in str(said["evidence"])
+    assert "all 752 reachable states of Heater" in str(said["evidence"])
 
 
 def test_a_violation_that_is_gone_fails(project: pytest.Pytester) -> None:
     (project.path / "baseline.toml").write_text(BASELINE.replace("HEAT-3", "HEAT-1"))
     result = project.runpytest_inprocess(*PLUGIN, "-k", "HEAT-1")
     result.assert_outcomes(failed=1, deselected=3)
-    first, why = "HEAT-1 is proved, on record is violated after 4 ticks", "On record because: Only Pause*"
+    first, why = "HEAT-1 is proved; expected: violated after 4 ticks", "Expected because: Only Pause*"
     result.stdout.fnmatch_lines([first, "explicit: *", why, "If that is over, delete its entry*"])
 
 
@@ -125,7 +125,7 @@ def test_what_is_not_decided_fails_with_the_reason(project: pytest.Pytester) -> 
     result = project.runpytest_inprocess(*PLUGIN, "heater.py::HEAT-2", *limits)
     result.assert_outcomes(failed=1)
     evidence = "bmc on Heater, no counterexample within 3 ticks: *"
-    result.stdout.fnmatch_lines(["HEAT-2 is unknown, on record is proved", evidence])
+    result.stdout.fnmatch_lines(["HEAT-2 is unknown; expected: proved", evidence])
 
 
 def test_what_takes_long_is_skipped_unless_wanted(project: pytest.Pytester) -> None:
@@ -158,9 +158,9 @@ def test_a_model_without_meaning_is_one_error(project: pytest.Pytester, text: st
     ("error", "message"),
     [
         (ReplayError("HEAT-1: the run of 3 ticks does not reach the goal."),
-         "INTERNAL: HEAT-1: the run of 3 ticks does not reach the goal."),
+         "Internal error: HEAT-1: the run of 3 ticks does not reach the goal."),
         (ZeroDivisionError("of ours"),
-         "INTERNAL: ZeroDivisionError: of ours. This is a bug of rovercheck*; please report it *"),
+         "Internal error: ZeroDivisionError: of ours. This is a bug of rovercheck*; please report it *"),
         (OSError(28, "No space left on device"), "The operating system refuses: *No space left on device. *"),
         (ModelError("heater.py:3: no meaning."), "heater.py:3: no meaning."),
     ],
@@ -171,7 +171,7 @@ def test_an_error_is_one_message(
     def results(*_: object, **__: object) -> NoReturn:
         raise error
 
-    monkeypatch.setattr(deciding, "results", results)
+    monkeypatch.setattr(decisions, "results", results)
     result = project.runpytest_inprocess(*PLUGIN, "-k", "HEAT-1 or HEAT-2")
     result.assert_outcomes(failed=2, deselected=2)
     result.stdout.fnmatch_lines(["*HEAT-1 of Heater*", message, "*HEAT-2 of Heater*", message])
@@ -184,14 +184,14 @@ def test_an_engine_that_fails_is_told_with_the_verdict_of_another(
     real = verdicts.results
 
     def results(*args: Any, **options: Any) -> Iterator[Result]:
-        tell(Fault("pdr", "Heater", "AssertionError: of ours"))
+        report(Fault("pdr", "Heater", "AssertionError: of ours"))
         yield from real(*args, **options)
 
-    monkeypatch.setattr(deciding, "results", results)
+    monkeypatch.setattr(decisions, "results", results)
     result = project.runpytest_inprocess(*PLUGIN, "-k", "HEAT-2")
     result.assert_outcomes(failed=1, deselected=3)
-    verdict = "HEAT-2 is proved, on record is proved: explicit: all 752 valuations of Heater*"
-    fault = "INTERNAL: pdr failed on Heater with AssertionError: of ours. *please report it *"
+    verdict = "HEAT-2 is proved; expected: proved: explicit: all 752 reachable states of Heater*"
+    fault = "Internal error: pdr failed on Heater with AssertionError: of ours. *please report it *"
     result.stdout.fnmatch_lines([verdict, fault])
 
 
@@ -201,12 +201,12 @@ def test_a_verdict_is_told_although_its_explanation_fails(
     def explained(*_: object) -> NoReturn:
         raise ReplayError("another run with the same needed inputs ends otherwise.")
 
-    monkeypatch.setattr(Explaining, "__call__", explained)
+    monkeypatch.setattr(ExplanationOptions, "__call__", explained)
     (project.path / "baseline.toml").unlink()
     result = project.runpytest_inprocess(*PLUGIN, "-k", "HEAT-3")
     result.assert_outcomes(failed=1, deselected=3)
-    message = "INTERNAL: another run with the same needed inputs ends otherwise."
-    result.stdout.fnmatch_lines(["HEAT-3 is violated, on record is proved", message])
+    message = "Internal error: another run with the same needed inputs ends otherwise."
+    result.stdout.fnmatch_lines(["HEAT-3 is violated; expected: proved", message])
     assert "Traceback" not in result.stdout.str()
 
 

@@ -6,7 +6,7 @@ import pytest
 
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.commands.shared.wording import formally
+from rovercheck.checker.commands.shared.property_text import formally
 from rovercheck.properties import forms
 from rovercheck.properties.catalogue import catalogue
 from rovercheck.properties.english import definitions, sentence

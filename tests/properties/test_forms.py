@@ -137,7 +137,7 @@ def test_the_false_conjuncts_of_a_property_are_its_parts() -> None:
     ("that", "message"),
     [
         (flag("xx") | p, r"A reads xx, which system free does not have\. Did you mean 'x'"),
-        (after(20 * ms) | p, r"A: `after\(20 ms\)` belongs to an arrow of a chart; in a property write"),
+        (after(20 * ms) | p, r"A: `after\(20 ms\)` belongs to a transition of a chart; in a property write"),
         (held(p, 10**30 * ticks), r"`held\(p, 10{30} ticks\)`: 10{30} ticks is longer than any board counts"),
         (held(p, 30 * ms), r"30 ms is not a whole number of ticks of 20 ms; write a multiple"),
     ],

@@ -1,4 +1,4 @@
-"""Properties about infinite runs against a naive search for fair cycles in the graph of all valuations."""
+"""Properties about infinite runs against a naive search for fair cycles in the graph of all states."""
 
 from collections.abc import Mapping, Sequence
 from typing import NoReturn
@@ -6,7 +6,7 @@ from typing import NoReturn
 import jsonschema
 import networkx as nx
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.checker.engines import Limits, engines, quiet
@@ -34,15 +34,16 @@ from rovercheck.spec_model.lang.system import System, TransitionSystem, in_order
 from rovercheck.spec_model.lang.time import ms, ticks
 from rovercheck.spec_model.lang.words import after
 from tests.naive import successors, vectors
+from tests.profiles import examples
 from tests.strategies_ts import booleans, transition_systems
 
 At = Mapping[str, int]
 Node = tuple[tuple[int, ...], bool]
-"""A valuation, and whether a trigger is still without response."""
+"""A state, and whether a trigger is still without response."""
 
 
 class Naive:
-    """The reachable graph of a system; each tick is an edge with the valuation after it, inputs included."""
+    """The reachable graph of a system; each tick is an edge with the state after it, inputs included."""
 
     def __init__(self, system: TransitionSystem, trigger: Expr, response: Expr) -> None:
         names = [v.name for v in (*system.frozen, *system.variables)]
@@ -106,7 +107,7 @@ def _has_loop(system: TransitionSystem, form: Form, engine: str = "explicit") ->
 
 
 drawn = st.data()
-few = settings(max_examples=40)
+few = examples(40)
 
 
 def _conditions(data: st.DataObject, system: TransitionSystem, count: int) -> list[Expr]:
@@ -202,7 +203,7 @@ def test_fairness_leaves_out_runs_that_are_stuck_by_choice() -> None:
 def test_a_trap_is_a_run_into_it_and_what_it_leads_to() -> None:
     verdict = _decided(Recoverable(PLANT.active("Idle")), "plant").verdict
     assert isinstance(verdict, Violated) and isinstance(verdict.because, Trace)
-    assert verdict.because.trapped == 1 and verdict.because.ticks[-1].arrows[-1].target == "Broken"
+    assert verdict.because.trapped == 1 and verdict.because.ticks[-1].transitions[-1].target == "Broken"
     assert "No way back" in render(verdict.because)
     jsonschema.validate(document(verdict.because), SCHEMA)
     assert isinstance(_decided(Recoverable(PLANT.active("Idle")), "calm").verdict, Proved)
@@ -270,7 +271,7 @@ def test_a_search_for_a_way_back_that_fails_costs_no_other_verdict(monkeypatch: 
 
 
 def test_random_runs_that_fail_leave_the_engines_their_turns(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(verdicts, "settled", _faulty)
+    monkeypatch.setattr(verdicts, "repeating_loop", _faulty)
     monkeypatch.setattr(verdicts, "_vast", lambda _: True)
     [leads], faults = _heard(LeadsTo(busy, ~busy))
     assert isinstance(leads.verdict, Violated) and [f.who for f in faults] == [verdicts.SETTLING]

@@ -14,6 +14,7 @@ from rovercheck.properties.catalogue import under
 from rovercheck.properties.reduce import reduce
 from rovercheck.spec_model.board2.heading import headings, measured
 from rovercheck.spec_model.board2.obstacles import obstacles_n
+from rovercheck.spec_model.interpretations import woven
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import step
 from rovercheck.spec_model.lang.interpret import Interpreter
@@ -249,7 +250,7 @@ def test_a_choice_shows_what_tells_it_apart(scenario: Scenario, choice: str) -> 
 
 @cache
 def _written() -> dict[str, System]:
-    return {system.name: system for system in (*as_written(), FIVE_DEGREES)}
+    return {system.name: system for system in (*as_written(), woven(FIVE_DEGREES))}
 
 
 @cache

@@ -10,6 +10,7 @@ from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.readings import fixed, readings
 from rovercheck.spec_model.rover import as_written, readings_of
+from tests.profiles import examples
 from tests.strategies import input_blocks
 from tests.test_lowering import compare
 
@@ -56,7 +57,7 @@ def test_the_systems_can_be_lowered(id: str, choice: str, name: str) -> None:
 
 
 @pytest.mark.parametrize(("id", "choice"), dict.fromkeys((id, choice) for id, choice, _ in CASES))
-@settings(max_examples=2, suppress_health_check=list(HealthCheck))
+@settings(examples(2), suppress_health_check=list(HealthCheck))
 @given(data=st.data())
 def test_interpreter_and_lowering_agree(id: str, choice: str, data: st.DataObject) -> None:
     system = _system(id, choice, _smallest(id))

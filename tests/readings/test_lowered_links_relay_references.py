@@ -14,6 +14,7 @@ from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.readings import readings
 from rovercheck.spec_model.rover import systems
+from tests.profiles import examples
 from tests.strategies import input_blocks
 from tests.test_lowering import compare
 
@@ -55,7 +56,7 @@ def test_the_board_can_be_lowered(id: str, choice: str) -> None:
 @pytest.mark.parametrize(
     ("id", "choice", "name"), [(id, choice, name) for id, choice, names in CHOICES for name in names]
 )
-@settings(max_examples=2, suppress_health_check=list(HealthCheck))
+@settings(examples(2), suppress_health_check=list(HealthCheck))
 @given(data=st.data())
 def test_interpreter_and_lowering_agree(id: str, choice: str, name: str, data: st.DataObject) -> None:
     system = _systems(id, choice)[name]
@@ -63,7 +64,7 @@ def test_interpreter_and_lowering_agree(id: str, choice: str, name: str, data: s
 
 
 @pytest.mark.parametrize(("id", "choice"), [("S36", "ARRIVAL"), ("S40", "COUNT-DELTA"), ("S37", "GE")])
-@settings(max_examples=2, suppress_health_check=list(HealthCheck))
+@settings(examples(2), suppress_health_check=list(HealthCheck))
 @given(data=st.data())
 def test_they_agree_on_the_exact_records(id: str, choice: str, data: st.DataObject) -> None:
     system = _systems(id, choice)["heartbeat_ms_exact"]

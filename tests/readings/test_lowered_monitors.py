@@ -11,6 +11,7 @@ from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.readings import readings
 from rovercheck.spec_model.rover import systems
+from tests.profiles import examples
 from tests.strategies import input_blocks
 from tests.test_lowering import compare
 
@@ -46,7 +47,7 @@ def test_the_systems_can_be_lowered(id: str, choice: str, names: tuple[str, ...]
 
 
 @pytest.mark.parametrize(("id", "choice", "names"), CASES)
-@settings(max_examples=2, suppress_health_check=list(HealthCheck))
+@settings(examples(2), suppress_health_check=list(HealthCheck))
 @given(data=st.data())
 def test_interpreter_and_lowering_agree(
     id: str, choice: str, names: tuple[str, ...], data: st.DataObject

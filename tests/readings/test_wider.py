@@ -1,12 +1,13 @@
 """A wider domain adds values and changes nothing for the others."""
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from rovercheck.spec_model.lang.domain import Domain, fixed
 from rovercheck.spec_model.rover import systems
 from rovercheck.spec_model.signals.board1 import DEGREES_C, PERCENT
+from tests.profiles import examples
 from tests.readings.scenario import Blocks, shown
 from tests.readings.wider import widened
 
@@ -21,7 +22,7 @@ TENTHS, HUNDREDTHS = fixed(-20, 70, "0.1", "°C"), fixed(-1, 100, "0.01", "%")
     ],
     ids=["temperature", "battery"],
 )
-@settings(max_examples=5)
+@examples(5)
 @given(data=st.data())
 def test_the_values_of_the_model_show_the_same(
     name: str, update: str, reading: str, value: str, few: Domain, many: Domain, data: st.DataObject

@@ -1,1 +1,1 @@
-"""Tests of the exits: a zoo of things to show, one inherited suite per kind, and geometry."""
+"""Tests of the formats: a zoo of things to show, one inherited suite per kind, and geometry."""

@@ -1,10 +1,10 @@
-"""Traces that every data exit must cope with: a loop, a witness, odd names, thousands of ticks."""
+"""Traces that every data format must cope with: a loop, a witness, odd names, thousands of ticks."""
 
 from dataclasses import replace
 from functools import cache
 
 from rovercheck.checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSignal
-from rovercheck.checker.results.trace import Arrow, Needed, Tick, Trace
+from rovercheck.checker.results.trace import Needed, TakenTransition, Tick, Trace
 from rovercheck.spec_model.lang.domain import enumeration, integer
 from rovercheck.spec_model.lang.expr import flag, var
 from rovercheck.spec_model.lang.place import Place
@@ -15,9 +15,9 @@ HERE = Place("models/relay & co.py", 7)
 
 
 def told(trace: Trace) -> Trace:
-    """The trace with all that a property and charts add, its arrows in a file with an odd name."""
+    """The trace with all that a property and charts add, its transitions in a file with an odd name."""
     ticks = tuple(
-        replace(t, arrows=tuple(replace(a, place=Place(HERE.file, 10 + a.order)) for a in t.arrows))
+        replace(t, transitions=tuple(replace(a, place=Place(HERE.file, 10 + a.order)) for a in t.transitions))
         for t in trace.ticks
     )
     return replace(
@@ -42,8 +42,8 @@ def odd() -> Trace:
     count = var("#count", integer(-5, 5, "°C"))
     table = {v.name: v for v in (place, word, again, count)}
     at = {v.name: v.init for v in (place, word, again)}
-    arrow = Arrow('Ätze "<&>"', "so la", "a,b", 'go [x > "3" && "%::*/" != \x1b\x00]', 1)
-    tick = Tick(1, {"#count": -3}, {**at, "Ätze.Ort": 3, "previous(x > 3)": 1}, (arrow,))
+    transition = TakenTransition('Ätze "<&>"', "so la", "a,b", 'go [x > "3" && "%::*/" != \x1b\x00]', 1)
+    tick = Tick(1, {"#count": -3}, {**at, "Ätze.Ort": 3, "previous(x > 3)": 1}, (transition,))
     text = 'Nothing, 100% "of" it: <b>&\n::error::\\ */ is """so""" ]]> ≤ é 日\x85$end\r.'
     return Trace("sys/tem: 1", 20, table, ("#count",), at, (tick,), (word,), property='"ODD"/1%\n', text=text)
 
@@ -52,9 +52,9 @@ def odd() -> Trace:
 def huge(ticks: int = 5_000) -> Trace:
     """Something happens in every tick."""
     at = {"Relay": 1}
-    arrow = Arrow("Relay", "Ours", "Theirs", "[level >= 100]", 1)
+    transition = TakenTransition("Relay", "Ours", "Theirs", "[level >= 100]", 1)
     made = tuple(
-        Tick(k, {"level": 100 * (k % 2)}, {"Relay": 1 + k % 2}, (arrow,)) for k in range(1, ticks + 1)
+        Tick(k, {"level": 100 * (k % 2)}, {"Relay": 1 + k % 2}, (transition,)) for k in range(1, ticks + 1)
     )
     table = {n: v for n, v in zoo.TRACES["long"].variables.items() if n in ("Relay", "level")}
     return told(Trace("huge", 20, table, ("level",), at, made, (flag("never"),)))

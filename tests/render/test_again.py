@@ -3,7 +3,7 @@
 import pytest
 
 from rovercheck.checker.render import again as folding
-from rovercheck.checker.render.again import Again, folded
+from rovercheck.checker.render.again import RepeatedTicks, folded
 from rovercheck.checker.render.story import StoryEvent, rows
 from rovercheck.checker.render.trace_markdown import render as markdown
 from rovercheck.checker.render.trace_table import render as table
@@ -23,7 +23,7 @@ def test_what_is_repeated_is_told_once() -> None:
     trace = run("." + "x..." * 6 + "x")
     told = list(folded(trace))
     again = told[-2]
-    assert isinstance(again, Again)
+    assert isinstance(again, RepeatedTicks)
     assert again.what == "ticks 6–25: ticks 2–5 again, 5 times; 20 ticks = 400 ms"
     assert isinstance(told[-1], StoryEvent) and told[-1].number == 26
     for shown in (table(trace), markdown(trace)):
@@ -37,7 +37,7 @@ def test_twice_is_told_twice() -> None:
 
 def test_what_repeats_more_rows_than_can_be_seen_is_told_whole(monkeypatch: pytest.MonkeyPatch) -> None:
     trace = run("." + "xx.x." * 6)
-    assert any(isinstance(row, Again) for row in folded(trace))
+    assert any(isinstance(row, RepeatedTicks) for row in folded(trace))
     monkeypatch.setattr(folding, "LONGEST", 1)
     assert list(folded(trace)) == list(rows(trace))
 
@@ -48,7 +48,7 @@ def test_every_tick_is_told_once_or_said_to_be_a_repetition() -> None:
         for row in folded(trace):
             first, last = (row.number, row.number) if isinstance(row, StoryEvent) else (row.first, row.last)
             assert first == at and last >= first
-            if isinstance(row, Again):
+            if isinstance(row, RepeatedTicks):
                 assert beeps[first - 1 : last] == beeps[first - 1 - row.period : first - 1] * row.times
             at = last + 1
         assert at == len(beeps) + 1

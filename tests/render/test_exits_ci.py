@@ -105,12 +105,12 @@ class TestSarif(TraceSuite):
         [result] = run["results"]
         assert run["tool"]["driver"]["rules"][result["ruleIndex"]]["id"] == result["ruleId"]
 
-    def test_the_code_flow_goes_along_the_lines_of_the_arrows(self) -> None:
+    def test_the_code_flow_goes_along_the_lines_of_the_transitions(self) -> None:
         [result] = valid(self.shown("lasso"))["results"]
         steps = locations(result)
         lines = [s["location"]["physicalLocation"]["region"]["startLine"] for s in steps]
         assert {10, 11} <= set(lines) and lines[-1] == 7, (
-            "default arrow, first arrow, the property at the end"
+            "default transition, first transition, the property at the end"
         )
         uri = steps[0]["location"]["physicalLocation"]["artifactLocation"]["uri"]
         assert uri == "models/relay%20%26%20co.py" and unquote(uri) == "models/relay & co.py"
@@ -197,7 +197,7 @@ class TestJunit(TraceSuite):
     def test_a_counterexample_fails_with_the_run_and_a_witness_passes(self) -> None:
         [failed] = cases(self.shown("lasso")).values()
         assert [type(r) for r in failed.result] == [Failure]
-        assert "Relay: Ours → Theirs (arrow 1)" in failed.result[0].text
+        assert "Relay: Ours → Theirs (transition 1)" in failed.result[0].text
         assert "repeat for ever" in failed.result[0].text
         assert next(iter(cases(self.shown("witness")).values())).is_passed
 
@@ -214,11 +214,9 @@ def test_junit_of_a_check() -> None:
         "TOY-1": [], "TOY-2": [], "TOY-3": [Error], "TOY-4": [Failure], "TOY-5": [Failure],
         "TOY-6": [Error], "TOY-7": [Skipped],
     }  # fmt: skip
-    assert (
-        "as on record" in found["TOY-2"].system_out and "As the figure has it." in found["TOY-2"].system_out
-    )
+    assert "as expected" in found["TOY-2"].system_out and "As the figure has it." in found["TOY-2"].system_out
     assert "out of time" in found["TOY-3"].result[0].text
-    assert found["TOY-5"].result[0].message == "TOY-5 is proved, on record is violated after 3 ticks"
+    assert found["TOY-5"].result[0].message == "TOY-5 is proved; expected: violated after 3 ticks"
     assert "engine: bmc" in found["TOY-4"].system_out
     suites = {
         s.name: (s.tests, s.failures, s.errors, s.skipped) for s in JUnitXml.fromstring(junit(ALL).encode())
@@ -307,7 +305,7 @@ def test_annotations_of_a_check() -> None:
         ("error", "TOY-6"), ("error", "TOY-4"), ("error", "TOY-5"), ("warning", "TOY-3"),
         ("notice", "TOY-2"), ("notice", "TOY-7"),
     ]  # fmt: skip
-    assert found[1][1] == {"file": "m.py", "line": "5", "title": "TOY-4 is violated, on record is proved"}
+    assert found[1][1] == {"file": "m.py", "line": "5", "title": "TOY-4 is violated; expected: proved"}
     assert "Relay: Ours → Theirs" in annotations(ALL), "the explained run is in the log"
 
 
@@ -352,9 +350,9 @@ def test_the_log_holds_no_command_by_accident(text: str) -> None:
 def test_summary() -> None:
     shown = summary(PARTLY)
     assert "7 of 9" in shown and "| ❌ | TOY-4 | violated | proved | It is so. |" in shown
-    assert "False since tick 5" in shown and "2 findings are as on record." in shown
+    assert "False since tick 5" in shown and "2 findings are as expected." in shown
     good = summary(CiReport((finding(FindingLevel.PASSED, 1, "proved"),), 1))
-    assert "Every verdict is as on record." in good and "|" not in good
+    assert "Every verdict is as expected." in good and "|" not in good
 
 
 def test_a_long_summary_stays_below_the_limit(monkeypatch: pytest.MonkeyPatch) -> None:

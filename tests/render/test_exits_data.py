@@ -149,7 +149,7 @@ class TestCsv(TraceSuite):
         assert (rows[0]["level"], rows[2]["level"], rows[2]["speed"], rows[2]["alarm"]) == (
             "", "100", "-0.5", "true"
         )  # fmt: skip
-        assert rows[2]["arrows"] == "Relay: Ours -> Theirs (arrow 1) [level >= 100]"
+        assert rows[2]["arrows"] == "Relay: Ours -> Theirs (transition 1) [level >= 100]"
 
     def test_nothing_in_it_is_a_formula_of_a_spreadsheet(self) -> None:
         """A variable called ``=HYPERLINK(...)`` was one; numbers stay numbers, ``-`` stays no state."""

@@ -9,7 +9,7 @@ import pytest
 
 from rovercheck.checker.render import statechart_svg
 from rovercheck.checker.render.drawing.graph import Point
-from rovercheck.checker.render.drawing.nested import picture
+from rovercheck.checker.render.drawing.nested_layout import picture
 from rovercheck.checker.render.drawing.picture import Box, DrawnPicture, PicturePiece
 from rovercheck.checker.render.drawing.text import LINE, SIZE, block, width, wrap
 from rovercheck.spec_model.lang.system import charts_of

@@ -10,11 +10,11 @@ import pytest
 from jsonschema import validate
 
 from rovercheck.checker.engines import Limits
-from rovercheck.checker.explore.graphs.explored import tabulated
-from rovercheck.checker.explore.graphs.making import made
-from rovercheck.checker.explore.graphs.projecting import project
+from rovercheck.checker.explore.graphs.construction import made
+from rovercheck.checker.explore.graphs.projection import project
+from rovercheck.checker.explore.graphs.reachable_ticks import tabulated
 from rovercheck.checker.render import graph_json
-from rovercheck.checker.render.stategraph.findings import findings, told
+from rovercheck.checker.render.stategraph.findings import findings, findings_text
 from rovercheck.checker.render.stategraph.fragment import document, rows
 from rovercheck.checker.render.stategraph.picture import LABELLED, drawn, in_rows, too_long
 from rovercheck.checker.render.stategraph.words import brief, several, short, spans
@@ -128,8 +128,8 @@ class TestWords:
         [node, *_] = GRAPHS["toy"].nodes
         assert short(GRAPHS["toy"], node) == ("SAFE",)
         chart = replace(GRAPHS["toy"], variables=("Run", "Run.Fast", "a.level", "b.level"))
-        told = short(chart, replace(node, shown=("Fast", "Deep", "3", "4")))
-        assert told == ("Fast = Deep", "a.level = 3", "b.level = 4")
+        findings_text = short(chart, replace(node, shown=("Fast", "Deep", "3", "4")))
+        assert findings_text == ("Fast = Deep", "a.level = 3", "b.level = 4")
         assert short(chart, replace(node, shown=("-",) * 4)) == ("-",)
 
     def test_many_nodes_are_counted(self) -> None:
@@ -137,8 +137,8 @@ class TestWords:
 
     def test_what_a_graph_shows(self) -> None:
         said = sentences(GRAPHS["marked"])
-        assert said["size"] == "2 nodes and 3 edges for 3 valuations."
-        assert said["because"] == "the valuations behind 1 of 2 nodes can go to different nodes."
+        assert said["size"] == "2 nodes and 3 edges for 3 states."
+        assert said["because"] == "the states behind 1 of 2 nodes can go to different nodes."
         assert "with alarm too" in said["finer"] and "--project mode,alarm" in said["finer"]
         assert said["run"] == "the trace, 153 ticks: SAFE → CRITICAL."
         assert said["never left"] == "CRITICAL." and said["dead ends"].startswith("none")
@@ -153,15 +153,15 @@ class TestWords:
         assert said["dead ends"] == "2: 1 of ×1 admit no input."
 
     def test_a_cut_graph_says_so_first_and_loudly(self) -> None:
-        assert findings(CUT)[0][0] == "CUT" and "Not all that is reachable is here" in told(CUT)
-        assert "is never" not in told(CUT)
-        assert max(map(len, told(CUT).splitlines())) <= 80
+        assert findings(CUT)[0][0] == "CUT" and "Not all that is reachable is here" in findings_text(CUT)
+        assert "is never" not in findings_text(CUT)
+        assert max(map(len, findings_text(CUT).splitlines())) <= 80
 
     def test_marks(self) -> None:
         graph = made(toys.filling(3), ["count"], wanted=("full",), looked_for="P is broken").graph
-        assert sentences(graph)["marked"] == "P is broken in 1 valuation behind 1 node: 3."
+        assert sentences(graph)["marked"] == "P is broken in 1 state behind 1 node: 3."
         none = made(toys.filling(3), ["count"], wanted=("over",), looked_for="P is broken").graph
-        assert sentences(none)["marked"] == "P is broken in none of the valuations found."
+        assert sentences(none)["marked"] == "P is broken in none of the states found."
 
 
 def count_of(system: TransitionSystem):

@@ -6,9 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from rovercheck.checker.render.drawing.graph import DrawnNode, Edge
-from rovercheck.checker.render.drawing.layered import layered
-from rovercheck.checker.render.drawing.ranking import backward
-from rovercheck.checker.render.drawing.solve import least_stretch
+from rovercheck.checker.render.drawing.layered_layout import layered
+from rovercheck.checker.render.drawing.min_cost_flow import least_stretch
+from rovercheck.checker.render.drawing.ranks import backward
+from tests.profiles import examples
 
 SIZE = 4
 bounds = st.lists(
@@ -24,7 +25,7 @@ def stretch(values: tuple[int, ...] | list[int], given: list[tuple[int, int, int
     return sum(w * (values[v] - values[u]) for u, v, _, w in given)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(bounds)
 def test_least_stretch_is_least(given: list[tuple[int, int, int, int]]) -> None:
     found = least_stretch(SIZE, given)
@@ -36,7 +37,7 @@ def test_least_stretch_is_least(given: list[tuple[int, int, int, int]]) -> None:
 arrow_lists = st.lists(st.tuples(st.integers(0, 6), st.integers(0, 6)), max_size=14)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(examples(60), deadline=None)
 @given(arrow_lists, st.booleans())
 def test_any_graph_gets_a_layout_without_overlaps(pairs: list[tuple[int, int]], breadth: bool) -> None:
     names = [str(i) for i in range(7)]

@@ -11,14 +11,14 @@ import pytest
 
 from rovercheck.checker.render import player, trace_play
 from rovercheck.checker.render.drawing.activity import active, followed
-from rovercheck.checker.render.drawing.scheme import arrows
+from rovercheck.checker.render.drawing.labels import arrows
 from rovercheck.checker.render.page import page
 from rovercheck.checker.render.player.steps import script, shown_charts
 from rovercheck.checker.render.statechart_svg import inline
-from rovercheck.checker.results.trace import Arrow, Needed, Tick, Trace
+from rovercheck.checker.results.trace import Needed, TakenTransition, Tick, Trace
 from rovercheck.spec_model.lang.action import assign, send
 from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
-from rovercheck.spec_model.lang.interpret import Fired, Interpreter
+from rovercheck.spec_model.lang.interpret import FiredTransition, Interpreter
 from rovercheck.spec_model.lang.system import System, charts_of
 from rovercheck.spec_model.rover import systems
 from tests.render.conformance import Suite
@@ -41,9 +41,10 @@ lamp = Chart("Lamp", [
 TOY = System("lamp", (lamp, relay))
 
 
-def fired(made: Sequence[Fired]) -> tuple[Arrow, ...]:
+def fired(made: Sequence[FiredTransition]) -> tuple[TakenTransition, ...]:
     return tuple(
-        Arrow(f.chart, ".".join(f.source), ".".join(f.target), f.label, f.order, f.event) for f in made
+        TakenTransition(f.chart, ".".join(f.source), ".".join(f.target), f.label, f.order, f.event)
+        for f in made
     )
 
 
@@ -71,14 +72,14 @@ def shining() -> Trace:
 
 
 class TestSteps:
-    def test_arrows_of_a_tick_are_steps_in_their_order(self) -> None:
+    def test_transitions_of_a_tick_are_steps_in_their_order(self) -> None:
         played = script(shining())
         told = [(s.event, s.first, s.last) for s in played.steps]
         start, lit = played.events[0], played.events[1]
-        assert [a.target for a in lit.arrows][:3] == ["Light.On", "Light.On.Low", "Sensor.Bright"]
-        assert told[:4] == [(None, 0, 0), (0, 0, len(start.arrows)), (1, 0, 2), (1, 2, 3)]
+        assert [a.target for a in lit.transitions][:3] == ["Light.On", "Light.On.Low", "Sensor.Bright"]
+        assert told[:4] == [(None, 0, 0), (0, 0, len(start.transitions)), (1, 0, 2), (1, 2, 3)]
 
-    def test_in_between_the_arrows_taken_count(self) -> None:
+    def test_in_between_the_transitions_taken_count(self) -> None:
         nested, bright = (s for s in script(shining()).steps if s.event == 1 and s.first in (0, 2))
         assert ("Sensor", "Dark") in nested.states["Lamp"] and ("Light", "On", "Low") in nested.states["Lamp"]
         assert ("Sensor", "Bright") in bright.states["Lamp"]
@@ -94,8 +95,8 @@ class TestSteps:
 
 
 @pytest.mark.parametrize("name", ["obstacles", "board1", "lamp"])
-def test_arrows_lead_to_the_states_of_the_valuation(name: str) -> None:
-    """What is followed along the arrows of a tick is what the locations say after it."""
+def test_transitions_lead_to_the_states_of_the_valuation(name: str) -> None:
+    """What is followed along the transitions of a tick is what the locations say after it."""
     system = TOY if name == "lamp" else systems()[name]
     chance = random.Random(name)
     inputs = [{n: chance.choice(list(v.domain.values)) for n, v in system.inputs.items()} for _ in range(60)]
@@ -104,8 +105,8 @@ def test_arrows_lead_to_the_states_of_the_valuation(name: str) -> None:
     at = {c: active(chart, trace.before) for c, chart in charts.items()}
     moved = 0
     for tick in trace.ticks:
-        for arrow in tick.arrows:
-            at[arrow.chart] = followed(charts[arrow.chart], at[arrow.chart], arrow)
+        for transition in tick.transitions:
+            at[transition.chart] = followed(charts[transition.chart], at[transition.chart], transition)
             moved += 1
         for c, chart in charts.items():
             assert at[c] == active(chart, tick.after), (c, tick)
@@ -145,13 +146,15 @@ class TestPlay(Suite):
         assert isinstance(steps, list) and isinstance(events, list)
         assert {s["event"] for s in steps} == {None, *range(len(events))}
 
-    def test_every_arrow_told_is_drawn(self) -> None:
+    def test_every_transition_told_is_drawn(self) -> None:
         document = self.shown("shining")
         drawn = {a["data-arrow"] for _, a in Reader(document).tags if "data-arrow" in a}
         events = data(document)["events"]
         assert isinstance(events, list)
-        told = [arrow for event in events for arrow in event["arrows"]]
-        assert told and all(arrow["drawn"] and drawn.issuperset(arrow["drawn"]) for arrow in told)
+        told = [transition for event in events for transition in event["transitions"]]
+        assert told and all(
+            transition["drawn"] and drawn.issuperset(transition["drawn"]) for transition in told
+        )
         through = next(a for a in told if "Sensor.Bright" in a["way"])
         assert through["drawn"] == ["Sensor.Dark#1", "Sensor.seen#1"]
 

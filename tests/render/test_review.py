@@ -12,7 +12,7 @@ from urllib.parse import unquote
 import pytest
 
 from rovercheck.checker.render.review import grouped, render, title_of
-from rovercheck.checker.render.review.packed import TOGETHER, Packed
+from rovercheck.checker.render.review.fragments import TOGETHER, PackedFragments
 from rovercheck.checker.render.review.traces import shared
 from tests.render.test_page import Reader
 from tests.render.toy_review import ALL, BROKEN, CHANGED, EVIL, FINE, GRAPH, OPEN, RUN, SAME, checked, review
@@ -69,7 +69,7 @@ def test_nothing_is_fetched(page: Reader, document: str) -> None:
 def test_findings_come_first_and_with_the_same_cause_together() -> None:
     groups = grouped(review().findings)
     assert groups == [
-        ("Not as on record", [("", [CHANGED])]),
+        ("Not as expected", [("", [CHANGED])]),
         ("Relay", [("T-1", [BROKEN, SAME])]),
         ("Link", [("T-4", [OPEN])]),
     ]
@@ -80,7 +80,7 @@ def test_of_a_finding_the_story_is_there_to_read_without_scripts(document: str) 
     section = document[start : document.index("</details>", start)]
     assert "duration(level &lt; 5) &gt; 3 s" in section
     assert "False after tick 153" in section
-    assert "Proposed repair" in section and "bdd: all 4 valuations" in section
+    assert "Proposed repair" in section and "bdd: all 4 reachable states" in section
 
 
 def test_a_finding_without_a_repair_says_why(document: str) -> None:
@@ -104,8 +104,8 @@ def test_what_is_missing_is_said_or_left_out() -> None:
         {f"section-{s}" for s in ("findings", "requirements", "repairs", "readings", "graphs")}
     )
     assert "no generated tests" in shown
-    assert "not examined" not in shown
-    assert "not examined" in render(replace(bare, properties=(replace(FINE, premise=""),)))
+    assert "not checked whether" not in shown
+    assert "not checked whether" in render(replace(bare, properties=(replace(FINE, premise=""),)))
 
 
 def test_headings_are_written_as_people_write_them() -> None:
@@ -134,7 +134,7 @@ def test_many_fragments_are_kept_in_several_parcels() -> None:
     many = tuple(checked(f"T-{i}", "proved", trace=RUN) for i in range(TOGETHER + 2))
     document = render(review(many))
     assert set(unpacked(document)) == {"*", "graph toy", *(p.id for p in many)}
-    assert len(Packed().parts()) == 0
+    assert len(PackedFragments().parts()) == 0
 
 
 def test_a_state_graph_says_how_far_to_trust_it_without_scripts(document: str) -> None:

@@ -8,7 +8,7 @@ import pytest
 from rovercheck.checker.render import trace_sequence
 from rovercheck.checker.render.sequence.flow import ENVIRONMENT, flow
 from rovercheck.checker.render.sequence.steps import Message, SequenceNote, SequenceStep, message_sequence
-from rovercheck.checker.results.trace import Arrow, Tick, Trace
+from rovercheck.checker.results.trace import TakenTransition, Tick, Trace
 from rovercheck.spec_model.composition.fine_systems import SYSTEMS as FINE
 from rovercheck.spec_model.composition.systems import SYSTEMS as COMPOSED
 from rovercheck.spec_model.lang.action import assign, when
@@ -18,7 +18,7 @@ from rovercheck.spec_model.lang.edit import in_system
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expiry import free_timers
 from rovercheck.spec_model.lang.expr import TRUE, flag, var
-from rovercheck.spec_model.lang.specialise import Fixing
+from rovercheck.spec_model.lang.specialise import Specialiser
 from rovercheck.spec_model.lang.system import System, in_order
 from rovercheck.spec_model.lang.words import minimum
 from tests.render.conformance import Suite
@@ -65,22 +65,22 @@ VARIABLES = {v.name: v for v in (*DATA, *panel.locations, *door.locations)}
 def trace(components: tuple[Component, ...] = BOARDS, quiet: int = 3) -> Trace:
     """The button is pressed in tick 2, the frame comes in tick 3, and then no more."""
     at = {v.name: 0 for v in (wanted, sent, came, heard, open_, age)} | {"lit": 0, "Panel": 0, "Door": 0}
-    steps: list[tuple[dict[str, int], dict[str, int], tuple[Arrow, ...]]] = [
+    steps: list[tuple[dict[str, int], dict[str, int], tuple[TakenTransition, ...]]] = [
         ({"press": 0, "passes": 0}, {"Panel": 1, "Door": 1, "age": 20},
-         (Arrow("Panel", "", "Idle", "", 0), Arrow("Door", "", "Shut", "", 0))),
+         (TakenTransition("Panel", "", "Idle", "", 0), TakenTransition("Door", "", "Shut", "", 0))),
         ({"press": 1, "passes": 0}, {"Panel": 2, "wanted": 1, "sent": 1, "age": 40},
-         (Arrow("Panel", "Idle", "Asked", "[press]", 1),)),
+         (TakenTransition("Panel", "Idle", "Asked", "[press]", 1),)),
         ({"press": 1, "passes": 1}, {"heard": 1, "came": 1, "age": 0, "open": 1, "lit": 1, "Door": 2},
-         (Arrow("Door", "Shut", "Open", "[heard]", 1),)),
+         (TakenTransition("Door", "Shut", "Open", "[heard]", 1),)),
         ({"press": 1, "passes": 0}, {"came": 0, "age": 20}, ()),
         *(({"press": 1, "passes": 0}, {"age": 40 + 20 * i}, ()) for i in range(quiet)),
         ({"press": 0, "passes": 0}, {"Panel": 1, "wanted": 0, "sent": 0, "age": 200},
-         (Arrow("Panel", "Asked", "Idle", "[!press]", 1),)),
+         (TakenTransition("Panel", "Asked", "Idle", "[!press]", 1),)),
     ]  # fmt: skip
     ticks = []
-    for number, (inputs, changed, arrows) in enumerate(steps, 1):
+    for number, (inputs, changed, transitions) in enumerate(steps, 1):
         at = at | changed
-        ticks.append(Tick(number, inputs, at, arrows))
+        ticks.append(Tick(number, inputs, at, transitions))
     before = dict.fromkeys(at, 0)
     charts = {"Panel": panel, "Door": door}
     return Trace(
@@ -120,7 +120,7 @@ class TestFlow:
     def test_a_subsystem_keeps_its_name_when_the_system_changes(self) -> None:
         system = in_order("door", *BOARDS)
         changed = in_system(system, "Panel", lambda part: part)
-        for made in (changed, free_timers(changed), Fixing({"press": TRUE}).system(system)):
+        for made in (changed, free_timers(changed), Specialiser({"press": TRUE}).system(system)):
             assert flow(_of(made)).lifelines[1:3] == ("Front", "Back")
 
     def test_a_chain_through_both_boards(self) -> None:
@@ -164,7 +164,7 @@ class TestMessages:
     def test_who_only_starts_is_named_and_not_drawn(self) -> None:
         idle = Chart("Spare", [State("Off")], default="Off")
         first = trace().ticks[0]
-        started = replace(first, arrows=(*first.arrows, Arrow("Spare", "", "Off", "", 0)))
+        started = replace(first, transitions=(*first.transitions, TakenTransition("Spare", "", "Off", "", 0)))
         shown = replace(trace(), components=(*ALONE, idle), ticks=(started, *trace().ticks[1:]))
         sequence = message_sequence(shown)
         assert sequence.idle == ("Spare",) and "Spare" not in sequence.lifelines

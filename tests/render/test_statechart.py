@@ -8,8 +8,8 @@ import networkx as nx
 import pytest
 
 from rovercheck.checker.render import statechart_svg
-from rovercheck.checker.render.drawing.scheme import arrows
-from rovercheck.checker.results.trace import Arrow
+from rovercheck.checker.render.drawing.labels import arrows
+from rovercheck.checker.results.trace import TakenTransition
 from rovercheck.spec_model.lang.errors import ModelError
 from tests.render.conformance import Suite
 from tests.render.zoo import CHARTS, crossing, monitor, nested, parallel, relay
@@ -56,19 +56,19 @@ class TestSvg(ChartSuite):
         assert "level &lt; 5" in statechart_svg.render(relay)
         assert "Two states &amp; one duration" in statechart_svg.render(relay)
 
-    def test_one_head_per_arrow_and_one_start(self) -> None:
+    def test_one_head_per_transition_and_one_start(self) -> None:
         for chart in CHARTS.values():
             document = statechart_svg.render(chart)
             assert document.count('class="head"') == len(arrows(chart))
 
-    def test_active_states_and_fired_arrows_stand_out(self) -> None:
-        fired = Arrow("Nested", "Run.Slow", "Run.Fast", "[level > 3]", 1)
+    def test_active_states_and_fired_transitions_stand_out(self) -> None:
+        fired = TakenTransition("Nested", "Run.Slow", "Run.Fast", "[level > 3]", 1)
         document = statechart_svg.render(nested, active=["Slow"], fired=[fired])
         assert document.count(" active") == 2, "the state and the one around it"
         assert document.count("arrow fired") == 1
 
     def test_a_fired_path_through_junctions_stands_out_whole(self) -> None:
-        fired = Arrow("Monitor", "OK", "DEG", "[level > 100]", 1)
+        fired = TakenTransition("Monitor", "OK", "DEG", "[level > 100]", 1)
         assert statechart_svg.render(monitor, fired=[fired]).count("arrow fired") == 2
 
     def test_an_unknown_active_state_is_an_error(self) -> None:
@@ -99,7 +99,7 @@ class TestDot(ChartSuite):
         balanced = re.sub(r'"(\\.|[^"\\])*"', "", document)
         assert balanced.count("{") == balanced.count("}") and '"' not in balanced
 
-    def test_one_edge_per_arrow_between_nodes_that_exist(self) -> None:
+    def test_one_edge_per_transition_between_nodes_that_exist(self) -> None:
         for name, chart in CHARTS.items():
             edges = re.findall(r"^  (\w+) -> (\w+)", self.shown(name), re.MULTILINE)
             nodes = set(re.findall(r"^ +(\w+) \[", self.shown(name), re.MULTILINE))

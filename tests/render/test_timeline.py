@@ -11,11 +11,11 @@ import pytest
 
 from rovercheck.checker.render import trace_html, trace_svg
 from rovercheck.checker.render.lanes import Tone
-from rovercheck.checker.render.timeline import timeline, told
+from rovercheck.checker.render.timeline import story_part, timeline
 from rovercheck.checker.render.timeline.axis import fit, labelled
 from rovercheck.checker.render.timeline.drawing import place
 from rovercheck.checker.render.timeline.limits import thresholds, time_limits
-from rovercheck.checker.render.timeline.model import Lane, LaneGroup, LaneKind, Need, Timeline
+from rovercheck.checker.render.timeline.model import Lane, LaneGroup, LaneKind, NeededTicks, Timeline
 from rovercheck.checker.render.timeline.shapes import fitting
 from rovercheck.checker.render.timeline.tones import tone
 from rovercheck.checker.results.trace import Needed, Tick, Trace
@@ -85,9 +85,9 @@ class TestLanes:
 
     def test_needed_inputs_come_first_and_are_marked(self) -> None:
         shown = timeline(drawn())
-        assert shown.lanes[0].name == "level" and shown.lanes[0].needed == (Need(2, 2, "level = 100"),)
-        assert shown.forced.startswith("Forced by tick 2: level = 100. Whatever the other inputs are,")
-        assert timeline(long_trace()).forced == ""
+        assert shown.lanes[0].name == "level" and shown.lanes[0].needed == (NeededTicks(2, 2, "level = 100"),)
+        assert shown.cause.startswith("Determined by tick 2: level = 100. Whatever the other inputs are,")
+        assert timeline(long_trace()).cause == ""
 
     def test_a_timer_is_a_ramp_of_times_up_to_its_span(self) -> None:
         timer = lane(timeline(drawn()), "Relay.Theirs.duration1")
@@ -97,10 +97,10 @@ class TestLanes:
             ("0 ms", ""), ("20 ms", "3 s"), ("0 ms", "")
         ]  # fmt: skip
 
-    def test_arrows_are_marked_where_the_state_changes(self) -> None:
+    def test_transitions_are_marked_where_the_state_changes(self) -> None:
         shots = lane(timeline(drawn()), "Relay").shots
         assert [shot.tick for shot in shots] == [1, 2, 153]
-        assert shots[1].text == "Ours → Theirs (arrow 1) [level >= 100]"
+        assert shots[1].text == "Ours → Theirs (transition 1) [level >= 100]"
 
     def test_the_property_lane_is_its_truth(self) -> None:
         never, bare = timeline(drawn()).of(LaneGroup.PROPERTY)
@@ -246,8 +246,10 @@ class TestSvg(Suite):
         root = self.parse(self.shown("labelled"))
         classes = {e.get("class") for e in root.iter() if e.get("class")}
         assert {"tl-is-critical", "tl-fail", "tl-limit", "tl-needed", "tl-shot"} <= classes
-        told = [e.text for e in root.iter(f"{SVG}text")]
-        assert {"Ours", "Theirs", "false", "3 s", "critical, or false part of the property"} <= set(told)
+        story_part = [e.text for e in root.iter(f"{SVG}text")]
+        assert {"Ours", "Theirs", "false", "3 s", "critical, or false part of the property"} <= set(
+            story_part
+        )
 
     def test_a_loop_repeats(self) -> None:
         assert "repeats for ever" in self.shown("loop")
@@ -290,7 +292,7 @@ class TestHtml(Suite):
     def test_all_that_a_reader_wants(self) -> None:
         names = self.parse(self.shown("drawn"))
         assert {"svg", "table", "output", "button"} <= set(names)
-        assert "Why it ends so" in self.shown("drawn") and "Why it ends so" not in self.shown("long")
+        assert "Cause: the inputs" in self.shown("drawn") and "Cause: the inputs" not in self.shown("long")
 
     def test_thousands_of_ticks_stay_small(self) -> None:
         assert len(trace_html.render(drawn(5000))) < 2 * len(trace_html.render(drawn(50)))
@@ -300,16 +302,18 @@ class TestNeeds:
     def test_ticks_in_a_row_are_marked_once(self) -> None:
         same = tuple(Needed(k, "level", frozenset({0})) for k in (3, 4, 6))
         shown = lane(timeline(replace(drawn(), needed=same)), "level")
-        assert shown.needed == (Need(3, 4, "level = 0"), Need(6, 6, "level = 0"))
+        assert shown.needed == (NeededTicks(3, 4, "level = 0"), NeededTicks(6, 6, "level = 0"))
 
     def test_reasons_are_told_by_tick(self) -> None:
-        page = told(drawn()).body
+        page = story_part(drawn()).body
         assert "<li>tick 2 (40 ms): <code>level = 100</code></li>" in page
-        assert "Not minimised" in page and "Not minimised" not in told(replace(drawn(), minimal=True)).body
+        assert (
+            "Not minimised" in page and "Not minimised" not in story_part(replace(drawn(), minimal=True)).body
+        )
 
     def test_not_examined_is_not_nothing(self) -> None:
-        assert "Why it ends so" not in told(long_trace()).body
-        assert "whatever its inputs" in told(replace(drawn(), needed=())).body
+        assert "Cause: the inputs" not in story_part(long_trace()).body
+        assert "whatever its inputs" in story_part(replace(drawn(), needed=())).body
 
 
 class TestTruths:

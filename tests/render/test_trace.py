@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from rovercheck.checker.render import trace_markdown, trace_table
-from rovercheck.checker.render.reasons import forced, reasons
+from rovercheck.checker.render.reasons import cause, meaning, reasons
 from rovercheck.checker.render.story import Quiet, StoryEvent, conjuncts, false_parts, rows
 from rovercheck.checker.results.trace import Needed, Trace
 from tests.render.conformance import Suite
@@ -60,7 +60,7 @@ class TestStory:
 
     def test_a_last_tick_without_a_change_breaks_the_property(self) -> None:
         trace = long_trace()
-        still = replace(trace.ticks[-1], number=len(trace) + 1, arrows=())
+        still = replace(trace.ticks[-1], number=len(trace) + 1, transitions=())
         longer = replace(trace, ticks=(*trace.ticks, still))
         said = "nothing changes, which breaks the property"
         assert said in trace_table.render(longer) and said in trace_markdown.render(longer)
@@ -105,12 +105,13 @@ class TestReasons:
         assert [r.what for r in reasons(explained(Needed(1, "level", frozenset(values))))] == [what]
 
     def test_what_is_said_of_them(self) -> None:
-        assert forced(long_trace()) == ""
-        assert "whatever its inputs" in forced(explained())
+        assert meaning(long_trace()) == ""
+        assert "whatever its inputs" in meaning(explained())
         some = Needed(1, "level", LOW)
-        assert forced(explained(some)).endswith("None of them can be left out.")
-        assert forced(explained(some, smallest=True)).endswith("left out, and no other set is smaller.")
-        assert "Not minimised" in forced(explained(some, minimal=False))
+        assert meaning(explained(some)).endswith("The set is minimal.")
+        assert meaning(explained(some, smallest=True)).endswith("The set is minimal and smallest.")
+        assert cause(explained(some)) == "Cause: the inputs that determine the violation"
+        assert "Not minimised" in meaning(explained(some, minimal=False))
 
     def test_needed_inputs_are_marked(self) -> None:
         trace = explained(Needed(2, "level", HIGH))
@@ -153,7 +154,7 @@ class TestTable(TraceSuite):
     def test_reads_like_a_log(self) -> None:
         shown = self.shown("long")
         assert re.search(r"^ +2 +40 +in  level: 0 → 100$", shown, re.M)
-        assert "▸ Relay: Ours → Theirs (arrow 1)  [level >= 100]" in shown
+        assert "▸ Relay: Ours → Theirs (transition 1)  [level >= 100]" in shown
         assert "False since tick 153: never_critical" in shown
 
     def test_colour_on_request(self) -> None:

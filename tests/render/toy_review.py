@@ -3,19 +3,19 @@
 from dataclasses import replace
 from typing import Any
 
-from rovercheck.checker.explore.graphs.making import made
+from rovercheck.checker.explore.graphs.construction import made
 from rovercheck.checker.render.review.model import (
-    About,
     Ambiguity,
-    Checked,
     Covered,
-    Demand,
     Edit,
     Remedy,
+    RequirementRow,
     Review,
     ReviewAssumption,
+    ReviewedProperty,
     ReviewOrigin,
-    Seen,
+    StateGraphView,
+    SystemSummary,
 )
 from tests import toys
 from tests.render.zoo import CHARTS, long_trace
@@ -31,9 +31,11 @@ RUN = replace(
 )
 
 
-def checked(id: str, verdict: str, **more: Any) -> Checked:
+def checked(id: str, verdict: str, **more: Any) -> ReviewedProperty:
     """A property with a verdict; ``more`` are further fields."""
-    base = Checked(id, f"The text of {id}.", "relay", verdict, "toy", "bmc", f"evidence of {id}", "Always")
+    base = ReviewedProperty(
+        id, f"The text of {id}.", "relay", verdict, "toy", "bmc", f"evidence of {id}", "Always"
+    )
     return replace(base, **{"english": ("In every step x.",), "formula": (("that", "x <= 1"),), **more})
 
 
@@ -52,12 +54,14 @@ PART = checked(f"T-6 {EVIL}", "proved", in_part=True, text=EVIL, formula=(("that
 WITNESS = checked("T-7", "proved", trace=RUN, form="Reachable")
 
 GRAPH = made(toys.relay(), ("on",), wanted=("on",), looked_for="T-1 is broken").with_ways()
-SEEN = Seen("toy", GRAPH, ("T-1",), {"T-1": (0, 0, 1), EVIL: (0,)}, "rovercheck graph toy", ("T-2",))
+SEEN = StateGraphView(
+    "toy", GRAPH, ("T-1",), {"T-1": (0, 0, 1), EVIL: (0,)}, "rovercheck graph toy", ("T-2",)
+)
 
 ALL = (BROKEN, SAME, CHANGED, FINE, PART, WITNESS, OPEN)
 
 
-def review(properties: tuple[Checked, ...] = ALL) -> Review:
+def review(properties: tuple[ReviewedProperty, ...] = ALL) -> Review:
     """The review."""
     return Review(
         title=f"Toys {EVIL}",
@@ -65,22 +69,25 @@ def review(properties: tuple[Checked, ...] = ALL) -> Review:
         properties=properties,
         origin=ReviewOrigin("rovercheck report", 1, "changed", (("Python", "3"),), (("toy", "ab12" * 16),)),
         systems={
-            "toy": About("toy", EVIL, 20, ("Relay",), (EVIL,), ("A1",), over=True, concrete="other system"),
-            "other system": About("other system", "Another.", 1),
+            "toy": SystemSummary(
+            "toy", EVIL, 20, ("Relay",), (EVIL,), ("A1",), over=True, concrete="other system"
+        ),
+            "other system": SystemSummary("other system", "Another.", 1),
         },
         charts={"Relay": CHARTS["Relay"], "Nested": CHARTS["Nested"]},
         demands=(
-            Demand("R-0", EVIL, "§1", "reason", f"by construction {EVIL}", covered=False),
-            Demand("R-1", "First.", "§2", "violated", "", ("T-1", "T-5")),
-            Demand("R-2", "Second.", "§3", "proved", "", ("T-5", "T-away")),
+            RequirementRow("R-0", EVIL, "§1", "reason", f"by construction {EVIL}", covered=False),
+            RequirementRow("R-1", "First.", "§2", "violated", "", ("T-1", "T-5")),
+            RequirementRow("R-2", "Second.", "§3", "proved", "", ("T-5", "T-away")),
         ),
         readings=(Ambiguity("S1", "Relays", EVIL, "OR", (("OR", "either"), ("AND", EVIL)), EVIL, EVIL),),
         assumptions=(ReviewAssumption("A1", EVIL, ("toy",)),),
         repairs=(
-            Remedy("mend", EVIL, (Edit("Relay", "arrows", ("[a < b]",), (EVIL,)),),
-                   (("T-1", "proved", "bdd: all 4 valuations"),), (("T-5", EVIL),), "check --repair mend"),
+            Remedy("mend", EVIL, (Edit("Relay", "transitions", ("[a < b]",), (EVIL,)),),
+                   (("T-1", "proved", "bdd: all 4 reachable states"),), (("T-5", EVIL),),
+                   "check --repair mend"),
         ),
-        coverage=(Covered("board", "arrows", 10, 8, 1, 1),),
+        coverage=(Covered("board", "transitions", 10, 8, 1, 1),),
         graphs=(SEEN,),
         undrawn=(("other system", EVIL),),
         how_to_read="A step is one tick.",

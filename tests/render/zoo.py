@@ -1,9 +1,9 @@
 """Toy charts, graphs and traces that every renderer must be able to show."""
 
-from rovercheck.checker.explore.graphs.explored import tabulated
-from rovercheck.checker.explore.graphs.projecting import project
+from rovercheck.checker.explore.graphs.projection import project
+from rovercheck.checker.explore.graphs.reachable_ticks import tabulated
 from rovercheck.checker.results.graph import StateGraph, with_trace
-from rovercheck.checker.results.trace import Arrow, Tick, Trace
+from rovercheck.checker.results.trace import TakenTransition, Tick, Trace
 from rovercheck.spec_model.lang.action import assign, send, when
 from rovercheck.spec_model.lang.chart import Chart, Junction, State, to
 from rovercheck.spec_model.lang.domain import enumeration, fixed, integer
@@ -133,7 +133,7 @@ combo = Chart(
         ),
     ],
     default=to("Start", do=[assign(alarm, False)]),
-    text="Arrows into and out of a composite, through a junction inside it.",
+    text="Transitions into and out of a composite, through a junction inside it.",
 )  # fmt: skip
 
 crossing = Chart("Crossing", [
@@ -143,7 +143,7 @@ crossing = Chart("Crossing", [
     ], transitions=[to("B.Y", when=level == 2)]),
     State("C", states=[State("Z", transitions=[to("X", when=alarm)])]),
 ], default="A")  # fmt: skip
-"""Arrows across several borders, from a state to what is around it, and from a composite to what is in it."""
+"""Transitions across several borders, from a state to one around it, from a composite to one inside it."""
 
 CHARTS = {c.name: c for c in (relay, monitor, nested, parallel, wide, flat_parallel, single, combo, crossing)}
 
@@ -152,18 +152,20 @@ relay_place = relay.location()
 VARIABLES = {v.name: v for v in (relay_place, level, speed, alarm, mode, ticks_left)}
 
 
-def _tick(number: int, before: dict[str, int], *arrows: Arrow, timer: int = 0, **changed: int) -> Tick:
+def _tick(
+    number: int, before: dict[str, int], *transitions: TakenTransition, timer: int = 0, **changed: int
+) -> Tick:
     now = before | changed | {ticks_left.name: timer}
     inputs = {"level": now.pop("level")}
-    return Tick(number, inputs, now, arrows)
+    return Tick(number, inputs, now, transitions)
 
 
 def long_trace(quiet: int = 150) -> Trace:
     """A change in tick 1, one in tick 2, a timer that counts for ``quiet`` ticks, and an end."""
     at = {v.name: v.init for v in VARIABLES.values() if v is not level}
-    start = Arrow("Relay", "", "Ours", "", 0)
-    there = Arrow("Relay", "Ours", "Theirs", "[level >= 100]", 1)
-    back = Arrow("Relay", "Theirs", "Ours", "[duration(level < 5) > 3 s]", 1)
+    start = TakenTransition("Relay", "", "Ours", "", 0)
+    there = TakenTransition("Relay", "Ours", "Theirs", "[level >= 100]", 1)
+    back = TakenTransition("Relay", "Theirs", "Ours", "[duration(level < 5) > 3 s]", 1)
     ticks = [_tick(1, at, start, level=0, Relay=1)]
     ticks.append(_tick(2, at, there, level=100, Relay=2, alarm=1, speed=-5))
     for k in range(quiet):
@@ -186,7 +188,7 @@ TRACES = {
 
 
 def _graph() -> StateGraph:
-    """Four valuations of (mode, alarm); the projection on mode hides that alarm must come first."""
+    """Four states of (mode, alarm); the projection on mode hides that alarm must come first."""
     loud = {(0, 1), (1, 2)}
     steps = [((0, 0), [(0, 0), (0, 1)]), ((0, 1), [(1, 1), (0, 1)]), ((1, 1), [(1, 1)])]
     explored = tabulated([mode, alarm], [(0, 0)], steps)

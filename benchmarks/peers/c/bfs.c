@@ -61,7 +61,7 @@ static void grow(void) {
     munmap(old, before * sizeof(Word));
 }
 
-/* The table holds valuations plus one, so that zero is an empty slot. */
+/* The table holds states plus one, so that zero is an empty slot. */
 static inline void insert(Word w, uint64_t h, uint32_t from) {
     for (h &= mask;; h = (h + 1) & mask) {
         if (table[h] == w + 1) return;

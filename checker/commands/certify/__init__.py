@@ -31,7 +31,7 @@ class CertificationOptions:
 )
 @click.option("--smt2", type=click.Path(path_type=Path), metavar="DIR", help="Write the obligations there.")
 @click.option("--timeout", type=SECONDS, metavar="SEC", help="Seconds per certificate.")
-@click.option("--verbose", "-v", is_flag=True, help="The whole valuation that refutes a certificate.")
+@click.option("--verbose", "-v", is_flag=True, help="The whole state that refutes a certificate.")
 @click.option(
     "--json", "as_json", is_flag=True, help="The outcomes as JSON (checker/schemas/certify-1.json)."
 )
@@ -40,12 +40,12 @@ class CertificationOptions:
 @gathered(CertificationOptions, "options")
 def certify(paths: tuple[Path, ...], options: CertificationOptions, model: Path | None) -> Exit:
     """Check the certificates of proofs again, by other means than found them."""
-    from rovercheck.checker.certify.check import By, CheckEffort
+    from rovercheck.checker.certify.check import CheckEffort, CheckMethod
     from rovercheck.checker.commands.certify.run import certify as run
 
     return run(
         paths,
-        CheckEffort(By(options.solver), options.timeout),
+        CheckEffort(CheckMethod(options.solver), options.timeout),
         options.smt2,
         options.verbose,
         model,

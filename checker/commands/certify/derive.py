@@ -8,7 +8,7 @@ from pathlib import Path
 
 from rovercheck.checker.certify.certificate import Certificate, meaningful
 from rovercheck.checker.certify.check import CheckEffort, check, rebuilt
-from rovercheck.checker.certify.file import CertificateOrigin, Unwritable, Written
+from rovercheck.checker.certify.file import CertificateFile, CertificateOrigin, Unwritable
 from rovercheck.checker.certify.obligations import obligations, too_long
 from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from rovercheck.checker.certify.reader import CertificateReader
@@ -16,8 +16,8 @@ from rovercheck.checker.certify.terms import Malformed
 from rovercheck.checker.certify.tick import executed
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.shared.variant import pick_variant
-from rovercheck.checker.commands.shared.wrapping import whole
 from rovercheck.checker.engines import Limits, Timers, quiet
 from rovercheck.checker.io.files import replaced
 from rovercheck.checker.model.variant import Variant
@@ -41,7 +41,7 @@ class DerivedVerdict:
 
 
 @dataclass(frozen=True)
-class Deriving:
+class VerdictDerivation:
     """Derives the verdicts of files, in a child process; with a folder, writes their obligations first.
 
     ``model`` is where the model is that they are about, None for the rover.
@@ -51,17 +51,19 @@ class Deriving:
     folder: Path | None
     model: Path | None = None
 
-    def __call__(self, send: Send, stem: str, written: Written) -> None:
+    def __call__(self, send: Send, stem: str, written: CertificateFile) -> None:
         """Send a ``DerivedVerdict`` for each property that the file is to prove, or ``Unwritable``."""
         try:
-            for one in told_of(written, Checking(stem, self.effort, self.folder), self.model):
+            for one in derived_verdicts(
+                written, CertificateCheck(stem, self.effort, self.folder), self.model
+            ):
                 send(one)
         except Unwritable as error:
             send(error)
 
 
 @dataclass
-class Checking:
+class CertificateCheck:
     """Checks the certificates of one file; with a folder, writes their obligations there first."""
 
     stem: str
@@ -96,7 +98,9 @@ class Checking:
                 ) from error
 
 
-def told_of(written: Written, checking: Checking, model: Path | None = None) -> list[DerivedVerdict]:
+def derived_verdicts(
+    written: CertificateFile, checking: CertificateCheck, model: Path | None = None
+) -> list[DerivedVerdict]:
     """What the certificates of a file show of each property that it is to prove.
 
     ``model`` is the path of a model of the user's own.  Raises ``Unwritable``.
@@ -151,5 +155,5 @@ def _outcome(one: Result, reader: CertificateReader) -> Outcome:
 def _verdict(one: Result, variant: Variant, systems: Mapping[str, System]) -> str:
     """The verdict and what it is about: the system, how it is changed, and whether it has too few runs."""
     system = systems.get(one.system, systems[one.property.on])
-    word = f"{one.verdict.word} in part" if system.under else one.verdict.word
+    word = f"{one.verdict.word} for a restricted model" if system.under else one.verdict.word
     return " ".join(part for part in (word, "of", one.system, variant.name) if part)

@@ -8,14 +8,14 @@ from pathlib import Path
 from shlex import quote
 
 from rovercheck.checker.certify.check import CheckEffort
-from rovercheck.checker.certify.file import Unwritable, Written, read
+from rovercheck.checker.certify.file import CertificateFile, Unwritable, read
 from rovercheck.checker.certify.outcome import Accepted, Rejected, Undecided
 from rovercheck.checker.certify.terms import Malformed
-from rovercheck.checker.commands.certify.derive import DerivedVerdict, Deriving
+from rovercheck.checker.commands.certify.derive import DerivedVerdict, VerdictDerivation
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, out, wrapped
 from rovercheck.checker.commands.shared.progress import ProgressLine
-from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.load import load
@@ -51,8 +51,8 @@ def certify(
     if smt2 is not None:
         _folder(smt2)
     found: list[DerivedVerdict] = []
-    deriving = Deriving(effort, smt2, model)
-    with ProgressLine() as progress, closing(_told(written, deriving, progress)) as heard:
+    deriving = VerdictDerivation(effort, smt2, model)
+    with ProgressLine() as progress, closing(_report(written, deriving, progress)) as heard:
         for told in heard:
             if not as_json:
                 out.print(wrapped(line(told, verbose, several=len(written) > 1), WHY), markup=False)
@@ -84,7 +84,7 @@ def _inside(folder: Path) -> list[Path]:
         raise UsageError(f"Cannot read {whole(folder)}: {error.strerror}.") from error
 
 
-def _read(path: Path) -> Written:
+def _read(path: Path) -> CertificateFile:
     try:
         return read(path)
     except Malformed as error:
@@ -100,8 +100,8 @@ def _folder(place: Path) -> None:
         raise UsageError(f"Cannot write {whole(place)}: {error.strerror}. Choose another --smt2.") from error
 
 
-def _told(
-    written: Sequence[tuple[Path, Written]], deriving: Deriving, progress: ProgressLine
+def _report(
+    written: Sequence[tuple[Path, CertificateFile]], deriving: VerdictDerivation, progress: ProgressLine
 ) -> Generator[DerivedVerdict, None, None]:
     """What is said of each property that some file is to prove, as it is found."""
     left = [dict.fromkeys(found.origin.proved) for _, found in written]
@@ -129,7 +129,7 @@ def _told(
                 yield from (DerivedVerdict(id, Undecided(reason), file=file) for id in left[event.number])
 
 
-def _itself(deriving: Deriving) -> Deriving:
+def _itself(deriving: VerdictDerivation) -> VerdictDerivation:
     return deriving
 
 
@@ -178,7 +178,7 @@ def code(found: Sequence[DerivedVerdict]) -> Exit:
     """What is rejected counts first, then what is not decided."""
     kinds = [type(one.outcome) for one in found]
     if Rejected in kinds:
-        return Exit.CHANGED
+        return Exit.FAILED
     return Exit.INCONCLUSIVE if Undecided in kinds else Exit.AS_EXPECTED if found else Exit.NOTHING
 
 

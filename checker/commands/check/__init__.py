@@ -1,4 +1,4 @@
-"""The verb ``check``: properties against the verdicts on record."""
+"""The verb ``check``: properties against the expected verdicts."""
 
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -21,10 +21,10 @@ from rovercheck.checker.commands.shared.options import (
 from rovercheck.checker.engines import ALL, AUTO, LOADED
 
 if TYPE_CHECKING:
-    from rovercheck.checker.commands.check.further import Further
+    from rovercheck.checker.commands.check.chain_status import Chains
+    from rovercheck.checker.commands.check.further import CheckExtras
     from rovercheck.checker.commands.check.premises import PremiseSearch
-    from rovercheck.checker.commands.check.run import Deliver
-    from rovercheck.checker.commands.check.standing import Chains
+    from rovercheck.checker.commands.check.run import ResultDelivery
     from rovercheck.checker.model.variant import Variant
     from rovercheck.checker.verify.checked import SearchSettings
 
@@ -52,24 +52,26 @@ class CheckOptions:
         """Raises ``UsageError`` for options that exclude each other."""
         if self.no_premises and (self.strict or self.record_premises):
             other = "--strict" if self.strict else "--record-premises"
-            raise UsageError(f"--no-premises leaves out what {other} asks for; write one of them.")
+            raise UsageError(f"--no-premises leaves out what {other} needs; write one of them.")
 
 
-@click.command(short_help="Check properties, and compare with the verdicts on record.")
+@click.command(short_help="Check properties, and compare with the expected verdicts.")
 @selecting
 @click.option(
     "--strict",
     is_flag=True,
-    help="A proof of a case that never occurs, or may never, or that notices no known fault, is an error.",
+    help="Treat as errors: proofs that are or may be vacuous, and proofs that kill no known mutant.",
 )
-@click.option("--no-premises", is_flag=True, help="Do not ask whether the cases occur that proofs speak of.")
+@click.option("--no-premises", is_flag=True, help="Do not check whether the premises of proofs occur.")
 @click.option(
-    "--record-premises", is_flag=True, help="Search longer for these cases, and keep runs that show them."
+    "--record-premises",
+    is_flag=True,
+    help="Search longer for the premises of proofs, and record runs in which they occur.",
 )
 @click.option(
     "--record-invariants",
     is_flag=True,
-    help="Keep the invariants of proofs: the next check tries them first.",
+    help="Record the invariants of proofs: the next check tries them first.",
 )
 @click.option("--json", "as_json", is_flag=True, help="Verdicts as JSON.")
 @click.option("--quiet", "-q", is_flag=True, help="Only what is not as expected, and no progress.")
@@ -85,9 +87,9 @@ class CheckOptions:
     default=8.0,
     show_default=True,
     metavar="GIB",
-    help="What each search may take.",
+    help="Memory of each search, in GiB.",
 )
-@click.option("--all-engines", is_flag=True, help="Ask every engine and compare the answers.")
+@click.option("--all-engines", is_flag=True, help="Run every engine and compare the verdicts.")
 @click.option("--certify", is_flag=True, help="Check every proof again, without the engine that found it.")
 @click.option(
     "--certificates",
@@ -167,7 +169,7 @@ def _settings(search: SearchOptions, options: CheckOptions, variant: "Variant") 
     from rovercheck.checker.verify.checked import SearchSettings
 
     limits = search.limits(options.memory)
-    engine = _asked(pick_engine(search.engine), options.all_engines)
+    engine = _engine_choice(pick_engine(search.engine), options.all_engines)
     if options.certificates:
         writable(options.certificates)
     wanted = options.certify or options.certificates
@@ -175,7 +177,7 @@ def _settings(search: SearchOptions, options: CheckOptions, variant: "Variant") 
     return SearchSettings(engine, limits, options.jobs, invariants_of(variant.model), certifying)
 
 
-def _delivering(options: CheckOptions, variant: "Variant", charts: VariantOptions) -> "Deliver":
+def _delivering(options: CheckOptions, variant: "Variant", charts: VariantOptions) -> "ResultDelivery":
     """Writes the reports that are asked for.  Raises ``UsageError`` where one cannot be written."""
     from rovercheck.checker.commands.check.run import undelivered
 
@@ -201,30 +203,30 @@ def _chains(variant: "Variant") -> "Chains | None":
     """The chains of the rover's promises, checked for holes; a model of a user's own has none."""
     if variant.own is not None:
         return None
-    from rovercheck.checker.commands.check.standing import Chains
+    from rovercheck.checker.commands.check.chain_status import Chains
 
     return Chains(variant)
 
 
 def _further(
     options: CheckOptions, variant: "Variant", search: "SearchSettings", chains: "Chains | None"
-) -> "Further":
+) -> "CheckExtras":
     """What is asked of the verdicts; faults are kept of the charts as they are."""
-    from rovercheck.checker.commands.check.further import Further, noticing
+    from rovercheck.checker.commands.check.further import CheckExtras, noticing
 
-    further = Further(noticing=None if variant.name else noticing(variant.model))
+    further = CheckExtras(noticing=None if variant.name else noticing(variant.model))
     if not options.no_premises:
         premises = _premises(options, variant, search)
-        further = replace(further, heard=premises.heard, cases=premises)
+        further = replace(further, on_result=premises.on_result, cases=premises)
     if options.record_invariants:
-        from rovercheck.checker.commands.check.invariants import Recording
+        from rovercheck.checker.commands.check.invariants import InvariantRecorder
 
-        further = replace(further, keep=Recording(variant.model, variant.name))
+        further = replace(further, keep=InvariantRecorder(variant.model, variant.name))
     return further if chains is None else replace(further, chains=chains.standings)
 
 
 def _premises(options: CheckOptions, variant: "Variant", search: "SearchSettings") -> "PremiseSearch":
-    """Asks whether the cases occur that proofs speak of, and keeps the runs if wanted."""
+    """Checks whether the premises of proofs occur, and records the runs if wanted."""
     from rovercheck.checker.commands.check.premises import PremiseSearch, recordable
     from rovercheck.checker.model.kept_runs import file_of, read
 
@@ -240,7 +242,7 @@ def _again(options: str, chosen: tuple[str, ...], repair: str | None, dropped: t
     return " ".join(filter(None, [options, *readings, f"--repair {repair}" if repair else "", *without]))
 
 
-def _asked(engine: str, every: bool) -> str:
+def _engine_choice(engine: str, every: bool) -> str:
     """The engines to ask.  Raises ``UsageError`` when one is named and every engine wanted."""
     if every and engine not in (AUTO, ALL):
         raise UsageError(f"--engine {engine} asks one engine and --all-engines every one; write one of them.")

@@ -8,7 +8,7 @@ from tempfile import TemporaryFile
 from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.output import err, out
-from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.verify.result import Result
 
 
@@ -66,7 +66,7 @@ def certificates(found: Sequence[Result]) -> None:
 
 def _alarm(result: Result, rejected: Rejected) -> str:
     return (
-        f"INTERNAL: the proof of {result.property.id} by {result.verdict.engine} is WRONG: its certificate "
-        f"does not meet the obligation {rejected.obligation!r} ({rejected.shown}). Do not rely on this "
-        "verdict; please report it with the command."
+        f"Internal error: the proof of {result.property.id} by {result.verdict.engine} is WRONG: its "
+        f"certificate does not meet the obligation {rejected.obligation!r} ({rejected.shown}). "
+        "Do not rely on this verdict; please report it with the command."
     )

@@ -162,7 +162,7 @@ def _where(chain: Chain, expr: Expr) -> Expr:
 
 
 def _implies(given: Expr, then: Expr) -> bool:
-    """Whether one formula follows from another in every valuation; what was, and how long, are anything."""
+    """Whether one formula follows from another in every state; what was, and how long, are anything."""
     hole = flag("hole")
     broken = everywhere(given & ~then, lambda e: flag(f"{e}") if isinstance(e, Temporal) else e)
     inputs = tuple(variables(broken).values())

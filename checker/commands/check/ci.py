@@ -10,8 +10,8 @@ from secrets import token_hex
 from rovercheck.checker.certify.outcome import Rejected
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import possible, write
-from rovercheck.checker.commands.shared.wording import formally
-from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.commands.shared.property_text import formally
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.render.ci import CiFinding, CiReport, FindingLevel
 from rovercheck.checker.render.ci.github import annotations, summary
 from rovercheck.checker.render.ci.junit import junit

@@ -9,7 +9,7 @@ from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.verify.checked import CheckedProperty, length, worst
 
 if TYPE_CHECKING:
-    from rovercheck.checker.commands.check.standing import Standing
+    from rovercheck.checker.commands.check.chain_status import ChainStatus
 
 SCHEMA = 1
 CASE = {True: "occurs", False: "never", None: "unknown"}
@@ -20,11 +20,11 @@ def document(
     found: Sequence[CheckedProperty],
     ended: Exit | None = None,
     faulty: bool = False,
-    chains: Sequence["Standing"] = (),
+    chains: Sequence["ChainStatus"] = (),
 ) -> dict[str, object]:
     """The verdicts as JSON; ``ended`` is the exit code of what ended the command before it was complete.
 
-    ``faulty``: an engine failed, which is a bug of ours whatever the others found.
+    ``faulty``: an engine failed, which is an internal error whatever the others found.
     """
     code = Exit.INTERNAL if faulty else worst(found) if ended is None else ended
     return {

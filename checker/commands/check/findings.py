@@ -11,12 +11,12 @@ from shutil import which
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.commands.shared.output import counted
-from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.properties.forms import Property, Reachable
 from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from rovercheck.checker.commands.check.standing import Standing
+    from rovercheck.checker.commands.check.chain_status import ChainStatus
     from rovercheck.checker.model.variant import Variant
     from rovercheck.checker.verify.checked import CheckedProperty
 
@@ -24,8 +24,10 @@ REPORTS = Path("reports/README.md")
 
 SHOWN = 10
 """Findings that are named; the others are counted, and where all of them are is said."""
-DEMAND = {"proved": "proved", "in part": "in part", "violated": "violated", "unknown": "unknown"}
-SITUATION = {"proved": "reached", "in part": "out of reach in part", "violated": "out of reach",
+RESTRICTED = "for a restricted model"
+DEMAND = {"proved": "proved", RESTRICTED: f"proved {RESTRICTED}", "violated": "violated",
+          "unknown": "unknown"}  # fmt: skip
+SITUATION = {"proved": "reached", RESTRICTED: f"out of reach {RESTRICTED}", "violated": "out of reach",
              "unknown": "unknown"}  # fmt: skip
 """What a verdict on a demand, and on a situation that is to be reached, is called when they are counted."""
 
@@ -84,7 +86,7 @@ def totals(found: Sequence["CheckedProperty"]) -> str:
 
 
 def _word(one: "CheckedProperty") -> str:
-    return "in part" if one.result.in_part else one.verdict.word
+    return RESTRICTED if one.result.in_part else one.verdict.word
 
 
 def _shares(words: Sequence[str], called: Mapping[str, str]) -> str:
@@ -95,33 +97,33 @@ def _shares(words: Sequence[str], called: Mapping[str, str]) -> str:
 
 
 def about_cases(found: Sequence["CheckedProperty"]) -> Iterator[str]:
-    """Which proofs speak of a case that never occurs, or of which it is not known."""
+    """Which proofs have a premise that never occurs, or of which that is unknown."""
     told = [(one.result.property, one.case.occurs) for one in found if one.case is not None]
     empty = [prop for prop, occurs in told if occurs is False]
     unknown = [prop.id for prop, occurs in told if occurs is None]
     if told and not empty and not unknown and found[0].strict:
-        speak = counted(len(told), "proof speaks", "proofs speak")
-        yield f"{speak} of a case (whenever ..., then ...): it occurs."
+        have = counted(len(told), "proof has", "proofs have")
+        yield f"{have} a premise (whenever ..., then ...): it occurs."
     if empty:
-        yield "Proved of nothing, as the case never occurs that is spoken of:"
+        yield "Vacuous proofs, whose premise never occurs:"
         yield from (f"  {prop.id}, {prop.on}: {prop.text}" for prop in empty)
     if unknown:
-        yield f"Proved, not known whether the case occurs that is spoken of: {', '.join(unknown)}."
+        yield f"Proved, unknown whether the premise occurs: {', '.join(unknown)}."
 
 
 def about_faults(found: Sequence["CheckedProperty"]) -> Iterator[str]:
-    """Which proofs notice no fault that is known."""
+    """Which proofs kill no known mutant."""
     idle = sorted(one.result.property.id for one in found if one.idle)
     noticing = sum(one.noticed is True for one in found)
     if noticing and not idle and found[0].strict:
-        notice = counted(noticing, "proof notices", "proofs notice")
-        yield f"{notice} a fault that was put into the charts."
+        kill = counted(noticing, "proof kills", "proofs kill")
+        yield f"{kill} a mutant of the charts."
     if idle:
         more = f" and {len(idle) - SHOWN} more" if len(idle) > SHOWN else ""
-        yield f"Proved, and no fault of the charts is known that it notices: {', '.join(idle[:SHOWN])}{more}."
+        yield f"Proved, and no mutant of the charts is known that they kill: {', '.join(idle[:SHOWN])}{more}."
 
 
-def about_chains(told: Sequence["Standing"]) -> Iterator[str]:
+def about_chains(told: Sequence["ChainStatus"]) -> Iterator[str]:
     """How many chains across the link hold, and which do not."""
     if told:
         good = sum(one.holds is True for one in told)

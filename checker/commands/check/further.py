@@ -10,11 +10,11 @@ from rovercheck.checker.results.verdict import Proved
 from rovercheck.properties.forms import Property, Reachable, Unbounded
 
 if TYPE_CHECKING:
-    from rovercheck.checker.commands.check.standing import Standing
+    from rovercheck.checker.commands.check.chain_status import ChainStatus
     from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase
 
 
-def _unheard(_: "CheckedProperty") -> None:
+def _ignore(_: "CheckedProperty") -> None:
     """Nothing is asked while others are searched for."""
 
 
@@ -23,38 +23,38 @@ def _no_cases(_: Sequence["CheckedProperty"]) -> Mapping[str, "PremiseCase"]:
 
 
 def _nothing_kept(_: Sequence["CheckedProperty"]) -> None:
-    """No proof is put on record."""
+    """No proof is recorded."""
 
 
-def _no_chains(_: Sequence["CheckedProperty"]) -> Sequence["Standing"]:
+def _no_chains(_: Sequence["CheckedProperty"]) -> Sequence["ChainStatus"]:
     return ()
 
 
 @dataclass(frozen=True)
-class Further:
+class CheckExtras:
     """What is asked of the verdicts; by default nothing.
 
-    ``heard`` is told each result while others are searched for.  ``cases`` says of each proof that speaks of
-    a case, by id, whether the case occurs, ``chains`` what becomes of chains of properties.  ``noticing`` are
-    the properties that notice a fault which is on record; None where none are kept.  ``keep`` puts proofs on
-    record.
+    ``on_result`` receives each result while others are searched for.  ``cases`` says of each proof that
+    speaks of a case, by id, whether the case occurs, ``chains`` what becomes of chains of properties.
+    ``noticing`` are the properties that notice a recorded fault; None where none are kept.  ``keep`` records
+    proofs in record.
     """
 
-    heard: Callable[["CheckedProperty"], None] = _unheard
+    on_result: Callable[["CheckedProperty"], None] = _ignore
     cases: Callable[[Sequence["CheckedProperty"]], Mapping[str, "PremiseCase"]] = _no_cases
-    chains: Callable[[Sequence["CheckedProperty"]], Sequence["Standing"]] = _no_chains
+    chains: Callable[[Sequence["CheckedProperty"]], Sequence["ChainStatus"]] = _no_chains
     noticing: Collection[str] | None = None
     keep: Callable[[Sequence["CheckedProperty"]], None] = _nothing_kept
 
     def noticed(self, one: "CheckedProperty") -> bool | None:
         """Whether a fault is known that a proof notices; None of what no fault is looked for."""
         prop = one.result.property
-        if self.noticing is None or not isinstance(one.verdict, Proved) or not asks_for_fault(prop):
+        if self.noticing is None or not isinstance(one.verdict, Proved) or not needs_mutant(prop):
             return None
         return prop.id in self.noticing
 
 
-def asks_for_fault(prop: Property) -> bool:
+def needs_mutant(prop: Property) -> bool:
     """Whether a fault is looked for that a property notices: not of those that take long, nor of situations
     and of what happens some day.
     """
@@ -62,7 +62,7 @@ def asks_for_fault(prop: Property) -> bool:
 
 
 def noticing(model: Model) -> frozenset[str] | None:
-    """The properties that notice a fault, or the charts as they are; None if no kills are on record."""
+    """The properties that notice a fault, or the charts as they are; None if no kills are recorded."""
     place = file_of(model, KILLS)
     if not place.exists():
         return None
@@ -70,6 +70,6 @@ def noticing(model: Model) -> frozenset[str] | None:
     return frozenset(broken | read(place, KILLS).keys())
 
 
-NOTHING_FURTHER = Further()
+NOTHING_FURTHER = CheckExtras()
 
-__all__ = ["NOTHING_FURTHER", "Further", "asks_for_fault", "noticing"]
+__all__ = ["NOTHING_FURTHER", "CheckExtras", "needs_mutant", "noticing"]

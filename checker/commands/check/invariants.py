@@ -1,4 +1,4 @@
-"""``rovercheck check --record-invariants``: proofs put on record, to be shown again without a search."""
+"""``rovercheck check --record-invariants``: proofs recorded, to be shown again without a search."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -13,7 +13,7 @@ from rovercheck.checker.verify.checked import CheckedProperty
 
 
 @dataclass(frozen=True)
-class Recording:
+class InvariantRecorder:
     """Keeps the invariants of what was asked; those of other properties stay as they are.
 
     Raises ``UsageError`` where none can be kept, before anything is searched.
@@ -37,7 +37,7 @@ class Recording:
         }
         new = {id: trees for id, trees in rows.items() if trees is not None}
         write(text({**kept, **new}), file_of(self.model, INVARIANTS))
-        err.print(f"{counted(len(new), 'invariant is', 'invariants are')} on record of what was asked.")
+        err.print(f"{counted(len(new), 'invariant is', 'invariants are')} recorded for what was checked.")
         if large := sorted(rows.keys() - new.keys()):
             more = f"of more than {MOST_NODES:,} operators and operands"
             err.print(wrapped(f"Formulas {more} are not kept: those of {', '.join(large)}.", 0), markup=False)

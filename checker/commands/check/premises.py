@@ -1,4 +1,4 @@
-"""Whether the cases occur that proofs speak of: runs on record first, then a search."""
+"""Whether the cases occur that proofs speak of: recorded runs first, then a search."""
 
 import re
 from collections.abc import Iterator, Mapping, Sequence
@@ -6,8 +6,8 @@ from dataclasses import dataclass, field, replace
 
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.output import write
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.shared.verdicts import results
-from rovercheck.checker.commands.shared.wrapping import whole
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_runs import INVARIANTS, PREMISES, KeptRun, file_of, read, text
 from rovercheck.checker.render.verdict_text import evidence
@@ -15,7 +15,7 @@ from rovercheck.checker.results.trace import counted_ticks
 from rovercheck.checker.results.verdict import Proved, Unknown
 from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase, SearchSettings
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.runs.known import reached, run_of
+from rovercheck.checker.verify.runs.known_runs import reached, run_of
 from rovercheck.properties.forms import Property
 from rovercheck.properties.premise import premise
 from rovercheck.spec_model.lang.system import System
@@ -45,7 +45,7 @@ def cases(
     found_out |= _again({id: case for id, case in wanted.items() if id not in before}, known, systems)
     left = [case for id, case in wanted.items() if id not in found_out]
     for one in _searched(left, systems, search, quiet):
-        found_out[one.property.id] = told(one, systems)
+        found_out[one.property.id] = premise_case(one, systems)
     return found_out
 
 
@@ -59,7 +59,7 @@ def patient(search: SearchSettings, seconds: float) -> SearchSettings:
 class PremiseSearch:
     """Asks of each proof whether its case occurs; ``keep``: for longer, and the runs that show it are kept.
 
-    Runs on record are gone through as the proofs are heard of: while others are searched for, there is time.
+    Recorded runs are replayed as soon as a proof is reported, while the other searches go on.
     """
 
     model: Model
@@ -70,8 +70,8 @@ class PremiseSearch:
     keep: bool
     _shown: dict[str, PremiseCase] = field(default_factory=dict)
 
-    def heard(self, one: CheckedProperty) -> None:
-        """Go through the run on record of a proof that speaks of a case."""
+    def on_result(self, one: CheckedProperty) -> None:
+        """Go through the recorded run of a proof that speaks of a case."""
         self._shown |= _again(_wanted([one]), self.known, self.systems)
 
     def __call__(self, found: Sequence[CheckedProperty]) -> Mapping[str, PremiseCase]:
@@ -115,7 +115,7 @@ def _wanted(found: Sequence[CheckedProperty]) -> dict[str, Property]:
 def _again(
     wanted: Mapping[str, Property], known: Mapping[str, KeptRun], systems: Mapping[str, System]
 ) -> Iterator[tuple[str, PremiseCase]]:
-    """The cases that runs on record still show."""
+    """The cases that recorded runs still show."""
     for id, case in wanted.items():
         kept = known.get(id)
         if kept is not None and kept.system in systems:
@@ -141,7 +141,7 @@ def _searched(
         yield from results(again, free, search, quiet)
 
 
-def told(one: Result, systems: Mapping[str, System]) -> PremiseCase:
+def premise_case(one: Result, systems: Mapping[str, System]) -> PremiseCase:
     """What came of the search for a case."""
     match one.verdict:
         case Unknown(reason):
@@ -151,7 +151,7 @@ def told(one: Result, systems: Mapping[str, System]) -> PremiseCase:
             assert run is not None, "what is reached is reached by a run"
             return PremiseCase(True, _occurs(len(run), systems[one.system]), KeptRun(one.system, run))
     part = ", as far as was searched" if one.in_part else ""
-    return PremiseCase(False, f"it NEVER occurs, so nothing is said{part}: {evidence(one)}")
+    return PremiseCase(False, f"it NEVER occurs, so the proof is vacuous{part}: {evidence(one)}")
 
 
 def _occurs(ticks: int, system: System) -> str:
@@ -159,4 +159,4 @@ def _occurs(ticks: int, system: System) -> str:
     return f"it occurs: after {counted_ticks(ticks)} of {system.name}{more}"
 
 
-__all__ = ["LONG", "PATIENCE", "PremiseSearch", "cases", "record", "recordable", "told"]
+__all__ = ["LONG", "PATIENCE", "PremiseSearch", "cases", "premise_case", "record", "recordable"]

@@ -15,14 +15,14 @@ from rovercheck.checker.commands.check.findings import (
     read_on,
     totals,
 )
-from rovercheck.checker.commands.check.further import NOTHING_FURTHER, Further
+from rovercheck.checker.commands.check.further import NOTHING_FURTHER, CheckExtras
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
-from rovercheck.checker.commands.shared.failure import alarm, code_of, told
+from rovercheck.checker.commands.shared.failure import alarm, code_of, error_message
 from rovercheck.checker.commands.shared.output import err, out, wrapped
+from rovercheck.checker.commands.shared.text_wrap import plain
 from rovercheck.checker.commands.shared.verdicts import BY_DEFAULT, results
-from rovercheck.checker.commands.shared.wrapping import plain
 from rovercheck.checker.io.printable import json_text
-from rovercheck.checker.process.faults import Fault, heard, listening, tell
+from rovercheck.checker.process.faults import Fault, has_listener, listening, report
 from rovercheck.checker.render.verdict_text import in_short, recorded
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
@@ -37,7 +37,7 @@ EVIDENCE = 33
 SIGNS = {"proved": "✓", "violated": "✗", "unknown": "?"}
 
 
-class Deliver(Protocol):
+class ResultDelivery(Protocol):
     """Takes what was decided, how many properties were asked for, and the error that ended it early."""
 
     def __call__(self, found: Sequence[CheckedProperty], wanted: int, ended: str = "") -> None: ...
@@ -61,7 +61,7 @@ class CheckRequest:
     search: SearchSettings = BY_DEFAULT
     variant: str = ""
     expected: Callable[[str], Expected] = expected
-    further: Further = NOTHING_FURTHER
+    further: CheckExtras = NOTHING_FURTHER
     strict: bool = False
 
     def checked(self, found: Sequence[CheckedProperty]) -> list[CheckedProperty]:
@@ -88,7 +88,7 @@ class CheckOutput:
     as_json: bool = False
     quiet: bool = False
     guide: Guide = ALONE
-    deliver: Deliver = undelivered
+    deliver: ResultDelivery = undelivered
 
     def each(self, one: CheckedProperty) -> None:
         """Print a verdict as soon as it is there."""
@@ -116,7 +116,7 @@ def check(request: CheckRequest, output: CheckOutput = PRINTED) -> Exit:
             for result in coming:
                 found.append(CheckedProperty(result, request.expected(result.property.id), request.variant))
                 output.each(found[-1])
-                request.further.heard(found[-1])
+                request.further.on_result(found[-1])
         request.further.keep(found)
         found, chains = request.checked(found), request.further.chains(found)
     except BaseException as error:
@@ -170,10 +170,10 @@ def _say(*texts: str) -> None:
 
 
 def _alarmed(faults: Sequence[Fault]) -> str:
-    """Pass on every error of ours that the search went on without; all of them in one text."""
+    """Pass on every internal error that the search went on without; all of them in one text."""
     for fault in faults:
-        if heard():
-            tell(fault)
+        if has_listener():
+            report(fault)
         else:
             err.print(alarm(fault), markup=False)
     return " ".join(dict.fromkeys(map(alarm, faults)))
@@ -183,24 +183,24 @@ def _why(error: BaseException) -> str:
     """What those are told who read no terminal; nothing of an interruption."""
     if not isinstance(error, Exception):
         return ""
-    return plain(str(error)) if code_of(error) is Exit.USAGE else told(error)
+    return plain(str(error)) if code_of(error) is Exit.USAGE else error_message(error)
 
 
 def line(compared: CheckedProperty) -> str:
     """One verdict in one line of 80 columns: sign, id, verdict, evidence."""
     verdict = compared.verdict
     sign = "≈" if compared.result.in_part else SIGNS[verdict.word]
-    word = "in part" if compared.result.in_part else verdict.word
-    text = f"{sign} {compared.result.property.id:<21} {word:<8} {in_short(compared.result)}"
+    model = "for a restricted model: " if compared.result.in_part else ""
+    text = f"{sign} {compared.result.property.id:<21} {verdict.word:<8} {model}{in_short(compared.result)}"
     text += certified(compared.result.certificate)
     if compared.as_expected:
-        return text + (", as on record" if verdict.word != "proved" else "")
-    return text + f"\n    {_other(compared)} is {recorded(compared.expected)}"
+        return text + (", as expected" if verdict.word != "proved" else "")
+    return text + f"\n    {_other(compared)} {recorded(compared.expected)}"
 
 
 def _other(compared: CheckedProperty) -> str:
-    """What the verdict is compared with, in front of the verdict on record."""
-    return f"{compared.variant}; as specified it" if compared.variant else "CHANGED: on record"
+    """What the verdict is compared with, in front of the expected verdict."""
+    return f"{compared.variant}; as specified it is" if compared.variant else "CHANGED: expected"
 
 
 def summary(found: Sequence[CheckedProperty], guide: Guide) -> None:
@@ -209,10 +209,10 @@ def summary(found: Sequence[CheckedProperty], guide: Guide) -> None:
     out.print(totals(found), markup=False)
     parts = sum(c.result.in_part for c in found)
     if parts:
-        out.print(f"≈ {parts} of them for some runs only: see the notes of their systems.", markup=False)
+        out.print(f"≈ {parts} of them for a restricted model: see the notes of their systems.", markup=False)
     certificates([c.result for c in found])
     if not changed:
-        out.print("Every verdict is as on record in the baseline.")
+        out.print("Every verdict is as expected.")
         return
     if changed[0].variant:
         out.print(f"{len(changed)} of them differ {changed[0].variant}.", markup=False)
@@ -223,10 +223,10 @@ def summary(found: Sequence[CheckedProperty], guide: Guide) -> None:
 
 def _explain(compared: CheckedProperty, guide: Guide) -> None:
     prop, verdict = compared.result.property, compared.verdict
-    out.print(f"\n{prop.id} is {verdict.word}, on record is {recorded(compared.expected)}.", markup=False)
+    out.print(f"\n{prop.id} is {verdict.word}; expected: {recorded(compared.expected)}.", markup=False)
     out.print(f"  {prop.text}", markup=False)
     if isinstance(verdict, Violated) and isinstance(verdict.because, Trace):
-        fired = [a for t in verdict.because.ticks for a in t.arrows if a.order]
-        for arrow in fired[-3:]:
-            out.print(f"  fired: {arrow}", markup=False)
+        fired = [a for t in verdict.because.ticks for a in t.transitions if a.order]
+        for transition in fired[-3:]:
+            out.print(f"  fired: {transition}", markup=False)
         out.print(f"  See it whole: {guide.command('trace', prop.id)}", markup=False)

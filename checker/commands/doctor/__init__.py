@@ -11,11 +11,11 @@ Examples:
 """
 
 
-@click.command(short_help="Say what is installed, what is missing, and whether it works.", epilog=EXAMPLES)
+@click.command(short_help="Report what is installed, what is missing, and whether it works.", epilog=EXAMPLES)
 @click.option("--json", "as_json", is_flag=True, help="The findings as JSON.")
 @click.option("--quiet", "-q", is_flag=True, help="Only what is missing or does not work.")
 def doctor(as_json: bool, quiet: bool) -> Exit:
-    """Say what is installed, what is missing and what it would add, and try every engine.
+    """Report what is installed, what is missing and what it would add, and try every engine.
 
     Exit code 1 if something required is missing or does not work.
     """

@@ -38,7 +38,7 @@ SCHEMA = 1
 REQUIRED = {
     "bitwuzla": "certificates of proofs are checked with it",
     "click": "the command line",
-    "hypothesis": "random runs of crosscheck",
+    "hypothesis": "random runs of compare",
     "jinja2": "HTML pages",
     "junitparser": "JUnit files",
     "llvmlite": "the engine explicit, which compiles charts",
@@ -56,14 +56,14 @@ REQUIRED = {
 
 OPTIONAL = {
     "matplotlib": "plots of simulate: pip install matplotlib",
-    "pyarrow": "Parquet logs in conform: pip install pyarrow",
+    "pyarrow": "Parquet logs in check-log: pip install pyarrow",
     "cvc5": "a third opinion on exported formulas, in our tests: pip install cvc5",
     "playwright": "pages tried in a browser, in our tests: pip install playwright",
 }
 """Packages that add something, and what, with the command that installs them."""
 
 PROGRAMS = {
-    "cc, gcc, clang": "supervisors in C (crosscheck --impl c:FOLDER): apt install gcc",
+    "cc, gcc, clang": "supervisors in C (compare --impl c:FOLDER): apt install gcc",
     "chromium, chromium-browser, google-chrome": "pages tried in a browser, in tests: apt install chromium",
     "berkeley-abc": "a judge of export --format aiger, in our tests: apt install berkeley-abc",
     "spin": "a judge of export --format promela, in our tests: apt install spin",
@@ -102,8 +102,8 @@ def doctor(as_json: bool, quiet: bool = False) -> Exit:
         }
         print(json_text(document, ascii=True))
     else:
-        _tell([f for f in found if not (quiet and f.ok)], broken)
-    return Exit.CHANGED if broken else Exit.AS_EXPECTED
+        _print_findings([f for f in found if not (quiet and f.ok)], broken)
+    return Exit.FAILED if broken else Exit.AS_EXPECTED
 
 
 def findings() -> Iterator[DoctorFinding]:
@@ -255,7 +255,7 @@ def properties() -> tuple[Property, Property]:
     )
 
 
-def _tell(found: Sequence[DoctorFinding], broken: Sequence[DoctorFinding]) -> None:
+def _print_findings(found: Sequence[DoctorFinding], broken: Sequence[DoctorFinding]) -> None:
     titles = {
         "package": "Packages",
         "machine": "This machine",

@@ -2,7 +2,7 @@
 
 from rovercheck.checker.commands.explore.explorer import Commands, Explorer
 from rovercheck.checker.commands.explore.words import pairs, split
-from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput
 
 
 def _set(explorer: Explorer, rest: str) -> None:

@@ -6,8 +6,8 @@ from rich.console import Console
 
 from rovercheck.checker.commands.explore.text import changes
 from rovercheck.checker.commands.shared.output import counted
-from rovercheck.checker.commands.shared.wrapping import filled
-from rovercheck.checker.explore.by_hand.session import Ran, Session
+from rovercheck.checker.commands.shared.text_wrap import filled
+from rovercheck.checker.explore.by_hand.session import ExecutedTicks, Session
 from rovercheck.checker.model.variant import Variant
 
 
@@ -42,7 +42,7 @@ class Explorer:
         first = f" Frozen: {frozen} (see help fixed)." if frozen else ""
         self.say(f"{inputs}, ticks of {sim.lowered.tick_ms} ms.{first} Write help for commands.")
 
-    def moved(self, ran: Ran) -> None:
+    def moved(self, ran: ExecutedTicks) -> None:
         """What an advance did."""
         if ran.forgotten:
             ticks = counted(ran.forgotten, "tick", "ticks")

@@ -7,9 +7,9 @@ from rovercheck.checker.commands.explore.text import show
 from rovercheck.checker.commands.explore.words import split
 from rovercheck.checker.commands.shared.output import write
 from rovercheck.checker.commands.shared.select import pick
-from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.explore.by_hand.session import Session
-from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.results.trace import Trace
 from rovercheck.properties.forms import Property
@@ -60,11 +60,12 @@ def _save(explorer: Explorer, rest: str) -> None:
     from rovercheck.checker.render import renderers
 
     known = renderers("trace")
-    exits = {e.SUFFIX: name for name, e in reversed(known.items())} | {".html": "html", ".svg": "svg"}
-    found = [name for suffix, name in exits.items() if target.name.endswith(suffix) and suffix != ".txt"]
+    formats = {e.SUFFIX: name for name, e in reversed(known.items())} | {".html": "html", ".svg": "svg"}
+    found = [name for suffix, name in formats.items() if target.name.endswith(suffix) and suffix != ".txt"]
     format = words[1] if len(words) == 2 else max(found, key=lambda n: len(known[n].SUFFIX), default="")
     if not format:
-        raise RefusedInput(f"No format has files like {words[0]}; write one of *{', *'.join(sorted(exits))}.")
+        known_suffixes = ", *".join(sorted(formats))
+        raise RefusedInput(f"No format has files like {words[0]}; write one of *{known_suffixes}.")
     systems = {**explorer.variant.systems(), session.simulation.system.name: session.simulation.system}
     trace = session.simulation.trace()
     for path in (target, *exit_written(pick("trace format", format, known), trace, systems, target)):

@@ -11,8 +11,8 @@ from rovercheck.checker.commands.explore.text import listed, show, timers, where
 from rovercheck.checker.commands.explore.words import split
 from rovercheck.checker.commands.shared.tables import beside, laid
 from rovercheck.checker.explore.by_hand.session import Session
-from rovercheck.checker.explore.by_hand.simulation import Tested
-from rovercheck.checker.explore.by_hand.written import RefusedInput, variable
+from rovercheck.checker.explore.by_hand.simulation import TestedTransition
+from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput, variable
 from rovercheck.checker.results.trace import Trace
 from rovercheck.spec_model.lang.chart import Chart, Transition
 from rovercheck.spec_model.lang.errors import did_you_mean
@@ -20,11 +20,11 @@ from rovercheck.spec_model.lang.expr import Temporal
 from rovercheck.spec_model.lang.label import text
 from rovercheck.spec_model.lang.walk import nodes, variables
 
-# --- why arrows were not taken -------------------------------------------------------------------------
+# --- why transitions were not taken -------------------------------------------------------------------------
 
 
 def why(console: Console, session: Session, charts: Sequence[str]) -> None:
-    """Every arrow of these charts tested in the tick, with what was true and false of its guard."""
+    """Every transition of these charts tested in the tick, with what was true and false of its guard."""
     sim = session.simulation
     if not sim.at:
         console.print("Nothing was tested before the first tick; write step first.")
@@ -34,7 +34,7 @@ def why(console: Console, session: Session, charts: Sequence[str]) -> None:
     for chart in (c for c in sim.system.charts if c.name in charts):
         own = [t for t in tested if t.chart == chart.name]
         place = where(chart, sim.state())
-        tested_here = place if own else f"{place}: no arrow was tested in this tick"
+        tested_here = place if own else f"{place}: no transition was tested in this tick"
         beside(console, Text(), Text(tested_here, style="bold"))
         for one in own:
             beside(console, *_test(chart, one))
@@ -42,7 +42,7 @@ def why(console: Console, session: Session, charts: Sequence[str]) -> None:
                 laid(console, _conjuncts(one, trace, at))
 
 
-def _test(chart: Chart, one: Tested) -> tuple[Text, Text]:
+def _test(chart: Chart, one: TestedTransition) -> tuple[Text, Text]:
     through = next((j.name for j in chart.junctions.values() if _has(j.transitions, one.segment)), "")
     start = through or (".".join(one.source) if one.source else "default")
     event = f" on {one.segment.event}" if one.segment.event else ""
@@ -52,11 +52,11 @@ def _test(chart: Chart, one: Tested) -> tuple[Text, Text]:
     return Text(f"{indent}{mark} ", style=style), shown
 
 
-def _has(arrows: Sequence[Transition], wanted: Transition) -> bool:
-    return any(arrow is wanted for arrow in arrows)
+def _has(transitions: Sequence[Transition], wanted: Transition) -> bool:
+    return any(transition is wanted for transition in transitions)
 
 
-def _conjuncts(one: Tested, trace: Trace, at: Mapping[str, int]) -> Table:
+def _conjuncts(one: TestedTransition, trace: Trace, at: Mapping[str, int]) -> Table:
     grid = Table.grid(padding=(0, 1))
     grid.add_column(width=6)
     grid.add_column(width=5)
@@ -76,12 +76,12 @@ def _conjuncts(one: Tested, trace: Trace, at: Mapping[str, int]) -> Table:
 def _show(explorer: Explorer, rest: str) -> None:
     if rest not in ("", "all"):
         for name in split(rest):
-            _told(explorer, name)
+            _describe(explorer, name)
         return
     show(explorer.console, explorer.session, rest == "all")
 
 
-def _told(explorer: Explorer, name: str) -> None:
+def _describe(explorer: Explorer, name: str) -> None:
     sim = explorer.session.simulation
     var = variable(name, sim.variables, "variable")
     at = {**explorer.session.standing, **sim.state(), **sim.given()}
@@ -109,7 +109,7 @@ def _watch(explorer: Explorer, rest: str) -> None:
 
 
 COMMANDS: Commands = {
-    "show": ("show [all|NAME ...]", _show, "states, arrows, inputs, values and timers of this tick"),
+    "show": ("show [all|NAME ...]", _show, "states, transitions, inputs, values and timers of this tick"),
     "why": ("why [CHART ...]", _why, "which guards were true and which false in this tick"),
     "watch": ("watch NAME ...", _watch, "show these values after every command that moves"),
 }

@@ -4,7 +4,7 @@ from rovercheck.checker.commands.explore.explorer import Commands, Explorer
 from rovercheck.checker.commands.explore.text import changes, show
 from rovercheck.checker.commands.explore.words import count
 from rovercheck.checker.explore.by_hand.session import MOST_TICKS
-from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput
 from rovercheck.spec_model.lang.expr import Expr
 
 

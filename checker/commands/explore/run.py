@@ -22,9 +22,9 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import out
 from rovercheck.checker.commands.shared.select import pick
 from rovercheck.checker.commands.shared.tables import laid
-from rovercheck.checker.commands.shared.wrapping import filled, whole
+from rovercheck.checker.commands.shared.text_wrap import filled, whole
 from rovercheck.checker.explore.by_hand.session import Session
-from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput
 from rovercheck.checker.model.variant import Variant
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
@@ -112,7 +112,7 @@ def explore(name: str | None, variant: Variant, traced: str | None, script: Path
     if script is not None:
         return _scripted(explorer, _read(script))
     if sys.stdin is not None and sys.stdin.isatty():
-        return _asked(explorer)
+        return _from_terminal(explorer)
     return _scripted(explorer, sys.stdin or ())
 
 
@@ -167,10 +167,10 @@ def _scripted(explorer: Explorer, lines: Iterable[str]) -> Exit:
     return Exit.AS_EXPECTED
 
 
-def _asked(explorer: Explorer) -> Exit:
+def _from_terminal(explorer: Explorer) -> Exit:
     """Obey commands from a terminal until there are no more, or somebody wants the program to end."""
     _line_editing(partial(completions, explorer))
-    _end_when_told()
+    _end_on_signal()
     while True:
         try:
             obey(explorer, input(explorer.prompt))
@@ -183,7 +183,7 @@ def _asked(explorer: Explorer) -> Exit:
             explorer.say(str(error), "red")
 
 
-def _end_when_told() -> None:
+def _end_on_signal() -> None:
     """A request to end is no Ctrl-C here, which only clears the line."""
     for name in ("SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)

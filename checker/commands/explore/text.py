@@ -21,8 +21,8 @@ from rovercheck.checker.render.story import (
     start_of,
     value,
 )
-from rovercheck.checker.results.trace import Arrow, Trace
-from rovercheck.checker.verify.runs.replay import arrow_of
+from rovercheck.checker.results.trace import TakenTransition, Trace
+from rovercheck.checker.verify.runs.replay import transition_of
 from rovercheck.spec_model.lang.chart import Chart, Path
 from rovercheck.spec_model.lang.evaluate import evaluate
 
@@ -35,12 +35,12 @@ BAR = 20
 
 
 def show(console: Console, session: Session, everything: bool = False) -> None:
-    """The tick that is looked at: states, arrows, inputs, outputs, timers."""
+    """The tick that is looked at: states, transitions, inputs, outputs, timers."""
     sim = session.simulation
     trace = sim.trace(max(sim.at, 1))
     grid = _grid()
     _row(grid, "charts", [where(chart, sim.state()) for chart in sim.system.charts], "bold")
-    _row(grid, "arrows", [_arrow(a) for a in map(arrow_of, sim.fired())], "green")
+    _row(grid, "fired", [_transition(a) for a in map(transition_of, sim.fired())], "green")
     _row(grid, "frozen", [listed(trace, sim.frozen)] if sim.frozen else [])
     _row(grid, "inputs", [_inputs(session, trace)], "cyan")
     _row(grid, "values", [_outputs(sim, trace, everything)])
@@ -72,8 +72,10 @@ def active(chart: Chart, at: Mapping[str, int]) -> Iterator[Path]:
     return (p for p in states if not any(q[: len(p)] == p and q != p for q in states))
 
 
-def _arrow(arrow: Arrow) -> str:
-    return f"▸ {arrow.chart}: {start_of(arrow)}{f'  {arrow.label}' if arrow.label else ''}"
+def _transition(transition: TakenTransition) -> str:
+    return (
+        f"▸ {transition.chart}: {start_of(transition)}{f'  {transition.label}' if transition.label else ''}"
+    )
 
 
 def listed(trace: Trace, values: Mapping[str, int]) -> str:
@@ -147,16 +149,18 @@ def changes(console: Console, session: Session, first: int) -> None:
 
 
 def _unrepeated(event: StoryEvent, session: Session) -> StoryEvent:
-    """The event without arrows that keep their state as in the tick before."""
-    before = set(map(arrow_of, session.simulation.fired(event.number - 1)))
-    return replace(event, arrows=tuple(a for a in event.arrows if a.source != a.target or a not in before))
+    """The event without transitions that keep their state as in the tick before."""
+    before = set(map(transition_of, session.simulation.fired(event.number - 1)))
+    return replace(
+        event, transitions=tuple(a for a in event.transitions if a.source != a.target or a not in before)
+    )
 
 
 def _event(grid: Table, event: StoryEvent) -> None:
     given = [c for c in event.changes if not c.old]
     lines = [("in", Text(", ".join(map(str, given)), style="cyan"))] if given else []
     lines += [_change(c) for c in event.changes if c.old]
-    lines += [(" ▸", Text(_arrow(a)[2:], style="green")) for a in event.arrows]
+    lines += [(" ▸", Text(_transition(a)[2:], style="green")) for a in event.transitions]
     for i, (mark, line) in enumerate(lines or [("", Text("nothing changes", style="dim"))]):
         grid.add_row("" if i else str(event.number), mark, line)
 

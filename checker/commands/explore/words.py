@@ -2,7 +2,7 @@
 
 import shlex
 
-from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput
 
 
 def count(rest: str, default: int) -> int:

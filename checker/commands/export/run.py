@@ -6,10 +6,10 @@ from pathlib import Path
 
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, write, wrote
+from rovercheck.checker.commands.shared.property_text import formally
 from rovercheck.checker.commands.shared.select import pick, pick_properties
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.shared.variant import askable
-from rovercheck.checker.commands.shared.wording import formally
-from rovercheck.checker.commands.shared.wrapping import whole
 from rovercheck.checker.export import Exporter, exporters, problem
 from rovercheck.checker.model.variant import Variant
 from rovercheck.properties.forms import Property

@@ -9,15 +9,15 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, out, text_width, wrapped, write, wrote
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.shared.verdicts import results
-from rovercheck.checker.commands.shared.wrapping import whole
 from rovercheck.checker.engines import Limits
-from rovercheck.checker.explore.graphs.making import Made, made
-from rovercheck.checker.explore.graphs.suggesting import Offer, Suggestions, among, suggestions
+from rovercheck.checker.explore.graphs.construction import BuiltGraph, made
+from rovercheck.checker.explore.graphs.suggestions import Offer, Suggestions, among, suggestions
 from rovercheck.checker.model import names_of
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.render import Renderer, renderers
-from rovercheck.checker.render.stategraph.findings import told
+from rovercheck.checker.render.stategraph.findings import findings_text
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.graph import MOST_NODES, StateGraph, drawable, with_trace
 from rovercheck.checker.results.trace import Trace
@@ -39,7 +39,7 @@ NAMED = 14
 def offered(system: str, found: Suggestions, options: str = "") -> str:
     """What can be projected on, as lines of text; ``options`` is what each command needs besides."""
     at_least = "at least " if found.cut else ""
-    lines = [f"{system}: {at_least}{found.valuations:,} reachable valuations of the variables below."]
+    lines = [f"{system}: {at_least}{found.valuations:,} reachable states of the variables below."]
     if found.cut:
         lines.append(f"The exploration is cut, so all counts are lower bounds: {found.cut}.")
     wide = max((len(r.var.name) for r in found.variables[:NAMED]), default=0)
@@ -173,8 +173,8 @@ def _offer(system: System, limits: Limits, output: Path | None, options: str) ->
     with Watch(err, 1) as watch:
         found = suggestions(lower(system), limits, lambda line: watch.say(system.name, line))
     charts = "".join(f"{_command(c.name, options)} draws its chart.\n" for c in system.charts[:4])
-    told = offered(system.name, found, options) + ("\n" + charts if charts else "")
-    write(wrapped(told), None)
+    findings_text = offered(system.name, found, options) + ("\n" + charts if charts else "")
+    write(wrapped(findings_text), None)
     if output is not None:
         raise UsageError(
             f"Nothing is written to {whole(output)}: a state graph needs --project, as in the commands above."
@@ -199,11 +199,11 @@ def _states(system: System, view: View, format: str | None, variant: Variant, ou
         found = made(lowered, view.onto, view.limits, lambda line: watch.say(system.name, line), wanted, says)
         shown = _shown(found, trace, renderer, view)
     if view.summary:
-        write(told(shown, min(out.width, 100)), output)
+        write(findings_text(shown, min(out.width, 100)), output)
     else:
         write(_picture(renderer, found, shown, view, _options(variant)), output)
         wrote(output)
-        err.print(told(shown, min(err.width, 100)), markup=False, end="")
+        err.print(findings_text(shown, min(err.width, 100)), markup=False, end="")
     return Exit.INCONCLUSIVE if shown.cut else Exit.AS_EXPECTED
 
 
@@ -222,9 +222,7 @@ def _monitored(system: System, prop: Property | None) -> tuple[TransitionSystem,
         return lowered, (), ""
     _about(system, prop)
     if isinstance(prop.form, Unbounded):
-        raise UsageError(
-            f"No single valuation breaks {prop.id}, but a run without end; use --trace {prop.id}."
-        )
+        raise UsageError(f"No single state breaks {prop.id}, but a run without end; use --trace {prop.id}.")
     question = reduce(lowered, [prop])
     word = "reached" if isinstance(prop.form, Reachable) else "broken"
     return question.system, (question.goals[0].var.name,), f"{prop.id} is {word}"
@@ -242,14 +240,16 @@ def _trace(prop: Property, systems: Mapping[str, System]) -> Trace | None:
     return because
 
 
-def _shown(found: Made, trace: Trace | None, renderer: Renderer, view: View) -> StateGraph:
+def _shown(found: BuiltGraph, trace: Trace | None, renderer: Renderer, view: View) -> StateGraph:
     """The graph with all that the format shows."""
     ways = getattr(renderer, "WAYS", False) and not view.summary and len(found.graph.nodes) <= view.most
     graph = found.with_ways() if ways else found.graph
     return with_trace(graph, trace) if trace else graph
 
 
-def _picture(renderer: Renderer, found: Made, graph: StateGraph, view: View, options: str) -> str | bytes:
+def _picture(
+    renderer: Renderer, found: BuiltGraph, graph: StateGraph, view: View, options: str
+) -> str | bytes:
     """What the renderer makes of it.  Raises ``UsageError`` that shows how to project a graph too large."""
     if not getattr(renderer, "PICTURE", False):
         return renderer.render(graph)

@@ -6,7 +6,7 @@ from shlex import quote
 
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, write
-from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.model import shown
 
 WRITTEN = {
@@ -19,7 +19,7 @@ WRITTEN = {
 
 
 def init(folder: Path) -> Exit:
-    """Write the model, its verdicts on record and a file for CI; nothing is overwritten.
+    """Write the model, its expected verdicts and a file for CI; nothing is overwritten.
 
     Raises ``UsageError`` if one of the files is there already, or the folder cannot be written.
     """

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Mapping, Sequence
 
-from rovercheck.checker.commands.shared.wording import formally
+from rovercheck.checker.commands.shared.property_text import formally
 from rovercheck.checker.engines import ALL, AUTO, engines
 from rovercheck.checker.model import Model
 from rovercheck.properties.forms import Property
@@ -72,7 +72,7 @@ def _chart(chart: Chart) -> Item:
         "name": chart.name,
         "text": chart.text,
         "states": len(chart.states) - 1,  # without the chart itself
-        "arrows": len(chart.arrows),
+        "arrows": len(chart.transitions),
     }
 
 

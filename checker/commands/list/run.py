@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import out
 from rovercheck.checker.commands.shared.tables import listed
-from rovercheck.checker.commands.shared.wrapping import filled
+from rovercheck.checker.commands.shared.text_wrap import filled
 from rovercheck.checker.engines import ALL, AUTO, engines
 from rovercheck.checker.io.printable import json_text
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:  # each list reads only what is in it
 
 def list_properties(chosen: Iterable["Property"], model: "Model") -> None:
     listed(
-        ("id", "system", "on record", "requires"),
+        ("id", "system", "expected", "requires"),
         [(p.id, p.on, model.expected(p.id).verdict, p.text) for p in chosen],
     )
 
@@ -35,8 +35,8 @@ def list_systems(model: "Model") -> None:
 
 def list_charts(model: "Model") -> None:
     listed(
-        ("name", "states", "arrows", "what it is"),
-        [(c.name, str(len(c.states) - 1), str(len(c.arrows)), c.text) for c in model.charts.values()],
+        ("name", "states", "transitions", "what it is"),
+        [(c.name, str(len(c.states) - 1), str(len(c.transitions)), c.text) for c in model.charts.values()],
     )
 
 
@@ -124,8 +124,8 @@ def listing(
 ) -> Exit:
     """Print one of the lists, of the rover or the model at a path; of the properties those of ``ids``.
 
-    With ``english`` these are told in words, which JSON has in any case.  Raises ``UsageError`` for ids or
-    ``english`` with another list, and for a list that only the rover has.
+    With ``english`` these are written in words, which JSON has in any case.  Raises ``UsageError`` if ``ids``
+    or ``english`` is given for anything but properties, or if the list exists only for the rover.
     """
     if what != "properties" and (ids or english):
         raise UsageError(
@@ -145,7 +145,7 @@ def listing(
     elif what in LISTS:
         LISTS[what](model)
     elif english:
-        from rovercheck.checker.commands.shared.wording import in_english
+        from rovercheck.checker.commands.shared.property_text import in_english
 
         in_english(chosen, model)
     else:

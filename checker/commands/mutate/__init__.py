@@ -29,7 +29,7 @@ class MutateOptions:
     by_place: bool
 
 
-@click.command(short_help="Put faults into the charts, and see whether the properties notice.")
+@click.command(short_help="Put faults into the charts, and see whether the properties kill them.")
 @click.option(
     "--system",
     "about",
@@ -38,12 +38,12 @@ class MutateOptions:
     help="Only charts and blocks of this system, or these.",
 )
 @click.option("--part", "part", multiple=True, metavar="NAME", help="Only this chart or block, or these.")
-@click.option("--alone", is_flag=True, help="Ask only properties about the system that a fault is put into.")
+@click.option("--alone", is_flag=True, help="Check only properties about the system of the mutant.")
 @click.option(
     "--timeout", type=SECONDS, default=60.0, show_default=True, metavar="SEC", help="Seconds per mutant."
 )
 @click.option(
-    "--memory", type=GIB, default=8.0, show_default=True, metavar="GIB", help="What each search may take."
+    "--memory", type=GIB, default=8.0, show_default=True, metavar="GIB", help="Memory of each search, in GiB."
 )
 @click.option(
     "--jobs", type=click.IntRange(min=1), metavar="N", help="Mutants at a time; by default one per processor."
@@ -51,14 +51,16 @@ class MutateOptions:
 @click.option("--sample", type=click.IntRange(min=1), metavar="N", help="Only so many, drawn at random.")
 @click.option("--seed", type=int, default=0, show_default=True, metavar="N", help="Which ones are drawn.")
 @click.option(
-    "--record-kills", is_flag=True, help="Only find a fault that each property notices, and keep it."
+    "--record-kills", is_flag=True, help="Only find a mutant that each property kills, and record it."
 )
 @click.option(
     "--record-mutants",
     is_flag=True,
-    help="Keep the runs that searches find, by which the next time needs none.",
+    help="Record the runs that searches find: the next time they are tried first.",
 )
-@click.option("--by-place", is_flag=True, help="Also which properties constrain each arrow, action and wire.")
+@click.option(
+    "--by-place", is_flag=True, help="Also which properties constrain each transition, action and wire."
+)
 @click.option("--json", "as_json", is_flag=True, help="Every mutant as JSON (checker/schemas/mutate-1.json).")
 @modelling
 @quietly
@@ -71,9 +73,9 @@ def mutate(
     as_json: bool,
     model: Path | None,
 ) -> Exit:
-    """Put one fault at a time into charts, blocks and wiring, and tell which property notices it.
+    """Put one fault at a time into charts, blocks and wiring, and report which property kills it.
 
-    Whatever none of them notices is proved to change nothing, or shown with a run that it changes.
+    A mutant that no property kills is proved equivalent, or shown with a run in which it differs.
     """
     from rovercheck.checker.process.isolate import prepared
 

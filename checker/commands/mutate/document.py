@@ -2,18 +2,18 @@
 
 from collections import Counter
 
-from rovercheck.checker.commands.mutate.found import MutationResults, One
+from rovercheck.checker.commands.mutate.results import MutationResults, One
 from rovercheck.checker.commands.mutate.text import sketch
 from rovercheck.checker.commands.shared.codes import Exit
-from rovercheck.checker.mutate.judging import Fate
-from rovercheck.checker.mutate.observing import MutantDifference
+from rovercheck.checker.mutate.fate import Fate
+from rovercheck.checker.mutate.observation import MutantDifference
 
 SCHEMA = 1
 
 
 def document(found: MutationResults, code: Exit) -> dict[str, object]:
     """All of it for machines."""
-    by = Counter(judged.fate for _, _, judged in found.told)
+    by = Counter(judged.fate for _, _, judged in found.judged)
     return {
         "schema": f"rovercheck/mutate/{SCHEMA}",
         "complete": code is not Exit.INTERRUPTED,
@@ -24,7 +24,7 @@ def document(found: MutationResults, code: Exit) -> dict[str, object]:
         "seed": found.seed,
         "counts": {fate.value: by[fate] for fate in Fate},
         "undecided": list(found.undecided),
-        "mutants": [_row(one) for one in found.told],
+        "mutants": [_row(one) for one in found.judged],
     }
 
 

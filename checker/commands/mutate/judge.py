@@ -4,17 +4,17 @@ from collections.abc import Collection, Generator, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 
-from rovercheck.checker.commands.mutate.found import MutationResults
+from rovercheck.checker.commands.mutate.results import MutationResults
 from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_runs import KILLS, MUTANTS, PREMISES, KeptRun, file_of, read
-from rovercheck.checker.mutate.asked import as_it_is
-from rovercheck.checker.mutate.judging import DOMAINS, NOT_SEARCHED, REFUSED, Fate, Judged
+from rovercheck.checker.mutate.fate import DOMAINS, NOT_SEARCHED, REFUSED, Fate, MutantFate
 from rovercheck.checker.mutate.mutants import Mutant
-from rovercheck.checker.mutate.planning import Plan, Planned, rounds
-from rovercheck.checker.mutate.running import MutantJudged, MutantProgress, fates
+from rovercheck.checker.mutate.plan import Plan, PlannedMutant, rounds
+from rovercheck.checker.mutate.relevance import as_it_is
+from rovercheck.checker.mutate.workers import MutantJudged, MutantProgress, fates
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.verify.checked import SearchSettings
 from rovercheck.properties.forms import Property, Reachable, Unbounded
@@ -23,7 +23,7 @@ UNKILLED = (Fate.SURVIVOR, Fate.NOTICED, Fate.UNKNOWN)
 """What a mutant may be in its own system that properties of other systems may still kill."""
 WORTH_RUNS = 40
 """Such mutants from which on the runs of other systems are searched once, to be tried on each of them."""
-OPEN = Judged(Fate.UNKNOWN, why=NOT_SEARCHED)
+OPEN = MutantFate(Fate.UNKNOWN, why=NOT_SEARCHED)
 
 
 def judge(
@@ -54,7 +54,7 @@ def judge(
         stages.elsewhere([mutant for mutant in left if mutant.id in unkilled], unkilled)
     finally:
         order = {mutant.id: number for number, (_, mutant) in enumerate(todo)}
-        found.told.sort(key=lambda one: order[one[1].id])
+        found.judged.sort(key=lambda one: order[one[1].id])
 
 
 @dataclass
@@ -78,7 +78,7 @@ class _Stages:
         """Judge by runs that are known and by one query, without a search; the mutants that are left."""
         left = []
         planned = [self.plan.own(mutant, self.at[mutant.id]) for mutant in todo]
-        for told in self._told(planned, {}, search=False):
+        for told in self._fates(planned, {}, search=False):
             if told.judged.fate is Fate.UNKNOWN:
                 left.append(told.mutant)
             else:
@@ -96,7 +96,7 @@ class _Stages:
         for name in (*small, *sorted(set(where.values()) & self.plan.systems.keys() - set(small))):
             here = [m for id, m in left.items() if name in small or where.get(id) == name]
             planned = [one for m in here if (one := self.plan.tried_in(name, m, self.at[m.id]))]
-            told = list(self._told(planned, dict.fromkeys(left, OPEN), search=False, drawn=False))
+            told = list(self._fates(planned, dict.fromkeys(left, OPEN), search=False, drawn=False))
             kills = {one.mutant.id: one.judged for one in told if one.judged.fate is Fate.KILLED}
             self._find_out({judged.killer for judged in kills.values()})
             for id, judged in kills.items():
@@ -109,12 +109,12 @@ class _Stages:
         if asked:
             self.decide(asked)
 
-    def at_home(self, todo: Sequence[Mutant], alone: bool) -> dict[str, Judged]:
+    def at_home(self, todo: Sequence[Mutant], alone: bool) -> dict[str, MutantFate]:
         """Search the systems that they are at home in; what is not killed, unless it is judged ``alone``."""
-        unkilled: dict[str, Judged] = {}
+        unkilled: dict[str, MutantFate] = {}
         planned = [self.plan.own(mutant, self.at[mutant.id]) for mutant in todo]
         try:
-            for told in self._told(planned, {}):
+            for told in self._fates(planned, {}):
                 if told.judged.fate in UNKILLED and not alone:
                     unkilled[told.mutant.id] = told.judged
                 else:
@@ -124,7 +124,7 @@ class _Stages:
             raise
         return unkilled
 
-    def elsewhere(self, todo: Sequence[Mutant], unkilled: dict[str, Judged]) -> None:
+    def elsewhere(self, todo: Sequence[Mutant], unkilled: dict[str, MutantFate]) -> None:
         """Search the other systems for what kills them after all."""
         try:
             again = [self.plan.elsewhere(mutant, self.at[mutant.id]) for mutant in todo]
@@ -135,35 +135,35 @@ class _Stages:
             if len(again) >= WORTH_RUNS:
                 asked = {p.id: p for one in again for case in one.cases for p in case.properties}
                 self.decide([p for p in asked.values() if p.id not in self._asked and self._has_run(p)])
-            for told in self._told(again, unkilled, drawn=False):
+            for told in self._fates(again, unkilled, drawn=False):
                 unkilled.pop(told.mutant.id)
                 self._keep(told.mutant, told.judged, searched=True)
         except KeyboardInterrupt:
             self._interrupted(todo, unkilled)
             raise
 
-    def _interrupted(self, todo: Sequence[Mutant], unkilled: Mapping[str, Judged]) -> None:
+    def _interrupted(self, todo: Sequence[Mutant], unkilled: Mapping[str, MutantFate]) -> None:
         why = "interrupted before other systems were looked at"
         for mutant in todo:
             if mutant.id in unkilled:
                 judged = unkilled[mutant.id]
                 self._keep(mutant, replace(judged, fate=Fate.UNKNOWN, why=judged.why or why))
 
-    def _keep(self, mutant: Mutant, judged: Judged, searched: bool = False) -> None:
-        self.found.told.append((self.at[mutant.id], mutant, judged))
+    def _keep(self, mutant: Mutant, judged: MutantFate, searched: bool = False) -> None:
+        self.found.judged.append((self.at[mutant.id], mutant, judged))
         if searched:
             self.found.searched.add(mutant.id)
 
     def _has_run(self, prop: Property) -> bool:
-        """Whether the verdict on record rests on a finite run."""
+        """Whether the expected verdict rests on a finite run."""
         if isinstance(prop.form, Unbounded):
             return False
         return self.plan.recorded[prop.id] is isinstance(prop.form, Reachable)
 
-    def _told(
+    def _fates(
         self,
-        planned: Sequence[Planned],
-        before: Mapping[str, Judged],
+        planned: Sequence[PlannedMutant],
+        before: Mapping[str, MutantFate],
         search: bool = True,
         drawn: bool = True,
     ) -> Generator[MutantJudged, None, None]:
@@ -185,7 +185,7 @@ class _Stages:
 
 
 def _runs(known: Sequence[Mapping[str, KeptRun]]) -> dict[str, list[Run]]:
-    """The runs on record, by system, each once."""
+    """The recorded runs, by system, each once."""
     found: dict[str, dict[str, Run]] = {}
     for kept in (one for rows in known for one in rows.values()):
         found.setdefault(kept.system, {}).setdefault(repr(kept.run), kept.run)

@@ -3,7 +3,7 @@
 from collections.abc import Collection, Generator, Mapping
 from contextlib import closing
 
-from rovercheck.checker.commands.check.further import asks_for_fault
+from rovercheck.checker.commands.check.further import needs_mutant
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.output import counted, err, out, wrapped, write
 from rovercheck.checker.commands.shared.progress import ProgressLine
@@ -11,7 +11,7 @@ from rovercheck.checker.commands.shared.select import pick
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_runs import KILLS, KeptRun, file_of, read, text
-from rovercheck.checker.mutate.killing import Kill, kills, still
+from rovercheck.checker.mutate.kills import Kill, kills, still
 from rovercheck.checker.process.isolate import Send
 from rovercheck.checker.process.pool import Order, Pool
 from rovercheck.checker.results.verdict import Run
@@ -26,14 +26,14 @@ SHOWN = 40
 def record_kills(model: Model, limits: Limits, jobs: int | None, about: Collection[str] = ()) -> Exit:
     """Look for a fault that each proved demand notices, and keep it with the run that shows it.
 
-    Only demands about the systems ``about``, if these are named.  What is on record is gone through again;
+    Only demands about the systems ``about``, if these are named.  What is recorded is gone through again;
     only demands of which it shows nothing any more are looked at.  Raises ``UsageError`` where
-    the file cannot be written, ``ModelError`` where what is on record cannot be read.
+    the file cannot be written, ``ModelError`` where what is recorded cannot be read.
     """
     place, premises = file_of(model, KILLS), read(file_of(model))
     known = {id: kept for id, kept in read(place, KILLS).items() if id in model.properties}
     chosen = {pick("system", name, model.systems).name for name in about}
-    asked = {name: of for name, of in asked_of(model).items() if not chosen or name in chosen}
+    asked = {name: of for name, of in demands_of(model).items() if not chosen or name in chosen}
     total = [p.id for properties in asked.values() for p in properties]
     found = {id: kept for id, kept in known.items() if id not in total}
     whole = True
@@ -52,18 +52,18 @@ def record_kills(model: Model, limits: Limits, jobs: int | None, about: Collecti
         write(text(found, KILLS), place)
     left = [id for id in total if id not in found]
     demands = counted(len(total), "proved demand", "proved demands")
-    out.print(f"{len(total) - len(left)} of {demands} notice a fault that was put into the charts.")
+    out.print(f"{len(total) - len(left)} of {demands} kill a mutant of the charts.")
     if left:
         more = f" and {len(left) - SHOWN} more" if len(left) > SHOWN else ""
         out.print(wrapped(f"None was found for {', '.join(left[:SHOWN])}{more}.", 4), markup=False)
     return Exit.AS_EXPECTED if whole else Exit.INCONCLUSIVE
 
 
-def asked_of(model: Model) -> dict[str, list[Property]]:
+def demands_of(model: Model) -> dict[str, list[Property]]:
     """The demands that are proved, by system; those about what happens some day are left out."""
     found: dict[str, list[Property]] = {}
     for prop in model.stated().values():
-        if model.expected(prop.id).verdict == "proved" and asks_for_fault(prop):
+        if model.expected(prop.id).verdict == "proved" and needs_mutant(prop):
             found.setdefault(prop.on, []).append(prop)
     return found
 
@@ -116,4 +116,4 @@ class _Killing:
             send(found)
 
 
-__all__ = ["asked_of", "record_kills"]
+__all__ = ["demands_of", "record_kills"]

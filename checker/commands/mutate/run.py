@@ -7,8 +7,8 @@ from random import Random
 from rovercheck.checker.commands.check.premises import recordable
 from rovercheck.checker.commands.mutate import MutateOptions
 from rovercheck.checker.commands.mutate.document import document
-from rovercheck.checker.commands.mutate.found import MutationResults, One
 from rovercheck.checker.commands.mutate.judge import judge
+from rovercheck.checker.commands.mutate.results import MutationResults, One
 from rovercheck.checker.commands.mutate.text import report
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, err, out, wrapped, write
@@ -19,15 +19,15 @@ from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.model.kept_runs import MUTANTS, KeptRun, file_of, read, text
-from rovercheck.checker.mutate.asked import as_it_is
-from rovercheck.checker.mutate.judging import Fate
+from rovercheck.checker.mutate.fate import Fate
 from rovercheck.checker.mutate.mutants import Mutant, mutants
-from rovercheck.checker.mutate.planning import homes
+from rovercheck.checker.mutate.plan import homes
+from rovercheck.checker.mutate.relevance import as_it_is
 from rovercheck.checker.verify.checked import SearchSettings
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.system import System
 
-# --- which properties constrain each arrow, action, wire and initial value -----------------------------
+# --- which properties constrain each transition, action, wire and initial value -----------------------------
 
 FAULTY = (Fate.KILLED, Fate.SURVIVOR, Fate.UNKNOWN, Fate.NOTICED)
 """What becomes of a mutant that is not known to behave like the original."""
@@ -38,18 +38,18 @@ class Site:
     """A place in a chart or block: ``Relay/arrow/B1_actuating.1``, with the fates of its mutants."""
 
     name: str
-    told: tuple[One, ...]
+    judged: tuple[One, ...]
 
     @property
     def killers(self) -> tuple[str, ...]:
         """The properties that notice a fault there, those first that notice most."""
-        ids = [judged.killer for _, _, judged in self.told if judged.fate is Fate.KILLED]
+        ids = [judged.killer for _, _, judged in self.judged if judged.fate is Fate.KILLED]
         return tuple(sorted(set(ids), key=lambda id: (-ids.count(id), id)))
 
     @property
     def counts(self) -> str:
         """``3 of 4 killed``; what behaves like the original, or is no chart, is not counted."""
-        faults = [judged.fate for _, _, judged in self.told if judged.fate in FAULTY]
+        faults = [judged.fate for _, _, judged in self.judged if judged.fate in FAULTY]
         return f"{faults.count(Fate.KILLED)} of {len(faults)} killed" if faults else "no fault"
 
     @property
@@ -61,7 +61,7 @@ class Site:
 def sites(found: MutationResults) -> Iterator[Site]:
     """The places in the order in which faults were made."""
     by: dict[str, list[One]] = {}
-    for one in found.told:
+    for one in found.judged:
         by.setdefault(one[1].id.rpartition("/")[0], []).append(one)
     return (Site(name, tuple(told)) for name, told in by.items())
 
@@ -92,7 +92,7 @@ def mutate(model: Model, wanted: MutateOptions, limits: Limits, as_json: bool) -
         judge(model, properties, todo, search, wanted.alone, found)
         code = found.code
     except KeyboardInterrupt:
-        err.print(f"Interrupted: {len(found.told)} of {found.chosen} mutants judged.")
+        err.print(f"Interrupted: {len(found.judged)} of {found.chosen} mutants judged.")
     if wanted.record_mutants:
         _record(model, found, {mutant.id for _, mutant in made}, wanted.alone)
     if as_json:
@@ -110,16 +110,16 @@ def mutate(model: Model, wanted: MutateOptions, limits: Limits, as_json: bool) -
 def _record(model: Model, found: MutationResults, made: Collection[str], alone: bool) -> None:
     """Keep the runs by which searches killed mutants.
 
-    What is on record stays, but for mutants that no run kills, if not only properties of some systems were
+    What is recorded stays, but for mutants that no run kills, if not only properties of some systems were
     asked (``alone``), and those of the same parts that are not ``made`` any more.
     """
     place, parts_of = file_of(model, MUTANTS), {id.partition("/")[0] for id in made}
     rows = {
         mutant.id: KeptRun(judged.on, judged.run)
-        for _, mutant, judged in found.told
+        for _, mutant, judged in found.judged
         if judged.fate is Fate.KILLED and judged.run is not None and mutant.id in found.searched
     }
-    judged_so = () if alone else found.told
+    judged_so = () if alone else found.judged
     alive = {mutant.id for _, mutant, judged in judged_so if judged.fate not in (Fate.KILLED, Fate.UNKNOWN)}
     known = {
         id: row
@@ -127,7 +127,7 @@ def _record(model: Model, found: MutationResults, made: Collection[str], alone: 
         if id not in alive and (id in made or id.partition("/")[0] not in parts_of)
     }
     write(text({**known, **rows}, MUTANTS), place)
-    err.print(f"{counted(len(rows), 'run is', 'runs are')} on record that searches found now.")
+    err.print(f"{counted(len(rows), 'run is', 'runs are')} recorded that searches found now.")
 
 
 def _homes(model: Model, wanted: MutateOptions, stated: Collection[str]) -> dict[str, list[str]]:

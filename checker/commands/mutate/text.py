@@ -1,12 +1,12 @@
-"""What became of mutants, for people: survivors with the runs that nobody forbids, then counts."""
+"""What became of mutants, for people: survivors with the runs that no property forbids, then counts."""
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
 
-from rovercheck.checker.commands.mutate.found import MutationResults, One
+from rovercheck.checker.commands.mutate.results import MutationResults, One
 from rovercheck.checker.commands.shared.output import counted
-from rovercheck.checker.mutate.judging import Fate
-from rovercheck.checker.mutate.observing import MutantDifference
+from rovercheck.checker.mutate.fate import Fate
+from rovercheck.checker.mutate.observation import MutantDifference
 from rovercheck.checker.results.trace import counted_ticks
 
 Line = tuple[str, int]
@@ -15,9 +15,9 @@ Line = tuple[str, int]
 MANY = 4
 """Inputs of a tick that are named in a sketch; of more, only those that change."""
 HEADS = {
-    Fate.SURVIVOR: "Survivors: no property notices the fault, and a run shows what it changes",
-    Fate.UNKNOWN: "Not known, killed or survivor",
-    Fate.NOTICED: "Noticed only because a finding changed: a property violated on record is proved",
+    Fate.SURVIVOR: "Survived: no property kills the mutant, and a run shows in what it differs",
+    Fate.UNKNOWN: "Unknown: neither killed nor shown to survive",
+    Fate.NOTICED: "Only an expected violation is gone: a property expected to be violated is proved",
 }
 
 
@@ -32,7 +32,7 @@ def report(found: MutationResults) -> Iterator[Line]:
             yield "", 0
     if found.undecided:
         ids = ", ".join(found.undecided)
-        yield f"Not asked, since they are not decided of the original: {ids}.", 2
+        yield f"Not used, since they are not decided on the original: {ids}.", 2
     yield from _counts(found)
 
 
@@ -51,8 +51,8 @@ def _one(one: One) -> Iterator[Line]:
 
 
 def _difference(system: str, found: MutantDifference) -> Iterator[Line]:
-    length = "the shortest run" if found.shortest else "a run"
-    yield f"    {length} that tells it apart, {counted_ticks(len(found))} of {system}:", 6
+    length = "the shortest distinguishing run" if found.shortest else "a distinguishing run"
+    yield f"    {length}, {counted_ticks(len(found))} of {system}:", 6
     if found.frozen:
         yield f"      always  {_pairs(found.frozen)}", 14
     before: Mapping[str, str] = {}
@@ -78,16 +78,20 @@ def _pairs(values: Mapping[str, str]) -> str:
 
 
 def sketch(found: MutantDifference) -> str:
-    """The sentence of a property that would notice the fault."""
+    """The sentence of a property that would kill the mutant."""
     if found.allowed_by:
-        return f"Nothing demands: these inputs are possible only as {found.allowed_by} allows them."
+        return f"No property requires it: these inputs are possible only as {found.allowed_by} allows them."
     last = dict(found.inputs[-1])
     if len(last) > MANY and len(found) > 1:
         last = {n: v for n, v in last.items() if found.inputs[-2][n] != v} or last
     when = [f"{chart} {_where(state)}" for chart, state in found.places.items()]
     when += [f"{name} = {value}" for name, value in last.items()]
     then = " and ".join(f"{name} is {value}" for name, value in found.original.items())
-    return f"Nothing demands: when {', '.join(when)}, then {then}." if when else f"Nothing demands: {then}."
+    return (
+        f"No property requires: when {', '.join(when)}, then {then}."
+        if when
+        else f"No property requires: {then}."
+    )
 
 
 def _where(state: str) -> str:
@@ -95,20 +99,20 @@ def _where(state: str) -> str:
 
 
 def _counts(found: MutationResults) -> Iterator[Line]:
-    by = Counter(judged.fate for _, _, judged in found.told)
+    by = Counter(judged.fate for _, _, judged in found.judged)
     names = ", ".join(found.systems) if len(found.systems) <= MANY else f"{len(found.systems)} systems"
-    judged = f"{counted(len(found.told), 'mutant', 'mutants')} of {names}"
+    judged = f"{counted(len(found.judged), 'mutant', 'mutants')} of {names}"
     if found.chosen < found.made:
         judged += f", drawn from {found.made:,} with seed {found.seed}"
-    if len(found.told) < found.chosen:
-        judged += f", {found.chosen - len(found.told):,} more not judged"
+    if len(found.judged) < found.chosen:
+        judged += f", {found.chosen - len(found.judged):,} more not judged"
     yield f"{judged}:", 2
     shown = [
         (Fate.KILLED, "killed"),
-        (Fate.NOTICED, "noticed only because a finding changed"),
-        (Fate.EQUIVALENT, "proved equivalent: nothing observable ever differs"),
+        (Fate.NOTICED, "only an expected violation is gone"),
+        (Fate.EQUIVALENT, "equivalent, proved: nothing observable ever differs"),
         (Fate.SURVIVOR, "survived"),
-        (Fate.UNKNOWN, "not known"),
+        (Fate.UNKNOWN, "unknown"),
         (Fate.NO_CHART, "not a chart: refused as ill-formed"),
         (Fate.NO_CHANGE, "no change: the same step"),
     ]

@@ -56,7 +56,7 @@ class PageOptions:
 @selecting
 @click.option("--certify", is_flag=True, help="Check every proof again, without the engine that found it.")
 @click.option("--no-repairs", is_flag=True, help="Without deciding the proposed repairs.")
-@click.option("--premises", is_flag=True, help="Also whether the case occurs that each proof speaks of.")
+@click.option("--premises", is_flag=True, help="Also whether the premises of proofs occur.")
 @click.option("--explain", is_flag=True, help="Also which inputs force the end of each counterexample.")
 @click.option("--date", default="", metavar="TEXT", help="A date to show; by default there is none.")
 @click.option(

@@ -6,19 +6,19 @@ from dataclasses import dataclass, field, fields
 
 from rovercheck.checker.certify.outcome import Accepted, Outcome, Rejected, Undecided
 from rovercheck.checker.commands.check.further import noticing
-from rovercheck.checker.commands.shared.wording import formally
+from rovercheck.checker.commands.shared.property_text import formally
 from rovercheck.checker.model import Model
 from rovercheck.checker.render.review.model import (
-    About,
     Ambiguity,
-    Checked,
     Covered,
-    Demand,
     Remedy,
+    RequirementRow,
     Review,
     ReviewAssumption,
+    ReviewedProperty,
     ReviewOrigin,
-    Seen,
+    StateGraphView,
+    SystemSummary,
 )
 from rovercheck.checker.render.verdict_text import evidence, recorded
 from rovercheck.checker.results.trace import Trace
@@ -34,14 +34,14 @@ from rovercheck.spec_model.lang.system import System, charts_of
 from rovercheck.spec_model.lang.walk import nodes
 
 SAME_CAUSE = re.compile(r"As ([\w-]*\d[\w-]*)\b")
-"""How a reason on record begins that is the reason of another finding."""
+"""How the reason of a finding begins that has the same cause as another one."""
 
 
 @dataclass(frozen=True)
 class Extras:
     """What a model may have besides properties and systems.
 
-    ``depends`` names the readings on which a property depends; ``reasons`` are the causes on record, by id,
+    ``depends`` names the readings on which a property depends; ``reasons`` are the recorded causes, by id,
     ``premises`` what came of asking whether the case occurs that a property speaks of.  ``graphs`` are the
     state graphs of systems, ``undrawn`` says of some why there is none.
     """
@@ -52,7 +52,7 @@ class Extras:
     coverage: tuple[Covered, ...] = ()
     reasons: Mapping[str, str] = field(default_factory=dict)
     premises: Mapping[str, PremiseCase] = field(default_factory=dict)
-    graphs: tuple[Seen, ...] = ()
+    graphs: tuple[StateGraphView, ...] = ()
     undrawn: tuple[tuple[str, str], ...] = ()
 
 
@@ -84,11 +84,11 @@ def reviewed(
         extras.graphs,
         extras.undrawn,
         HOW_TO_READ,
-        tuple((p.id, f"only with --full; on record {model.expected(p.id).verdict}") for p in left),
+        tuple((p.id, f"only with --full; expected: {model.expected(p.id).verdict}") for p in left),
     )
 
 
-def checked(compared: CheckedProperty, model: Model, extras: Extras) -> Checked:
+def checked(compared: CheckedProperty, model: Model, extras: Extras) -> ReviewedProperty:
     """A property with its verdict."""
     prop, verdict, entry = compared.result.property, compared.verdict, compared.expected
     system = model.systems[prop.on]
@@ -96,7 +96,7 @@ def checked(compared: CheckedProperty, model: Model, extras: Extras) -> Checked:
     proof = compared.result.certificate
     on_record = entry.verdict == verdict.word
     case = extras.premises.get(prop.id)
-    return Checked(
+    return ReviewedProperty(
         prop.id,
         prop.text,
         prop.area,
@@ -155,7 +155,7 @@ def proved_again(outcome: Outcome | None) -> str:
 
 
 def written(prop: Property) -> Iterator[tuple[str, str]]:
-    """The parts of the form with their names, as formulas are written on arrows."""
+    """The parts of the form with their names, as formulas are written on transitions."""
     for part in fields(prop.form):
         value = getattr(prop.form, part.name)
         shown = [_part(one) for one in (value if isinstance(value, tuple) else (value,)) if one is not None]
@@ -175,9 +175,9 @@ def named(form: Form) -> Iterator[tuple[str, str]]:
     yield from {n.name: (f"{n.name} =", text(n, unfold=True)) for n in found}.values()
 
 
-def about(system: System) -> About:
+def about(system: System) -> SystemSummary:
     """What a reader needs to know of a system."""
-    return About(
+    return SystemSummary(
         system.name,
         system.text,
         system.tick_ms,
@@ -207,7 +207,7 @@ def drawn(shown: Iterable[System], model: Model) -> dict[str, Chart]:
 
 def demands(
     properties: Sequence[Property], verdicts: Mapping[str, str], model: Model, whole: bool
-) -> tuple[Demand, ...]:
+) -> tuple[RequirementRow, ...]:
     """The rows of the requirement matrix, uncovered ones first and then the worst verdicts.
 
     ``whole``: all requirements; otherwise only those that one of the properties names.
@@ -223,10 +223,10 @@ ORDER = ("open", "reached", "stated", "reason", "violated", "unknown", "proved")
 """What a reviewer wants to see first."""
 
 
-def _demand(row: RequirementCoverage, state: str) -> Demand:
+def _demand(row: RequirementCoverage, state: str) -> RequirementRow:
     item = row.requirement
     ids = tuple(p.id for p in row.properties)
-    return Demand(item.id, item.text, item.source, state, item.reason, ids, row.covered)
+    return RequirementRow(item.id, item.text, item.source, state, item.reason, ids, row.covered)
 
 
 def concerned(results: Iterable[CheckedProperty], model: Model) -> list[System]:

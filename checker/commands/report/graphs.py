@@ -7,11 +7,11 @@ from functools import partial
 from rovercheck.checker.commands.shared.output import counted, err
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.engines import Limits, Progress
-from rovercheck.checker.explore.graphs.explored import Explored
-from rovercheck.checker.explore.graphs.making import seen
-from rovercheck.checker.explore.graphs.projecting import projection
+from rovercheck.checker.explore.graphs.construction import seen
+from rovercheck.checker.explore.graphs.projection import projection
+from rovercheck.checker.explore.graphs.reachable_ticks import ReachableTicks
 from rovercheck.checker.explore.graphs.search import Exploration, explore
-from rovercheck.checker.render.review.model import Seen
+from rovercheck.checker.render.review.model import StateGraphView
 from rovercheck.checker.results.graph import StateGraph, with_trace
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
@@ -35,14 +35,14 @@ Undrawn = tuple[str, str]
 
 def state_graphs(
     found: Sequence[CheckedProperty], systems: Sequence[System], options: str
-) -> tuple[tuple[Seen, ...], tuple[Undrawn, ...]]:
+) -> tuple[tuple[StateGraphView, ...], tuple[Undrawn, ...]]:
     """A graph of each system with few charts and of its own findings, else one for all of the same charts.
 
     Systems with the real runs come before those with more or fewer, and marked graphs before others.  Also
     why some charts have no graph; ``options`` is what a command needs besides.
     """
     wanted = sorted((s for s in systems if s.charts), key=lambda s: s.over or s.under)
-    graphs: dict[str, Seen] = {}
+    graphs: dict[str, StateGraphView] = {}
     undrawn: dict[str, str] = {}
     drawn: set[frozenset[str]] = set()
     with Watch(err, len(wanted)) as watch:
@@ -50,7 +50,7 @@ def state_graphs(
             asked = [c.result.property for c in found if _marked(c, system)]
             if asked or _charts(system) not in drawn:
                 one = _state_graph(system, asked, found, options, partial(watch.say, system.name))
-                if isinstance(one, Seen):
+                if isinstance(one, StateGraphView):
                     graphs[system.name] = one
                     drawn.add(_charts(system))
                 else:
@@ -71,7 +71,7 @@ def _state_graph(
     found: Sequence[CheckedProperty],
     options: str,
     progress: Progress,
-) -> Seen | str:
+) -> StateGraphView | str:
     """The graph, or why there is none."""
     if len(system.charts) > CHARTS:
         return f"{len(system.charts)} charts"
@@ -80,7 +80,7 @@ def _state_graph(
     except ModelError as problem:
         return str(problem)
     if stopped := exploration.explored.stopped:
-        many = f"more than {counted(len(exploration.explored), 'valuation', 'valuations')}"
+        many = f"more than {counted(len(exploration.explored), 'state', 'states')}"
         return many if "memory" in stopped else stopped
     onto = _onto(system, exploration.explored)
     if onto is None:
@@ -90,11 +90,13 @@ def _state_graph(
     says = f"{', '.join(marked)} {'is' if len(marked) == 1 else 'are'} broken" if marked else ""
     graph = seen(exploration, onto, wanted, says).with_ways()
     runs = dict(_paths(graph, found, system))
-    return Seen(system.name, graph, marked, runs, f"rovercheck graph {system.name}{options}", unmarked)
+    return StateGraphView(
+        system.name, graph, marked, runs, f"rovercheck graph {system.name}{options}", unmarked
+    )
 
 
 def _marked(compared: CheckedProperty, system: System) -> bool:
-    """Whether it is broken by single valuations of the system."""
+    """Whether it is broken by single states of the system."""
     prop, word = compared.result.property, compared.verdict.word
     return prop.on == system.name and word == "violated" and not isinstance(prop.form, Reachable | Unbounded)
 
@@ -119,7 +121,7 @@ def _places(system: System) -> list[str]:
     return [v.name for c in system.charts for v in c.locations]
 
 
-def _onto(system: System, explored: Explored) -> tuple[str, ...] | None:
+def _onto(system: System, explored: ReachableTicks) -> tuple[str, ...] | None:
     """As many locations as give a picture with few nodes and lines, without those that tell no more.
 
     All of them if that is possible, else the outermost of all charts, those of the last chart, which executes
@@ -136,17 +138,17 @@ def _onto(system: System, explored: Explored) -> tuple[str, ...] | None:
     return None
 
 
-def _fits(explored: Explored, names: Sequence[str]) -> bool:
+def _fits(explored: ReachableTicks, names: Sequence[str]) -> bool:
     found = projection(explored, [explored.column(name) for name in names])
     lines = int((found.ends[0] != found.ends[1]).sum())
     return 1 < len(found.first) <= NODES and lines <= LINES
 
 
-def _nodes(explored: Explored, names: Sequence[str]) -> int:
+def _nodes(explored: ReachableTicks, names: Sequence[str]) -> int:
     return len(projection(explored, [explored.column(name) for name in names]).first)
 
 
-def _without_idle(explored: Explored, names: tuple[str, ...]) -> tuple[str, ...]:
+def _without_idle(explored: ReachableTicks, names: tuple[str, ...]) -> tuple[str, ...]:
     """The names without those whose values follow from the others."""
     count = _nodes(explored, names)
     for name in reversed(names):

@@ -3,8 +3,9 @@
 from collections.abc import Iterator, Sequence
 
 from rovercheck.checker.commands.report.data import Extras
-from rovercheck.checker.commands.reports.repairs import SEARCH, Proof
+from rovercheck.checker.commands.reports.repairs import LIMITS, Proof
 from rovercheck.checker.commands.shared.verdicts import results
+from rovercheck.checker.model.kept_invariants import invariants_of_rover
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.render.drawing.changes import changes
 from rovercheck.checker.render.review.model import Ambiguity, Covered, Edit, Remedy
@@ -13,7 +14,7 @@ from rovercheck.checker.system.instrument.goals import GoalKind
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen import kept_text
 from rovercheck.checker.testgen.keep import kept_of
-from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.catalogue import expected, read_by
 from rovercheck.spec_model.abstraction import boards
@@ -54,7 +55,8 @@ def remedies(found: Sequence[CheckedProperty]) -> Iterator[Remedy]:
 def _decided(repair: Repair, violated: set[str]) -> Iterator[Result]:
     variant = Variant(repair.readings, repair)
     wanted = [variant.properties()[id] for id in repair.fixes if id in violated]
-    by_id = {r.property.id: r for r in results(wanted, variant.systems(), SEARCH)}
+    search = SearchSettings(limits=LIMITS, invariants=invariants_of_rover())
+    by_id = {r.property.id: r for r in results(wanted, variant.systems(), search)}
     yield from (by_id[prop.id] for prop in wanted)
 
 
@@ -72,7 +74,7 @@ def remedy(proof: Proof) -> Remedy:
 
 
 def _word(result: Result) -> str:
-    return f"{result.verdict.word} in part" if result.in_part else result.verdict.word
+    return f"{result.verdict.word} for a restricted model" if result.in_part else result.verdict.word
 
 
 def _edits(proof: Proof) -> Iterator[Edit]:
@@ -90,4 +92,4 @@ def coverage() -> Iterator[Covered]:
         for kind in GoalKind:
             ids = {goal.id for goal in watched(board.system, {kind}).goals}
             proved, left = ids & kept.uncoverable.keys(), ids & kept.unknown.keys()
-            yield Covered(board.name, kind.value, len(ids), len(ids & reached), len(proved), len(left))
+            yield Covered(board.name, kind.word, len(ids), len(ids & reached), len(proved), len(left))

@@ -13,14 +13,14 @@ from rovercheck.checker.commands.check.findings import Guide
 from rovercheck.checker.commands.check.premises import LONG, cases, patient
 from rovercheck.checker.commands.check.run import summary
 from rovercheck.checker.commands.report import PageOptions
+from rovercheck.checker.commands.report.causes import with_reasons
 from rovercheck.checker.commands.report.data import Extras, concerned, reviewed
-from rovercheck.checker.commands.report.forced import with_reasons
 from rovercheck.checker.commands.report.graphs import state_graphs
 from rovercheck.checker.commands.report.rover import extras
 from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, err, out, write
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.shared.verdicts import results
-from rovercheck.checker.commands.shared.wrapping import whole
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_runs import file_of, read
@@ -34,8 +34,8 @@ PACKAGES = ("rovercheck", "z3-solver", "bitwuzla", "llvmlite", "python-sat", "ox
 """The tool, its solvers, and what else a verdict may rest on."""
 NO_LIMITS = Limits()
 MEANINGS = {
-    Exit.AS_EXPECTED: "every verdict is as on record",
-    Exit.CHANGED: "a verdict is not as on record",
+    Exit.AS_EXPECTED: "every verdict is as expected",
+    Exit.FAILED: "a verdict is not as expected",
     Exit.INCONCLUSIVE: "a limit was reached",
     Exit.INTERNAL: "the proof of a verdict was rejected",
 }
@@ -97,7 +97,7 @@ def page(
 
 def origin(model: Model, variant: Variant, code: Exit, options: PageOptions) -> ReviewOrigin:
     """How the page is made; nothing about the machine or the time, unless the user gave a date."""
-    meaning = MEANINGS[code].replace("on record", "expected") if variant.name else MEANINGS[code]
+    meaning = MEANINGS[code]
     return ReviewOrigin(
         options.command, int(code), meaning, tuple(versions()), digests(model), options.date, variant.name
     )

@@ -1,14 +1,15 @@
 """The verb ``reports``: the evidence as files."""
 
 from pathlib import Path
+
 import click
+
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.options import quietly, writing
 
 
-
 @click.command(short_help="Write the evidence: verdicts, diagrams, findings.")
-@click.option("--stale", is_flag=True, help="Write nothing; say what is out of date (exit code 1).")
+@click.option("--stale", is_flag=True, help="Write nothing; list what is out of date (exit code 1).")
 @writing
 @quietly
 def reports(stale: bool, output: Path | None) -> Exit:

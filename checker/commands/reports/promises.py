@@ -21,7 +21,7 @@ INTRODUCTION = (
     "What the document promises, each from what is measured to what is commanded. The statements speak of a "
     "whole board, of both boards with the link, or of a chain: properties of which each begins where the one "
     "before ends. Stamps and phases are in milliseconds. Those marked * belong to the full profile "
-    "(`make check-full`; with a repair `make check-repairs`); their verdict is the one on record."
+    "(`make check-full`; with a repair `make check-repairs`); their verdict is the expected one."
 )
 
 ACROSS = (
@@ -38,7 +38,7 @@ Repaired = Mapping[tuple[str, str], str]
 
 
 def page(found: Sequence[CheckedProperty], proved: Sequence["Proof"] = ()) -> str:
-    """The promises, with the verdicts that were found, or else with those on record; ``proved``: repairs."""
+    """The promises, with the verdicts that were found, else with the expected ones; ``proved``: repairs."""
     words = {c.result.property.id: c.word for c in found}
     repaired = {
         (proof.repair.name, r.property.id): CheckedProperty(r, proof.variant.expected(r.property.id)).word
@@ -126,7 +126,7 @@ def _holds(promise: Promise, words: Words) -> Iterator[str]:
 
 
 def _across(promise: Promise, words: Words) -> Iterator[str]:
-    """The chains; those that prove one statement of several causes are told once."""
+    """The chains; those that prove one statement of several causes are shown once."""
     if promise.chains:
         yield from (ACROSS, "")
     for across in dict.fromkeys(chain.across for chain in promise.chains):
@@ -197,7 +197,7 @@ def _word(prop: Property, words: Words) -> str:
 def _recorded(prop: Property, verdict: str = "proved") -> str:
     """A verdict that was not found now."""
     in_part = verdict == "proved" and systems()[prop.on].under
-    return f"{verdict} in part*" if in_part else f"{verdict}*"
+    return f"{verdict} for a restricted model*" if in_part else f"{verdict}*"
 
 
 def _about(prop: Property) -> str:

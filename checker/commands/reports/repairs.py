@@ -1,20 +1,17 @@
 """The pages on proposed repairs: what each changes in the charts, and the proof that it repairs."""
 
-from rovercheck.checker.model.kept_invariants import invariants_of_rover
-from rovercheck.checker.verify.checked import SearchSettings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from html import escape
 
-from rovercheck.checker.verify.checked import CheckedProperty
-from rovercheck.checker.render.verdict_text import evidence
-from rovercheck.checker.commands.shared.verdicts import results
+from rovercheck.checker.commands.reports.record import VerdictRecord
+from rovercheck.checker.engines import Limits, Timers
 from rovercheck.checker.model.variant import Variant
-from rovercheck.checker.engines import AUTO, Limits, Timers
-from rovercheck.checker.model.kept_invariants import invariants_of_rover
 from rovercheck.checker.render import renderers
 from rovercheck.checker.render.drawing.changes import changes
+from rovercheck.checker.render.verdict_text import evidence
+from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.catalogue import catalogue
 from rovercheck.properties.expected import Expected
@@ -23,8 +20,8 @@ from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.repairs import Repair, repairs
 from rovercheck.spec_model.rover import systems
 
-SEARCH = SearchSettings(limits=Limits(timers=Timers.FREE), invariants=invariants_of_rover())
-"""Timers that run out at will prove most repairs with far fewer valuations."""
+LIMITS = Limits(timers=Timers.FREE)
+"""Timers that may expire at any time prove most repairs with far fewer states."""
 
 
 @dataclass(frozen=True)
@@ -60,9 +57,9 @@ class Proof:
         return sum(map(self.variant.concerns(), self.variant.properties().values())) - len(self.results)
 
 
-def proofs() -> tuple[Proof, ...]:
-    """Every repair, its properties decided now."""
-    return tuple(Proof(repair, tuple(_decided(repair))) for repair in repairs().values())
+def proofs(record: VerdictRecord) -> tuple[Proof, ...]:
+    """Every repair, its properties decided as far as the record does not know the verdicts."""
+    return tuple(Proof(repair, tuple(_decided(repair, record))) for repair in repairs().values())
 
 
 @cache
@@ -70,13 +67,11 @@ def _specified() -> Mapping[str, System]:
     return systems()
 
 
-def _decided(repair: Repair) -> Iterator[Result]:
+def _decided(repair: Repair, record: VerdictRecord) -> Iterator[Result]:
     variant = Variant(repair.readings, repair)
     wanted = [prop for id in repair.fixes if not (prop := variant.properties()[id]).costly]
-    found = {
-        r.property.id: r
-        for r in results(wanted, variant.systems(), SEARCH)
-    }
+    decided = record.decided(wanted, variant.systems(), LIMITS, f"{repair.name}: ")
+    found = {r.property.id: r for r in decided}
     yield from (found[prop.id] for prop in wanted)
 
 
@@ -123,7 +118,9 @@ def _cell(text: str) -> str:
 def _verdicts(proof: Proof) -> list[str]:
     name, count = proof.repair.name, proof.others
     lines = [f"With {name}:", ""]
-    lines += [f"- {r.property.id}: {CheckedProperty(r, Expected()).word}, {evidence(r)}" for r in proof.results]
+    lines += [
+        f"- {r.property.id}: {CheckedProperty(r, Expected()).word}, {evidence(r)}" for r in proof.results
+    ]
     lines += [
         f"- {id}: only in the full profile; `rovercheck check --repair {name} {id}` decides it"
         for id in _costly(proof.repair)
@@ -157,8 +154,8 @@ def repair_pages(proved: Sequence[Proof]) -> dict[str, str]:
 INTRODUCTION = (
     "Each repair is a variant of the charts kept beside the original, in a file of `spec_model/repairs/`; "
     f"the specified charts stay as they are. `{_recheck('NAME')}` decides every property that it concerns "
-    "(timers that run out at will only make it faster), `--repair all` does so for all repairs that edit "
-    "charts, together."
+    "(timers that may expire at any time only make it faster), `--repair all` does so for all repairs that "
+    "edit charts, together."
 )
 
 

@@ -17,14 +17,14 @@ from rovercheck.properties.coverage import RequirementCoverage, matrix
 from rovercheck.properties.forms import Property, Reachable
 
 SCHEMA = 1
-ON_RECORD = "Verdicts are those on record in the baseline; --check decides them now."
+EXPECTED = "Verdicts are those that the baseline expects; --check decides them now."
 DECIDED = "Verdicts were decided now."
 REACHED = (
     "A requirement is covered by a property that demands something; "
     "one whose properties only say that a state can be reached is not covered."
 )
 NOTICED = (
-    "Nor is one that is only stated: a property that covers it must notice a fault put into the charts "
+    "Nor is one that is only stated: a property that covers it must kill a mutant of the charts "
     "(kills.json), or something wrong with them as they are."
 )
 
@@ -49,7 +49,7 @@ def requirements(decide: bool, as_json: bool, path: Path | None = None) -> Exit:
     stated = model.stated()
     rows = matrix(stated.values(), model.requirements, noticing(model))
     if not decide:
-        return show(rows, {id: model.expected(id).verdict for id in stated}, ON_RECORD, as_json)
+        return show(rows, {id: model.expected(id).verdict for id in stated}, EXPECTED, as_json)
     found = [
         CheckedProperty(r, model.expected(r.property.id))
         for r in results(
@@ -66,7 +66,7 @@ def words(found: Sequence[CheckedProperty]) -> Verdicts:
 
 def show(rows: Sequence[RequirementCoverage], verdicts: Verdicts, origin: str, as_json: bool) -> Exit:
     """Print the matrix as a table or as JSON."""
-    code = Exit.CHANGED if any(row.open for row in rows) else Exit.AS_EXPECTED
+    code = Exit.FAILED if any(row.open for row in rows) else Exit.AS_EXPECTED
     if as_json:
         print(json_text(document(rows, verdicts, origin, code), ascii=True))
         return code
@@ -92,13 +92,13 @@ def because(row: RequirementCoverage, verdicts: Verdicts, name: Callable[[str], 
     """
     by: dict[str, list[str]] = {}
     for prop in row.properties:
-        by.setdefault(_said(prop, verdicts[prop.id]), []).append(name(prop.id))
+        by.setdefault(_phrase(prop, verdicts[prop.id]), []).append(name(prop.id))
     state = row.state(verdicts)
     groups = [f"{'' if said == state else said} {', '.join(by[said])}".strip() for said in SAID if said in by]
     return "; ".join(filter(None, (row.requirement.reason.removesuffix("."), *groups))) or NOTHING
 
 
-def _said(prop: Property, verdict: str) -> str:
+def _phrase(prop: Property, verdict: str) -> str:
     if isinstance(prop.form, Reachable):
         return {"proved": "reached by", "violated": "not reached by"}.get(verdict, verdict)
     return verdict

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.output import write
-from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.results.verdict import Reached, Run
 from rovercheck.checker.verify.decide import Disagreement
 from rovercheck.checker.verify.portfolio.disagreement import Statement

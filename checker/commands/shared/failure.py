@@ -10,8 +10,8 @@ ROOM = "Make room for it, or write elsewhere, and run the command again."
 MEMORY = "Out of memory. Check fewer properties at once, or one --system."
 
 
-def told(error: Exception) -> str:
-    """One message for any error, as far as what it calls for is known; else it is a fault of ours."""
+def error_message(error: Exception) -> str:
+    """One message for any error, as far as what it calls for is known; else it is an internal error."""
     match error:
         case ModelError():
             return str(error)
@@ -24,15 +24,15 @@ def told(error: Exception) -> str:
 
     match error:
         case ReplayError():
-            return f"INTERNAL: {error}"
+            return f"Internal error: {error}"
         case Disagreement():
-            return f"INTERNAL: {error} At least one engine is wrong."
-    return f"INTERNAL: {type(error).__name__}: {error}. {_report(place(error))}"
+            return f"Internal error: {error} At least one engine is wrong."
+    return f"Internal error: {type(error).__name__}: {error}. {_report(place(error))}"
 
 
 def alarm(fault: Fault) -> str:
-    """What is said of an error of ours that the others have worked on without."""
-    return f"INTERNAL: {fault}. The verdicts of others stand. {_report('')}"
+    """What is said of an internal error that the others have worked on without."""
+    return f"Internal error: {fault}. The verdicts of others stand. {_report('')}"
 
 
 def code_of(error: BaseException) -> Exit:

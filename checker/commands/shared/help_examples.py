@@ -5,7 +5,7 @@ from shutil import get_terminal_size
 
 import click
 
-from rovercheck.checker.commands.shared.wrapping import filled
+from rovercheck.checker.commands.shared.text_wrap import filled
 
 COLUMNS, WIDE, NARROWEST, INDENT = 80, 60, 20, 4
 """Of help at most; from which on options stand beside what they do; at least; of what stands below."""
@@ -21,13 +21,13 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
         "rovercheck check --model heater.py --junit verdicts.xml",
         "rovercheck check --quiet --json > verdicts.json",
     ),
-    "conform": (
-        "rovercheck conform examples/logs/good.csv",
-        "rovercheck conform examples/logs --map examples/logs/map.toml --json",
+    "check-log": (
+        "rovercheck check-log examples/logs/good.csv",
+        "rovercheck check-log examples/logs --map examples/logs/map.toml --json",
     ),
-    "crosscheck": (
-        "rovercheck crosscheck --system board1",
-        "rovercheck crosscheck --system board1 --impl c:examples/board1_c",
+    "compare": (
+        "rovercheck compare --system board1",
+        "rovercheck compare --system board1 --impl c:examples/board1_c",
     ),
     "export": (
         "rovercheck export PB1-15 --format btor2 -o PB1-15.btor2",
@@ -46,9 +46,9 @@ EXAMPLES: dict[str, tuple[str, ...]] = {
     "reports": ("rovercheck reports", "rovercheck reports --stale"),
     "requirements": ("rovercheck requirements", "rovercheck requirements --check --json"),
     "simulate": ("rovercheck simulate examples/scenarios/link_loss.toml --log steps",),
-    "testgen": (
-        "rovercheck testgen --kept --system board1",
-        "rovercheck testgen --cover boundaries --format pytest -o tests",
+    "generate-tests": (
+        "rovercheck generate-tests --kept --system board1",
+        "rovercheck generate-tests --cover boundaries --format pytest -o tests",
     ),
 }
 """By verb: command lines that can be typed as they are."""

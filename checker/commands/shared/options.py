@@ -141,7 +141,9 @@ def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
             metavar="NAME",
             help="With this engine; see list engines.",
         ),
-        click.option("--depth", type=click.IntRange(min=1), metavar="N", help="Ticks to look ahead at most."),
+        click.option(
+            "--depth", type=click.IntRange(min=1), metavar="N", help="Bound on the length of runs, in ticks."
+        ),
         click.option(
             "--timeout",
             type=SECONDS,
@@ -153,7 +155,7 @@ def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
             type=click.Choice([t.value for t in Timers]),
             default=Timers.EXACT.value,
             show_default=True,
-            help="Count every tick, skip quiet ones, or try with timers that run out at will.",
+            help="Count every tick, skip quiet ones, or try first with timers that may expire at any time.",
         ),
     )
 

@@ -10,7 +10,7 @@ from rich.console import Console, ConsoleDimensions
 
 from rovercheck.checker.commands.shared.codes import UsageError
 from rovercheck.checker.commands.shared.silence import silent
-from rovercheck.checker.commands.shared.wrapping import fitted, plain, whole
+from rovercheck.checker.commands.shared.text_wrap import fitted, plain, whole
 from rovercheck.checker.io.console import UnmarkedConsole
 from rovercheck.checker.io.files import replaced
 

@@ -9,8 +9,8 @@ from rich.table import Table
 from rich.text import Text
 
 from rovercheck.checker.commands.shared.output import at_terminal, out
-from rovercheck.checker.commands.shared.wrapping import filled
-from rovercheck.checker.render.hanging import hanging
+from rovercheck.checker.commands.shared.text_wrap import filled
+from rovercheck.checker.render.hanging_indent import hanging
 
 GAP = "  "
 NARROWEST = 24

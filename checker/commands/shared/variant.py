@@ -17,7 +17,7 @@ from rovercheck.spec_model.repairs import proposals
 from rovercheck.spec_model.rover import systems
 
 if TYPE_CHECKING:
-    from rovercheck.checker.verify.certificates import Certifying
+    from rovercheck.checker.verify.certificates import Certification
 
 
 def askable(variant: Variant, properties: Sequence[Property]) -> list[Property]:
@@ -28,12 +28,12 @@ def askable(variant: Variant, properties: Sequence[Property]) -> list[Property]:
     return asked
 
 
-def certifying(variant: Variant, folder: Path | None, again: bool) -> "Certifying":
+def certifying(variant: Variant, folder: Path | None, again: bool) -> "Certification":
     """What to do with the proofs, with a note of how the charts are changed."""
-    from rovercheck.checker.verify.certificates import Certifying
+    from rovercheck.checker.verify.certificates import Certification
 
     repair = variant.repair.name if variant.repair else ""
-    return Certifying(folder, again, dict(variant.choices), repair, tuple(sorted(variant.without)))
+    return Certification(folder, again, dict(variant.choices), repair, tuple(sorted(variant.without)))
 
 
 def pick_variant(

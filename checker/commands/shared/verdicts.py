@@ -7,7 +7,7 @@ from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.verify.checked import SearchesPlanned, SearchSettings, events
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.searches import Over, SearchDoing, Warned
+from rovercheck.checker.verify.searches import MachineWarning, SearchActivity, SearchEnd
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.system import System
 
@@ -30,11 +30,11 @@ def results(
             match one:
                 case SearchesPlanned(searches):
                     watch.total = searches
-                case SearchDoing(task, line):
+                case SearchActivity(task, line):
                     watch.say(task.title, line)
-                case Over(task):
+                case SearchEnd(task):
                     watch.finished(task.title)
-                case Warned(text):
+                case MachineWarning(text):
                     err.print(text, markup=False)
                 case Result():
                     yield one

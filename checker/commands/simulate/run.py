@@ -12,7 +12,7 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, err, out, write
 from rovercheck.checker.commands.shared.progress import ProgressLine
 from rovercheck.checker.commands.shared.silence import silent
-from rovercheck.checker.commands.shared.wrapping import whole
+from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.simulate.story import heading, story, traffic, verdicts
 from rovercheck.checker.io.files import replaced
 from rovercheck.checker.render.lanes import (
@@ -204,12 +204,12 @@ def simulate(place: Path, output: Path | None, log: Path | None, plot: bool) -> 
     scenario = _read(place)
     record = _run(scenario)
     outcomes = judge(scenario, record)
-    _tell(scenario, record, outcomes, place)
+    _print_outcomes(scenario, record, outcomes, place)
     if log is not None:
         _write_logs(record, log)
     if plot:
         _write_plot(scenario, record, place, output, suffix)
-    return Exit.AS_EXPECTED if all(outcome.met for outcome in outcomes) else Exit.CHANGED
+    return Exit.AS_EXPECTED if all(outcome.met for outcome in outcomes) else Exit.FAILED
 
 
 def _run(scenario: Scenario) -> Record:
@@ -248,7 +248,7 @@ def _read(place: Path) -> Scenario:
         raise UsageError(f"{whole(place)}: {error}") from error
 
 
-def _tell(scenario: Scenario, record: Record, outcomes: list[Outcome], place: Path) -> None:
+def _print_outcomes(scenario: Scenario, record: Record, outcomes: list[Outcome], place: Path) -> None:
     told = [heading(scenario, place.stem), story(scenario, record), traffic(record)]
     if outcomes:
         unmet = sum(not outcome.met for outcome in outcomes)
@@ -261,7 +261,7 @@ def _write_plot(scenario: Scenario, record: Record, place: Path, output: Path | 
     target = output or Path(place.stem + suffix)
     if suffix == TABLE:
         write(_csv("time_ms", ((s.time_us / 1000, s.columns()) for s in record.samples)), target)
-        _say(f"The motion of the rover is {whole(target)}.")
+        _print_line(f"The motion of the rover is {whole(target)}.")
         return
     try:
         picture = draw(lanes(scenario, record, place.stem), suffix)
@@ -269,10 +269,10 @@ def _write_plot(scenario: Scenario, record: Record, place: Path, output: Path | 
         err.print(f"No plot: {error}", markup=False)
         return
     write(picture, target)
-    _say(f"The plot is {whole(target)}.")
+    _print_line(f"The plot is {whole(target)}.")
 
 
-def _say(sentence: str) -> None:
+def _print_line(sentence: str) -> None:
     if not silent():
         err.print(sentence, markup=False)
 
@@ -285,7 +285,7 @@ def _write_logs(record: Record, folder: Path) -> None:
         for name, steps in (("board1", one), ("board2", two)):
             target = folder / f"{name}.csv"
             replaced(target, _csv("time_ms", ((step["now_ms"], step) for step in steps)).encode())
-            _say(f"The log of {name} is {whole(target)}.")
+            _print_line(f"The log of {name} is {whole(target)}.")
     except OSError as error:
         raise UsageError(
             f"Cannot write into {whole(folder)}: {error.strerror}. Choose another --log."

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from itertools import groupby
 
 from rovercheck.checker.commands.shared.output import text_width
-from rovercheck.checker.commands.shared.wrapping import filled
+from rovercheck.checker.commands.shared.text_wrap import filled
 from rovercheck.supervisor.bench import Outcome, Record, Scenario
 from rovercheck.supervisor.bench.changes import Change, changes
 from rovercheck.supervisor.bench.record import Traffic
@@ -13,7 +13,7 @@ from rovercheck.supervisor.bench.signals import name_of
 
 INDENT = 21
 LONGEST_CYCLE = 6
-"""So many lines that repeat at once are told once."""
+"""So many lines that repeat at once are shown once."""
 OFTEN = 3
 WHO = {"board1": "Board 1", "board2": "Board 2", "rover": "rover"}
 
@@ -50,11 +50,11 @@ def _changes(record: Record) -> Iterator[StoryLine]:
         return change.time_us, change.signal.partition(".")[0]
 
     for (time_us, who), together in groupby(sorted(changes(record), key=place), key=place):
-        yield StoryLine(time_us, WHO[who], "; ".join(_told(list(together))))
+        yield StoryLine(time_us, WHO[who], "; ".join(_sentences(list(together))))
 
 
-def _told(together: Sequence[Change]) -> Iterator[str]:
-    """Changes of one instant; wheels that change alike are told at once."""
+def _sentences(together: Sequence[Change]) -> Iterator[str]:
+    """Changes of one instant; wheels that change alike are reported at once."""
     alike: dict[tuple[str, str, str], list[str]] = {}
     for change in together:
         name = change.signal.partition(".")[2]
@@ -67,7 +67,7 @@ def _told(together: Sequence[Change]) -> Iterator[str]:
 
 
 def _folded(lines: Sequence[StoryLine]) -> Iterator[str]:
-    """The lines; some that repeat in the same order again and again are told once, with their number."""
+    """The lines; some that repeat in the same order again and again are shown once, with their number."""
     place = 0
     while place < len(lines):
         long, times = _cycle(lines[place:])

@@ -24,7 +24,7 @@ class TraceOptions:
 
     id: str | None
     state: str | None
-    arrow: str | None
+    transition: str | None
     system: str | None
     format: str
     everything: bool
@@ -37,8 +37,10 @@ class TraceOptions:
 @click.command(short_help="Show a counterexample or a witness, tick by tick.")
 @click.argument("id", required=False)
 @click.option("--state", metavar="CHART.STATE", help="Instead of a property: a run into a state of a chart.")
-@click.option("--arrow", metavar="'CHART: A -> B'", help="Instead of a property: a run through an arrow.")
-@click.option("--system", metavar="NAME", help="With --state or --arrow: on this system.")
+@click.option(
+    "--transition", metavar="'CHART: A -> B'", help="Instead of a property: a run through a transition."
+)
+@click.option("--system", metavar="NAME", help="With --state or --transition: on this system.")
 @click.option(
     "--format",
     default="table",
@@ -50,21 +52,21 @@ class TraceOptions:
 @click.option(
     "--explain/--no-explain",
     default=None,
-    help="Which inputs force the end of the run; by default for ten seconds at most.",
+    help="Which inputs determine the violation; by default for ten seconds at most.",
 )
 @click.option(
     "--witnesses",
     type=click.IntRange(min=1),
     default=1,
     metavar="N",
-    help="So many runs, each with other arrows than those before, or for another reason.",
+    help="So many runs, each with other transitions than those before, or for another reason.",
 )
 @click.option(
     "--by",
-    type=click.Choice(["arrows", "reason"]),
-    default="arrows",
+    type=click.Choice(["transitions", "reason"]),
+    default="transitions",
     show_default=True,
-    help="With --witnesses: in what runs differ, the arrows they take or the inputs they need.",
+    help="With --witnesses: in what runs differ, the transitions they take or the inputs they need.",
 )
 @modelling
 @varying
@@ -79,21 +81,21 @@ def trace(options: TraceOptions, charts: VariantOptions, search: SearchOptions) 
     Examples:
       rovercheck trace PB1-15 --witnesses 3
       rovercheck trace --state Relay.B2_actuating
-      rovercheck trace --arrow 'Relay: B1_actuating -> B2_actuating'
+      rovercheck trace --transition 'Relay: B1_actuating -> B2_actuating'
     """
     from rovercheck.checker.commands.shared.select import pick_engine
-    from rovercheck.checker.commands.trace.examples import asked
-    from rovercheck.checker.commands.trace.explain import Explaining
-    from rovercheck.checker.commands.trace.run import Showing
+    from rovercheck.checker.commands.trace.examples import trace_request
+    from rovercheck.checker.commands.trace.explain import ExplanationOptions
+    from rovercheck.checker.commands.trace.run import TraceDisplay
     from rovercheck.checker.commands.trace.run import trace as run
 
     variant = charts.variant()
-    wanted = asked(variant, options.id, options.state, options.arrow, options.system)
-    showing = Showing(
+    wanted = trace_request(variant, options.id, options.state, options.transition, options.system)
+    showing = TraceDisplay(
         options.format,
         options.everything,
         options.output,
-        Explaining.chosen(options.explain),
+        ExplanationOptions.chosen(options.explain),
         options.witnesses,
         options.by,
     )

@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from rovercheck.checker.commands.crosscheck.record import in_steps_of
+from rovercheck.checker.commands.compare.record import in_steps_of
 from rovercheck.checker.compare.beside import SteppedCharts
 from rovercheck.checker.results.board_steps import BoardRun, BoardStep, SignalKind, StepSignal, Value
 from rovercheck.checker.results.trace import Tick, Trace

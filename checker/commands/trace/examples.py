@@ -1,4 +1,4 @@
-"""What a trace is asked for: a property, a state of a chart to be reached, or an arrow to be taken."""
+"""What a trace is asked for: a property, a state of a chart to be reached, or a transition to be taken."""
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -10,7 +10,7 @@ from rovercheck.checker.commands.shared.select import pick
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Run
-from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.verify.runs.replay import followed
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.expected import Expected
@@ -22,12 +22,12 @@ from rovercheck.spec_model.lang.system import System
 if TYPE_CHECKING:  # with all that tests cover
     from rovercheck.checker.system.instrument.goals import CoverGoal, Watched
 
-COVERS = ("an example was asked for",)
+COVERS = ("an example was trace_request for",)
 
 
 @dataclass(frozen=True)
 class TraceRequest:
-    """A property, the systems that it is decided on, and the verdicts on record.
+    """A property, the systems that it is decided on, and the expected verdicts.
 
     An ``example`` is no property that somebody stated, but something of which a user wants to see a run.
     ``plain`` is the system as drawn, where charts had to be changed so that the property could be stated,
@@ -61,32 +61,38 @@ class TraceRequest:
         )
 
 
-def asked(
-    variant: Variant, id: str | None, state: str | None, arrow: str | None, system: str | None
+def trace_request(
+    variant: Variant, id: str | None, state: str | None, transition: str | None, system: str | None
 ) -> TraceRequest:
     """What a user asks for, who must name one thing.  Raises ``UsageError`` and ``ModelError``."""
-    named = [thing for thing in (id, state, arrow) if thing is not None]
+    named = [thing for thing in (id, state, transition) if thing is not None]
     if len(named) != 1:
         raise UsageError(
-            "Name one thing: the ID of a property, --state CHART.STATE or --arrow 'CHART: A -> B'."
+            "Name one thing: the ID of a property, --state CHART.STATE or --transition 'CHART: A -> B'."
         )
     systems = variant.systems()
-    again = _again(variant, id, state, arrow, system)
+    again = _again(variant, id, state, transition, system)
     if id is not None:
         if system is not None:
             raise UsageError(
-                f"--system goes with --state and --arrow; {id} names its own system. Leave it out."
+                f"--system goes with --state and --transition; {id} names its own system. Leave it out."
             )
         return TraceRequest(
             pick("property", id, variant.properties()), systems, variant.model.expected, again=again
         )
-    wanted = of_state(named[0], systems, system) if arrow is None else of_arrow(arrow, systems, system)
+    wanted = (
+        of_state(named[0], systems, system)
+        if transition is None
+        else of_transition(transition, systems, system)
+    )
     return replace(wanted, again=again)
 
 
-def _again(variant: Variant, id: str | None, state: str | None, arrow: str | None, system: str | None) -> str:
+def _again(
+    variant: Variant, id: str | None, state: str | None, transition: str | None, system: str | None
+) -> str:
     """The command that asks for the same."""
-    given = [("--state", state), ("--arrow", arrow), ("--system", system)]
+    given = [("--state", state), ("--transition", transition), ("--system", system)]
     options = [f"{option} {quote(value)}" for option, value in given if value is not None]
     return " ".join(filter(None, ["rovercheck trace", id, *options, variant.options]))
 
@@ -110,18 +116,18 @@ def of_state(wanted: str, systems: Mapping[str, System], system: str | None) -> 
     return TraceRequest(_unwritten(found), systems, _unrecorded, example=True)
 
 
-def of_arrow(wanted: str, systems: Mapping[str, System], system: str | None) -> TraceRequest:
-    """That an arrow, written ``CHART: A -> B``, can be taken.  Raises ``UsageError``."""
-    name, colon, arrow = (part.strip() for part in wanted.partition(":"))
-    if not (colon and arrow):
-        raise UsageError(f"{wanted!r} names no arrow; write 'CHART: A -> B', as traces show it.")
+def of_transition(wanted: str, systems: Mapping[str, System], system: str | None) -> TraceRequest:
+    """That a transition, written ``CHART: A -> B``, can be taken.  Raises ``UsageError``."""
+    name, colon, transition = (part.strip() for part in wanted.partition(":"))
+    if not (colon and transition):
+        raise UsageError(f"{wanted!r} names no transition; write 'CHART: A -> B', as traces show it.")
     on = _system(name, systems, system)
     from rovercheck.checker.system.instrument.goals import GoalKind
     from rovercheck.checker.system.instrument.watch import watched
 
-    looked = watched(on, (GoalKind.ARROWS,))
-    goal = _arrow(name, _plainly(arrow), looked.goals)
-    id = f"arrow {name}: {goal.text}"
+    looked = watched(on, (GoalKind.TRANSITIONS,))
+    goal = _transition(name, _plainly(transition), looked.goals)
+    id = f"transition {name}: {goal.text}"
     found = reachable(id, f"The {id} can be taken.", that=goal.flag, covers=COVERS, on=on.name)
     there = {**systems, on.name: looked.system}
     return TraceRequest(_unwritten(found), there, _unrecorded, example=True, plain=on, watched=looked)
@@ -132,8 +138,8 @@ def _unwritten(made: Property) -> Property:
     return replace(made, place=None)
 
 
-def _arrow(chart: str, wanted: str, goals: Sequence["CoverGoal"]) -> "CoverGoal":
-    """The arrow that is meant: by its ends, and its number where several have the same."""
+def _transition(chart: str, wanted: str, goals: Sequence["CoverGoal"]) -> "CoverGoal":
+    """The transition that is meant: by its ends, and its number where several have the same."""
     own = {g.text: g for g in goals if g.part == chart}
     found = [
         g for text, g in own.items() if text == wanted or text.startswith((f"{wanted} (", f"{wanted} ["))
@@ -142,13 +148,14 @@ def _arrow(chart: str, wanted: str, goals: Sequence["CoverGoal"]) -> "CoverGoal"
         return found[0]
     if found:
         options = "; ".join(f"'{chart}: {g.text.partition(' [')[0]}'" for g in found)
-        raise UsageError(f"{chart} has {len(found)} arrows {wanted!r}; write one of {options}.")
+        raise UsageError(f"{chart} has {len(found)} transitions {wanted!r}; write one of {options}.")
     ends = [text.partition(" (")[0] for text in own]
-    raise UsageError(f"{chart} has no arrow {wanted!r}. {did_you_mean(wanted, ends)}")
+    raise UsageError(f"{chart} has no transition {wanted!r}. {did_you_mean(wanted, ends)}")
 
 
-def _plainly(arrow: str) -> str:
-    return " ".join(arrow.replace("→", "->").split())
+def _plainly(transition: str) -> str:
+    """With ``->``, single blanks and today's word for its number: older traces show ``(arrow 2)``."""
+    return " ".join(transition.replace("→", "->").replace("(arrow ", "(transition ").split())
 
 
 def _system(chart: str, systems: Mapping[str, System], wanted: str | None) -> System:

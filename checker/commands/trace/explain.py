@@ -15,8 +15,8 @@ SECONDS = 10.0
 
 
 @dataclass(frozen=True)
-class Explaining:
-    """Whether what forces the end of a trace is looked for, and for how long (None: as long as it takes).
+class ExplanationOptions:
+    """Whether the cause of a violation is looked for, and for how long (None: as long as it takes).
 
     With ``quiet`` there is no progress line.
     """
@@ -26,24 +26,24 @@ class Explaining:
     quiet: bool = False
 
     @staticmethod
-    def chosen(asked: bool | None) -> "Explaining":
+    def chosen(asked: bool | None) -> "ExplanationOptions":
         """From what a user wrote: --explain, --no-explain or neither."""
-        return Explaining(asked is not False, None if asked else SECONDS)
+        return ExplanationOptions(asked is not False, None if asked else SECONDS)
 
     def __call__(self, trace: Trace, prop: Property, systems: Mapping[str, System]) -> Trace:
-        """The trace with what forces its end, or as it is, with a word on why, after Ctrl-C too."""
+        """The trace with its cause, or as it is, with a word on why, after Ctrl-C too."""
         if not self.wanted:
             return trace
-        from rovercheck.checker.explain.explained import (  # by solvers, loaded for this alone
+        from rovercheck.checker.explain.explanation import (  # by solvers, loaded for this alone
             explained,
             unexplained,
         )
-        from rovercheck.checker.explain.unrolled import OutOfTime
+        from rovercheck.checker.explain.unrolled_run import OutOfTime
 
         if why := unexplained(trace):
-            err.print(f"What forces it is not looked for: {why}.", markup=False)
+            err.print(f"The cause is not looked for: {why}.", markup=False)
             return trace
-        start, task = process_time(), f"{prop.id}: what forces it"
+        start, task = process_time(), f"{prop.id}: cause"
         try:
             with Watch(err, 1, self.quiet) as watch:
                 return explained(
@@ -54,7 +54,7 @@ class Explaining:
                     lambda: self.seconds is not None and process_time() - start > self.seconds,
                 )
         except OutOfTime as late:
-            err.print(f"What forces it is not known: {late}. Wait for it with --explain.", markup=False)
+            err.print(f"The cause is not known: {late}. Wait for it with --explain.", markup=False)
         except KeyboardInterrupt:
-            err.print("Interrupted: the run is shown without what forces it.", markup=False)
+            err.print("Interrupted: the run is shown without its cause.", markup=False)
         return trace

@@ -10,10 +10,10 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import err, out, possible, text_width, write, wrote
 from rovercheck.checker.commands.shared.progress import Watch
 from rovercheck.checker.commands.shared.select import pick
+from rovercheck.checker.commands.shared.text_wrap import filled
 from rovercheck.checker.commands.shared.verdicts import results
-from rovercheck.checker.commands.shared.wrapping import filled
 from rovercheck.checker.commands.trace.examples import TraceRequest
-from rovercheck.checker.commands.trace.explain import Explaining
+from rovercheck.checker.commands.trace.explain import ExplanationOptions
 from rovercheck.checker.commands.trace.formats import exit_written, fitted
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.render import Renderer, named, renderers
@@ -27,7 +27,7 @@ from rovercheck.properties.forms import Property, Unbounded
 from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from rovercheck.checker.explain.others import NoMore
+    from rovercheck.checker.explain.other_runs import NoOtherRun
 
 FOR_READERS = ("table", "markdown")
 SECONDS = 30.0
@@ -35,7 +35,7 @@ SECONDS = 30.0
 
 
 @dataclass(frozen=True)
-class Showing:
+class TraceDisplay:
     """How a run is shown, and how many runs.
 
     What people read shows only what the property depends on, unless ``everything`` is wanted.
@@ -44,10 +44,10 @@ class Showing:
     format: str = "table"
     everything: bool = False
     output: Path | None = None
-    explaining: Explaining = field(default_factory=Explaining)
+    explaining: ExplanationOptions = field(default_factory=ExplanationOptions)
     runs: int = 1
-    by: str = "arrows"
-    """In what several runs differ: the ``arrows`` that they take, or the ``reason`` of their end."""
+    by: str = "transitions"
+    """In what several runs differ: the ``transitions`` that they take, or the ``reason`` of their end."""
 
     def check(self, prop: Property) -> None:
         """Raises ``UsageError`` for a format that there is not, that cannot show several runs, or for a place
@@ -61,11 +61,11 @@ class Showing:
                 f"--witnesses shows several runs, and a file of the format {self.format} holds one; "
                 f"write --format {' or '.join(FOR_READERS)}, or leave --witnesses out."
             )
-        if self.runs == 1 and self.by != "arrows":
+        if self.runs == 1 and self.by != "transitions":
             raise UsageError("--by says in what several runs are to differ; add --witnesses N.")
         if self.by == "reason" and not self.explaining.wanted:
             raise UsageError(
-                "--by reason compares what forces runs, which --no-explain does not look for; "
+                "--by reason compares the causes of runs, which --no-explain does not look for; "
                 "leave one of them out."
             )
         if self.runs > 1 and isinstance(prop.form, Unbounded):
@@ -75,7 +75,7 @@ class Showing:
 
     @property
     def renderer(self) -> Renderer:
-        """The exit of the format, which there is."""
+        """The renderer of the format, which there is."""
         found = named("trace", self.format)
         assert found is not None, "the format was checked"
         return found
@@ -89,7 +89,7 @@ def trace(
     wanted: TraceRequest,
     engine: str,
     limits: Limits,
-    showing: Showing,
+    showing: TraceDisplay,
 ) -> Exit:
     """Decide a property and show its trace; say so when its verdict rests on none."""
     prop, systems = wanted.property, wanted.systems
@@ -132,7 +132,9 @@ def _print_heading(wanted: TraceRequest, verdict: str) -> None:
         out.print(filled(f"Why: {on_record.because}", text_width()), markup=False)
 
 
-def _show_several(wanted: TraceRequest, first: Trace, engine: str, limits: Limits, showing: Showing) -> None:
+def _show_several(
+    wanted: TraceRequest, first: Trace, engine: str, limits: Limits, showing: TraceDisplay
+) -> None:
     """Show runs as they are found; into a file all of them together."""
     told: list[str] = []
     for text in _several(wanted, first, engine, limits, showing):
@@ -145,33 +147,33 @@ def _show_several(wanted: TraceRequest, first: Trace, engine: str, limits: Limit
 
 
 def _several(
-    wanted: TraceRequest, first: Trace, engine: str, limits: Limits, showing: Showing
+    wanted: TraceRequest, first: Trace, engine: str, limits: Limits, showing: TraceDisplay
 ) -> Iterator[str]:
     """The text of several runs, each with what makes it different."""
-    from rovercheck.checker.explain.others import NoMore, Others
-    from rovercheck.checker.explain.unlike import Unlike
+    from rovercheck.checker.explain.other_causes import OtherCauses
+    from rovercheck.checker.explain.other_runs import NoOtherRun, OtherRuns
 
     prop, system = wanted.property, wanted.systems[first.system]
     limits = limits if limits.seconds is not None else replace(limits, seconds=SECONDS)
     runs = [showing.explaining(first, prop, wanted.systems)]
     yield _heading("Run 1", [], showing) + _rendered(wanted.drawn(runs[0]), showing)
-    by_arrows = Others(first, prop, system, wanted.watched) if showing.by == "arrows" else None
-    by_reason = Unlike(prop, system)
+    by_transitions = OtherRuns(first, prop, system, wanted.watched) if showing.by == "transitions" else None
+    by_reason = OtherCauses(prop, system)
     for number in range(2, showing.runs + 1):
-        if by_arrows is None and runs[-1].needed is None:
+        if by_transitions is None and runs[-1].needed is None:
             unknown = (
-                f"What forces run {number - 1} is not known, so that no other reason can be told from it."
+                f"The cause of run {number - 1} is not known, so that no other cause can be told from it."
             )
             yield _heading(f"No run {number}", [unknown], showing)
             return
         with Watch(err, 1) as watch:
             say = partial(watch.say, f"{prop.id}: run {number}")
             other = (
-                by_arrows.next(engine, limits, say)
-                if by_arrows is not None
+                by_transitions.next(engine, limits, say)
+                if by_transitions is not None
                 else by_reason.next(runs, engine, limits, say)
             )
-        if isinstance(other, NoMore):
+        if isinstance(other, NoOtherRun):
             yield _heading(f"No run {number}", _no_more(other, system, showing.by), showing)
             return
         trace, differences = (other, ()) if isinstance(other, Trace) else (other.trace, other.differences)
@@ -182,9 +184,9 @@ def _several(
 
 
 NO_MORE = {
-    "arrows": (
-        "No other was found that takes other arrows",
-        "Every other run to this end takes the same arrows as one of these",
+    "transitions": (
+        "No other was found that takes other transitions",
+        "Every other run to this end takes the same transitions as one of these",
     ),
     "reason": (
         "No other was found that ends so for another reason",
@@ -194,7 +196,7 @@ NO_MORE = {
 """What is said when there is no further run: not proved, and proved."""
 
 
-def _no_more(found: "NoMore", system: System, by: str) -> list[str]:
+def _no_more(found: "NoOtherRun", system: System, by: str) -> list[str]:
     unproved, proved = NO_MORE[by]
     if not found.proved:
         return [f"{unproved}; that there is none is not proved: {found.reason}."]
@@ -202,13 +204,13 @@ def _no_more(found: "NoMore", system: System, by: str) -> list[str]:
     return [every, _only_some(system.name)] if system.under else [every]
 
 
-def _rendered(trace: Trace, showing: Showing) -> str:
+def _rendered(trace: Trace, showing: TraceDisplay) -> str:
     shown = fitted(showing.renderer, showing.output)(showing.cut(trace))
     assert isinstance(shown, str), "formats for readers are text"
     return shown
 
 
-def _heading(title: str, lines: Sequence[str], showing: Showing) -> str:
+def _heading(title: str, lines: Sequence[str], showing: TraceDisplay) -> str:
     if showing.format == "markdown":
         return "\n\n".join([f"### {title}", *(line.translate(SPECIAL) for line in lines)]) + "\n\n"
     return "\n".join(["", f"--- {title} ---", *(filled(line, text_width()) for line in lines)]) + "\n"

@@ -50,6 +50,11 @@ class BitWords:
             result = self.aig.mux(self.aig.differ(x, y), y, result)
         return result
 
+    def bit(self, a: Word, index: Word) -> Word:
+        """The bit of that number, which is constant, as a word of its own."""
+        number = value_of(index)
+        return [self.fitted(a, number + 1)[number]]
+
     # --- sums ------------------------------------------------------------------------------------
 
     def _sum(self, a: Word, b: Word, carry: Literal) -> Word:
@@ -159,7 +164,6 @@ class Blaster:
         self._range: dict[int, Interval] = {}
         self._done: dict[int, Value] = {}
         self._alive: list[Expr] = []
-        self._operators = _operators(aig, self._words)
 
     def __call__(self, expr: Expr) -> Value:
         """The value of a formula."""
@@ -193,45 +197,33 @@ class Blaster:
             case Named(_, body):
                 return self._done[id(body)]
             case Apply(op, args, sort):
-                values = [self._done[id(a)] for a in args]
-                if op is Op.BIT:
-                    index = self._range[id(args[1])].low
-                    return [self._words.fitted(values[0], index + 1)[index]]
-                result = self._operators[op](values)
+                result = OPERATIONS[op](self._words, *(self._done[id(a)] for a in args))
                 bits = self._range[id(node)].width
                 return result if isinstance(sort, Bool) else self._words.fitted(result, bits)
         raise AssertionError(f"{node} speaks of the past")
 
 
-def _operators(aig: Aig, words: BitWords) -> dict[Op, Callable[[Sequence[Value]], Value]]:
-    def equal(a: Sequence[Value]) -> Literal:
-        return words.equal(*a)
-
-    def at_most(a: Sequence[Value]) -> Literal:
-        return words.at_most(*a)
-
-    def swapped(a: Sequence[Value]) -> Literal:
-        return words.at_most(a[1], a[0])
-
-    return {
-        Op.NOT: lambda a: [a[0][0] ^ 1],
-        Op.AND: lambda a: [aig.all(x[0] for x in a)],
-        Op.OR: lambda a: [aig.any(x[0] for x in a)],
-        Op.ITE: lambda a: words.choose(a[0][0], a[1], a[2]),
-        Op.EQ: lambda a: [equal(a)],
-        Op.NE: lambda a: [equal(a) ^ 1],
-        Op.LE: lambda a: [at_most(a)],
-        Op.GE: lambda a: [swapped(a)],
-        Op.LT: lambda a: [swapped(a) ^ 1],
-        Op.GT: lambda a: [at_most(a) ^ 1],
-        Op.ADD: lambda a: words.add(*a),
-        Op.SUB: lambda a: words.subtract(*a),
-        Op.NEG: lambda a: words.negative(*a),
-        Op.MUL: lambda a: words.multiply(*a),
-        Op.SCALE: lambda a: words.multiply(*a),
-        Op.DIV: lambda a: words.divide(*a),
-        Op.MOD: lambda a: words.modulo(*a),
-        Op.ABS: lambda a: words.absolute(*a),
-        Op.MIN: lambda a: words.least(*a),
-        Op.MAX: lambda a: words.greatest(*a),
-    }
+OPERATIONS: Mapping[Op, Callable[..., Value]] = {
+    Op.NOT: lambda words, a: BitWords.flipped(a),
+    Op.AND: lambda words, *args: [words.aig.all(a[0] for a in args)],
+    Op.OR: lambda words, *args: [words.aig.any(a[0] for a in args)],
+    Op.ITE: lambda words, test, a, b: words.choose(test[0], a, b),
+    Op.EQ: lambda words, a, b: [words.equal(a, b)],
+    Op.NE: lambda words, a, b: [words.equal(a, b) ^ 1],
+    Op.LE: lambda words, a, b: [words.at_most(a, b)],
+    Op.GE: lambda words, a, b: [words.at_most(b, a)],
+    Op.LT: lambda words, a, b: [words.at_most(b, a) ^ 1],
+    Op.GT: lambda words, a, b: [words.at_most(a, b) ^ 1],
+    Op.ADD: BitWords.add,
+    Op.SUB: BitWords.subtract,
+    Op.NEG: BitWords.negative,
+    Op.MUL: BitWords.multiply,
+    Op.SCALE: BitWords.multiply,
+    Op.DIV: BitWords.divide,
+    Op.MOD: BitWords.modulo,
+    Op.ABS: BitWords.absolute,
+    Op.MIN: BitWords.least,
+    Op.MAX: BitWords.greatest,
+    Op.BIT: BitWords.bit,
+}
+"""Every operator on the words of one graph."""

@@ -29,7 +29,7 @@ class Bit:
 
 @dataclass(frozen=True)
 class Latch:
-    """A bit of a valuation: its value before the first tick (None: any) and its next one."""
+    """A bit of a state: its value before the first tick (None: any) and its next one."""
 
     bit: Bit
     init: int | None
@@ -124,7 +124,7 @@ def _sparse(var: Var, held: Iterable[str]) -> bool:
 
 
 def _state(part: Slice, goals: Sequence[str]) -> set[str]:
-    """The variables that make up a valuation: those read by what the goals depend on."""
+    """The variables that make up a state: those read by what the goals depend on."""
     own = {v.name for v in part.variables}
     read = set(variables(*part.assume)) & own
     todo = [*goals, *read]

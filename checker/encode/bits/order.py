@@ -1,4 +1,4 @@
-"""Orders of the variables of a circuit in which sets of its valuations have small decision diagrams.
+"""Orders of the variables of a circuit in which sets of its states have small decision diagrams.
 
 Variables that depend on each other should be near each other, and an input near what reads it.  No order
 is best for every circuit, so there are several to try.  The bits of a variable stay together.

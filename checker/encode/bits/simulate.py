@@ -11,7 +11,7 @@ Values = dict[str, list[int]]
 
 
 class BitSimulation:
-    """The circuit in some valuation for each run; frozen variables have the values given, or initial ones."""
+    """The circuit in some state for each run; frozen variables have the values given, or initial ones."""
 
     def __init__(self, circuit: Circuit, runs: int, frozen: Mapping[str, int] = MappingProxyType({})) -> None:
         self.circuit, self.full = circuit, (1 << runs) - 1
@@ -60,7 +60,7 @@ class BitSimulation:
         return admissible & ~self.value(self.circuit.leaves)
 
     def advance(self) -> None:
-        """Go on to the valuations after the tick that was given."""
+        """Go on to the states after the tick that was given."""
         following = [(latch.literal >> 1, self.value(latch.next)) for latch in self.circuit.latches]
         for node, word in following:
             self._word[node] = word

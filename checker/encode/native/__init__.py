@@ -17,7 +17,7 @@ from rovercheck.checker.encode.native.layout import Field, Layout, OutsideDomain
 from rovercheck.checker.encode.native.quiet import Shift, moved_on, shifts
 from rovercheck.checker.encode.native.retrace import LEAVE_DOMAIN, REACH_TARGET, UNREAD, add_retrace
 from rovercheck.checker.encode.native.search import BATCH, NativeTask, Status, add_search
-from rovercheck.checker.encode.native.successors import Ended, add_successors
+from rovercheck.checker.encode.native.successors import ExpansionEnd, add_successors
 from rovercheck.checker.encode.native.table import CONTEXT, StateTable
 
 Words = NDArray[np.uint64]
@@ -29,7 +29,7 @@ __all__ = [
     "LEAVE_DOMAIN",
     "REACH_TARGET",
     "UNREAD",
-    "Ended",
+    "ExpansionEnd",
     "Field",
     "Layout",
     "NativeRetrace",
@@ -84,13 +84,13 @@ class NativeSearch:
         return Status(call(*map(_address, arrays)))
 
     def rehash(self, table: Words, words: Words, count: int) -> None:
-        """Enter the first ``count`` stored valuations into an empty table."""
+        """Enter the first ``count`` stored states into an empty table."""
         types = [ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p, ctypes.c_int64]
         call = self.library.function("rehash", None, types)
         call(_address(table), len(table), _address(words), count)
 
     def known(self, table: Words, words: Words, asked: Words) -> NDArray[np.bool_]:
-        """Which of the valuations asked about are stored."""
+        """Which of the states asked about are stored."""
         found: NDArray[np.int64] = np.zeros(len(asked), dtype=np.int64)
         types = [ctypes.c_void_p, ctypes.c_int64, *[ctypes.c_void_p] * 2, ctypes.c_int64, ctypes.c_void_p]
         call = self.library.function("known", None, types)
@@ -129,7 +129,7 @@ class NativeRetrace:
         call = self.library.function("retrace", ctypes.c_int64, types)
         one, two = np.ascontiguousarray(before), np.ascontiguousarray(target)
         if not call(_address(one), _address(two), wanted, _address(chosen)):
-            raise LookupError("no inputs lead from one stored valuation to the next")
+            raise LookupError("no inputs lead from one stored state to the next")
         values = zip(self.task.system.inputs, chosen, strict=False)
         return {v.name: int(raw) for v, raw in values if raw != UNREAD}
 
@@ -146,8 +146,8 @@ class NativeSuccessors:
         """Compile for a task.  Raises ``TooWide`` where 64 bits do not suffice."""
         return NativeSuccessors(task, _library("successors", task, _level(task))[0])
 
-    def __call__(self, words: Words, room: int) -> tuple[Ended, int, Words, NDArray[np.int64]]:
-        """Why it ended, how many of the valuations are expanded, where their ticks lead, and from which."""
+    def __call__(self, words: Words, room: int) -> tuple[ExpansionEnd, int, Words, NDArray[np.int64]]:
+        """Why it ended, how many of the states are expanded, where their ticks lead, and from which."""
         found = np.empty((room + 1, self.task.layout.words), dtype=np.uint64)
         origins = np.empty(room + 1, dtype=np.int64)
         state = np.zeros(2, dtype=np.int64)
@@ -155,7 +155,7 @@ class NativeSuccessors:
         call = self.library.function("successors", ctypes.c_int64, types)
         rows = np.ascontiguousarray(words)
         ended = call(_address(rows), len(rows), room, *map(_address, (found, origins, state)))
-        return Ended(ended), int(state[0]), found[: state[1]], origins[: state[1]]
+        return ExpansionEnd(ended), int(state[0]), found[: state[1]], origins[: state[1]]
 
 
 # --- compiling, or not again -------------------------------------------------------------------------

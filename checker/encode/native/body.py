@@ -37,8 +37,8 @@ class Body:
     """Emits a path program into a function.
 
     ``saved`` says what each fork restores; ``finished`` is the block to go to when every path of the
-    current valuation has been run; ``most`` choices are on a path.  ``forbidden`` emits what is done
-    where the assumption fails, ``complete`` what is done with a valuation that is complete.
+    current state has been run; ``most`` choices are on a path.  ``forbidden`` emits what is done
+    where the assumption fails, ``complete`` what is done with a state that is complete.
     """
 
     def __init__(
@@ -166,7 +166,7 @@ class Body:
         self.builder.position_at_end(holds)
 
     def _complete(self) -> None:
-        """What is done with the valuation comes when all paths from here have been run."""
+        """What is done with the state comes when all paths from here have been run."""
         build = self.builder
         rest, over = (build.append_basic_block(n) for n in ("rest", "over"))
         build.branch(rest)

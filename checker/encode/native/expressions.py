@@ -4,16 +4,17 @@ Every value carries the interval it lies in, so that rounding down costs nothing
 never negative, and so that a formula that may leave 64 bits is refused instead of wrapping round.
 """
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import reduce
 from typing import Any
 
 from llvmlite import ir
 
-from rovercheck.checker.system.intervals import TRUTH, Interval, transfer
+from rovercheck.checker.system.intervals import Interval, transfer
 from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
-from rovercheck.spec_model.lang.operators import COMPARISONS, Op
+from rovercheck.spec_model.lang.operators import COMPARISONS, SIGNS, Op
 
 BIT = ir.IntType(1)
 INT = ir.IntType(64)
@@ -85,69 +86,97 @@ class Expressions:
                 return Value(self.builder.load(slot.place), slot.within)
             case Named(_, body):
                 return self._value(body, known)
-            case Apply(op, args, sort):
+            case Apply(op, args, _):
                 values = [self._value(a, known) for a in args]
-                if isinstance(sort, Bool):
-                    return Value(self._truth(op, values), TRUTH)
-                return Value(self._number(op, values), transfer(op, [v.within for v in values]))
+                return Value(OPERATIONS[op](self, values), transfer(op, [v.within for v in values]))
         raise AssertionError(f"{expr} speaks of the past")
 
-    def _truth(self, op: Op, args: list[Value]) -> Any:
-        build = self.builder
-        if op in COMPARISONS:
-            if all(a.code.type == BIT for a in args):
-                return build.icmp_unsigned(op.value, args[0].code, args[1].code)
-            return build.icmp_signed(op.value, self.as_int(args[0]), self.as_int(args[1]))
-        match op:
-            case Op.NOT:
-                return build.not_(self.as_bit(args[0]))
-            case Op.AND | Op.OR:
-                join = build.and_ if op is Op.AND else build.or_
-                result = self.as_bit(args[0])
-                for arg in args[1:]:
-                    result = join(result, self.as_bit(arg))
-                return result
-            case Op.ITE:
-                return build.select(*(self.as_bit(a) for a in args))
-            case Op.BIT:
-                index = INT(min(args[1].within.low, 63))
-                return build.trunc(build.ashr(self.as_int(args[0]), index), BIT)
-        raise AssertionError(op)
 
-    def _number(self, op: Op, args: list[Value]) -> Any:
-        build = self.builder
-        if op is Op.ITE:
-            return build.select(self.as_bit(args[0]), self.as_int(args[1]), self.as_int(args[2]))
-        v = [self.as_int(a) for a in args]
-        match op:
-            case Op.ADD:
-                return build.add(v[0], v[1], flags=["nsw"])
-            case Op.SUB:
-                return build.sub(v[0], v[1], flags=["nsw"])
-            case Op.NEG:
-                return build.sub(INT(0), v[0], flags=["nsw"])
-            case Op.MUL | Op.SCALE:
-                return build.mul(v[0], v[1], flags=["nsw"])
-            case Op.DIV | Op.MOD:
-                return self._rounded_down(op, args[0], args[1])
-            case Op.ABS:
-                negative = build.icmp_signed("<", v[0], INT(0))
-                return build.select(negative, build.sub(INT(0), v[0]), v[0])
-            case Op.MIN | Op.MAX:
-                first = build.icmp_signed("<" if op is Op.MIN else ">", v[0], v[1])
-                return build.select(first, v[0], v[1])
-        raise AssertionError(op)
+Row = Callable[[Expressions, Sequence[Value]], Any]
+"""Emits an operator on values, at the builder's place."""
 
-    def _rounded_down(self, op: Op, left: Value, right: Value) -> Any:
-        """Floor division or remainder by a positive constant, of what may be negative."""
-        build, divisor = self.builder, right.within.low
-        if divisor != right.within.high or divisor <= 0:
-            raise TooWide(f"{op.value} needs a positive constant on the right.")
-        value, by = self.as_int(left), INT(divisor)
-        if left.within.low >= 0:
-            return build.udiv(value, by) if op is Op.DIV else build.urem(value, by)
-        rest = build.srem(value, by)
-        below = build.icmp_signed("<", rest, INT(0))
-        if op is Op.MOD:
-            return build.select(below, build.add(rest, by), rest)
-        return build.sub(build.sdiv(value, by), build.zext(below, INT))
+
+def _compared(sign: str) -> Row:
+    def row(emit: Expressions, args: Sequence[Value]) -> Any:
+        if all(a.code.type == BIT for a in args):
+            return emit.builder.icmp_unsigned(sign, *(a.code for a in args))
+        return emit.builder.icmp_signed(sign, *map(emit.as_int, args))
+
+    return row
+
+
+def _joined(instruction: str) -> Row:
+    return lambda emit, args: reduce(getattr(emit.builder, instruction), map(emit.as_bit, args))
+
+
+def _computed(instruction: str) -> Row:
+    """That it does not overflow is known: the interval of the result lies in 64 bits."""
+    return lambda emit, args: getattr(emit.builder, instruction)(*map(emit.as_int, args), flags=["nsw"])
+
+
+def _chosen(emit: Expressions, args: Sequence[Value]) -> Any:
+    test, *branches = args
+    as_branch = emit.as_bit if all(b.code.type == BIT for b in branches) else emit.as_int
+    return emit.builder.select(emit.as_bit(test), *map(as_branch, branches))
+
+
+def _extreme(sign: str) -> Row:
+    def row(emit: Expressions, args: Sequence[Value]) -> Any:
+        a, b = map(emit.as_int, args)
+        return emit.builder.select(emit.builder.icmp_signed(sign, a, b), a, b)
+
+    return row
+
+
+def _absolute(emit: Expressions, args: Sequence[Value]) -> Any:
+    build, value = emit.builder, emit.as_int(args[0])
+    negative = build.icmp_signed("<", value, INT(0))
+    return build.select(negative, build.sub(INT(0), value), value)
+
+
+def _divisor(op: Op, of: Value) -> int:
+    if of.within.low != of.within.high or of.within.low <= 0:
+        raise TooWide(f"{op.value} needs a positive constant on the right.")
+    return of.within.low
+
+
+def _quotient(emit: Expressions, args: Sequence[Value]) -> Any:
+    """Floor division by a positive constant, of what may be negative."""
+    build, value, by = emit.builder, emit.as_int(args[0]), INT(_divisor(Op.DIV, args[1]))
+    if args[0].within.low >= 0:
+        return build.udiv(value, by)
+    below = build.icmp_signed("<", build.srem(value, by), INT(0))
+    return build.sub(build.sdiv(value, by), build.zext(below, INT))
+
+
+def _remainder(emit: Expressions, args: Sequence[Value]) -> Any:
+    build, value, by = emit.builder, emit.as_int(args[0]), INT(_divisor(Op.MOD, args[1]))
+    if args[0].within.low >= 0:
+        return build.urem(value, by)
+    rest = build.srem(value, by)
+    return build.select(build.icmp_signed("<", rest, INT(0)), build.add(rest, by), rest)
+
+
+def _bit(emit: Expressions, args: Sequence[Value]) -> Any:
+    index = INT(min(args[1].within.low, 63))
+    return emit.builder.trunc(emit.builder.ashr(emit.as_int(args[0]), index), BIT)
+
+
+OPERATIONS: Mapping[Op, Row] = {
+    **{op: _compared(SIGNS[op]) for op in COMPARISONS},
+    Op.NOT: lambda emit, args: emit.builder.not_(emit.as_bit(args[0])),
+    Op.AND: _joined("and_"),
+    Op.OR: _joined("or_"),
+    Op.ITE: _chosen,
+    Op.ADD: _computed("add"),
+    Op.SUB: _computed("sub"),
+    Op.NEG: lambda emit, args: emit.builder.sub(INT(0), emit.as_int(args[0]), flags=["nsw"]),
+    Op.MUL: _computed("mul"),
+    Op.SCALE: _computed("mul"),
+    Op.DIV: _quotient,
+    Op.MOD: _remainder,
+    Op.ABS: _absolute,
+    Op.MIN: _extreme("<"),
+    Op.MAX: _extreme(">"),
+    Op.BIT: _bit,
+}

@@ -1,4 +1,4 @@
-"""Packing: the valuation of a sliced system in as few 64-bit words as its domains need."""
+"""Packing: the state of a sliced system in as few 64-bit words as its domains need."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -10,7 +10,7 @@ from rovercheck.spec_model.lang.expr import Var
 
 NOTHING: Mapping[str, Values] = {}
 WORD_BITS = 63
-"""Bits used of a word: the table marks an empty place with a word that no valuation packs to."""
+"""Bits used of a word: the table marks an empty place with a word that no state packs to."""
 
 
 class OutsideDomain(Exception):
@@ -57,7 +57,7 @@ class Field:
 
 @dataclass(frozen=True)
 class Layout:
-    """The fields of a packed valuation and how many words it has (at least one)."""
+    """The fields of a packed state and how many words it has (at least one)."""
 
     fields: tuple[Field, ...]
     words: int
@@ -68,7 +68,7 @@ class Layout:
         return sum(f.bits for f in self.fields)
 
     def pack(self, valuation: Mapping[str, int]) -> tuple[int, ...]:
-        """The words of a valuation.  Raises ``OutsideDomain``."""
+        """The words of a state.  Raises ``OutsideDomain``."""
         packed = [0] * self.words
         for f in self.fields:
             packed[f.word] |= f.code(valuation[f.var.name]) << f.shift

@@ -1,19 +1,19 @@
-"""Quiet ticks on packed valuations: every running counter moves on by one step, nothing else changes.
+"""Quiet ticks on packed states: every running counter moves on by one step, nothing else changes.
 
 A tick that makes a counter reach its end is no quiet one: what it leads to is an event worth storing.
-So two valuations never move on to the same one, and the quiet ticks from a valuation are one line.
+So two states never move on to the same one, and the quiet ticks from a state are one line.
 """
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from rovercheck.checker.encode.counting import Counter
+from rovercheck.checker.encode.counters import Counter
 from rovercheck.checker.encode.native.expressions import BIT, INT
 from rovercheck.checker.encode.native.layout import Layout
 
 NOTHING = -1
-"""A word that no valuation packs to."""
+"""A word that no state packs to."""
 
 
 @dataclass(frozen=True)
@@ -28,7 +28,7 @@ class Shift:
 
 
 def shifts(layout: Layout, counters: Iterable[Counter]) -> tuple[Shift, ...]:
-    """Where the counters lie in a packed valuation; those that do not move by whole bits are left out."""
+    """Where the counters lie in a packed state; those that do not move by whole bits are left out."""
     moved = {c.var.name: c.by for c in counters}
     found = []
     for f in layout.fields:
@@ -39,7 +39,7 @@ def shifts(layout: Layout, counters: Iterable[Counter]) -> tuple[Shift, ...]:
 
 
 def moved_on(words: Sequence[int], shifts: Sequence[Shift]) -> tuple[int, ...] | None:
-    """The valuation after a quiet tick; None where no counter runs or one would reach its end."""
+    """The state after a quiet tick; None where no counter runs or one would reach its end."""
     result = list(words)
     runs = False
     for s in shifts:
@@ -53,7 +53,7 @@ def moved_on(words: Sequence[int], shifts: Sequence[Shift]) -> tuple[int, ...] |
 
 
 def emit_moved_on(build: Any, words: Sequence[Any], shifts: Sequence[Shift]) -> list[Any]:
-    """Emit ``moved_on``; its first word is ``NOTHING`` where there is no valuation."""
+    """Emit ``moved_on``; its first word is ``NOTHING`` where there is no state."""
     result, runs, ends = list(words), BIT(0), BIT(0)
     for s in shifts:
         code = build.and_(build.lshr(words[s.word], INT(s.shift)), INT(s.mask))

@@ -1,4 +1,4 @@
-"""Which inputs lead from one stored valuation to the next: the same paths, run until one fits."""
+"""Which inputs lead from one stored state to the next: the same paths, run until one fits."""
 
 from typing import Any
 
@@ -18,7 +18,7 @@ REACH_TARGET, LEAVE_DOMAIN = -1, -2
 
 def add_retrace(module: Any, task: NativeTask) -> None:
     """``retrace(before, target, wanted, chosen)``: 1 and the chosen inputs of a path that ends in the
-    target valuation, with the wanted goal true, or outside a domain; 0 if there is none."""
+    target state, with the wanted goal true, or outside a domain; 0 if there is none."""
     arguments = {"before": WORDS, "target": WORDS, "wanted": INT, "chosen": WORDS}
     _, a, build = function(module, "retrace", INT, arguments)
     inputs = task.system.inputs

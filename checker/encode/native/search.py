@@ -1,4 +1,4 @@
-"""The inner loop of the explicit search as LLVM code: expand valuations, store their successors."""
+"""The inner loop of the explicit search as LLVM code: expand states, store their successors."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -31,7 +31,7 @@ BATCH = 2048
 """Successors kept before they are stored together."""
 
 MOST_SUCCESSORS = 1 << 25
-"""Successors of one valuation beyond which a search is given up: it could not be interrupted."""
+"""Successors of one state beyond which a search is given up: it could not be interrupted."""
 
 MOST_IDLE = 1 << 16
 """Paths without a successor to keep after which a search looks whether it is to stop; a power of two."""
@@ -53,7 +53,7 @@ class Status(IntEnum):
 
 @dataclass(frozen=True)
 class NativeTask:
-    """What is compiled: the sliced system, its packed valuation and the goals.
+    """What is compiled: the sliced system, its packed state and the goals.
 
     With ``shifts`` the result of a quiet tick is not stored (see ``add_search``).
     """
@@ -75,7 +75,7 @@ class NativeTask:
 
     @cached_property
     def stages(self) -> PathProgram:
-        """The paths of a tick, as few as can be until the valuation after it is complete."""
+        """The paths of a tick, as few as can be until the state after it is complete."""
         stored = frozenset(f.var.name for f in self.layout.fields)
         return staged_program(self.system, self.cells, stored) or self.paths
 
@@ -90,11 +90,11 @@ class NativeTask:
 
 
 def add_search(module: Any, task: NativeTask, table: StateTable, store: Any) -> None:
-    """``search(context, words, parents, table, buffer, origins, hits)``: expand the valuations
+    """``search(context, words, parents, table, buffer, origins, hits)``: expand the states
     next..last-1 until the budget of transitions is spent.  Returns a ``Status``.
 
     For a task with shifts four arrays more, ``frontier, anchors, onward, carried``: expand the
-    valuations of the frontier, found by quiet ticks from the stored ones that ``anchors`` numbers.
+    states of the frontier, found by quiet ticks from the stored ones that ``anchors`` numbers.
     Those with a quiet tick move on to ``onward`` with their anchor in ``carried``, ``lines`` of them.
     """
     _Search(module, task, table, store).emit()
@@ -154,7 +154,7 @@ class _Search:
         self.build.store(value, self.places[name])
 
     def leave(self, status: Status) -> None:
-        """Return to Python; the current valuation will be expanded again from its start."""
+        """Return to Python; the current state will be expanded again from its start."""
         self.put("next", self.build.load(self.parent))
         self.put("filled", self.build.load(self.filled))
         self.build.ret(INT(int(status)))
@@ -198,7 +198,7 @@ class _Search:
         self.put("lines", build.add(at, INT(1)))
 
     def _anchor(self) -> Any:
-        """The number of the stored valuation that the current one is, or is found from by quiet ticks."""
+        """The number of the stored state that the current one is, or is found from by quiet ticks."""
         number = self.build.load(self.parent)
         if not self.task.shifts:
             return number
@@ -217,10 +217,10 @@ class _Search:
         many = build.icmp_unsigned("==", build.and_(tried, INT(MOST_IDLE - 1)), INT(0))
         with build.if_then(many, likely=False):
             self._give_up_if_too_many()
-            self._stop_if_told()
+            self._stop_if_asked()
 
     def _complete(self) -> None:
-        """A valuation that is complete: keep it unless it is quiet."""
+        """A state that is complete: keep it unless it is quiet."""
         build = self.build
         with build.if_then(outside(self.body, self.task.layout), likely=False):
             self.leave(Status.OUTSIDE)
@@ -256,7 +256,7 @@ class _Search:
         self.drain()
         build.store(INT(0), self.filled)
         self._give_up_if_too_many()
-        self._stop_if_told()
+        self._stop_if_asked()
 
     def _nothing_kept(self) -> None:
         """A path that leaves the buffer as it is: after many of them look whether to stop."""
@@ -265,7 +265,7 @@ class _Search:
         build.store(idle, self.idle)
         many = build.icmp_unsigned("==", build.and_(idle, INT(MOST_IDLE - 1)), INT(0))
         with build.if_then(many, likely=False):
-            self._stop_if_told()
+            self._stop_if_asked()
 
     def _give_up_if_too_many(self) -> None:
         build = self.build
@@ -273,7 +273,7 @@ class _Search:
         with build.if_then(many, likely=False):
             self.leave(Status.TOO_MANY)
 
-    def _stop_if_told(self) -> None:
+    def _stop_if_asked(self) -> None:
         """Back to Python if it says so; read anew each time, as another thread writes it."""
         build = self.build
         told = build.icmp_signed("!=", build.load_atomic(self.places["stop"], "monotonic", 8), INT(0))
@@ -293,7 +293,7 @@ class _Search:
                 self.leave(Status.DECIDED)
 
     def _hit(self, number: int, value: Any) -> None:
-        """The first valuation from which a goal is reached: its number, or that of its anchor, + 1."""
+        """The first state from which a goal is reached: its number, or that of its anchor, + 1."""
         build = self.build
         place = build.gep(self.a["hits"], [INT(number)])
         first = build.and_(value, build.icmp_signed("==", build.load(place), INT(0)))
@@ -306,7 +306,7 @@ class _Search:
 
 
 def begin(body: Body, task: NativeTask, program: PathProgram, words: Sequence[Any]) -> None:
-    """Emit the start of a tick: the variables of the valuation unpacked, everything else reset."""
+    """Emit the start of a tick: the variables of the state unpacked, everything else reset."""
     if choices(program) >= MANY_CHOICES:
         body.share()
     build = body.builder
@@ -335,7 +335,7 @@ def _all_variables(task: NativeTask, program: PathProgram) -> list[Var]:
 
 
 def packed(body: Body, task: NativeTask, program: PathProgram, before: Sequence[Any]) -> list[Any]:
-    """The words of the valuation after the tick.
+    """The words of the state after the tick.
 
     Fields written early in the tick are joined first: LLVM then moves that out of the inner choices.
     """

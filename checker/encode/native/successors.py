@@ -1,4 +1,4 @@
-"""All ticks that leave some valuations, as LLVM code: graphs need every pair, not only what is new."""
+"""All ticks that leave some states, as LLVM code: graphs need every pair, not only what is new."""
 
 from enum import IntEnum
 from typing import Any
@@ -10,10 +10,10 @@ from rovercheck.checker.encode.native.table import WORDS, StateTable, function
 from rovercheck.checker.encode.path_statements import saved
 
 MOST_PATHS = 1 << 25
-"""Ways through one tick beyond which its valuation is given up: the code could not be interrupted."""
+"""Ways through one tick beyond which its state is given up: the code could not be interrupted."""
 
 
-class Ended(IntEnum):
+class ExpansionEnd(IntEnum):
     """Why ``successors`` came back."""
 
     DONE = 0
@@ -23,11 +23,11 @@ class Ended(IntEnum):
 
 
 def add_successors(module: Any, task: NativeTask) -> None:
-    """``successors(words, count, room, found, origins, state)``: expand the first ``count`` valuations.
+    """``successors(words, count, room, found, origins, state)``: expand the first ``count`` states.
 
     Each path ends in a row of ``found``, which has ``room`` + 1 of them, with the place of its origin in
-    ``origins``; rows that repeat the one before are left out.  ``state`` becomes how many valuations are
-    expanded and how many rows belong to them.  Returns an ``Ended``.
+    ``origins``; rows that repeat the one before are left out.  ``state`` becomes how many states are
+    expanded and how many rows belong to them.  Returns an ``ExpansionEnd``.
     """
     _Successors(module, task).emit()
 
@@ -60,7 +60,7 @@ class _Successors:
         build.branch(head)
 
     def _head(self, head: Any) -> None:
-        """The next valuation, or the end."""
+        """The next state, or the end."""
         build = self.build
         expand, done = (build.append_basic_block(n) for n in ("expand", "done"))
         build.position_at_end(head)
@@ -68,11 +68,11 @@ class _Successors:
         build.store(INT(0), self.tried)
         build.cbranch(build.icmp_signed("<", build.load(self.at), self.a["count"]), expand, done)
         build.position_at_end(done)
-        self._leave(Ended.DONE)
+        self._leave(ExpansionEnd.DONE)
         build.position_at_end(expand)
 
-    def _leave(self, why: Ended) -> None:
-        """Back to Python; what was found of the current valuation does not count."""
+    def _leave(self, why: ExpansionEnd) -> None:
+        """Back to Python; what was found of the current state does not count."""
         build = self.build
         for number, place in enumerate((self.at, self.first)):
             build.store(build.load(place), build.gep(self.a["state"], [INT(number)]))
@@ -83,15 +83,15 @@ class _Successors:
         tried = build.add(build.load(self.tried), INT(1))
         build.store(tried, self.tried)
         with build.if_then(build.icmp_signed(">", tried, INT(MOST_PATHS)), likely=False):
-            self._leave(Ended.TOO_MANY)
+            self._leave(ExpansionEnd.TOO_MANY)
         with build.if_then(outside(self.body, self.task.layout), likely=False):
-            self._leave(Ended.OUTSIDE)
+            self._leave(ExpansionEnd.OUTSIDE)
         after = packed(self.body, self.task, self.task.paths, before)
         with build.if_then(build.not_(self._as_before(after))):
             self._keep(after)
 
     def _as_before(self, after: list[Any]) -> Any:
-        """Whether the path ends where the last one that was kept for this valuation did."""
+        """Whether the path ends where the last one that was kept for this state did."""
         build, filled = self.build, self.build.load(self.filled)
         same = build.icmp_signed(">", filled, build.load(self.first))
         last = build.sub(filled, build.zext(same, INT))
@@ -102,7 +102,7 @@ class _Successors:
     def _keep(self, after: list[Any]) -> None:
         build, filled = self.build, self.build.load(self.filled)
         with build.if_then(build.icmp_signed(">=", filled, self.a["room"]), likely=False):
-            self._leave(Ended.NO_ROOM)
+            self._leave(ExpansionEnd.NO_ROOM)
         self.table.save(build, self.a["found"], filled, after)
         build.store(build.load(self.at), build.gep(self.a["origins"], [filled]))
         build.store(build.add(filled, INT(1)), self.filled)

@@ -1,12 +1,12 @@
-"""The set of stored valuations as LLVM code: open addressing, linear probing, prefetched batches.
+"""The set of stored states as LLVM code: open addressing, linear probing, prefetched batches.
 
-Valuations lie in arrival order in ``words`` with their parents in ``parents``.  With one word the
+States lie in arrival order in ``words`` with their parents in ``parents``.  With one word the
 table holds the word + 1 itself (0 marks an empty place).  With more it holds the number of the
-valuation + 1 and, above it, 32 bits of its hash, so that most others are told apart in place.
+state + 1 and, above it, 32 bits of its hash, so that most others are distinguished in place.
 
-A breadth-first search finds valuations in the order of their parents, so two bits for each are enough
+A breadth-first search finds states in the order of their parents, so two bits for each are enough
 (P. Elias, "Efficient storage and retrieval by content and address of static files", 1974): bit
-i + parent(i) is set for the i-th valuation.  Where parents come in any order they are plain numbers.
+i + parent(i) is set for the i-th state.  Where parents come in any order they are plain numbers.
 """
 
 from dataclasses import dataclass
@@ -105,7 +105,7 @@ class _Found:
 
 @dataclass(frozen=True)
 class _Hashes:
-    """A ring of hashes for valuations that will soon be looked for; the table is fetched meanwhile."""
+    """A ring of hashes for states that will soon be looked for; the table is fetched meanwhile."""
 
     table: "StateTable"
     arrays: dict[str, Any]
@@ -114,7 +114,7 @@ class _Hashes:
     ring: Any
 
     def note(self, build: Any, i: Any) -> None:
-        """Compute the hash of the i-th valuation and fetch the place to which it leads."""
+        """Compute the hash of the i-th state and fetch the place to which it leads."""
         hashed = self.table.hash(build, self.table.load(build, self.arrays["buffer"], i))
         build.store(hashed, self._place(build, i))
         home = self.table.home(build, hashed, self.size)
@@ -122,7 +122,7 @@ class _Hashes:
         build.call(self.table.prefetch, [place, NUMBER(1), NUMBER(3), NUMBER(1)])
 
     def next(self, build: Any, i: Any) -> Any:
-        """The hash of the i-th valuation, computed before; that of a later one takes its place."""
+        """The hash of the i-th state, computed before; that of a later one takes its place."""
         hashed, later = build.load(self._place(build, i)), build.add(i, INT(_AHEAD))
         with build.if_then(build.icmp_signed("<", later, self.last), likely=True):
             self.note(build, later)
@@ -190,7 +190,7 @@ class StateTable:
         return made
 
     def rehash(self) -> Any:
-        """``rehash(table, size, words, count)``: enter the stored valuations into an empty table."""
+        """``rehash(table, size, words, count)``: enter the stored states into an empty table."""
         made, a, build = function(
             self.module,
             "rehash",
@@ -212,7 +212,7 @@ class StateTable:
         return made
 
     def known(self) -> Any:
-        """``known(table, size, words, asked, count, found)``: which of the valuations are stored."""
+        """``known(table, size, words, asked, count, found)``: which of the states are stored."""
         made, a, build = function(
             self.module,
             "known",
@@ -237,18 +237,18 @@ class StateTable:
     # --- parts -----------------------------------------------------------------------------------
 
     def load(self, build: Any, words: Any, index: Any) -> list[Any]:
-        """The words of the index-th valuation."""
+        """The words of the index-th state."""
         first = build.mul(index, INT(self.words))
         return [build.load(build.gep(words, [build.add(first, INT(w))])) for w in range(self.words)]
 
     def save(self, build: Any, words: Any, index: Any, key: list[Any]) -> None:
-        """Write the words of the index-th valuation."""
+        """Write the words of the index-th state."""
         first = build.mul(index, INT(self.words))
         for w, word in enumerate(key):
             build.store(word, build.gep(words, [build.add(first, INT(w))]))
 
     def hash(self, build: Any, key: list[Any]) -> Any:
-        """Mix the words so that near valuations spread over the table."""
+        """Mix the words so that near states spread over the table."""
         mixed = key[0]
         for word in key[1:]:
             mixed = build.xor(self._mix(build, mixed), word)
@@ -263,14 +263,14 @@ class StateTable:
         return build.trunc(build.lshr(product, _DOUBLE(64)), INT)
 
     def _hashes(self, build: Any, a: dict[str, Any], size: Any, first: Any, last: Any) -> "_Hashes":
-        """The hashes of the valuations first..last-1 of the buffer, each computed before it is needed."""
+        """The hashes of the states first..last-1 of the buffer, each computed before it is needed."""
         kept = _Hashes(self, a, size, last, _local(build, ir.ArrayType(INT, _AHEAD)))
         with Loop(build, first, _least(build, build.add(first, INT(_AHEAD)), last)) as i:
             kept.note(build, i)
         return kept
 
     def _entry(self, build: Any, key: list[Any], hashed: Any, index: Any) -> Any:
-        """What the table holds for a valuation."""
+        """What the table holds for a state."""
         if self.words == 1:
             return build.add(key[0], INT(1))
         mark = build.shl(hashed, INT(32))  # the low bits: the high ones say where to look
@@ -279,7 +279,7 @@ class StateTable:
     def _probe(
         self, build: Any, a: dict[str, Any], key: list[Any], hashed: Any, size: Any, new: bool
     ) -> _Found:
-        """Where a valuation is in the table, or the empty place where it belongs.
+        """Where a state is in the table, or the empty place where it belongs.
 
         ``new``: it is known not to be there.
         """
@@ -320,7 +320,7 @@ class StateTable:
         return build.load(result)
 
     def _append(self, build: Any, a: dict[str, Any], key: list[Any], found: _Found, count: Any) -> Any:
-        """Store a valuation; the result is its number."""
+        """Store a state; the result is its number."""
         index = build.load(count)
         build.store(self._entry(build, key, found.hashed, index), found.place)
         self.save(build, a["words"], index, key)

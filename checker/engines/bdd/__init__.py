@@ -1,4 +1,4 @@
-"""Symbolic search: sets of valuations as binary decision diagrams, breadth first, until nothing is new.
+"""Symbolic search: sets of states as binary decision diagrams, breadth first, until nothing is new.
 
 Burch, Clarke, McMillan, Dill, Hwang, *Symbolic model checking: 10^20 states and beyond*, LICS 1990.
 """
@@ -17,7 +17,7 @@ if TYPE_CHECKING:  # `list engines` reads this file for two lines
     from rovercheck.spec_model.lang.system import TransitionSystem
 
 NAME = "bdd"
-SUMMARY = "all reachable valuations as binary decision diagrams (OxiDD); proofs and shortest runs"
+SUMMARY = "all reachable states as binary decision diagrams (OxiDD); proofs and shortest runs"
 
 _NODE = 48
 """Bytes of a node: 36 as measured (children, count, place in the table), the rest for what Python holds."""
@@ -28,7 +28,7 @@ _STACKS = 2 << 30
 def check(
     system: "TransitionSystem", goals: Sequence["Var"], limits: Limits, progress: Progress
 ) -> Mapping[str, Answer]:
-    """Shortest runs to the goals, or the closed set of valuations that shows that there is none."""
+    """Shortest runs to the goals, or the closed set of states that shows that there is none."""
     names = tuple(g.name for g in goals)
     job = SearchJob(
         NAME, f"{__name__}.search", "search",

@@ -1,4 +1,4 @@
-"""Breadth-first traversal: the valuations reached, and those new after each tick (the onion rings)."""
+"""Breadth-first traversal: the states reached, and those new after each tick (the onion rings)."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -10,7 +10,7 @@ from rovercheck.checker.engines.bdd.space import Function, Space
 
 @dataclass(frozen=True)
 class LayerHit:
-    """Something that a tick may do: valuations and inputs with which it does, and the valuations alone."""
+    """Something that a tick may do: states and inputs with which it does, and the states alone."""
 
     ticks: Function
     states: Function
@@ -19,7 +19,7 @@ class LayerHit:
 class Layers:
     """The traversal of one circuit in one order of its variables.
 
-    ``rings[t]`` are the valuations first reached after ``t`` ticks; ``closed``: there are no further rings.
+    ``rings[t]`` are the states first reached after ``t`` ticks; ``closed``: there are no further rings.
     ``goals`` are the ticks that reach a goal, ``leaving`` those that take a variable out of its domain;
     rings beyond one with such a tick mean nothing.  Everything may raise
     ``Overdrawn``, and ``DDMemoryError`` when there is no node left.
@@ -60,7 +60,7 @@ class Layers:
         return result
 
     def step(self) -> bool:
-        """One more ring; False, and none, if no tick leads to a new valuation."""
+        """One more ring; False, and none, if no tick leads to a new state."""
         if self.closed:
             return False
         frontier = min(self.rings[-1], self.reached, key=Function.node_count)
@@ -73,7 +73,7 @@ class Layers:
         return not self.closed
 
     def states(self) -> int:
-        """How many valuations of the latches are reached."""
+        """How many states of the latches are reached."""
         return self.reached.sat_count(len(self.space.circuit.latches))
 
 

@@ -35,7 +35,7 @@ class Relation:
     clusters: tuple[Cluster, ...]
 
     def image(self, states: Function) -> Function:
-        """The valuations after one tick from these."""
+        """The states after one tick from these."""
         result = states.exists(self.first)
         for cluster in self.clusters:
             self.space.pause()

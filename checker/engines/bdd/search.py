@@ -31,7 +31,7 @@ Bits = dict[Literal, int]
 
 
 def run_to(layers: Layers, depth: int, hit: LayerHit) -> Run:
-    """A run of ``depth`` ticks to a valuation of that ring, and one more tick, which is a hit."""
+    """A run of ``depth`` ticks to a state of that ring, and one more tick, which is a hit."""
     space = layers.space
     at = _picked(layers.rings[depth] & hit.ticks, space.current)
     ticks = [at]
@@ -55,7 +55,7 @@ def _inputs(layers: Layers, tick: Bits) -> Bits:
 
 
 def _before(layers: Layers, ring: Function, after: Bits) -> Bits:
-    """A valuation of the ring and inputs that lead to the valuation after the tick."""
+    """A state of the ring and inputs that lead to the state after the tick."""
     found = ring & layers.assume
     for literal, function in layers.next.items():
         layers.space.pause()
@@ -75,7 +75,7 @@ def _picked(function: Function, variables: Mapping[Literal, int]) -> Bits:
 
 
 def last(system: TransitionSystem, run: Run) -> dict[str, int]:
-    """The valuation after a run, by the reference semantics.  Raises ``ArithmeticError`` if it is none."""
+    """The state after a run, by the reference semantics.  Raises ``ArithmeticError`` if it is none."""
     at = {**system.init, **run.frozen}
     for number, inputs in enumerate(run.inputs, 1):
         if not admissible(system, at, inputs):
@@ -114,14 +114,14 @@ def groups(system: TransitionSystem, goals: Sequence[str]) -> Iterator[BddGroup]
         yield BddGroup(cut(moving, together), kept)
 
 
-# --- the set of valuations reached, as a diagram over bits that other tools can read -------------------
+# --- the set of states reached, as a diagram over bits that other tools can read -------------------
 
 MOST = 100_000
 """Nodes of the largest diagram that is kept: a certificate is read by people's solvers, too."""
 
 
 def diagram(group: BddGroup, layers: Layers) -> Diagram | None:
-    """The valuations reached, constants among them; None if there are too many nodes."""
+    """The states reached, constants among them; None if there are too many nodes."""
     if 2 * layers.reached.node_count() > MOST:
         return None
     bits = {layers.space.current[x.literal]: x.bit for x in group.circuit.latches}
@@ -207,10 +207,10 @@ class _Search:
         yield GoalsExcluded(tuple(self._open), self._exhausted(layers))
 
     def _counts(self, layers: Layers) -> str:
-        """``1.2e+09 valuations (3e+08/s), 20,310 nodes``."""
+        """``1.2e+09 states (3e+08/s), 20,310 nodes``."""
         states = layers.states()
         rate = states / max(1e-3, monotonic() - self._start)
-        return f"{states:.3g} valuations ({rate:.2g}/s), {layers.space.used:,} nodes"
+        return f"{states:.3g} states ({rate:.2g}/s), {layers.space.used:,} nodes"
 
     def _found(self, layers: Layers, depth: int) -> Iterator[SearchEvent]:
         for goal in list(self._open):

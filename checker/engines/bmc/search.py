@@ -117,7 +117,7 @@ class _Group:
 
 
 def _feasible(whole: SymbolicTransition, conditions: Mapping[str, Expr]) -> dict[str, Expr]:
-    """The conditions that can hold in one tick from some valuation within the domains."""
+    """The conditions that can hold in one tick from some state within the domains."""
 
     def possible(condition: Expr) -> bool:
         together = [*whole.assume, condition]

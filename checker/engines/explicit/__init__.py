@@ -1,4 +1,4 @@
-"""Explicit search: every reachable valuation is visited, breadth first, by compiled code.
+"""Explicit search: every reachable state is visited, breadth first, by compiled code.
 
 One search decides all goals that depend on nearly the same variables; the first hit of a goal ends a
 shortest run.  It stops when every goal is reached or nothing new appears.
@@ -15,7 +15,7 @@ if TYPE_CHECKING:  # `list engines` reads this file for two lines
     from rovercheck.spec_model.lang.system import TransitionSystem
 
 NAME = "explicit"
-SUMMARY = "breadth-first search of all reachable valuations, compiled to native code"
+SUMMARY = "breadth-first search of all reachable states, compiled to native code"
 
 
 def check(
@@ -23,7 +23,7 @@ def check(
 ) -> Mapping[str, Answer]:
     """An answer for each goal, by name.
 
-    Raises ``OutsideDomain`` when a tick gives a variable of the valuation a value outside its domain, and
+    Raises ``OutsideDomain`` when a tick gives a variable of the state a value outside its domain, and
     ``ModelError`` for a goal that no tick leads to: one that is no variable of the system.
     """
     from rovercheck.checker.engines.explicit.answers import answers  # with numpy and LLVM

@@ -1,8 +1,8 @@
-"""What makes a search large: the variable that multiplies the stored valuations most, and what would help.
+"""What makes a search large: the variable that multiplies the stored states most, and what would help.
 
-For a valuation of a sample, its *group* is the stored valuations that differ from it in one variable
-only.  Without the variable, a group is one valuation, so the store would shrink to the mean of
-1 / (size of the group) over all valuations; the sample estimates that mean.
+For a state of a sample, its *group* is the stored states that differ from it in one variable
+only.  Without the variable, a group is one state, so the store would shrink to the mean of
+1 / (size of the group) over all states; the sample estimates that mean.
 """
 
 from dataclasses import dataclass
@@ -11,7 +11,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from rovercheck.checker.encode.counting import counters
+from rovercheck.checker.encode.counters import counters
 from rovercheck.checker.encode.native import (
     Field,
     NativeSearch,
@@ -27,11 +27,11 @@ from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 MOST_ASKED = 1 << 15
-"""Valuations looked up for one estimate."""
+"""States looked up for one estimate."""
 _MOST_EXPANDED, _ROOM = 1 << 12, 1 << 20
-"""Valuations whose ticks are looked at for another estimate, and how many ticks of theirs."""
+"""States whose ticks are looked at for another estimate, and how many ticks of theirs."""
 _WORTH_SKIPPING = 10
-"""Times fewer valuations that make it worth while to skip quiet ticks."""
+"""Times fewer states that make it worth while to skip quiet ticks."""
 _KNOWN = 0.25
 """The part of all ticks that must lead to what other ticks lead to, or the estimate is none."""
 _MOST_VALUES = 256
@@ -43,16 +43,16 @@ Words = NDArray[np.uint64]
 
 @dataclass(frozen=True)
 class Multiplier:
-    """A variable, and by how much it multiplies the stored valuations."""
+    """A variable, and by how much it multiplies the stored states."""
 
     field: Field
     factor: float
 
 
 class Advisor:
-    """Names what multiplies the valuations of one search.
+    """Names what multiplies the states of one search.
 
-    ``freed``: what is searched is what was left open with timers that run out at will.
+    ``freed``: what is searched is what was left open with timers that may expire at any time.
     """
 
     def __init__(self, native: NativeSearch, *, freed: bool = False) -> None:
@@ -60,7 +60,7 @@ class Advisor:
         self.system: TransitionSystem = native.task.system
 
     def multiplier(self, words: Words, table: Words, count: int) -> Multiplier | None:
-        """The variable that multiplies the first ``count`` valuations most; None if none does by much."""
+        """The variable that multiplies the first ``count`` states most; None if none does by much."""
         fields = self.native.task.layout.fields
         asked = sum(min(_values(f), _MOST_VALUES) for f in fields)
         number = max(1, min(_MOST_SAMPLED, MOST_ASKED // max(1, asked), count))
@@ -89,7 +89,7 @@ class Advisor:
         return f"{most.field.var.name} multiplies them by about {_round(most.factor)}"
 
     def remedy(self, name: str, stored: Words, *, memory: bool) -> str:
-        """The option that would help with a variable in a search that has ``stored`` valuations; or nothing.
+        """The option that would help with a variable in a search that has ``stored`` states; or nothing.
 
         ``memory``: it was that which ran out.  Skipping quiet ticks saves no time.
         """
@@ -102,9 +102,9 @@ class Advisor:
         return ""
 
     def anchors(self, stored: Words) -> float:
-        """About how many of the valuations would still be stored if quiet ticks were skipped.
+        """About how many of the states would still be stored if quiet ticks were skipped.
 
-        All ticks from a sample are looked at: those that are not quiet lead to valuations that are stored
+        All ticks from a sample are looked at: those that are not quiet lead to states that are stored
         in any case.  How many there are is estimated from how often one that is met is met only once (Good,
         *The population frequencies of species and the estimation of population parameters*, 1953); as some
         are met more easily than others, there may be three times as many.
@@ -133,7 +133,7 @@ class Advisor:
 
     @cached_property
     def _freed(self) -> set[str]:
-        """The variables that have fewer values, or are gone, where timers run out at will."""
+        """The variables that have fewer values, or are gone, where timers may expire at any time."""
         source = self.system.source
         if source is None:
             return set()

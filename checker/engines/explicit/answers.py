@@ -7,16 +7,16 @@ from itertools import product
 from math import prod
 from time import monotonic
 
-from rovercheck.checker.encode.counting import counters
+from rovercheck.checker.encode.counters import counters
 from rovercheck.checker.encode.gather import bits, gathered
 from rovercheck.checker.encode.native import Field, Layout, NativeSearch, NativeTask, TooWide, layout, shifts
 from rovercheck.checker.encode.native.layout import WORD_BITS
 from rovercheck.checker.encode.values import possible, values
 from rovercheck.checker.engines import Limits, Progress, Stage, Timers
-from rovercheck.checker.engines.explicit.levels import ExplicitFound, LevelSearch, Spent
+from rovercheck.checker.engines.explicit.levels import ExplicitFound, LevelSearch, SearchUsage
 from rovercheck.checker.engines.explicit.lines import LineSearch
 from rovercheck.checker.engines.explicit.runs import Runs
-from rovercheck.checker.results.closed import BitPlace, ClosedSet, union
+from rovercheck.checker.results.closed_set import BitPlace, ClosedSet, union
 from rovercheck.checker.results.verdict import Answer, Exhausted, Open, Reached, Unreachable
 from rovercheck.checker.system.slice import sliced
 from rovercheck.spec_model.lang.domain import Enum
@@ -30,7 +30,7 @@ Case = Callable[[TransitionSystem], TransitionSystem]
 """What leaves one case of a system, or of a slice of it."""
 
 KEPT = 1 << 21
-"""Valuations of all cases that are kept for a certificate: more could not be checked."""
+"""States of all cases that are kept for a certificate: more could not be checked."""
 
 
 def cases(system: TransitionSystem, part: TransitionSystem) -> Iterator[tuple[str, Case]]:
@@ -54,7 +54,7 @@ def _only(chosen: Var, raw: int, system: TransitionSystem) -> TransitionSystem:
 
 
 def about(case: str, answer: Answer) -> Answer:
-    """The answer of a case, without the valuations if these would keep much memory."""
+    """The answer of a case, without the states if these would keep much memory."""
     match answer:
         case Open(reason, depth):
             return Open(f"{case}: {reason}", depth)
@@ -97,7 +97,7 @@ def _joined(
 
 
 def _union(part: TransitionSystem, found: Sequence[ClosedSet | None]) -> ClosedSet | None:
-    """The valuations of all cases, also of those in which no tick is possible: there they are initial."""
+    """The states of all cases, also of those in which no tick is possible: there they are initial."""
     sets = [one for one in found if one is not None]
     frozen = prod(len(v.domain) for v in part.frozen)
     if len(sets) < len(found) or sum(map(len, sets)) + frozen > KEPT:
@@ -112,7 +112,7 @@ def _union(part: TransitionSystem, found: Sequence[ClosedSet | None]) -> ClosedS
 
 
 NARROW = 3 * WORD_BITS
-"""Bits of a valuation up to which memory is not what ends searches."""
+"""Bits of a state up to which memory is not what ends searches."""
 EXTRA, APART = 10, 128
 """Bits that a goal may add to those of others and still be searched with them, and bits of all goals from
 which on they are anyhow: compiling so wide a step takes longer than most searches."""
@@ -123,7 +123,7 @@ def answers(
 ) -> Mapping[str, Answer]:
     """An answer for each goal, by name; raises what ``check`` of the engine raises."""
     _check_goals(system, goals)
-    deadline, spent = limits.deadline(), Spent()
+    deadline, spent = limits.deadline(), SearchUsage()
     answered: dict[str, Answer] = {}
     for wanted in _groups(system, goals):
         if answered and deadline is not None and monotonic() > deadline:
@@ -167,7 +167,7 @@ class _Within:
     deadline: float | None
     progress: Progress
 
-    def over(self, spent: Spent) -> str:
+    def over(self, spent: SearchUsage) -> str:
         """Which limit leaves nothing for another search; empty if none does."""
         limits = self.limits
         if self.deadline is not None and monotonic() > self.deadline:
@@ -178,8 +178,8 @@ class _Within:
 
 
 def _by_cases(
-    system: TransitionSystem, goals: Sequence[Var], within: _Within, spent: Spent
-) -> tuple[Mapping[str, Answer], Spent]:
+    system: TransitionSystem, goals: Sequence[Var], within: _Within, spent: SearchUsage
+) -> tuple[Mapping[str, Answer], SearchUsage]:
     """An answer for each goal, and what is spent after it; a wide system is searched case by case.
 
     A limit of transitions is shared by the cases, so that the largest does not keep the others from a run.
@@ -193,7 +193,7 @@ def _by_cases(
         if reached := within.over(spent):
             found.append({g.name: Open(f"{reached} is reached before {case}", 0) for g in goals})
             continue
-        told = replace(within, progress=partial(_said, within.progress, case))
+        told = replace(within, progress=partial(_report_case, within.progress, case))
         before = _shared(within.limits.transitions, spent, len(several) - number)
         answers, after = _searched(one(system), one(part), goals, told, before)
         found.append({name: about(case, answer) for name, answer in answers.items()})
@@ -201,7 +201,7 @@ def _by_cases(
     return joined(part, found), spent
 
 
-def _shared(most: int | None, spent: Spent, cases: int) -> Spent:
+def _shared(most: int | None, spent: SearchUsage, cases: int) -> SearchUsage:
     """What counts as spent for a case, so that each of some cases may spend as much as this one."""
     return spent if most is None else replace(spent, transitions=most - (most - spent.transitions) // cases)
 
@@ -210,14 +210,18 @@ def _wide(part: TransitionSystem) -> bool:
     return bits({v.name: v for v in (*part.frozen, *part.variables)}) > NARROW
 
 
-def _said(progress: Progress, case: str, line: str) -> None:
+def _report_case(progress: Progress, case: str, line: str) -> None:
     whole = line.replace("explicit: ", f"explicit: {case}, ", 1)
     progress(Stage(whole) if isinstance(line, Stage) else whole)
 
 
 def _searched(
-    system: TransitionSystem, part: TransitionSystem, goals: Sequence[Var], within: _Within, spent: Spent
-) -> tuple[Mapping[str, Answer], Spent]:
+    system: TransitionSystem,
+    part: TransitionSystem,
+    goals: Sequence[Var],
+    within: _Within,
+    spent: SearchUsage,
+) -> tuple[Mapping[str, Answer], SearchUsage]:
     """One search of a slice: an answer for each goal, and what is spent after it."""
     limits = within.limits
     try:
@@ -237,7 +241,7 @@ def _searched(
         raise runs.left_domain(found.outside)
     answers = {g.name: _answer(found, runs, number, g) for number, g in enumerate(goals)}
     kept = search.store.words.nbytes if any(isinstance(a, Unreachable) for a in answers.values()) else 0
-    return answers, Spent(spent.transitions + found.transitions, spent.bytes + kept)
+    return answers, SearchUsage(spent.transitions + found.transitions, spent.bytes + kept)
 
 
 def _layout(part: TransitionSystem, limits: Limits) -> Layout:

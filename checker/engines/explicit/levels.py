@@ -31,11 +31,11 @@ _MOST_INITIAL = 1 << 22
 
 @dataclass(frozen=True)
 class ExplicitFound:
-    """What a search found: for each goal the valuation from which it is first reached (or None),
+    """What a search found: for each goal the state from which it is first reached (or None),
     and why it stopped early (empty if it did not).
 
-    ``starts`` has the number of the first valuation of each level, ``levels`` the level from which
-    each goal was reached; what lies between a valuation and its parent's level are quiet ticks.
+    ``starts`` has the number of the first state of each level, ``levels`` the level from which
+    each goal was reached; what lies between a state and its parent's level are quiet ticks.
     """
 
     hits: tuple[int | None, ...]
@@ -51,23 +51,23 @@ class ExplicitFound:
     outside: tuple[int, ...] | None = None
 
     def level(self, number: int) -> int:
-        """The ticks after which a stored valuation is first reached."""
+        """The ticks after which a stored state is first reached."""
         return bisect_right(self.starts, number) - 1
 
 
 @dataclass(frozen=True)
-class Spent:
+class SearchUsage:
     """What earlier searches under the same limits have used, and bytes that their answers hold."""
 
     transitions: int = 0
     bytes: int = 0
 
 
-NOTHING = Spent()
+NOTHING = SearchUsage()
 
 
 class LevelSearch:
-    """Breadth-first search that stores every valuation it visits.
+    """Breadth-first search that stores every state it visits.
 
     ``run`` visits what is reachable until all goals are decided or a limit is met.
     """
@@ -78,7 +78,7 @@ class LevelSearch:
         limits: Limits,
         deadline: float | None,
         progress: Progress,
-        spent: Spent = NOTHING,
+        spent: SearchUsage = NOTHING,
     ) -> None:
         self.native, self.limits, self.deadline, self.progress = native, limits, deadline, progress
         self.spent = spent
@@ -108,7 +108,7 @@ class LevelSearch:
 
     @contextmanager
     def _watched(self) -> Iterator[None]:
-        """Tell the native code to stop when the time is over, also in the middle of a valuation."""
+        """Tell the native code to stop when the time is over, also in the middle of a state."""
         if self.deadline is None:
             yield
             return
@@ -152,11 +152,11 @@ class LevelSearch:
 
     @property
     def expanded(self) -> NDArray[np.uint64]:
-        """The valuations of which ``next`` is one."""
+        """The states of which ``next`` is one."""
         return self.store.words
 
     def _start(self) -> None:
-        """Store the initial valuations: one for each choice of the frozen variables."""
+        """Store the initial states: one for each choice of the frozen variables."""
         number = 1
         for var in self.native.task.system.frozen:
             number *= len(var.domain)
@@ -245,13 +245,13 @@ class LevelSearch:
         )
 
     def _multiplier(self) -> Multiplier | None:
-        """What multiplies the valuations stored so far."""
+        """What multiplies the states stored so far."""
         return self.advisor.multiplier(self.store.words, self.store.table, self["count"])
 
     def _gave_up(self, limit: str, *, memory: bool = False) -> bool:
         """Note the limit that ends the search, how far it came, and what would help; False."""
         most = self._multiplier()
-        self.stopped = f"{limit} is reached at {self['count']:,} valuations"
+        self.stopped = f"{limit} is reached at {self['count']:,} states"
         if most is not None:
             stored = self.store.words[: self["count"]]
             remedy = self.advisor.remedy(most.field.var.name, stored, memory=memory)
@@ -277,7 +277,7 @@ class LevelSearch:
 
 
 def initial_valuations(task: NativeTask) -> Iterator[Mapping[str, int]]:
-    """The valuations before the first tick."""
+    """The states before the first tick."""
     frozen = task.system.frozen
     for values in product(*(v.domain.values for v in frozen)):
         yield {**task.system.init, **dict(zip((v.name for v in frozen), values, strict=True))}

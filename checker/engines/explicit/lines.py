@@ -1,9 +1,9 @@
-"""Breadth-first search that skips quiet ticks: valuations in which only counters moved on are not stored.
+"""Breadth-first search that skips quiet ticks: states in which only counters moved on are not stored.
 
-A stored valuation is the anchor of a line: what quiet ticks lead to from it, one valuation in each
-level.  The frontier of a level holds its new anchors and the next valuation of every line that goes
+A stored state is the anchor of a line: what quiet ticks lead to from it, one state in each
+level.  The frontier of a level holds its new anchors and the next state of every line that goes
 on; a line ends where no tick is quiet or where it meets another anchor, which goes on for it.  Every
-valuation is still expanded in the level in which it is first reached, so runs stay shortest.
+state is still expanded in the level in which it is first reached, so runs stay shortest.
 """
 
 from typing import Any
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from rovercheck.checker.encode.native import NativeSearch
 from rovercheck.checker.engines import Limits, Progress
-from rovercheck.checker.engines.explicit.levels import NOTHING, LevelSearch, Spent
+from rovercheck.checker.engines.explicit.levels import NOTHING, LevelSearch, SearchUsage
 
 
 class LineSearch(LevelSearch):
@@ -25,14 +25,14 @@ class LineSearch(LevelSearch):
         limits: Limits,
         deadline: float | None,
         progress: Progress,
-        spent: Spent = NOTHING,
+        spent: SearchUsage = NOTHING,
     ) -> None:
         super().__init__(native, limits, deadline, progress, spent)
         self.current, self.anchors = self._room(0)
         self.onward, self.carried = self._room(0)
 
     def _room(self, length: int) -> tuple[NDArray[np.uint64], NDArray[np.uint32]]:
-        """Valuations and the numbers of their anchors."""
+        """States and the numbers of their anchors."""
         words = self.native.task.layout.words
         return np.zeros((length, words), dtype=np.uint64), np.zeros(length, dtype=np.uint32)
 

@@ -1,6 +1,6 @@
-"""The parents of stored valuations, read from two bits each.
+"""The parents of stored states, read from two bits each.
 
-Bit i + parent(i) is set for the i-th valuation, parents being in ascending order: the parent of the
+Bit i + parent(i) is set for the i-th state, parents being in ascending order: the parent of the
 i-th is the place of the i-th set bit, less i.
 """
 
@@ -28,9 +28,9 @@ class Unary:
         return np.concatenate([[0], np.cumsum(counts)])
 
     def __getitem__(self, number: int) -> int:
-        """The parent of a valuation that has one.  Raises ``IndexError`` for one that is not stored."""
+        """The parent of a state that has one.  Raises ``IndexError`` for one that is not stored."""
         if not 0 <= number < self.before[-1]:
-            raise IndexError(f"no valuation has the number {number}")
+            raise IndexError(f"no state has the number {number}")
         block = int(np.searchsorted(self.before, number, side="right")) - 1
         bytes_ = self.bits[block * _BLOCK : (block + 1) * _BLOCK]
         places = np.flatnonzero(np.unpackbits(bytes_, bitorder="little"))

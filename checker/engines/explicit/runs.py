@@ -1,6 +1,6 @@
 """Runs from a finished search: the chain of parents, then inputs for each tick of it.
 
-Inputs that a tick does not read keep their value where they may, so that traces are calm.
+Inputs that a tick does not read keep their value where they may, so that traces change little.
 """
 
 from collections.abc import Mapping
@@ -28,7 +28,7 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.walk import variables
 
 Packed = tuple[int, ...]
-"""The words of a valuation."""
+"""The words of a state."""
 
 
 class Runs:
@@ -63,11 +63,11 @@ class Runs:
         return run
 
     def to_valuation(self, number: int) -> Run:
-        """A run that ends in a stored valuation, as short as the search found it."""
+        """A run that ends in a stored state, as short as the search found it."""
         line = self.line(number, self.found.level(number))
         run, at = self._run(number, self._ticks(line))
         if any(at[name] != raw for name, raw in self.task.layout.unpack(line[-1]).items()):
-            raise AssertionError(f"the run of {len(run)} ticks does not end in valuation {number}")
+            raise AssertionError(f"the run of {len(run)} ticks does not end in state {number}")
         return run
 
     def _run(self, last: int, chosen: list[dict[str, int]]) -> tuple[Run, Mapping[str, int]]:
@@ -80,7 +80,7 @@ class Runs:
         return Run(self._frozen(last), tuple(inputs)), at
 
     def left_domain(self, last: Packed) -> OutsideDomain:
-        """The error to raise when a tick from the last valuation breaks the model."""
+        """The error to raise when a tick from the last state breaks the model."""
         words = _array(last)
         before = self.task.layout.unpack(last)
         default = {v.name: v.domain.low for v in self.task.system.inputs}
@@ -92,7 +92,7 @@ class Runs:
         return OutsideDomain(broken, after[broken.name])
 
     def line(self, last: int, level: int) -> list[Packed]:
-        """The valuations before each tick of a run that visits the last and is then quiet up to a level."""
+        """The states before each tick of a run that visits the last and is then quiet up to a level."""
         found: list[Packed] = []
         while True:
             found += reversed(self._quiet(last, level))
@@ -101,11 +101,11 @@ class Runs:
             level = self.found.level(last) - 1
             parent = int(self.found.parents[last])
             if not 0 <= parent < last:
-                raise AssertionError(f"{parent} is no parent of valuation {last}: it was not found before it")
+                raise AssertionError(f"{parent} is no parent of state {last}: it was not found before it")
             last = parent
 
     def _quiet(self, number: int, level: int) -> list[Packed]:
-        """A stored valuation and those that follow it by quiet ticks."""
+        """A stored state and those that follow it by quiet ticks."""
         at: Packed | None = tuple(self.found.words[number].tolist())
         along = []
         for _ in range(level - self.found.level(number) + 1):

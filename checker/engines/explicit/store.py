@@ -1,6 +1,6 @@
-"""Memory of the search: valuations in arrival order, their parents, and the table of the known ones.
+"""Memory of the search: states in arrival order, their parents, and the table of the known ones.
 
-For each valuation of one word: 8 bytes of the word, 8 bytes at a load of 0.56 to 0.75 of the table,
+For each state of one word: 8 bytes of the word, 8 bytes at a load of 0.56 to 0.75 of the table,
 and two bits of the parent (four bytes where quiet ticks are skipped).
 """
 
@@ -24,7 +24,7 @@ _LARGE = 1 << 20
 class StateStore:
     """Arrays that the native code fills; ``memory`` is the most they may take, in bytes.
 
-    ``most`` valuations at most: they are numbered by 32 bits.
+    ``most`` states at most: they are numbered by 32 bits.
     """
 
     native: NativeSearch
@@ -43,7 +43,7 @@ class StateStore:
         self.load = _LOAD
 
     def _parents(self, length: int) -> int:
-        """Entries of ``parents`` for so many valuations."""
+        """Entries of ``parents`` for so many states."""
         return length // 4 + 1 if self.ordered else length
 
     @property
@@ -53,16 +53,16 @@ class StateStore:
 
     @property
     def room(self) -> int:
-        """Valuations that fit before the store must grow."""
+        """States that fit before the store must grow."""
         return min(len(self.words), int(len(self.table) * self.load), self.most)
 
     @property
     def by_number(self) -> "Unary | NDArray[np.uint32]":
-        """The parent of each valuation; of initial ones it says nothing."""
+        """The parent of each state; of initial ones it says nothing."""
         return Unary(self.parents) if self.ordered else self.parents
 
     def grow(self, count: int) -> bool:
-        """Make room for more than ``count`` valuations; False when that is not allowed."""
+        """Make room for more than ``count`` states; False when that is not allowed."""
         if count >= self.most:
             return False
         if count >= len(self.words) and not self._lengthen():
@@ -82,7 +82,7 @@ class StateStore:
         return True
 
     def _widen(self, count: int) -> bool:
-        """A larger table; the old one is given up first, as the valuations are all in ``words``."""
+        """A larger table; the old one is given up first, as the states are all in ``words``."""
         size = len(self.table)
         fits = (self.memory - self.bytes + self.table.nbytes) // self.table.itemsize
         larger = min(2 * size if size < _LARGE else size * 4 // 3, fits)

@@ -1,7 +1,7 @@
 """Houdini: the greatest subset of candidates that is inductive, and which of them a proof rests on.
 
-A counterexample to induction is a valuation in which all remaining candidates hold and a tick after
-which some do not.  Whatever else random runs from that valuation break cannot be inductive either, so
+A counterexample to induction is a state in which all remaining candidates hold and a tick after
+which some do not.  Whatever else random runs from that state break cannot be inductive either, so
 that one answer of the solver strikes out many candidates (Flanagan and Leino, FME 2001).
 """
 
@@ -13,9 +13,10 @@ import z3
 
 from rovercheck.checker.encode.bitvector import Encoder, Term
 from rovercheck.checker.encode.invariants import TemplateCube
-from rovercheck.checker.encode.simulate import Columns, Simulator, Vectorised
+from rovercheck.checker.encode.simulate import Simulator
 from rovercheck.checker.encode.unrolling import Unrolling, literal, satisfiable
 from rovercheck.checker.engines.kinduction.ticks import Scope, TickReading, Ticks
+from rovercheck.checker.system.arrays import ArrayProgram, Columns
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Expr
 from rovercheck.spec_model.lang.walk import variables
@@ -27,7 +28,7 @@ _TICKS = 8
 
 
 class Consecution:
-    """One tick from any valuation, with an invariant that grows."""
+    """One tick from any state, with an invariant that grows."""
 
     def __init__(self, scope: Scope) -> None:
         self._ticks = Ticks(scope, PATIENCE)
@@ -98,7 +99,7 @@ class Consecution:
         return z3.Not(self._after(conjunct))
 
     def _runs(self, reading: TickReading) -> Columns:
-        """Valuations on random runs from the one of a model, the tick in the model among them."""
+        """States on random runs from the one of a model, the tick in the model among them."""
         start = self._simulator.everywhere(reading.start)
         return self._simulator.run(start, _TICKS, reading.inputs[0]).samples()
 
@@ -113,8 +114,8 @@ def of_given(scope: Scope, candidates: Sequence[Expr]) -> Consecution:
 
 
 def unbroken(conditions: Sequence[Expr], at: Columns) -> list[Expr]:
-    """The conditions that hold in all the valuations."""
-    truth = Vectorised(conditions)(at)
+    """The conditions that hold in all the states."""
+    truth = ArrayProgram(conditions)(at)
     return [c for c, holds in zip(conditions, truth, strict=True) if np.all(holds)]
 
 

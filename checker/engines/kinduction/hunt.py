@@ -1,7 +1,7 @@
 """The hunt for invariants: cheap templates first, then whatever excludes a counterexample to induction.
 
-Of the rich templates only those candidates are tried that exclude the valuations a counterexample
-stands for, or the valuations that lead there when the first ones are not inductive alone.
+Of the rich templates only those candidates are tried that exclude the states a counterexample
+stands for, or the states that lead there when the first ones are not inductive alone.
 """
 
 from collections.abc import Iterable, Iterator

@@ -49,7 +49,7 @@ def induction(
 ) -> InductionStep | TemplateCube:
     """Whether the goal is inductive in at most ``window`` ticks, or else where the longest one fails.
 
-    ``simple`` takes the valuations before the ticks to differ from each other.  Raises ``GaveUp``.
+    ``simple`` takes the states before the ticks to differ from each other.  Raises ``GaveUp``.
     """
     ticks = Ticks(scope, patience)
     literals = ticks.assumed(invariant)
@@ -68,7 +68,7 @@ def induction(
 
 
 def _differ(ticks: Ticks, last: int) -> None:
-    """The valuation after the last tick is none of those before it."""
+    """The state after the last tick is none of those before it."""
     state = ticks.valuation(last)
     for tick in range(last):
         earlier = ticks.valuation(tick)
@@ -268,7 +268,7 @@ class InductionGroup:
     ) -> Iterator[SearchEvent]:
         """Try to close each goal with the invariant so far; ``note`` is told what stands in the way.
 
-        ``simple``: along paths whose valuations, of all that the goals depend on as written, differ; whoever
+        ``simple``: along paths whose states, of all that the goals depend on as written, differ; whoever
         checks the proof does not know what was simplified away.
         """
         scope = self._whole if simple else self._scope

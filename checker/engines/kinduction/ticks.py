@@ -25,7 +25,7 @@ class Scope:
 
 
 class Ticks(Unrolling):
-    """Ticks from any valuation, none of which takes a variable out of its domain.
+    """Ticks from any state, none of which takes a variable out of its domain.
 
     That there are no others is shown apart, see ``excluded``.
     """
@@ -64,13 +64,13 @@ class Ticks(Unrolling):
         return [str(c) for c in self.solver.unsat_core() if str(c) in literals]
 
     def reading(self) -> "TickReading":
-        """The first valuation in the model and the inputs of every tick."""
+        """The first state in the model and the inputs of every tick."""
         model = self.solver.model()
         given = tuple(values(model, self.inputs(t + 1)) for t in range(len(self)))
         return TickReading(values(model, self.valuation(0)), given)
 
     def cube(self, reading: "TickReading", reached: Term) -> TemplateCube:
-        """The first valuation of a reading, and those of its variables that make the term true."""
+        """The first state of a reading, and those of its variables that make the term true."""
         given = [
             _equal(self.inputs(tick)[name], raw)
             for tick, at in enumerate(reading.inputs, 1)
@@ -87,7 +87,7 @@ class Ticks(Unrolling):
 
 @dataclass(frozen=True)
 class TickReading:
-    """What determines the ticks of a model: the first valuation, frozen values too, and the inputs."""
+    """What determines the ticks of a model: the first state, frozen values too, and the inputs."""
 
     start: Mapping[str, int]
     inputs: tuple[Mapping[str, int], ...]

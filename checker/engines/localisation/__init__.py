@@ -12,7 +12,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.engines import Engine, Limits, Progress, engines
-from rovercheck.checker.process.isolate import Stopped
+from rovercheck.checker.process.isolate import ChildStopped
 from rovercheck.checker.results.trace import counted_ticks
 from rovercheck.checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
 
@@ -46,7 +46,7 @@ def check(
             told = _Told(progress, goal.name, len(goals) - len(found))
             try:
                 found[goal.name] = _decided(own, goal, limits.until(deadline), orders, told)
-            except Stopped as stopped:
+            except ChildStopped as stopped:
                 found[goal.name] = Open(str(stopped), 0)
     return found
 
@@ -65,7 +65,7 @@ def _decided(
     system: "TransitionSystem", goal: "Var", limits: Limits, orders: "Orders", told: _Told
 ) -> Answer:
     """Refine until a proof of the system with cuts or a run of the system itself is found."""
-    from rovercheck.checker.engines.localisation.bounded import BoundedHit
+    from rovercheck.checker.engines.localisation.bounded_search import BoundedHit
     from rovercheck.checker.engines.localisation.cuts import with_cuts
 
     depth, kept, asked, deadline = FIRST, frozenset[str](), False, limits.deadline()
@@ -79,13 +79,13 @@ def _decided(
         if asked and why.kept == kept:
             return Open("a run of the system with cuts could be neither followed nor excluded", 0)
         asked, kept = True, why.kept
-        answer = _asked(with_cuts(system, kept), goal, limits.until(deadline), told, len(kept))
+        answer = _query(with_cuts(system, kept), goal, limits.until(deadline), told, len(kept))
         if not isinstance(answer, Reached) or kept.issuperset(v.name for v in system.variables):
             return answer
         depth = len(answer.run)
 
 
-def _asked(system: "TransitionSystem", goal: "Var", limits: Limits, told: _Told, kept: int) -> Answer:
+def _query(system: "TransitionSystem", goal: "Var", limits: Limits, told: _Told, kept: int) -> Answer:
     """What the provers say of the system with cuts."""
     known: Mapping[str, Engine] = engines()
     reasons: list[str] = []
@@ -117,6 +117,6 @@ def _shortened(
 def _carries(answer: Unreachable) -> bool:
     """Whether the proof is one of the system without cuts, too.
 
-    Valuations that differ there need not differ in the variables that are left.
+    States that differ there need not differ in the variables that are left.
     """
     return isinstance(answer.because, Inductive) and not answer.because.simple

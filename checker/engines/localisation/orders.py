@@ -5,13 +5,13 @@ from time import monotonic
 from types import TracebackType
 from typing import Self
 
-from rovercheck.checker.engines.localisation.bounded import BoundedEngine, BoundedHit, Core
-from rovercheck.checker.process.isolate import Child, End, Stopped
+from rovercheck.checker.engines.localisation.bounded_search import BoundedEngine, BoundedHit, Core
+from rovercheck.checker.process.isolate import Child, ChildStopped, End
 from rovercheck.spec_model.lang.system import TransitionSystem
 
 
 class Orders:
-    """A child that knows the system.  Raises ``Stopped`` when it dies or the time is over."""
+    """A child that knows the system.  Raises ``ChildStopped`` when it dies or the time is over."""
 
     def __init__(self, system: TransitionSystem, deadline: float | None, memory: int) -> None:
         self._inbox: SimpleQueue[object] = SimpleQueue()
@@ -35,9 +35,9 @@ class Orders:
                 case BoundedHit() | Core() as found:
                     said = found
                 case str(reason):
-                    raise Stopped(reason)
+                    raise ChildStopped(reason)
                 case End(failure) if failure is not None or said is None:
-                    raise Stopped(failure or "the bounded search ended without a word")
+                    raise ChildStopped(failure or "the bounded search ended without a word")
                 case End():
                     assert said is not None
                     return said
@@ -47,4 +47,4 @@ class Orders:
         try:
             return self._inbox.get(timeout=left)
         except Empty:
-            raise Stopped("the time limit is reached") from None
+            raise ChildStopped("the time limit is reached") from None

@@ -20,7 +20,7 @@ GROWTH = 3
 class Cones:
     """An incremental solver with its own numbers for the variables of a machine.
 
-    ``inside``: valuations are within their domains.
+    ``inside``: states are within their domains.
     """
 
     def __init__(self, machine: PdrMachine, *, inside: bool) -> None:

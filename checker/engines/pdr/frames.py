@@ -1,7 +1,7 @@
-"""Frames: what is known of the valuations reachable within so many ticks.
+"""Frames: what is known of the states reachable within so many ticks.
 
-Frame 0 is the initial valuations; a lemma at level ``i`` is the negation of a cube that holds no
-valuation reachable within ``i`` ticks.  Frame ``i`` consists of the lemmas at level ``i`` or above.
+Frame 0 is the initial states; a lemma at level ``i`` is the negation of a cube that holds no
+state reachable within ``i`` ticks.  Frame ``i`` consists of the lemmas at level ``i`` or above.
 """
 
 from collections.abc import Iterator
@@ -11,11 +11,11 @@ from rovercheck.checker.engines.pdr.cubes import Cube, cube
 from rovercheck.checker.engines.pdr.lemmas import ALWAYS, Lemma, LemmaStep
 from rovercheck.checker.engines.pdr.machine import PdrMachine
 
-# --- the initial valuations ----------------------------------------------------------------------------
+# --- the initial states ----------------------------------------------------------------------------
 
 
 class Initial:
-    """The initial valuations of a machine."""
+    """The initial states of a machine."""
 
     def __init__(self, machine: PdrMachine) -> None:
         self._machine = machine
@@ -24,14 +24,14 @@ class Initial:
         self._cones.add([self._cones.literal(machine.start)])
 
     def meets(self, wanted: Cube) -> bool:
-        """Whether an initial valuation lies in a cube that contradicts no initial value."""
+        """Whether an initial state lies in a cube that contradicts no initial value."""
         if self._free.isdisjoint(map(abs, wanted.literals)):
             return True
         cones = self._cones
         return cones.solve([cones.literal(x) for x in wanted.literals if abs(x) in self._free])
 
     def inside(self, wanted: Cube) -> tuple[int, ...]:
-        """The values of the frozen latches in an initial valuation that lies in a cube."""
+        """The values of the frozen latches in an initial state that lies in a cube."""
         if not self._cones.solve([self._cones.literal(x) for x in wanted.literals if abs(x) in self._free]):
             raise ArithmeticError("the engine is wrong: a run starts where none does")
         return self._cones.model()[0]
@@ -119,15 +119,15 @@ class Frames:
     # --- questions -------------------------------------------------------------------------------
 
     def initial(self, wanted: Cube) -> bool:
-        """Whether some initial valuation lies in a cube."""
+        """Whether some initial state lies in a cube."""
         return self._contrary.isdisjoint(wanted.literals) and self._start.meets(wanted)
 
     def started(self, wanted: Cube) -> tuple[int, ...]:
-        """The frozen latches of an initial valuation in a cube that holds some; others may have any value."""
+        """The frozen latches of an initial state in a cube that holds some; others may have any value."""
         return self._start.inside(wanted)
 
     def hits(self, goal: str, level: int) -> LemmaStep | None:
-        """A valuation of a frame and inputs with which a goal is true after the tick."""
+        """A state of a frame and inputs with which a goal is true after the tick."""
         self.queries += 1
         solver = self._goals
         if solver.solve(level, [solver.cones.literal(self.machine.goals[goal])]):
@@ -136,7 +136,7 @@ class Frames:
 
     def blocked(self, wanted: Cube, level: int, relative: bool = True) -> Cube | None:
         """If no tick leads from the frame (outside the cube, if ``relative``) into the cube: the part of the
-        cube that this rests on, which holds no initial valuation.  None if some tick does, see ``step``."""
+        cube that this rests on, which holds no initial state.  None if some tick does, see ``step``."""
         self.queries += 1
         solver, after = self._ticks, self.machine.after
         solver.refresh()
@@ -152,11 +152,11 @@ class Frames:
         return LemmaStep(*self._ticks.cones.model())
 
     def witness(self) -> Cube:
-        """The valuation before that tick."""
+        """The state before that tick."""
         return cube(self._ticks.cones.model()[0])
 
     def _apart(self, kept: list[int], whole: Cube) -> Cube:
-        """A cube of these literals of a whole cube, and of more if it would hold an initial valuation."""
+        """A cube of these literals of a whole cube, and of more if it would hold an initial state."""
         part = cube(kept)
         if len(part) == len(whole) or not self.initial(part):
             return part
@@ -205,21 +205,21 @@ class _Solver:
         self.cones.add(clause)
 
     def solve(self, level: int, assumptions: list[int]) -> bool:
-        """Whether literals can be true together, in this tick, in some valuation of a frame."""
+        """Whether literals can be true together, in this tick, in some state of a frame."""
         if level == 0 and not self._begun:
             self._begin()
         frame = [self._levels[level]] if level < ALWAYS else []
         return self.cones.solve([*frame, *assumptions])
 
     def _begin(self) -> None:
-        """Frame 0: the initial valuations."""
+        """Frame 0: the initial states."""
         machine, cones = self._frames.machine, self.cones
         for literal in (*machine.init, machine.start):
             cones.add([-self._levels[0], cones.literal(literal)])
         self._begun = True
 
     def outside(self, wanted: Cube) -> tuple[int]:
-        """A literal that confines the next question to valuations outside a cube."""
+        """A literal that confines the next question to states outside a cube."""
         self.cones.retire(self._outside)
         self._outside = self.cones.fresh()
         self.cones.add([-self._outside, *(-x for x in self.cones.literals(wanted.literals))])

@@ -13,7 +13,7 @@ from rovercheck.checker.encode.cone import as_written, by_cone, cone, constants,
 from rovercheck.checker.encode.symbolic import SymbolicTransition, transition
 from rovercheck.checker.engines.pdr.cubes import Cube
 from rovercheck.checker.engines.pdr.machine import LEAVES, machine
-from rovercheck.checker.engines.pdr.search import BoundedDepth, Excluded, PdrSearch, Traced
+from rovercheck.checker.engines.pdr.search import BoundedDepth, PdrInvariant, PdrRun, PdrSearch
 from rovercheck.checker.engines.pdr.seeds import LARGE, Seed, mined, proved
 from rovercheck.checker.engines.pdr.support import needed
 from rovercheck.checker.results.verdict import Inductive, Run
@@ -38,7 +38,7 @@ def others(circuit: Circuit) -> dict[Literal, int] | None:
     return {bit: int(x > 0) for bit, x in zip(bits, solver.get_model(), strict=False)}
 
 
-def run_of(traced: Traced, circuit: Circuit, outside: dict[Literal, int]) -> Run:
+def run_of(traced: PdrRun, circuit: Circuit, outside: dict[Literal, int]) -> Run:
     """The run of the whole system that a trace stands for."""
     leaves = [*(latch.literal for latch in circuit.latches), *(bit.literal for bit in circuit.inputs)]
 
@@ -49,7 +49,7 @@ def run_of(traced: Traced, circuit: Circuit, outside: dict[Literal, int]) -> Run
 
 
 def replayed(system: TransitionSystem, run: Run) -> list[dict[str, int]]:
-    """The valuation before the first tick and after each.  Raises ``ArithmeticError`` if the run is none."""
+    """The state before the first tick and after each.  Raises ``ArithmeticError`` if the run is none."""
     if any(run.frozen[v.name] not in v.domain for v in system.frozen):
         raise ArithmeticError("the engine is wrong: its run has frozen values outside their domains")
     at = {**system.init, **run.frozen}
@@ -230,7 +230,7 @@ class _Group:
         goals, system = tuple(self.circuit.goals), self.circuit.system
         for event in self.search.decide(LEAVES):
             match event:
-                case Traced():
+                case PdrRun():
                     at = replayed(system, run_of(event, self.circuit, outside))
                     yield _undefined(goals, _leavers(system, at[-1]), len(at) - 1)
                     return False
@@ -261,10 +261,10 @@ class _Goal:
         for event in group.search.decide(goal):
             self.spent += group.spent - before
             match event:
-                case Traced():
+                case PdrRun():
                     run = _reaching(run_of(event, group.circuit, outside), goal, group.circuit.system)
                     yield GoalReached(goal, run, shortest=len(run) == bound + 1)
-                case Excluded(cubes):
+                case PdrInvariant(cubes):
                     yield GoalsExcluded((goal,), Inductive(group.invariant(goal, cubes)))
                 case BoundedDepth(bound):
                     yield DepthSearched((goal,), bound, group.lemmas)

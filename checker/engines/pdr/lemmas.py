@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from rovercheck.checker.engines.pdr.cubes import Cube
 
 ALWAYS = 1 << 30
-"""The level of lemmas that hold in every reachable valuation."""
+"""The level of lemmas that hold in every reachable state."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,7 +17,7 @@ class LemmaStep:
 
 
 class Lemma:
-    """A cube that is excluded up to a level; ``witness`` is a valuation of the frame at its level with a
+    """A cube that is excluded up to a level; ``witness`` is a state of the frame at its level with a
     tick into the cube, as far as it matters, which shows that the lemma cannot be pushed for now;
     ``dropped`` once a stronger lemma has taken its place."""
 

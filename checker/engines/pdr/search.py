@@ -1,6 +1,6 @@
 """Property directed reachability (Bradley, VMCAI 2011; Eén, Mishchenko, Brayton, FMCAD 2011).
 
-Obligations are valuations from which a goal is reached; each is excluded from a frame by a lemma, or
+Obligations are states from which a goal is reached; each is excluded from a frame by a lemma, or
 has a predecessor there, which is the next obligation, or is initial, which makes a run.
 """
 
@@ -19,19 +19,19 @@ from rovercheck.checker.engines.pdr.machine import PdrMachine
 
 
 class Lifter:
-    """Generalises one valuation and its inputs to all valuations in which the same inputs do the same."""
+    """Generalises one state and its inputs to all states in which the same inputs do the same."""
 
     def __init__(self, machine: PdrMachine) -> None:
         self._machine = machine
         self._cones = Cones(machine, inside=False)
 
     def into(self, step: LemmaStep, target: Cube) -> Cube:
-        """The valuations from which, as the step shows of one, the inputs lead into the target."""
+        """The states from which, as the step shows of one, the inputs lead into the target."""
         after = self._machine.after
         return self._lifted(step, [after[x] for x in target.literals])
 
     def onto(self, step: LemmaStep, goal: str) -> Cube:
-        """The valuations from which, as the step shows of one, the inputs make the goal true."""
+        """The states from which, as the step shows of one, the inputs make the goal true."""
         return self._lifted(step, [self._machine.goals[goal]])
 
     def _lifted(self, step: LemmaStep, wanted: list[int]) -> Cube:
@@ -76,7 +76,7 @@ class Generaliser:
         return lemma
 
     def _smallest(self, blocked: Cube, level: int) -> Cube:
-        """Literals are dropped one by one as long as the rest is blocked and holds no initial valuation."""
+        """Literals are dropped one by one as long as the rest is blocked and holds no initial state."""
         activity, frames = self._activity, self._frames
         for literal in sorted(blocked.literals, key=lambda x: activity[abs(x)]):
             if literal in blocked.literals:
@@ -96,7 +96,7 @@ class Generaliser:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class PdrObligation:
-    """Every valuation of the cube leads with the inputs to the next obligation, or to the goal."""
+    """Every state of the cube leads with the inputs to the next obligation, or to the goal."""
 
     cube: Cube
     inputs: tuple[int, ...]
@@ -104,7 +104,7 @@ class PdrObligation:
 
 
 @dataclass(frozen=True)
-class Traced:
+class PdrRun:
     """A run: the latches before the first tick and the inputs of every tick, as literals."""
 
     latches: tuple[int, ...]
@@ -112,7 +112,7 @@ class Traced:
 
 
 @dataclass(frozen=True)
-class Excluded:
+class PdrInvariant:
     """The goal is never reached: the cubes of an inductive invariant, whose negations are its clauses."""
 
     cubes: tuple[Cube, ...]
@@ -125,7 +125,7 @@ class BoundedDepth:
     depth: int
 
 
-Event = Traced | Excluded | BoundedDepth
+Event = PdrRun | PdrInvariant | BoundedDepth
 
 
 class PdrSearch:
@@ -147,20 +147,20 @@ class PdrSearch:
             while frames.top < max(level, 1):
                 frames.open()
             while (run := self._one_less(goal, level)) is not None:
-                if isinstance(run, Traced):
+                if isinstance(run, PdrRun):
                     yield run
                     return
                 yield BoundedDepth(level)
             yield BoundedDepth(level + 1)
             self._propagate()
             if frames.hits(goal, ALWAYS) is None:
-                yield Excluded(tuple(lemma.cube for lemma in frames.always))
+                yield PdrInvariant(tuple(lemma.cube for lemma in frames.always))
                 return
 
     # --- obligations -----------------------------------------------------------------------------
 
-    def _one_less(self, goal: str, level: int) -> Traced | LemmaStep | None:
-        """Exclude a valuation of the frame from which the goal is reached: the step is such a one, unless
+    def _one_less(self, goal: str, level: int) -> PdrRun | LemmaStep | None:
+        """Exclude a state of the frame from which the goal is reached: the step is such a one, unless
         it begins a run; None when there is none left."""
         step = self.frames.hits(goal, level)
         if step is None:
@@ -168,7 +168,7 @@ class PdrSearch:
         first = PdrObligation(self._lifter.onto(step, goal), step.inputs, None)
         return self._discharged(first, level) or step
 
-    def _discharged(self, first: PdrObligation, level: int) -> Traced | None:
+    def _discharged(self, first: PdrObligation, level: int) -> PdrRun | None:
         frames = self.frames
         heap: list[tuple[int, int, PdrObligation]] = []
         self._push(heap, level, first)
@@ -177,7 +177,7 @@ class PdrSearch:
             if frames.initial(wanted.cube):
                 return self._run(wanted)
             if level == 0:
-                raise ArithmeticError("the engine is wrong: frame 0 has a valuation that is not initial")
+                raise ArithmeticError("the engine is wrong: frame 0 has a state that is not initial")
             if not frames.excluded(wanted.cube, level):
                 blocked = frames.blocked(wanted.cube, level - 1)
                 if blocked is None:
@@ -195,12 +195,12 @@ class PdrSearch:
         self._made += 1
         heappush(heap, (level, self._made, wanted))
 
-    def _run(self, first: PdrObligation) -> Traced:
+    def _run(self, first: PdrObligation) -> PdrRun:
         inputs, obligation = list[tuple[int, ...]](), first
         while True:
             inputs.append(obligation.inputs)
             if obligation.next is None:
-                return Traced(self.frames.started(first.cube), tuple(inputs))
+                return PdrRun(self.frames.started(first.cube), tuple(inputs))
             obligation = obligation.next
 
     # --- propagation -----------------------------------------------------------------------------

@@ -16,7 +16,8 @@ from rovercheck.checker.encode.bits.blast import Value, as_word
 from rovercheck.checker.encode.bits.cnf import Cnf
 from rovercheck.checker.encode.cone import Slice
 from rovercheck.checker.encode.invariants import Candidates
-from rovercheck.checker.encode.simulate import Simulator, Vectorised
+from rovercheck.checker.encode.simulate import Simulator
+from rovercheck.checker.system.arrays import ArrayProgram
 from rovercheck.spec_model.lang.expr import Expr, Var
 from rovercheck.spec_model.lang.walk import variables
 
@@ -30,7 +31,7 @@ LARGE = 400
 
 @dataclass(frozen=True, eq=False)
 class Seed:
-    """A condition on the valuation before a tick, and the same after it, as literals of the circuit."""
+    """A condition on the state before a tick, and the same after it, as literals of the circuit."""
 
     condition: Expr
     before: Literal
@@ -48,7 +49,7 @@ def mined(part: Slice, escapes: Sequence[Expr]) -> list[Expr]:
     if len(found) + len(more) <= MANY:
         found += more
     for block in trail.blocks():
-        truth = Vectorised(found)(block)
+        truth = ArrayProgram(found)(block)
         found = [c for c, holds in zip(found, truth, strict=True) if np.all(holds)]
     return found
 
@@ -100,7 +101,7 @@ class _Houdini:
         self._next = cnf.variables
 
     def drop_initially_false(self) -> None:
-        """Strike out what some initial valuation breaks."""
+        """Strike out what some initial state breaks."""
         init = [(n, latch.init) for n, latch in enumerate(self._circuit.latches, 1) if latch.init is not None]
         start = [self._cnf.literal(self._circuit.start), *(n if value else -n for n, value in init)]
         while broken := self._broken([seed.before for seed in self.left], start):

@@ -28,7 +28,7 @@ EFFORT = 700_000
 DRAWN, BESIDE = 4, 200
 """Times that inputs are tried in a tick, for not all are admissible, and what else a tick costs."""
 PATIENCE = 2 * max(HOLD)
-"""Ticks without a new valuation in any run after which no more is expected of a batch."""
+"""Ticks without a new state in any run after which no more is expected of a batch."""
 BATCHES = (((2 * LONGEST,), "constant", 3), (HOLD, "in blocks", 1))
 """For how many ticks inputs keep their values, in words, and the share of effort."""
 _REPORT = 512
@@ -46,7 +46,7 @@ class Batch:
     seed: int
 
     def steps(self) -> Iterator[tuple[Mapping[str, np.ndarray], Mapping[str, np.ndarray], np.ndarray]]:
-        """The same valuations, inputs and runs that go on, tick by tick, whenever it is asked."""
+        """The same states, inputs and runs that go on, tick by tick, whenever it is asked."""
         simulator = Simulator(self.part, self.escapes, lanes=RUNS, seed=self.seed, hold=self.hold)
         return simulator.steps(simulator.start(), resting=True)
 
@@ -105,7 +105,7 @@ def _hits(
 
 
 def _digests(at: Mapping[str, np.ndarray]) -> list[int]:
-    """A number for the valuation of each run; that two have the same by chance does no harm."""
+    """A number for the state of each run; that two have the same by chance does no harm."""
     found = np.zeros(RUNS, dtype=np.uint64)
     with np.errstate(over="ignore"):
         for values in at.values():

@@ -9,14 +9,14 @@ from operator import add, eq, ge, gt, le, lt, mul, ne, sub
 from typing import Any
 
 from rovercheck.checker.explore.by_hand.names import Names
-from rovercheck.checker.explore.by_hand.written import RefusedInput
+from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.domain import Bool, Enum
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.expr import Expr, all_of, any_of, const, lift
 
 _AS_DRAWN = ((r"&&", " and "), (r"\|\|", " or "), (r"!(?!=)", " not "))
-"""What arrows are labelled with, and what it is called in Python."""
+"""What transitions are labelled with, and what it is called in Python."""
 _QUOTED = r"'[^']*'|\"[^\"]*\""
 
 _COMPARED: Mapping[type[ast.cmpop], Callable[[Any, Any], Any]] = {

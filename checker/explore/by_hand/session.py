@@ -4,11 +4,11 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass
 from random import Random
 
-from rovercheck.checker.explore.by_hand.admitted import KEPT, assumed, broken, drawn
+from rovercheck.checker.explore.by_hand.admissible_inputs import KEPT, assumed, broken, drawn
 from rovercheck.checker.explore.by_hand.condition import condition
 from rovercheck.checker.explore.by_hand.names import Names
 from rovercheck.checker.explore.by_hand.simulation import HandSimulation
-from rovercheck.checker.explore.by_hand.written import RefusedInput, value, variable
+from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput, value, variable
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Expr
 from rovercheck.spec_model.lang.system import System
@@ -18,7 +18,7 @@ MOST_TICKS = 20_000
 
 
 @dataclass(frozen=True)
-class Ran:
+class ExecutedTicks:
     """Ticks ``first`` to ``last`` were executed, and ``forgotten`` others dropped for them.
 
     ``stopped`` says why there, if it was not asked for; ``met`` is whether the condition became true.
@@ -95,7 +95,7 @@ class Session:
 
     # --- moving ---
 
-    def advance(self, ticks: int, until: Expr | None = None) -> Ran:
+    def advance(self, ticks: int, until: Expr | None = None) -> ExecutedTicks:
         """Execute ticks, up to a condition or a break.  Raises as ``Simulation.step`` does."""
         sim = self.simulation
         first, forgotten = sim.at + 1, len(sim) - sim.at
@@ -103,14 +103,14 @@ class Session:
         for _ in range(min(ticks, MOST_TICKS)):
             self._tick()
             if until is not None and self.holds(until):
-                return Ran(first, sim.at, forgotten)
+                return ExecutedTicks(first, sim.at, forgotten)
             now = [self.holds(formula) for _, formula in self.breaks]
             risen = [text for (text, _), was, is_ in zip(self.breaks, held, now, strict=True) if is_ > was]
             if risen:
-                return Ran(first, sim.at, forgotten, f"break: {'; '.join(risen)}", until is None)
+                return ExecutedTicks(first, sim.at, forgotten, f"break: {'; '.join(risen)}", until is None)
             held = now
         stopped = f"stopped after {MOST_TICKS:,} ticks" if ticks > MOST_TICKS else ""
-        return Ran(first, sim.at, forgotten, stopped, until is None)
+        return ExecutedTicks(first, sim.at, forgotten, stopped, until is None)
 
     def _tick(self) -> None:
         sim = self.simulation

@@ -3,22 +3,23 @@
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
-from rovercheck.checker.explore.by_hand.admitted import broken, conjuncts
-from rovercheck.checker.explore.by_hand.written import RefusedInput, outside
+from rovercheck.checker.explore.by_hand.admissible_inputs import broken, conjuncts
+from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput, outside
 from rovercheck.checker.results.trace import Tick, Trace
-from rovercheck.checker.verify.runs.replay import ReplayError, arrow_of, ends
+from rovercheck.checker.verify.runs.replay import ReplayError, ends, transition_of
 from rovercheck.spec_model.lang.chart import Path, Transition
 from rovercheck.spec_model.lang.evaluate import step
 from rovercheck.spec_model.lang.expr import Expr
-from rovercheck.spec_model.lang.interpret import Fired, Interpreter
+from rovercheck.spec_model.lang.interpret import FiredTransition, Interpreter
 from rovercheck.spec_model.lang.interpret.run import Testing, ValueOf
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import System
 
 
 @dataclass(frozen=True)
-class Tested:
-    """An arrow that was tested in a tick: whether it was valid, and the truth of each conjunct of its guard.
+class TestedTransition:
+    """A transition that was tested in a tick: whether it was valid, and the truth of each conjunct of its
+    guard.
 
     ``source`` is the state that is left, None for a default transition.
     """
@@ -32,11 +33,11 @@ class Tested:
 
 @dataclass(frozen=True)
 class _Moment:
-    """A tick that was executed; its valuations as tuples, for a run may be long."""
+    """A tick that was executed; its states as tuples, for a run may be long."""
 
     inputs: tuple[int, ...]
     after: tuple[int, ...]
-    fired: tuple[Fired, ...]
+    fired: tuple[FiredTransition, ...]
 
 
 class HandSimulation:
@@ -65,7 +66,7 @@ class HandSimulation:
 
     @property
     def before(self) -> dict[str, int]:
-        """The valuation before the first tick, frozen values included."""
+        """The state before the first tick, frozen values included."""
         return {**self.lowered.init, **self.frozen}
 
     def state(self, tick: int | None = None) -> dict[str, int]:
@@ -129,7 +130,7 @@ class HandSimulation:
             self._executed = self.at
         return self._ahead
 
-    def _replayed(self, ticks: int, tested: list[Tested] | None = None) -> Interpreter:
+    def _replayed(self, ticks: int, tested: list[TestedTransition] | None = None) -> Interpreter:
         interpreter = Interpreter(self.system, self.frozen, tested=None if tested is None else _into(tested))
         for number in range(1, ticks + 1):
             if tested is not None:
@@ -145,14 +146,14 @@ class HandSimulation:
         measured = ends(self.lowered, tuple(self._ticks(1)))
         return measured[-1] if measured else self.at * self.lowered.tick_ms
 
-    def tested(self) -> tuple[Tested, ...]:
-        """Every arrow that was tested in the tick that is looked at, in order."""
-        found: list[Tested] = []
+    def tested(self) -> tuple[TestedTransition, ...]:
+        """Every transition that was tested in the tick that is looked at, in order."""
+        found: list[TestedTransition] = []
         self._replayed(self.at, found)
         return tuple(found)
 
-    def fired(self, tick: int | None = None) -> tuple[Fired, ...]:
-        """The arrows taken in a tick, by default in the one that is looked at; before the first none."""
+    def fired(self, tick: int | None = None) -> tuple[FiredTransition, ...]:
+        """The transitions taken in a tick, by default in the one that is looked at; before the first none."""
         tick = self.at if tick is None else tick
         return self._moments[tick - 1].fired if tick else ()
 
@@ -169,8 +170,8 @@ class HandSimulation:
 
     def _ticks(self, first: int) -> Iterator[Tick]:
         for number in range(first, self.at + 1):
-            arrows = tuple(map(arrow_of, self._moments[number - 1].fired))
-            yield Tick(number, self.given(number), self.state(number), arrows)
+            transitions = tuple(map(transition_of, self._moments[number - 1].fired))
+            yield Tick(number, self.given(number), self.state(number), transitions)
 
 
 def _agree(read: Mapping[str, int], lowered: Mapping[str, int], tick: int) -> None:
@@ -181,11 +182,11 @@ def _agree(read: Mapping[str, int], lowered: Mapping[str, int], tick: int) -> No
             )
 
 
-def _into(found: list[Tested]) -> Testing:
-    """Keeps every arrow that an interpreter tests, with the truth of its conjuncts at that moment."""
+def _into(found: list[TestedTransition]) -> Testing:
+    """Keeps every transition that an interpreter tests, with the truth of its conjuncts at that moment."""
 
     def keep(chart: str, source: Path | None, segment: Transition, valid: bool, value: ValueOf) -> None:
         truths = tuple((part, bool(value(part))) for part in conjuncts(segment.guard))
-        found.append(Tested(chart, source, segment, valid, truths))
+        found.append(TestedTransition(chart, source, segment, valid, truths))
 
     return keep

@@ -1,1 +1,1 @@
-"""State graphs: reachable valuations with every tick between them, seen through a few variables."""
+"""State graphs: reachable states with every tick between them, seen through a few variables."""

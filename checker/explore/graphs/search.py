@@ -1,6 +1,6 @@
 """Breadth-first exploration by compiled code that keeps every tick, not only what is new.
 
-It ends when nothing new appears, or at a limit: then the ticks of some valuations are missing, and what
+It ends when nothing new appears, or at a limit: then the ticks of some states are missing, and what
 is made of it must say so.
 """
 
@@ -14,7 +14,7 @@ import numpy as np
 
 from rovercheck.checker.encode.native import (
     REACH_TARGET,
-    Ended,
+    ExpansionEnd,
     NativeSuccessors,
     NativeTask,
     OutsideDomain,
@@ -25,8 +25,8 @@ from rovercheck.checker.encode.native import Words as Packed
 from rovercheck.checker.engines import Limits, Progress
 from rovercheck.checker.engines.explicit.levels import ExplicitFound, initial_valuations
 from rovercheck.checker.engines.explicit.runs import Runs
-from rovercheck.checker.explore.graphs.explored import Explored
-from rovercheck.checker.explore.graphs.numbering import Numbers, numbered
+from rovercheck.checker.explore.graphs.reachable_ticks import ReachableTicks
+from rovercheck.checker.explore.graphs.row_numbers import Numbers, numbered
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.system.slice import sliced
 from rovercheck.checker.verify.runs.domains import leaves, stray
@@ -37,11 +37,11 @@ from rovercheck.spec_model.lang.lower.ranges import checked
 from rovercheck.spec_model.lang.system import TransitionSystem
 
 AT_ONCE = 1 << 12
-"""Valuations expanded in one call."""
+"""States expanded in one call."""
 ROOM, MOST_ROOM = 1 << 18, 1 << 23
 """Rows for their ticks at first, and at most."""
 PER_PAIR = 80
-"""Bytes for a pair of valuations, sorting included."""
+"""Bytes for a pair of states, sorting included."""
 _REPORT = 0.5
 
 
@@ -134,19 +134,21 @@ class Exploration:
                 return
 
     def _level(self, words: Packed, end: int) -> None:
-        """Expand the valuations in front of number ``end``, which are in ``words``."""
+        """Expand the states in front of number ``end``, which are in ``words``."""
         room, done = ROOM, 0
         while self.expanded < end and self._within():
             ended, count, rows, origins = self.native(words[done : done + AT_ONCE], room)
             self._store(rows, origins + self.expanded)
             done += count
             self.expanded += count
-            if ended is Ended.OUTSIDE:
+            if ended is ExpansionEnd.OUTSIDE:
                 raise self._outside(words[done])
-            if ended is Ended.TOO_MANY or (ended is Ended.NO_ROOM and not count and room >= MOST_ROOM):
-                self.stopped = f"one valuation has more than {MOST_ROOM:,} ticks"
+            if ended is ExpansionEnd.TOO_MANY or (
+                ended is ExpansionEnd.NO_ROOM and not count and room >= MOST_ROOM
+            ):
+                self.stopped = f"one state has more than {MOST_ROOM:,} ticks"
                 return
-            room = min(4 * room, MOST_ROOM) if ended is Ended.NO_ROOM and not count else room
+            room = min(4 * room, MOST_ROOM) if ended is ExpansionEnd.NO_ROOM and not count else room
 
     def _store(self, rows: Packed, origins: Numbers) -> None:
         """Keep each pair once; rows come by origin."""
@@ -157,7 +159,7 @@ class Exploration:
         self.joined += len(origins)
 
     def _new(self, rows: Packed, origins: Numbers) -> Numbers:
-        """The number of each valuation; those not seen before are entered with their parents."""
+        """The number of each state; those not seen before are entered with their parents."""
         first, kind = numbered(list(rows.T), len(rows))
         distinct = rows[first]
         keys: list[int | bytes]
@@ -171,7 +173,7 @@ class Exploration:
         return numbered_[kind]
 
     def _stays(self, found: int, first: int) -> None:
-        """Raises ``LeavesDomain`` if a tick to one of the valuations found last leaves a domain."""
+        """Raises ``LeavesDomain`` if a tick to one of the states found last leaves a domain."""
         checks = [f for f in self.fields if f.var.name in {check.name for check, _ in self.system.checks}]
         rows = np.concatenate(self.found[found:]) if checks else np.zeros((0, 0), dtype=np.uint64)
         raised = np.zeros(len(rows), dtype=np.bool_)
@@ -194,7 +196,7 @@ class Exploration:
         if monotonic() - self.reported > _REPORT:
             self.reported = monotonic()
             self.progress(
-                f"{count:,} valuations, {self.joined:,} ticks between them, depth {len(self.levels)}, "
+                f"{count:,} states, {self.joined:,} ticks between them, depth {len(self.levels)}, "
                 f"{count - self.expanded:,} to expand, {used / 2**20:.0f} MiB"
             )
         return not self.stopped
@@ -207,19 +209,19 @@ class Exploration:
 
     @cached_property
     def words(self) -> Packed:
-        """The packed valuations."""
+        """The packed states."""
         return np.concatenate(self.found)
 
     @cached_property
-    def explored(self) -> Explored:
-        """The valuations and their ticks."""
+    def explored(self) -> ReachableTicks:
+        """The states and their ticks."""
         columns = np.empty((len(self.fields), len(self.words)), dtype=np.int64)
         for row, f in zip(columns, self.fields, strict=True):
             code = (self.words[:, f.word] >> np.uint64(f.shift)) & np.uint64(f.mask)
             row[:] = code.astype(np.int64) * f.stride + f.low
         none = np.zeros(0, dtype=np.int64)
         sources, targets = (np.concatenate([none, *(p[i] for p in self.pairs)]) for i in (0, 1))
-        return Explored(
+        return ReachableTicks(
             tuple(f.var for f in self.fields), columns, self.initial, tuple(self.levels),
             np.concatenate([none, *self.parents]), sources, targets, self.expanded, self.stopped,
         )  # fmt: skip
@@ -235,9 +237,9 @@ class Exploration:
         return Runs(self.system, self.task, found)
 
     def run(self, number: int) -> Run:
-        """A shortest run to a valuation."""
+        """A shortest run to a state."""
         return self.runs.to_valuation(number)
 
     def inputs(self, source: int, target: int) -> dict[str, int]:
-        """Inputs that a tick between two valuations reads, and their values."""
+        """Inputs that a tick between two states reads, and their values."""
         return self.runs.native.inputs(self.words[source], self.words[target], REACH_TARGET)

@@ -12,7 +12,7 @@ from rovercheck.spec_model.lang.place import Place
 
 
 class FindingLevel(StrEnum):
-    """How a verdict counts: as it should be, a violation on record, not decided, or not as it should be."""
+    """How a verdict counts: as it should be, an expected violation, not decided, or not as it should be."""
 
     PASSED = "passed"
     KNOWN = "known"
@@ -26,8 +26,8 @@ class FindingLevel(StrEnum):
 class CiFinding:
     """One property as it was decided.
 
-    ``word`` is its verdict, ``recorded`` the one on record (empty if there is no record), ``evidence`` what
-    the verdict rests on, and ``because`` the reason on record.  ``help`` says in words what is checked,
+    ``word`` is its verdict, ``recorded`` the expected one (empty if there is no record), ``evidence`` what
+    the verdict rests on, and ``because`` the reason in the baseline.  ``help`` says in words what is checked,
     ``tags`` are the requirements, ``details`` what a machine may want to count.
     """
 
@@ -49,18 +49,18 @@ class CiFinding:
 
     @property
     def headline(self) -> str:
-        """The verdict, and what is on record of it, in one sentence."""
+        """The verdict, and what is recorded of it, in one sentence."""
         if self.level is FindingLevel.REJECTED:
             return f"The proof of {self.id} does not hold when it is checked again"
         verdict = " ".join(filter(None, (self.id, "is", self.word, self.variant)))
         if self.level is FindingLevel.KNOWN:
-            return f"{verdict}, as on record"
+            return f"{verdict}, as expected"
         if self.level is FindingLevel.PASSED or not self.recorded:
             return verdict
         return (
             f"{verdict}; as specified it is {self.recorded}"
             if self.variant
-            else f"{verdict}, on record is {self.recorded}"
+            else f"{verdict}; expected: {self.recorded}"
         )
 
     @property

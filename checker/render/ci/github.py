@@ -83,7 +83,7 @@ def _log(text: str) -> Iterator[str]:
 
 
 def summary(report: CiReport) -> str:
-    """The job's summary in Markdown: counts, what is not as on record, and the runs that show it."""
+    """The job's summary in Markdown: counts, what is not as expected, and the runs that show it."""
     lines = ["### rovercheck", "", f"{len(report.findings):,} properties: {counts(report.findings)}."]
     lines += [] if report.complete else ["", f"**{report.missing}**"]
     told = [
@@ -92,10 +92,10 @@ def summary(report: CiReport) -> str:
         if f.level in (FindingLevel.REJECTED, FindingLevel.FAILED, FindingLevel.OPEN)
     ]
     known = sum(f.level is FindingLevel.KNOWN for f in report.findings)
-    lines += ["", f"{known:,} findings are as on record."] if known else []
+    lines += ["", f"{known:,} findings are as expected."] if known else []
     if not told:
-        return "\n".join([*lines, "", "Every verdict is as on record." if report.complete else "", ""])
-    lines += ["", "| | Property | Now | On record | Says |", "|---|---|---|---|---|"]
+        return "\n".join([*lines, "", "Every verdict is as expected." if report.complete else "", ""])
+    lines += ["", "| | Property | Now | Expected | Says |", "|---|---|---|---|---|"]
     for f in told:
         now = "proof rejected" if f.level is FindingLevel.REJECTED else f.word
         cells = [_SIGNS[f.level], *map(_cell, (f.id, now, f.recorded, f.text))]

@@ -18,8 +18,8 @@ _CONTROL = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 def junit(report: CiReport) -> str:
     """The report as XML text.
 
-    A violation that is on record has passed and says so; what is not decided is an error, or skipped where
-    just that is on record, and never a pass.  That not all was decided is an error of its own.
+    A violation that is expected has passed and says so; what is not decided is an error, or skipped where
+    just that is expected, and never a pass.  That not all was decided is an error of its own.
     """
     xml = JUnitXml(FIRST)
     found = sorted(report.findings, key=lambda f: (f.system, f.id))

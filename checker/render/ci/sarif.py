@@ -1,7 +1,7 @@
 """Verdicts as SARIF 2.1.0, the format of GitHub's code scanning and of many editors.
 
 Rules are the properties, results what is not simply proved; a counterexample is a code flow along the lines
-of the charts at which its arrows are written.
+of the charts at which its transitions are written.
 """
 
 import json
@@ -91,18 +91,20 @@ def _steps(trace: Trace, finding: CiFinding) -> Iterator[Location]:
 
 
 def _event(event: StoryEvent, finding: CiFinding) -> Iterator[Location]:
-    """First what was given and computed, then each arrow."""
+    """First what was given and computed, then each transition."""
     when, state = f"tick {event.number}, {event.ms} ms", _values(event.changes)
     given = ", ".join(f"{c} (needed)" if c.needed else str(c) for c in event.changes)
-    if given or not event.arrows:
+    if given or not event.transitions:
         importance = "essential" if any(c.needed for c in event.changes) else "important"
         yield _step(
             finding.place, finding.id, f"{when}: {given or 'the end'}", event.number, state, importance
         )
-    for arrow in event.arrows:
-        text = f"{when}: {arrow.chart}: {start_of(arrow)}" + (f"  {arrow.label}" if arrow.label else "")
-        name = f"{arrow.chart}.{arrow.target}"
-        yield _step(arrow.place or finding.place, name, text, event.number, state)
+    for transition in event.transitions:
+        text = f"{when}: {transition.chart}: {start_of(transition)}" + (
+            f"  {transition.label}" if transition.label else ""
+        )
+        name = f"{transition.chart}.{transition.target}"
+        yield _step(transition.place or finding.place, name, text, event.number, state)
 
 
 def _step(
@@ -231,7 +233,7 @@ def fingerprint(finding: CiFinding) -> str:
 
 
 def _compared(finding: CiFinding) -> str:
-    """How the result stands to the verdict on record."""
+    """How the result stands to the expected verdict."""
     if finding.level is FindingLevel.KNOWN:
         return "unchanged"
     return "new" if finding.recorded.startswith("proved") else "updated"

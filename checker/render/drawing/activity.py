@@ -1,8 +1,10 @@
-"""Which states of a chart are active: read off a valuation, or followed along the arrows that fired."""
+"""Which states of a chart are active: read off the values of all variables, or followed
+along the transitions that fired.
+"""
 
 from collections.abc import Mapping
 
-from rovercheck.checker.results.trace import Arrow
+from rovercheck.checker.results.trace import TakenTransition
 from rovercheck.spec_model.lang.chart import NOWHERE, Chart, Path
 
 Active = frozenset[Path]
@@ -10,7 +12,7 @@ Active = frozenset[Path]
 
 
 def active(chart: Chart, values: Mapping[str, int]) -> Active:
-    """The active states in a valuation; what lies below a location that it does not hold is unknown."""
+    """The active states, given all values; what lies below a location that it does not hold is unknown."""
     found: set[Path] = set()
     levels: list[Path] = [()] if _entered(chart, values) else []
     for level in levels:
@@ -34,7 +36,7 @@ def _children(chart: Chart, level: Path, values: Mapping[str, int]) -> list[str]
     return [] if name == NOWHERE else [name]
 
 
-def followed(chart: Chart, before: Active, arrow: Arrow) -> Active:
+def followed(chart: Chart, before: Active, arrow: TakenTransition) -> Active:
     """The active states once an arrow of this chart has been taken, before any other fires (rule G9)."""
     source, target = _path(arrow.source), _path(arrow.target)
     left = source[: len(_scope(source, target)) + 1] if arrow.order else ()

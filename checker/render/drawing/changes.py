@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from rovercheck.checker.render.drawing.scheme import ChartArrow, action_lines, arrows, label
+from rovercheck.checker.render.drawing.labels import ChartArrow, action_lines, arrows, label
 from rovercheck.spec_model.lang.chart import Block, Chart
 
 
@@ -31,7 +31,7 @@ def _lines(part: Chart | Block) -> Iterator[tuple[str, tuple[str, ...]]]:
     by_source: dict[str, list[str]] = {}
     for arrow in arrows(part):
         start = ".".join(arrow.source) or part.name
-        place = f"default arrow of {start}" if arrow.default else f"arrows of {start}"
+        place = f"default transition of {start}" if arrow.default else f"transitions of {start}"
         by_source.setdefault(place, []).append(_written(arrow))
     for path, state in part.states.items():
         yield f"actions of {'.'.join(path) or part.name}", action_lines(state)

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from rovercheck.checker.render.drawing.graph import Edge
-from rovercheck.checker.render.drawing.scheme import ChartArrow, label_parts
+from rovercheck.checker.render.drawing.labels import ChartArrow, label_parts
 from rovercheck.checker.render.drawing.text import block, wrap
 from rovercheck.spec_model.lang.chart import Path
 

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from rovercheck.checker.render.drawing.graph import Point
-from rovercheck.checker.render.drawing.scheme import ChartArrow
+from rovercheck.checker.render.drawing.labels import ChartArrow
 from rovercheck.spec_model.lang.chart import Path
 
 

@@ -1,4 +1,4 @@
-"""A counterexample played on its charts: what is active and which arrow is taken, step by step."""
+"""A counterexample played on its charts: what is active and which transition is taken, step by step."""
 
 from collections.abc import Iterable, Iterator
 from hashlib import sha256
@@ -7,13 +7,13 @@ from typing import Any
 
 from markupsafe import Markup
 
-from rovercheck.checker.render.drawing.highlight import segments
-from rovercheck.checker.render.drawing.scheme import arrows
+from rovercheck.checker.render.drawing.emphasis import segments
+from rovercheck.checker.render.drawing.labels import arrows
 from rovercheck.checker.render.page import Part, data, templates
 from rovercheck.checker.render.player.steps import PlayerStep, Script, States, script, shown_charts
 from rovercheck.checker.render.statechart_svg import LEGEND, STYLE, inline, size
 from rovercheck.checker.render.story import StoryEvent, ending, false_parts, heading, start_of, value
-from rovercheck.checker.results.trace import Arrow, Trace
+from rovercheck.checker.results.trace import TakenTransition, Trace
 from rovercheck.spec_model.lang.chart import Chart
 
 TEMPLATES = templates("player")
@@ -42,7 +42,7 @@ def part(trace: Trace, *, everything: bool = False, pictures: bool = True, print
         together=sum(wide * high for wide, high in sizes) <= AREA,
         beside=max((wide for wide, _ in sizes), default=0) <= ROOM,
         legend=LEGEND,
-        events=[_told(event) for event in played.events] if printed else [],
+        events=[_event_data(event) for event in played.events] if printed else [],
         data=data(_played(trace, charts, played), "player-data"),
     )
     return Part(Markup(body), (STYLE, own("player.css")), (own("player.js"),))
@@ -86,15 +86,17 @@ def _event(trace: Trace, event: StoryEvent, charts: dict[str, Chart]) -> dict[st
         "tick": event.number,
         "inputs": [str(c) for c in event.changes if c.is_input],
         "changes": [str(c) for c in event.changes if not c.is_input],
-        "arrows": [_arrow(arrow, charts.get(arrow.chart)) for arrow in event.arrows],
+        "transitions": [
+            _transition(transition, charts.get(transition.chart)) for transition in event.transitions
+        ],
         "forced": list(_forced(trace, event.number)),
     }
 
 
-def _arrow(arrow: Arrow, chart: Chart | None) -> dict[str, Any]:
-    drawn = segments(chart, arrows(chart), arrow) if chart else ()
+def _transition(transition: TakenTransition, chart: Chart | None) -> dict[str, Any]:
+    drawn = segments(chart, arrows(chart), transition) if chart else ()
     names = [segment.name for segment in drawn]
-    return {"chart": arrow.chart, "way": start_of(arrow), "label": arrow.label, "drawn": names}
+    return {"chart": transition.chart, "way": start_of(transition), "label": transition.label, "drawn": names}
 
 
 def _forced(trace: Trace, tick: int) -> Iterator[str]:
@@ -126,8 +128,8 @@ def _end(trace: Trace) -> Iterator[str]:
         yield f"False now: {falsified.name or falsified.formula}" + (f" ({values})" if values else "")
 
 
-def _told(event: StoryEvent) -> tuple[int, int, list[str]]:
+def _event_data(event: StoryEvent) -> tuple[int, int, list[str]]:
     """A row of the printed table: tick, time and what happened."""
     lines = [f"in {c}" if c.is_input else str(c) for c in event.changes]
-    lines += [f"▸ {a.chart}: {start_of(a)}" + (f" {a.label}" if a.label else "") for a in event.arrows]
+    lines += [f"▸ {a.chart}: {start_of(a)}" + (f" {a.label}" if a.label else "") for a in event.transitions]
     return event.number, event.ms, lines

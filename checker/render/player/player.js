@@ -1,6 +1,6 @@
 "use strict";
 // Plays a trace on its charts.  Every player on the page is one element of class "player" with a block of
-// data; a step is a few arrows of one event, and between the steps time may stand at a quiet tick.
+// data; a step is a few transitions of one event, and between the steps time may stand at a quiet tick.
 (() => {
   const KEYS = { ArrowLeft: "back", ArrowRight: "next", Home: "first", End: "last", " ": "play" };
 
@@ -52,13 +52,13 @@
 
     index(figure) {
       const states = new Map();
-      const arrows = new Map();
+      const transitions = new Map();
       for (const part of figure.querySelectorAll("[data-state]")) states.set(part.dataset.state, part);
       for (const part of figure.querySelectorAll("[data-arrow]")) {
         const name = part.dataset.arrow;
-        arrows.set(name, [...(arrows.get(name) || []), part]);
+        transitions.set(name, [...(transitions.get(name) || []), part]);
       }
-      return { states, arrows };
+      return { states, transitions };
     }
 
     // The data name only the charts that change; here each step knows what is active in all of them.
@@ -185,25 +185,25 @@
       return `${here} · step ${same.indexOf(step) + 1} of ${same.length}`;
     }
 
-    // States as after the step; its arrows stand out, those before them in its tick are faint, and so
+    // States as after the step; its transitions stand out, those before them in its tick are faint, and so
     // are all of them once time has gone on.
     paint(step) {
       this.moving = new Set();
       for (const [chart, parts] of this.parts) {
         const active = new Set(step.active[chart] || []);
         parts.states.forEach((part, name) => part.classList.toggle("active", active.has(name)));
-        parts.arrows.forEach((pieces) => pieces.forEach((piece) => piece.classList.remove("fired", "taken")));
+        parts.transitions.forEach((pieces) => pieces.forEach((piece) => piece.classList.remove("fired", "taken")));
       }
-      const arrows = step.told ? step.told.arrows.slice(0, step.last) : [];
-      arrows.forEach((arrow, i) => this.mark(arrow, this.tick === step.tick && i >= step.first));
+      const transitions = step.told ? step.told.transitions.slice(0, step.last) : [];
+      transitions.forEach((transition, i) => this.mark(transition, this.tick === step.tick && i >= step.first));
     }
 
-    mark(arrow, now) {
-      const parts = this.parts.get(arrow.chart);
+    mark(transition, now) {
+      const parts = this.parts.get(transition.chart);
       if (!parts) return;
-      if (now) this.moving.add(arrow.chart);
-      for (const name of arrow.drawn) {
-        for (const piece of parts.arrows.get(name) || []) piece.classList.add(now ? "fired" : "taken");
+      if (now) this.moving.add(transition.chart);
+      for (const name of transition.drawn) {
+        for (const piece of parts.transitions.get(name) || []) piece.classList.add(now ? "fired" : "taken");
       }
     }
 
@@ -213,10 +213,10 @@
       const changes = told ? told.changes.map((text) => this.change(text, "")) : [];
       this.one("changes").replaceChildren(...inputs, ...changes);
       const now = (i) => i >= step.first && i < step.last;
-      const arrows = told ? told.arrows.map((arrow, i) => this.arrow(arrow, now(i))) : [];
-      this.one("arrows").replaceChildren(...arrows);
+      const transitions = told ? told.transitions.map((transition, i) => this.transition(transition, now(i))) : [];
+      this.one("transitions").replaceChildren(...transitions);
       this.one("note").textContent = this.notes(told).join("\n");
-      const current = [...this.root.querySelectorAll(".player-arrows [aria-current]")];
+      const current = [...this.root.querySelectorAll(".player-transitions [aria-current]")];
       this.one("spoken").textContent = current.map((item) => `: ${item.textContent}`).join("");
       const panel = this.one("said");
       panel.scrollTop = 0;
@@ -227,11 +227,11 @@
       return Object.assign(document.createElement("li"), { textContent: text, className: kind });
     }
 
-    arrow(arrow, now) {
+    transition(transition, now) {
       const item = document.createElement("li");
-      item.append(`${arrow.chart}: ${arrow.way}`);
-      const label = Object.assign(document.createElement("code"), { textContent: arrow.label });
-      if (arrow.label) item.append(" ", label);
+      item.append(`${transition.chart}: ${transition.way}`);
+      const label = Object.assign(document.createElement("code"), { textContent: transition.label });
+      if (transition.label) item.append(" ", label);
       if (now) item.setAttribute("aria-current", "step");
       return item;
     }
@@ -241,7 +241,7 @@
       const notes = this.data.quiet.filter(here).map((row) => row[2]);
       if (told && told.forced.length) notes.push(`Needed for the end: ${told.forced.join(", ")}.`);
       if (this.data.again && this.data.again[0] === this.tick) notes.push(this.data.again[1]);
-      if (!this.tick) notes.push("Next (→) steps from arrow to arrow, Play (space) goes on by itself.");
+      if (!this.tick) notes.push("Next (→) steps from transition to transition, Play (space) goes on by itself.");
       return this.tick === this.data.ticks ? [...notes, ...this.data.end] : notes;
     }
 
@@ -254,7 +254,7 @@
       this.choices.forEach((other) => other.setAttribute("aria-pressed", String(other === button)));
     }
 
-    // Which charts are seen: all, one, or with "Follow" the one whose arrow is taken.
+    // Which charts are seen: all, one, or with "Follow" the one whose transition is taken.
     arrange() {
       const pressed = this.choices.find((button) => button.getAttribute("aria-pressed") === "true");
       const wanted = pressed ? pressed.dataset.shown : "*";

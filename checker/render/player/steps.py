@@ -1,11 +1,11 @@
-"""A trace cut into the steps of its player: arrow by arrow, with what is active after each."""
+"""A trace cut into the steps of its player: transition by transition, with what is active after each."""
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from rovercheck.checker.render.drawing.activity import Active, active, followed
 from rovercheck.checker.render.story import Quiet, Repeats, StoryEvent, rows
-from rovercheck.checker.results.trace import Arrow, Trace
+from rovercheck.checker.results.trace import TakenTransition, Trace
 from rovercheck.spec_model.lang.chart import Chart
 
 States = Mapping[str, Active]
@@ -14,9 +14,9 @@ States = Mapping[str, Active]
 
 @dataclass(frozen=True)
 class PlayerStep:
-    """Arrows ``first`` to ``last`` (exclusive) of an event, and what is active after them.
+    """Transitions ``first`` to ``last`` (exclusive) of an event, and what is active after them.
 
-    Several arrows are one step if all but the first are default transitions.  ``event`` is a position
+    Several transitions are one step if all but the first are default transitions.  ``event`` is a position
     among the events of the trace; it is None for the step before the first tick.
     """
 
@@ -58,9 +58,9 @@ def _steps(trace: Trace, charts: Sequence[Chart], events: Sequence[StoryEvent]) 
     yield PlayerStep(None, 0, 0, states)
     for number, event in enumerate(events):
         after = _states(charts, trace.ticks[event.number - 1].after)
-        cuts = _cuts(event.arrows)
+        cuts = _cuts(event.transitions)
         for first, last in cuts[:-1]:
-            states = _moved(charts, states, event.arrows[first:last])
+            states = _moved(charts, states, event.transitions[first:last])
             yield PlayerStep(number, first, last, states)
         states = after
         yield PlayerStep(number, *cuts[-1], after)
@@ -70,16 +70,16 @@ def _states(charts: Sequence[Chart], values: Mapping[str, int]) -> States:
     return {chart.name: active(chart, values) for chart in charts}
 
 
-def _cuts(arrows: Sequence[Arrow]) -> list[tuple[int, int]]:
-    """Where each step starts and ends; an event without arrows is one step."""
-    starts = [i for i, arrow in enumerate(arrows) if i == 0 or arrow.order] or [0]
-    return list(zip(starts, [*starts[1:], len(arrows)], strict=True))
+def _cuts(transitions: Sequence[TakenTransition]) -> list[tuple[int, int]]:
+    """Where each step starts and ends; an event without transitions is one step."""
+    starts = [i for i, transition in enumerate(transitions) if i == 0 or transition.order] or [0]
+    return list(zip(starts, [*starts[1:], len(transitions)], strict=True))
 
 
-def _moved(charts: Sequence[Chart], states: States, arrows: Sequence[Arrow]) -> States:
+def _moved(charts: Sequence[Chart], states: States, transitions: Sequence[TakenTransition]) -> States:
     now = dict(states)
     by_name = {chart.name: chart for chart in charts}
-    for arrow in arrows:
-        if arrow.chart in by_name:
-            now[arrow.chart] = followed(by_name[arrow.chart], now[arrow.chart], arrow)
+    for transition in transitions:
+        if transition.chart in by_name:
+            now[transition.chart] = followed(by_name[transition.chart], now[transition.chart], transition)
     return now

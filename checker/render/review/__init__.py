@@ -16,8 +16,8 @@ from markupsafe import Markup
 from rovercheck.checker.render import renderers
 from rovercheck.checker.render.page import Part, page, templates
 from rovercheck.checker.render.review import traces
-from rovercheck.checker.render.review.model import PROVED, Checked, Review, Seen
-from rovercheck.checker.render.review.packed import Packed
+from rovercheck.checker.render.review.fragments import PackedFragments
+from rovercheck.checker.render.review.model import PROVED, Review, ReviewedProperty, StateGraphView
 from rovercheck.checker.render.statechart_svg import size
 from rovercheck.checker.render.stategraph.fragment import part as stategraph
 from rovercheck.checker.render.stategraph.fragment import shows, trust
@@ -79,7 +79,7 @@ def own(name: str) -> str:
     return files(__name__).joinpath(name).read_text(encoding="utf-8")
 
 
-def sign(prop: Checked) -> str:
+def sign(prop: ReviewedProperty) -> str:
     """One character for a verdict."""
     return "≈" if prop.in_part else SIGNS[prop.verdict]
 
@@ -94,27 +94,27 @@ def title_of(area: str) -> str:
     return re.sub(r"(?<=[a-z])(?=\d)", " ", area.replace("_", " ")).capitalize()
 
 
-def _area(prop: Checked) -> str:
+def _area(prop: ReviewedProperty) -> str:
     return prop.area or prop.system
 
 
-Group = tuple[str, list[tuple[str, list[Checked]]]]
+Group = tuple[str, list[tuple[str, list[ReviewedProperty]]]]
 """A heading, and under it the findings with the same cause together."""
 
 
-def grouped(findings: Iterable[Checked]) -> list[Group]:
-    """What is not as on record first, then area by area; findings with one cause are together."""
+def grouped(findings: Iterable[ReviewedProperty]) -> list[Group]:
+    """What is not as expected first, then area by area; findings with one cause are together."""
     shown = list(findings)
     surprising = [p for p in shown if not p.as_expected]
     known = [p for p in shown if p.as_expected]
-    groups: list[Group] = [("Not as on record", [("", [p]) for p in surprising])] if surprising else []
+    groups: list[Group] = [("Not as expected", [("", [p]) for p in surprising])] if surprising else []
     for area, members in groupby(known, key=_area):
         groups.append((title_of(area), list(_causes(members))))
     return groups
 
 
-def _causes(findings: Iterable[Checked]) -> Iterator[tuple[str, list[Checked]]]:
-    by: dict[str, list[Checked]] = {}
+def _causes(findings: Iterable[ReviewedProperty]) -> Iterator[tuple[str, list[ReviewedProperty]]]:
+    by: dict[str, list[ReviewedProperty]] = {}
     for one in findings:
         by.setdefault(one.cause or one.id, []).append(one)
     yield from by.items()
@@ -128,12 +128,14 @@ def _by_property(review: Review) -> Mapping[str, list[Any]]:
     return found
 
 
-def _pictures(runs: Mapping[str, Trace], told: Collection[str], graphs: Iterable[Seen]) -> Packed:
+def _pictures(
+    runs: Mapping[str, Trace], told: Collection[str], graphs: Iterable[StateGraphView]
+) -> PackedFragments:
     """The moving pictures of traces, kept for when they are asked for; charts lie there once.
 
     So do the stories that are not ``told`` in the page itself.
     """
-    packed = Packed()
+    packed = PackedFragments()
     for id, trace in runs.items():
         packed.add(id, [*traces.moving(trace), *([] if id in told else [traces.story(trace)])])
     if runs:

@@ -15,11 +15,11 @@ PROVED, VIOLATED, UNKNOWN = "proved", "violated", "unknown"
 
 
 @dataclass(frozen=True)
-class Checked:
+class ReviewedProperty:
     """A property and its verdict.
 
     ``english`` is what is checked in words, ``formula`` the same as written, part by part with its name.
-    ``record`` is the verdict on record ("" for none), ``certificate`` what came of checking the proof again
+    ``record`` is the expected verdict ("" for none), ``certificate`` what came of checking the proof again
     ("" where that was not asked for or there is no proof), ``premise`` whether the case it speaks of
     occurs at all ("" where that was not examined), ``vacuous`` that it does not.  ``trace`` is the
     counterexample or the witness.
@@ -51,24 +51,24 @@ class Checked:
     on: str = ""
     """The system it is stated of, where the verdict is about another one."""
     quiet: bool = False
-    """Whether valuations after quiet ticks were visited and not stored."""
+    """Whether states after quiet ticks were visited and not stored."""
     again: str = ""
     """The command that decides it again."""
     trace: Trace | None = None
 
     @property
     def finding(self) -> bool:
-        """Whether a reviewer has to look at it: violated, undecided, not as on record, or about nothing."""
+        """Whether a reviewer has to look at it: violated, undecided, not as expected, or vacuous."""
         return self.verdict != PROVED or not self.as_expected or self.vacuous
 
     @property
     def word(self) -> str:
         """The verdict for people."""
-        return f"{self.verdict} in part" if self.in_part else self.verdict
+        return f"{self.verdict} for a restricted model" if self.in_part else self.verdict
 
 
 @dataclass(frozen=True)
-class Demand:
+class RequirementRow:
     """A row of the requirement matrix: ``state`` is the worst verdict, or why there is none."""
 
     id: str
@@ -81,7 +81,7 @@ class Demand:
 
 
 @dataclass(frozen=True)
-class About:
+class SystemSummary:
     """A system: what it is, how its runs compare with those of what it stands for, what it assumes."""
 
     name: str
@@ -164,7 +164,7 @@ class Covered:
 
 
 @dataclass(frozen=True)
-class Seen:
+class StateGraphView:
     """The reachable states of a system, seen through some variables.
 
     ``asked`` are the properties whose breaking is marked, ``unmarked`` those for which that would take too
@@ -204,16 +204,16 @@ class Review:
 
     title: str
     subject: str
-    properties: tuple[Checked, ...]
+    properties: tuple[ReviewedProperty, ...]
     origin: ReviewOrigin
-    systems: Mapping[str, About]
+    systems: Mapping[str, SystemSummary]
     charts: Mapping[str, Chart]
-    demands: tuple[Demand, ...] = ()
+    demands: tuple[RequirementRow, ...] = ()
     readings: tuple[Ambiguity, ...] = ()
     assumptions: tuple[ReviewAssumption, ...] = ()
     repairs: tuple[Remedy, ...] = ()
     coverage: tuple[Covered, ...] = ()
-    graphs: tuple[Seen, ...] = ()
+    graphs: tuple[StateGraphView, ...] = ()
     undrawn: tuple[tuple[str, str], ...] = ()
     """Systems with charts that have no state graph here, and why."""
     how_to_read: str = ""
@@ -222,6 +222,6 @@ class Review:
     """Properties that were not decided, and why."""
 
     @property
-    def findings(self) -> tuple[Checked, ...]:
+    def findings(self) -> tuple[ReviewedProperty, ...]:
         """What a reviewer has to look at."""
         return tuple(p for p in self.properties if p.finding)

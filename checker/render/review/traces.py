@@ -28,7 +28,7 @@ def shared(runs: Mapping[str, Trace], charts: Iterable[Chart] = ()) -> dict[str,
 
 def story(trace: Trace) -> Part:
     """What happened, only what the property depends on."""
-    return timeline.told(trace)
+    return timeline.story_part(trace)
 
 
 def moving(trace: Trace) -> list[Part]:

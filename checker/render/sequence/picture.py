@@ -17,7 +17,7 @@ from rovercheck.checker.render.sequence.steps import (
     SequenceStep,
 )
 from rovercheck.checker.render.story import Repeats, ending, false_parts, heading
-from rovercheck.checker.render.timeline import forced_by
+from rovercheck.checker.render.timeline import determined_by
 from rovercheck.checker.results.trace import Trace
 
 LEFT, MARGIN = 84, 16
@@ -168,7 +168,7 @@ def _notes(columns: SequenceColumns, notes: Sequence[SequenceNote], y: int) -> P
     drawn: list[str] = []
     taken, bottom = 0, y
     for note in notes:
-        lines = _told(note.told, columns.apart - 16)
+        lines = _clipped(note.told, columns.apart - 16)
         half = max(width(line) for line in lines) // 2 + 6
         x = columns.x(note.lifeline)
         if x - half < taken:
@@ -178,7 +178,7 @@ def _notes(columns: SequenceColumns, notes: Sequence[SequenceNote], y: int) -> P
     return drawn, bottom
 
 
-def _told(lines: Sequence[str], room: int) -> list[str]:
+def _clipped(lines: Sequence[str], room: int) -> list[str]:
     """The lines of a label, wrapped; those that are too many are counted."""
     shown = [part for line in lines[:TOLD] for part in _broken(line, room, "   ")]
     rest = len(lines) - TOLD
@@ -188,7 +188,7 @@ def _told(lines: Sequence[str], room: int) -> list[str]:
 def _message(columns: SequenceColumns, message: Message, y: int) -> Piece:
     start, ends = columns.x(message.sender), [columns.x(name) for name in message.receivers]
     nearest = min(ends, key=lambda x: abs(x - start))
-    lines = _told(message.told, abs(nearest - start) - 20)
+    lines = _clipped(message.told, abs(nearest - start) - 20)
     at = y + LINE * len(lines) + 8
     left = min(start, nearest) + 9
     drawn = [text(left, y + 4 + LINE * i + SIZE, line, "halo") for i, line in enumerate(lines)]
@@ -252,7 +252,7 @@ def _end(trace: Trace, sequence: MessageSequence, columns: SequenceColumns, y: i
         lines += [
             (line, "wrong") for line in wrap(f"{told}   ({values})" if values else told, letters, "   ")
         ]
-    lines += [(line, "") for line in (*wrap(forced_by(trace), letters), *wrap(ending(trace), letters))]
+    lines += [(line, "") for line in (*wrap(determined_by(trace), letters), *wrap(ending(trace), letters))]
     lines = lines or [(f"Tick {len(trace)} shows it.", "")]
     tall, class_ = LINE * len(lines) + 12, "end" if trace.false_parts else "head"
     box = tag("rect", x=MARGIN, y=y + 4, width=columns.right - MARGIN, height=tall, class_=class_)

@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 from rovercheck.checker.render.sequence.flow import ENVIRONMENT, SequenceFlow, flow
 from rovercheck.checker.render.story import Quiet, Repeats, Row, StoryChange, StoryEvent, rows, start_of
-from rovercheck.checker.results.trace import Arrow, Trace
+from rovercheck.checker.results.trace import TakenTransition, Trace
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.walk import variables
 
@@ -14,7 +14,7 @@ MOST = 7
 
 
 INSIDE = "changes inside only"
-"""Of ticks in which something happens that no other lifeline reads and no arrow tells."""
+"""Of ticks in which something happens that no other lifeline reads and no transition tells."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +29,7 @@ class Message:
 
 @dataclass(frozen=True)
 class SequenceNote:
-    """What happens on a lifeline: arrows fired, and results that the property speaks of."""
+    """What happens on a lifeline: transitions fired, and results that the property speaks of."""
 
     lifeline: str
     told: tuple[str, ...]
@@ -110,7 +110,7 @@ def _steps(
     trace: Trace, between: SequenceFlow, story: Sequence[Row], *, apart: bool
 ) -> tuple[list[Told], tuple[str, ...]]:
     """What is told, and the lifelines that take part; ``apart``: sensors have lifelines of their own."""
-    steps = [_told(trace, between, row, apart) for row in story]
+    steps = [_described(trace, between, row, apart) for row in story]
     used = {
         name
         for step in steps
@@ -141,7 +141,7 @@ def _joined(steps: Sequence[Told]) -> Iterator[Told]:
         yield pause
 
 
-def _told(trace: Trace, between: SequenceFlow, row: Row, apart: bool) -> Told:
+def _described(trace: Trace, between: SequenceFlow, row: Row, apart: bool) -> Told:
     match row:
         case Quiet():
             return Pause(row.first, row.last, "nothing but timers" if row.counters else "nothing changes")
@@ -188,14 +188,14 @@ def _rises(trace: Trace, name: str, number: int) -> bool:
 
 
 def _notes(trace: Trace, between: SequenceFlow, event: StoryEvent) -> Iterator[tuple[int, SequenceNote]]:
-    """The arrows of each chart, and results of the property that no other lifeline reads."""
+    """The transitions of each chart, and results of the property that no other lifeline reads."""
     told: dict[str, list[tuple[int, str]]] = {}
     places = {piece.part.name: i for i, piece in enumerate(between.pieces)}
     owners = {piece.part.name: piece.owner for piece in between.pieces}
-    for arrow in event.arrows:
-        if arrow.chart in owners and arrow.source != arrow.target:
-            owner = owners[arrow.chart]
-            told.setdefault(owner, []).append((places[arrow.chart], _fired(arrow, owner)))
+    for transition in event.transitions:
+        if transition.chart in owners and transition.source != transition.target:
+            owner = owners[transition.chart]
+            told.setdefault(owner, []).append((places[transition.chart], _fired(transition, owner)))
     asked = {name for expr in trace.false_parts for name in variables(expr)}
     for change in event.changes:
         for owner in between.origins(change.name) - {ENVIRONMENT}:
@@ -207,16 +207,16 @@ def _notes(trace: Trace, between: SequenceFlow, event: StoryEvent) -> Iterator[t
         yield max(place for place, _ in lines), SequenceNote(owner, tuple(line for _, line in sorted(lines)))
 
 
-def _fired(arrow: Arrow, owner: str) -> str:
-    """The arrow in a few words: the composite it is in once, its chart where the lifeline has several."""
-    inside, _, source = arrow.source.rpartition(".")
-    chart = "" if arrow.chart == owner else f"{arrow.chart}: "
-    if inside and arrow.order and arrow.target.startswith(f"{inside}."):
-        short = replace(arrow, source=source, target=arrow.target[len(inside) + 1 :])
+def _fired(transition: TakenTransition, owner: str) -> str:
+    """The transition in a few words: its composite once, its chart where the lifeline has several."""
+    inside, _, source = transition.source.rpartition(".")
+    chart = "" if transition.chart == owner else f"{transition.chart}: "
+    if inside and transition.order and transition.target.startswith(f"{inside}."):
+        short = replace(transition, source=source, target=transition.target[len(inside) + 1 :])
         return f"{chart}{inside}: {_whole(start_of(short))}"
-    return f"{chart}{_whole(start_of(arrow))}"
+    return f"{chart}{_whole(start_of(transition))}"
 
 
 def _whole(told: str) -> str:
-    """With the number of the arrow on one line."""
-    return told.replace("(arrow ", "(arrow\N{NO-BREAK SPACE}")
+    """With the number of the transition on one line."""
+    return told.replace("(transition ", "(transition\N{NO-BREAK SPACE}")

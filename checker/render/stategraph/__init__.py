@@ -1,1 +1,1 @@
-"""What the exits of a state graph share: its words, its findings, its picture."""
+"""What the formats of a state graph share: its words, its findings, its picture."""

@@ -33,7 +33,7 @@ def findings(graph: StateGraph) -> tuple[Finding, ...]:
     )
 
 
-def told(graph: StateGraph, width: int = 80) -> str:
+def findings_text(graph: StateGraph, width: int = 80) -> str:
     """The findings as lines of text."""
     found = findings(graph)
     wide = max(len(heading) for heading, _ in found) + 2
@@ -51,7 +51,7 @@ def _cut(graph: StateGraph) -> Iterator[str]:
         left = sum(n.unexpanded for n in graph.nodes)
         yield (
             f"Not all that is reachable is here: {graph.cut}. "
-            f"Of {left:,} of the {graph.valuations:,} valuations found the ticks are not known."
+            f"Of {left:,} of the {graph.valuations:,} states found the ticks are not known."
         )
 
 
@@ -67,13 +67,13 @@ def _marked(graph: StateGraph) -> Iterator[Finding]:
         return
     nodes = [n for n in graph.nodes if n.wanted]
     if not nodes:
-        yield "marked", f"{graph.looked_for} in none of the valuations found."
+        yield "marked", f"{graph.looked_for} in none of the states found."
         return
     count = sum(n.wanted for n in nodes)
     where = several(graph, (n.number for n in nodes))
     yield (
         "marked",
-        f"{graph.looked_for} in {count:,} valuation{'s' * (count != 1)} behind "
+        f"{graph.looked_for} in {count:,} state{'s' * (count != 1)} behind "
         f"{len(nodes):,} node{'s' * (len(nodes) != 1)}: {where}.",
     )
 
@@ -93,7 +93,7 @@ def _depth(graph: StateGraph) -> Iterator[Finding]:
     which = f" (last: {several(graph, last, 3)})" if len(graph.nodes) > 1 else ""
     yield (
         "depth",
-        f"every node is reached within {nodes:,} ticks{which}, every valuation within {graph.depth:,}.",
+        f"every node is reached within {nodes:,} ticks{which}, every state within {graph.depth:,}.",
     )
 
 
@@ -120,7 +120,7 @@ def _ends(graph: StateGraph) -> Iterator[Finding]:
         yield "never left", f"{several(graph, alone)}."
     if not graph.dead_ends:
         unknown = " of those whose ticks are known" if graph.cut else ""
-        yield "dead ends", f"none: every valuation{unknown} admits some input."
+        yield "dead ends", f"none: every state{unknown} admits some input."
     for node in (graph.nodes[n] for n in sorted(graph.dead_ends)[:MOST]):
         yield (
             "dead ends",

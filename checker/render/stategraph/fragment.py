@@ -123,9 +123,9 @@ def rows(way: GraphWay, most: int = MOST_ROWS) -> list[Row]:
 
 def _row(one: story.Row) -> Row:
     match one:
-        case story.StoryEvent(number, ms, changes, arrows):
+        case story.StoryEvent(number, ms, changes, transitions):
             told = [f"in {change}" if change.is_input else str(change) for change in changes]
-            fired = [f"▸ {a.chart}: {story.start_of(a)} {a.label}".rstrip() for a in arrows]
+            fired = [f"▸ {a.chart}: {story.start_of(a)} {a.label}".rstrip() for a in transitions]
             return str(number), str(ms), [*told, *fired] or ["nothing changes"]
         case story.Quiet():
             return "·", "", [one.what]

@@ -8,8 +8,8 @@ from math import ceil, hypot
 from rovercheck.checker.render.drawing import svg
 from rovercheck.checker.render.drawing.cuts import padded
 from rovercheck.checker.render.drawing.graph import DrawnNode, Edge, PlacedNode, Point
-from rovercheck.checker.render.drawing.layered import layered
-from rovercheck.checker.render.drawing.ranking import backward
+from rovercheck.checker.render.drawing.layered_layout import layered
+from rovercheck.checker.render.drawing.ranks import backward
 from rovercheck.checker.render.drawing.text import LINE, block, wrap
 from rovercheck.checker.render.stategraph.words import behind, brief, example, short, ticks
 from rovercheck.checker.results.graph import GraphEdge, GraphNode, StateGraph
@@ -210,7 +210,7 @@ def _label(graph: StateGraph, edge: GraphEdge, all_: bool) -> tuple[str, ...]:
 
 
 def _lines(graph: StateGraph, node: GraphNode) -> tuple[str, ...]:
-    """The values, then the counts: of valuations, and of ticks that stay."""
+    """The values, then the counts: of states, and of ticks that stay."""
     own = next((e for e in graph.edges if e.source == e.target == node.number), None)
     values = tuple(line for value in short(graph, node) for line in wrap(value, WIDEST, "  "))
     if own is None:

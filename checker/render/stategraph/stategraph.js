@@ -75,7 +75,7 @@
         button.type = "button";
         button.addEventListener("click", () => choose(edge[other], true));
         const behind = nodes[edge.from].valuations;
-        const who = edge.sure ? "" : `, from ${edge.sources.toLocaleString("en")} of ${counted(behind, "valuation")}`;
+        const who = edge.sure ? "" : `, from ${edge.sources.toLocaleString("en")} of ${counted(behind, "state")}`;
         const when = edge.ticks.length ? `; in the run shown: tick ${edge.ticks.join(", ")}` : "";
         item.append(button, made("small", `${edge.inputs || "any input"} · ${counted(edge.steps, "pair")}${who}${when}`));
         shown.append(item);
@@ -84,7 +84,7 @@
     };
     const way = (node) => {
       const section = made("section"), shown = made("div", undefined, "sg-way");
-      section.append(made("h3", `A shortest run to ${node.wanted ? "a marked valuation" : "it"}: ${counted(node.ticks, "tick")} of ${node.tick_ms} ms`));
+      section.append(made("h3", `A shortest run to ${node.wanted ? "a marked state" : "it"}: ${counted(node.ticks, "tick")} of ${node.tick_ms} ms`));
       for (const [number, ms, texts] of node.way) {
         const cell = made("div");
         for (const text of texts) cell.append(made("div", text, text.startsWith("in ") ? "sg-input" : ""));
@@ -95,7 +95,7 @@
     };
     const panel = (number) => {
       const node = nodes[number], shown = one(".sg-node");
-      const facts = [`${counted(node.valuations, "valuation")} behind it`];
+      const facts = [`${counted(node.valuations, "state")} behind it`];
       if (node.wanted) facts.push(`${node.wanted.toLocaleString("en")} of them marked`);
       if (node.dead) facts.push(`${node.dead.toLocaleString("en")} of them admit no input`);
       if (node.unexpanded) facts.push(`the ticks of ${node.unexpanded.toLocaleString("en")} of them are not known`);
@@ -107,7 +107,7 @@
       shown.append(neighbours("To", edges.filter((e) => e.from === number), "to"));
       shown.append(neighbours("From", edges.filter((e) => e.to === number && e.from !== number), "from"));
       if (node.example.length) {
-        shown.append(way(node), made("h3", "The whole valuation at its end"), pairs(node.example));
+        shown.append(way(node), made("h3", "The whole state at its end"), pairs(node.example));
       }
       one(".sg-hint").hidden = true;
       one(".sg-panel").scrollTop = 0;

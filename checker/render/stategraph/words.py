@@ -7,9 +7,9 @@ from rovercheck.checker.results.graph import GraphEdge, GraphNode, StateGraph
 from rovercheck.spec_model.lang.chart import NOWHERE
 
 LEGEND = (
-    "×n: n valuations behind a node, or n pairs of valuations behind an edge; "
-    "on an edge: inputs that lead there from one of the valuations, whatever the other inputs are; "
-    "dashed: only some of the valuations have such a tick"
+    "×n: n states behind a node, or n pairs of states behind an edge; "
+    "on an edge: inputs that lead there from one of the states, whatever the other inputs are; "
+    "dashed: only some of the states have such a tick"
 )
 
 

@@ -5,7 +5,7 @@ from dataclasses import replace
 from itertools import groupby
 
 from rovercheck.checker.render.lanes import Tone
-from rovercheck.checker.render.reasons import forced, reasons
+from rovercheck.checker.render.reasons import meaning, reasons
 from rovercheck.checker.render.story import TIMER, Quiet, ending, false_parts, heading, of_model, rows, value
 from rovercheck.checker.render.timeline.limits import Limits, thresholds, time_limits
 from rovercheck.checker.render.timeline.model import (
@@ -13,7 +13,7 @@ from rovercheck.checker.render.timeline.model import (
     LaneGroup,
     LaneKind,
     Limit,
-    Need,
+    NeededTicks,
     Shot,
     Timeline,
     TimelineRun,
@@ -89,12 +89,12 @@ def timeline(trace: Trace, *, everything: bool = False) -> Timeline:
         ticks=len(trace),
         clock=trace.clock(),
         lanes=(*sorted(lanes, key=_place(shown)), *parts(trace)),
-        constant=tuple(_told(trace, still)),
+        constant=tuple(_unchanging(trace, still)),
         quiet=tuple((row.first, row.last) for row in rows(shown) if isinstance(row, Quiet)),
         loop=trace.loop,
         wrong=tuple(_wrong(trace)),
         ending=ending(trace),
-        forced=forced_by(trace),
+        cause=determined_by(trace),
     )
 
 
@@ -129,7 +129,7 @@ def _constant(trace: Trace, values: Mapping[str, Values]) -> dict[str, int]:
     return found
 
 
-def _told(trace: Trace, still: Mapping[str, int]) -> Iterator[tuple[str, str]]:
+def _unchanging(trace: Trace, still: Mapping[str, int]) -> Iterator[tuple[str, str]]:
     """What never changes, without timers that never start and levels that are never entered."""
     for name in sorted(still):
         shown = value(trace, name, still[name])
@@ -170,11 +170,11 @@ def _lane(trace: Trace, name: str, values: Values, limits: Limits, spans: Limits
     )
 
 
-def forced_by(trace: Trace) -> str:
-    """Which inputs force the end of the run, and what that means; empty where nobody examined that."""
+def determined_by(trace: Trace) -> str:
+    """Which inputs determine the end of the run, and what that means; empty where nobody examined that."""
     told = groupby(reasons(trace, regular=True), key=lambda reason: reason.when)
     spans = [f"{when}: {', '.join(reason.what for reason in group)}" for when, group in told]
-    return f"Forced by {'; '.join(spans)}. {forced(trace)}" if spans else forced(trace)
+    return f"Determined by {'; '.join(spans)}. {meaning(trace)}" if spans else meaning(trace)
 
 
 def _flat(trace: Trace, name: str, values: Values, limits: Sequence[Limit]) -> bool:
@@ -185,11 +185,11 @@ def _flat(trace: Trace, name: str, values: Values, limits: Sequence[Limit]) -> b
     }
 
 
-def _needs(trace: Trace, name: str) -> Iterator[Need]:
+def _needs(trace: Trace, name: str) -> Iterator[NeededTicks]:
     """Where an input had to be so, in the words of the story."""
     mine = tuple(needed for needed in trace.needed or () if needed.name == name)
     for reason in reasons(replace(trace, needed=mine)):
-        yield Need(reason.first, reason.last, reason.what)
+        yield NeededTicks(reason.first, reason.last, reason.what)
 
 
 def _kind(trace: Trace, name: str) -> LaneKind:
@@ -227,18 +227,18 @@ def _place(trace: Trace) -> Callable[[Lane], tuple[int, bool, int, bool, int]]:
 
 
 def _shots(trace: Trace, name: str) -> Iterator[Shot]:
-    """The arrows of a chart, marked on its outermost location; those that keep their state left out."""
+    """The transitions of a chart, marked on its outermost location; those that keep their state left out."""
     if "." in name or not is_location(trace, name):
         return
     for tick in trace.ticks:
-        fired = [a for a in tick.arrows if a.chart == name and a.source != a.target]
+        fired = [a for a in tick.transitions if a.chart == name and a.source != a.target]
         if fired:
             yield Shot(tick.number, "; ".join(_fired(a.source, a.target, a.order, a.label) for a in fired))
 
 
 def _fired(source: str, target: str, order: int, label: str) -> str:
     start = f"{source} → {target}" if order else f"default → {target}"
-    number = f" (arrow {order})" if order else ""
+    number = f" (transition {order})" if order else ""
     return f"{start}{number} {label}".rstrip()
 
 

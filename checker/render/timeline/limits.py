@@ -65,7 +65,7 @@ def time_limits(trace: Trace) -> Limits:
     }
     found: dict[str, set[tuple[Fraction, str]]] = {}
     for chart, step_ms in steps.items():
-        for counter, word in _asked(trace.statecharts[chart], step_ms):
+        for counter, word in _timed(trace.statecharts[chart], step_ms):
             mine = trace.variables.get(counter.name)
             if word.span is not None and mine is not None and mine.domain == counter.domain:
                 limit = (Fraction(word.span.ticks(step_ms)), str(word.span))
@@ -73,7 +73,7 @@ def time_limits(trace: Trace) -> Limits:
     return {n: tuple(Limit(v, text) for v, text in sorted(pairs)) for n, pairs in found.items()}
 
 
-def _asked(chart: Chart, step_ms: int) -> Iterator[tuple[Var, Temporal]]:
+def _timed(chart: Chart, step_ms: int) -> Iterator[tuple[Var, Temporal]]:
     """Every counter of the chart with each temporal word that reads it."""
     try:
         timers = ChartTimers(chart, step_ms)
@@ -90,14 +90,14 @@ def _asked(chart: Chart, step_ms: int) -> Iterator[tuple[Var, Temporal]]:
 
 
 def _leaving(chart: Chart, path: Path) -> Iterator[Expr]:
-    """The guards on the arrows that leave a state, and on those of the junctions they lead to."""
+    """The guards on the transitions that leave a state, and on those of the junctions they lead to."""
     seen: set[Path] = set()
-    stack = [(path[:-1], arrow) for arrow in chart.states[path].transitions]
+    stack = [(path[:-1], transition) for transition in chart.states[path].transitions]
     while stack:
-        level, arrow = stack.pop()
-        if arrow.guard is not None:
-            yield arrow.guard
-        target = chart.resolve(level, arrow.target)
+        level, transition = stack.pop()
+        if transition.guard is not None:
+            yield transition.guard
+        target = chart.resolve(level, transition.target)
         if target in chart.junctions and target not in seen:
             seen.add(target)
             stack += [(target[:-1], onward) for onward in chart.junctions[target].transitions]

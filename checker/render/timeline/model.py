@@ -52,14 +52,14 @@ class Limit:
 
 @dataclass(frozen=True)
 class Shot:
-    """An arrow that fired in a tick, in a few words."""
+    """A transition that fired in a tick, in a few words."""
 
     tick: int
     text: str
 
 
 @dataclass(frozen=True)
-class Need:
+class NeededTicks:
     """Ticks ``first`` to ``last`` in which an input had to be so, as in ``d1 >= 71 cm``."""
 
     first: int
@@ -72,7 +72,8 @@ class Lane:
     """One variable over time (or one part of the property).
 
     ``runs`` cover ticks in order without overlap; a tick in none of them has no value.  ``needed`` tells
-    where the value forces the end of the run.  ``shots`` are arrows fired, for the location of a chart.
+    where the value determines the end of the run.  ``shots`` are transitions fired, for the location of a
+    chart.
     """
 
     name: str
@@ -80,7 +81,7 @@ class Lane:
     group: LaneGroup
     runs: tuple[TimelineRun, ...]
     limits: tuple[Limit, ...] = ()
-    needed: tuple[Need, ...] = ()
+    needed: tuple[NeededTicks, ...] = ()
     shots: tuple[Shot, ...] = ()
     doc: str = ""
 
@@ -96,8 +97,8 @@ class Timeline:
     """A run over time; ``clock`` is that of its trace.
 
     ``constant`` are the variables that never change and have no lane, ``quiet`` the stretches of ticks
-    (first, last) in which nothing happens but steady counts.  ``wrong`` says what is false at the end, and
-    ``forced`` which inputs force it, where that was examined.
+    (first, last) in which nothing happens but running counters.  ``wrong`` says what is false at the end, and
+    ``cause`` which inputs determine it, where that was examined.
     """
 
     property: str
@@ -111,7 +112,7 @@ class Timeline:
     loop: int | None = None
     wrong: tuple[str, ...] = ()
     ending: str = ""
-    forced: str = ""
+    cause: str = ""
 
     def ms(self, tick: int) -> int:
         """The time at the end of a tick."""

@@ -109,10 +109,10 @@ def signs(timeline: Timeline) -> Iterator[tuple[str, str]]:
     if any(visible(lane) for lane in timeline.lanes):
         yield tag("path", d="M0 8H24", class_="tl-limit"), "limit with which it is compared"
     if any(lane.shots for lane in timeline.lanes):
-        yield tag("path", d="M8 4h8l-4 7z", class_="tl-shot"), "an arrow of the chart fired"
+        yield tag("path", d="M8 4h8l-4 7z", class_="tl-shot"), "a transition of the chart fired"
     if any(lane.needed for lane in timeline.lanes):
         box = tag("rect", x=1, y=2, width=22, height=11, class_="tl-needed")
-        yield box, "input that forces the end, whatever the others are"
+        yield box, "input that determines the end, whatever the others are"
     if timeline.loop is not None:
         yield tag("rect", y=2, width=24, height=11, class_="tl-loop"), "repeats for ever"
 
@@ -121,8 +121,8 @@ def _below(timeline: Timeline, placed: PlacedLane, letters: int) -> Iterator[tup
     """Texts below the lanes with their class: what is false, what repeats, what never changes."""
     for wrong in timeline.wrong:
         yield wrap(f"✗ {wrong}", letters * 9 // 10, "    "), "wrong"
-    if timeline.forced:
-        yield wrap(f"● {timeline.forced}", letters, "    "), ""
+    if timeline.cause:
+        yield wrap(f"● {timeline.cause}", letters, "    "), ""
     if timeline.ending:
         yield wrap(timeline.ending, letters), ""
     if timeline.constant:
@@ -140,6 +140,6 @@ def scale(timeline: Timeline, placed: PlacedLane) -> str:
         return "Ticks of unlike lengths are drawn alike; the time is that at the end of a tick."
     left_out = shortened(placed.axis.breaks)
     return (
-        f"Not to scale: {left_out} of {timeline.ticks} ticks, in which nothing but steady counts changes, "
+        f"Not to scale: {left_out} of {timeline.ticks} ticks, in which only running counters change, "
         "are shortened at the zigzag lines."
     )

@@ -1,4 +1,4 @@
-"""The values of a variable over time as runs: equal values in a row, and steady counts."""
+"""The values of a variable over time as runs: equal values in a row, and running counters."""
 
 from collections.abc import Iterator, Sequence
 from fractions import Fraction

@@ -35,11 +35,11 @@ def shapes(lane: Lane, axis: Axis, top: int, tall: int, *, tips: bool = True) ->
         told = tag("title", escape(f"{_span(need.first, need.last)}: {need.condition} is needed"))
         yield tag("rect", told, x=x, y=top + 1, width=round(wide, 2), height=tall - 2, class_="tl-needed")
     for shot in lane.shots:
-        yield _arrow(axis.left(shot.tick), top, f"tick {shot.tick}: {shot.text}")
+        yield _transition(axis.left(shot.tick), top, f"tick {shot.tick}: {shot.text}")
 
 
-def _arrow(x: float, top: int, told: str) -> str:
-    """A small mark where an arrow fired."""
+def _transition(x: float, top: int, told: str) -> str:
+    """A small mark where a transition fired."""
     mark = f"M{x - 4} {top - 2}h8l-4 7z"
     return tag("path", tag("title", escape(told)), d=mark, class_="tl-shot")
 
@@ -48,7 +48,7 @@ def _span(first: int, last: int) -> str:
     return f"tick {first}" if first == last else f"ticks {first}–{last}"
 
 
-def _told(run: TimelineRun) -> str:
+def _title(run: TimelineRun) -> str:
     span = _span(run.first, run.last)
     values = f"{run.label} → {run.until}" if run.until else run.label
     return tag("title", escape(f"{span}: {values}"))
@@ -57,7 +57,7 @@ def _told(run: TimelineRun) -> str:
 def _band(run: TimelineRun, axis: Axis, y: int, tall: int, tips: bool) -> Iterator[str]:
     x, right = axis.left(run.first), axis.right(run.last)
     wide = round(right - x, 2)
-    told = _told(run) if tips else ""
+    told = _title(run) if tips else ""
     yield tag("rect", told, x=x, y=y, width=wide, height=tall, class_=f"tl-is-{run.tone.value}")
     label = fitting(run.label, wide - 8)
     if run.tone is Tone.DEGRADED:
@@ -118,7 +118,7 @@ def _graph(lane: Lane, axis: Axis, top: int, tall: int, tips: bool) -> Iterator[
     yield tag("path", d=line, class_="tl-curve")
     for run in lane.runs if tips else ():
         x, wide = axis.left(run.first), round(axis.right(run.last) - axis.left(run.first), 2)
-        yield tag("rect", _told(run), x=x, y=top, width=wide, height=tall, class_="tl-hover")
+        yield tag("rect", _title(run), x=x, y=top, width=wide, height=tall, class_="tl-hover")
     yield from _values(lane, axis, y, top)
 
 

@@ -1,1 +1,1 @@
-"""Charts with flags for the arrows, boundaries and pairs that a tick reaches; they behave as before."""
+"""Charts with flags for the transitions, boundaries and pairs that a tick reaches; they behave as before."""

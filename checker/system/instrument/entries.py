@@ -1,17 +1,17 @@
-"""Which arrows enter a state, and which leave it: the pairs of arrows that can follow each other."""
+"""Which transitions enter a state, and which leave it: the pairs that can follow each other."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 from rovercheck.spec_model.lang.chart import Chart, Path, Transition
-from rovercheck.spec_model.lang.interpret.fired import path_label
+from rovercheck.spec_model.lang.interpret.fired_transition import path_label
 from rovercheck.spec_model.lang.wellformed.places import common_composite
 
 
 @dataclass(frozen=True)
-class ArrowGroup:
-    """Arrows in priority order that start in one place: a state, a junction, or (default) a composite."""
+class TransitionGroup:
+    """Transitions in priority order that start in one state, junction or, as defaults, composite."""
 
     owner: Path
     default: bool = False
@@ -21,7 +21,7 @@ class ArrowGroup:
 class Segment:
     """One segment: where it starts, its position there from 1, and its number in the chart from 1."""
 
-    group: ArrowGroup
+    group: TransitionGroup
     order: int
     number: int
     drawn: Transition
@@ -29,11 +29,11 @@ class Segment:
 
     @property
     def text(self) -> str:
-        """``Sup_OK -> Sup_CRIT (arrow 1) [age_S > 120]``."""
+        """``Sup_OK -> Sup_CRIT (transition 1) [age_S > 120]``."""
         at = ".".join(self.group.owner)
         start = f"default{f' of {at}' if at else ''}" if self.group.default else at
         label = path_label([self.drawn])
-        return f"{start} -> {self.drawn.target} (arrow {self.order}){f' {label}' if label else ''}"
+        return f"{start} -> {self.drawn.target} (transition {self.order}){f' {label}' if label else ''}"
 
 
 @dataclass(frozen=True)
@@ -44,13 +44,13 @@ class EntryOrigin:
     default: bool
 
 
-class Arrows:
+class ChartTransitions:
     """The segments of a chart, and the states that each of them enters."""
 
     def __init__(self, chart: Chart) -> None:
         self.chart = chart
         self.segments = tuple(_numbered(chart))
-        self.by_group: dict[ArrowGroup, list[Segment]] = {}
+        self.by_group: dict[TransitionGroup, list[Segment]] = {}
         for segment in self.segments:
             self.by_group.setdefault(segment.group, []).append(segment)
 
@@ -61,7 +61,7 @@ class Arrows:
 
     @cached_property
     def entering(self) -> dict[Path, list[Segment]]:
-        """The last segments of paths that enter a state, for each state with arrows of its own."""
+        """The last segments of paths that enter a state, for each state with transitions of its own."""
         left = [p for p, s in self.chart.states.items() if s.transitions]
         return {path: [s for s in self.segments if self.enters(s, path) is not False] for path in left}
 
@@ -74,9 +74,9 @@ class Arrows:
         return found.pop() if len(found) == 1 else None
 
     @cached_property
-    def _origins(self) -> dict[ArrowGroup, set[EntryOrigin]]:
+    def _origins(self) -> dict[TransitionGroup, set[EntryOrigin]]:
         """Where the paths begin that run through a place."""
-        found: dict[ArrowGroup, set[EntryOrigin]] = {group: set() for group in self.by_group}
+        found: dict[TransitionGroup, set[EntryOrigin]] = {group: set() for group in self.by_group}
         todo = [
             (group, EntryOrigin(group.owner, group.default))
             for group in self.by_group
@@ -88,7 +88,7 @@ class Arrows:
                 continue
             found[group].add(origin)
             ends = (self.target(s) for s in self.by_group.get(group, ()))
-            todo += [(ArrowGroup(end), origin) for end in ends if end in self.chart.junctions]
+            todo += [(TransitionGroup(end), origin) for end in ends if end in self.chart.junctions]
         return found
 
 
@@ -103,12 +103,12 @@ def _numbered(chart: Chart) -> Iterator[Segment]:
         yield Segment(group, order, number, drawn, level)
 
 
-def _drawn(chart: Chart) -> Iterator[tuple[ArrowGroup, int, Transition, Path]]:
+def _drawn(chart: Chart) -> Iterator[tuple[TransitionGroup, int, Transition, Path]]:
     for path, state in chart.states.items():
-        for order, arrow in enumerate(state.default, start=1):
-            yield ArrowGroup(path, True), order, arrow, path
-        for order, arrow in enumerate(state.transitions, start=1):
-            yield ArrowGroup(path), order, arrow, path[:-1]
+        for order, transition in enumerate(state.default, start=1):
+            yield TransitionGroup(path, True), order, transition, path
+        for order, transition in enumerate(state.transitions, start=1):
+            yield TransitionGroup(path), order, transition, path[:-1]
     for path, junction in chart.junctions.items():
-        for order, arrow in enumerate(junction.transitions, start=1):
-            yield ArrowGroup(path), order, arrow, path[:-1]
+        for order, transition in enumerate(junction.transitions, start=1):
+            yield TransitionGroup(path), order, transition, path[:-1]

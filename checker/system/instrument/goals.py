@@ -1,4 +1,4 @@
-"""What a covering test set must reach: arrows, boundaries of comparisons and timers, pairs of arrows."""
+"""What a covering test set must reach: transitions, their pairs, boundaries of comparisons and timers."""
 
 from dataclasses import dataclass
 from enum import StrEnum
@@ -8,19 +8,24 @@ from rovercheck.spec_model.lang.system import System
 
 
 class GoalKind(StrEnum):
-    """What a goal is about."""
+    """What a goal is about; the values are the words of kept tests and of ``testgen-1.json``."""
 
-    ARROWS = "arrows"
-    """Each segment of each arrow, default transitions included, lies on a path that is taken."""
+    TRANSITIONS = "arrows"
+    """Each segment of each transition, default transitions included, lies on a path that is taken."""
     BOUNDARIES = "boundaries"
     """Each comparison is evaluated at its boundary and just beside it, each timer at N - 1, N and N + 1."""
     PAIRS = "pairs"
-    """Each arrow that enters a state is followed by each that leaves it."""
+    """Each transition that enters a state is followed by each that leaves it."""
 
     @property
-    def one(self) -> str:
-        """The word for one of them."""
-        return {GoalKind.ARROWS: "arrow", GoalKind.BOUNDARIES: "boundary", GoalKind.PAIRS: "pair"}[self]
+    def word(self) -> str:
+        """What people call such goals: ``transitions``."""
+        return self.name.lower()
+
+    @property
+    def in_id(self) -> str:
+        """How the id of such a goal calls it."""
+        return {GoalKind.TRANSITIONS: "arrow", GoalKind.BOUNDARIES: "boundary", GoalKind.PAIRS: "pair"}[self]
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,9 @@
 """Charts that tell which goals a tick reaches, and behave as before.
 
-An arrow raises a flag in its transition action, which runs on complete paths only (rule G6).  A boundary is
-seen by a probe in front of the arrow that is tested: a segment to a junction from which no path leads on, so
-that its condition action runs and the path goes back (rule G8).  Interpreter and engines read the same chart.
+A transition raises a flag in its transition action, which runs on complete paths only (rule G6).  A boundary
+is seen by a probe in front of the transition that is tested: a segment to a junction from which no path leads
+on, so that its condition action runs and the path goes back (rule G8).  Interpreter and engines read the same
+chart.
 """
 
 from collections.abc import Collection, Container, Iterator, Sequence
@@ -10,7 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import product
 from math import prod
 
-from rovercheck.checker.system.instrument.entries import ArrowGroup, Arrows, Segment
+from rovercheck.checker.system.instrument.entries import ChartTransitions, Segment, TransitionGroup
 from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind, Watched
 from rovercheck.spec_model.lang.action import Action, Assign, If
 from rovercheck.spec_model.lang.chart import (
@@ -174,7 +175,7 @@ class _Goals:
 
     def goal(self, kind: GoalKind, number: str, text: str) -> tuple[Action, ...]:
         """A goal as the action that raises its flag; none for one that is not wanted."""
-        id, wanted = f"{self._part}.{kind.one}.{number}", self._wanted
+        id, wanted = f"{self._part}.{kind.in_id}.{number}", self._wanted
         if kind not in wanted.kinds or not (wanted.only is None or id in wanted.only):
             return ()
         flag = Var(f"goal {id}", boolean, 0, text, hidden=True)
@@ -217,7 +218,7 @@ class _Chart:
     def __init__(self, chart: Chart, goals: _Goals) -> None:
         self._chart = chart
         self._goals = goals
-        self._arrows = Arrows(chart)
+        self._transitions = ChartTransitions(chart)
         self._ends: list[Junction] = []
 
     def watched(self) -> Chart:
@@ -235,14 +236,18 @@ class _Chart:
             during=self._goals.actions(state.during, f"the during of {at}"),
             exit=self._goals.actions(state.exit, f"the exit of {at}"),
             states=[self._state((*path, child.name), child) for child in state.states],
-            transitions=self._group(ArrowGroup(path)),
-            junctions=[Junction(j.name, self._group(ArrowGroup((*path, j.name)))) for j in state.junctions],
-            default=self._group(ArrowGroup(path, True)),
+            transitions=self._group(TransitionGroup(path)),
+            junctions=[
+                Junction(j.name, self._group(TransitionGroup((*path, j.name)))) for j in state.junctions
+            ],
+            default=self._group(TransitionGroup(path, True)),
             parallel=state.parallel,
         )
 
-    def _group(self, group: ArrowGroup) -> list[Transition]:
-        return [t for s in self._arrows.by_group.get(group, ()) for t in (*self._probes(s), self._taken(s))]
+    def _group(self, group: TransitionGroup) -> list[Transition]:
+        return [
+            t for s in self._transitions.by_group.get(group, ()) for t in (*self._probes(s), self._taken(s))
+        ]
 
     def _probes(self, segment: Segment) -> Iterator[Transition]:
         """What looks at the boundaries of a guard just before it is tested."""
@@ -256,16 +261,16 @@ class _Chart:
             yield from (Transition(end, side.condition, event, raised) for side, raised in timed)
 
     def _dead_end(self, segment: Segment) -> str:
-        """A junction whose only arrow, never valid, goes where the segment goes: it adds no path."""
-        name, goal = f"looked at {segment.number}", self._arrows.target(segment)
+        """A junction whose only transition, never valid, goes where the segment goes: it adds no path."""
+        name, goal = f"looked at {segment.number}", self._transitions.target(segment)
         while goal in self._chart.junctions:
-            goal = self._arrows.target(self._arrows.by_group[ArrowGroup(goal)][0])
+            goal = self._transitions.target(self._transitions.by_group[TransitionGroup(goal)][0])
         self._ends.append(Junction(name, [Transition(".".join(goal), FALSE)]))
         return name
 
     def _taken(self, segment: Segment) -> Transition:
         drawn, goals = segment.drawn, self._goals
-        raised = goals.goal(GoalKind.ARROWS, str(segment.number), segment.text)
+        raised = goals.goal(GoalKind.TRANSITIONS, str(segment.number), segment.text)
         return replace(
             drawn,
             do=goals.actions(drawn.do, segment.text),
@@ -277,13 +282,13 @@ class _Chart:
             ),
         )
 
-    # --- pairs: which arrow entered the state that another one leaves ---
+    # --- pairs: which transition entered the state that another one leaves ---
 
     def _follows(self, segment: Segment) -> Iterator[Action]:
         state = segment.group.owner
-        if segment.group.default or state not in self._arrows.entering:
+        if segment.group.default or state not in self._transitions.entering:
             return
-        for before in self._arrows.entering[state]:
+        for before in self._transitions.entering[state]:
             text = f"{before.text}, then {segment.text}"
             raised = self._goals.goal(GoalKind.PAIRS, f"{before.number}-{segment.number}", text)
             if raised:
@@ -292,17 +297,19 @@ class _Chart:
     def _entered(self, segment: Segment) -> Iterator[Action]:
         if not self._goals.wants(GoalKind.PAIRS):
             return
-        for state, entering in self._arrows.entering.items():
+        for state, entering in self._transitions.entering.items():
             if segment in entering:
                 memory = self._memory(state)
                 note = Assign(memory, Const(segment.number, memory.sort))
-                sure = self._arrows.enters(segment, state)
+                sure = self._transitions.enters(segment, state)
                 yield note if sure else If(self._chart.active_path(state), (), (note,))
 
     def _memory(self, state: Path) -> Var:
         name = ".".join((self._chart.name, *state))
-        domain = integer(0, len(self._arrows.segments))
-        return Var(f"arrow into {name}", domain, 0, f"the arrow by which {name} was entered", hidden=True)
+        domain = integer(0, len(self._transitions.segments))
+        return Var(
+            f"arrow into {name}", domain, 0, f"the transition by which {name} was entered", hidden=True
+        )
 
 
 def _counts(condition: Expr) -> bool:

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 
 from rovercheck.checker.testgen.formats import csv_files, pytest_files
 from rovercheck.checker.testgen.formats.c_files import c_files
-from rovercheck.checker.testgen.formats.expected import ExpectedTest
+from rovercheck.checker.testgen.formats.expected_outputs import ExpectedTest
 from rovercheck.spec_model.abstraction import Board
 
 Write = Callable[[Board, Sequence[ExpectedTest]], Mapping[str, str]]

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 
-from rovercheck.checker.testgen.formats.expected import ExpectedRow, ExpectedTest, rows
+from rovercheck.checker.testgen.formats.expected_outputs import ExpectedRow, ExpectedTest, rows
 from rovercheck.checker.testgen.scripts import CLOCK
 from rovercheck.spec_model.abstraction import Board, BoardSignal, Value
 from rovercheck.spec_model.lang.domain import Bool, Num
@@ -18,7 +18,7 @@ def _header(board: Board) -> str:
     inputs = "".join(_member(s) for s in board.inputs)
     outputs = "".join(_member(o.signal) for o in board.outputs)
     return (
-        f"/* What the covering tests of {board.name} call; made by `rovercheck testgen`. */\n"
+        f"/* What the covering tests of {board.name} call; made by `rovercheck generate-tests`. */\n"
         f"#ifndef COVER_{board.name.upper()}_H\n#define COVER_{board.name.upper()}_H\n\n"
         "#include <stdbool.h>\n#include <stdint.h>\n\n"
         f"struct inputs {{\n{inputs}}};\n\nstruct outputs {{\n{outputs}}};\n\n"
@@ -50,7 +50,7 @@ def _program(board: Board, tests: Sequence[ExpectedTest]) -> str:
 
 def _start(board: Board) -> str:
     return (
-        f"/* Covering tests of {board.name}, made by `rovercheck testgen`.\n"
+        f"/* Covering tests of {board.name}, made by `rovercheck generate-tests`.\n"
         f"   Compile with your supervisor and the functions of cover_{board.name}.h:\n"
         f"   cc -std=c99 cover_{board.name}.c your_supervisor.c -lm */\n"
         f'#include "cover_{board.name}.h"\n\n#include <math.h>\n#include <stdio.h>\n\n'

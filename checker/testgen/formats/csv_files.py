@@ -5,7 +5,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from io import StringIO
 
 from rovercheck.checker.io.files import csv_cell
-from rovercheck.checker.testgen.formats.expected import ExpectedTest
+from rovercheck.checker.testgen.formats.expected_outputs import ExpectedTest
 from rovercheck.checker.testgen.scripts import CLOCK
 from rovercheck.spec_model.abstraction import Board, Value
 

@@ -2,13 +2,13 @@
 
 from collections.abc import Mapping, Sequence
 
-from rovercheck.checker.testgen.formats.expected import ExpectedRow, ExpectedTest, rows
+from rovercheck.checker.testgen.formats.expected_outputs import ExpectedRow, ExpectedTest, rows
 from rovercheck.spec_model.abstraction import Board
 
 OURS = {"board1": "python:supervisor.board1:Board1", "board2": "python:supervisor.board2.board:Board2"}
 """The implementation that is run unless another is named."""
 
-HEAD = '''"""Covering tests of {board}, made by `rovercheck testgen`.
+HEAD = '''"""Covering tests of {board}, made by `rovercheck generate-tests`.
 
 Run them against an implementation with `pytest {file} --impl KIND:WHAT`, by default ours.
 """

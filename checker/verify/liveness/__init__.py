@@ -1,1 +1,1 @@
-"""Properties about infinite runs: loops that break them, valuations without a way back, or a proof."""
+"""Properties about infinite runs: loops that break them, states without a way back, or a proof."""

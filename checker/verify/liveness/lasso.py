@@ -1,6 +1,6 @@
-"""Infinite runs as finite ones: a run that comes back to an earlier valuation can go round for ever.
+"""Infinite runs as finite ones: a run that comes back to an earlier state can go round for ever.
 
-The monitored system gets an input that lets a run save its valuation once, before any tick.  From
+The monitored system gets an input that lets a run save its state once, before any tick.  From
 then on the goal waits for a tick after which everything is again as saved, with the condition of
 the loop true in every tick in between.  A run for which that condition fails ends there.
 """
@@ -39,14 +39,14 @@ def lasso(system: TransitionSystem, goal: Goal, kept: Sequence[Var]) -> Lasso:
     admissible inputs depend on it.
     """
     id = goal.property.id
-    save = Var(f"{id} save", boolean, 0, "the valuation before this tick is saved, if none was")
+    save = Var(f"{id} save", boolean, 0, "the state before this tick is saved, if none was")
     phase = Var(f"{id} phase", integer(0, FAILED), BEFORE, "before the loop, inside it, or not a loop")
     closed = Var(f"{id} loop", boolean, 0, f"a loop closes that breaks {id}")
     copies = [Var(f"{v.name} saved", v.domain, v.init, f"{v.name} where the loop starts") for v in kept]
     last, *others = goal.recurs or (goal.var,)
     seen = [Var(f"{v.name} seen", boolean, 0, f"{v.doc}, or in an earlier one of the loop") for v in others]
 
-    # The saved valuation comes again at the end, where the condition of the loop is true.
+    # The saved state comes again at the end, where the condition of the loop is true.
     worthwhile = [v for v in kept if v.name == goal.var.name]
     start: list[Statement] = [Assign(phase, _value(phase, INSIDE))]
     start += [Assign(copy, v) for copy, v in zip(copies, kept, strict=True)]

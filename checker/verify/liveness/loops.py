@@ -6,7 +6,7 @@ from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.system.slice import sliced
 from rovercheck.checker.verify.liveness.lasso import Lasso, lasso
-from rovercheck.checker.verify.runs.calm import calmed
+from rovercheck.checker.verify.runs.minimise import minimise_inputs
 from rovercheck.checker.verify.runs.replay import ReplayError, replay
 from rovercheck.properties.reduce import Goal, Question
 from rovercheck.spec_model.lang.expr import Var
@@ -40,15 +40,23 @@ def looped(hunt: LoopHunt, run: Run) -> Trace:
     """The trace of a run of the lasso system that closes a loop.
 
     Raises ``ReplayError`` unless the same inputs take the charts round the loop once more, tick by
-    tick through the same valuations.  The interpreter, which counts time on its own, goes along.
+    tick through the same states.  The interpreter, which counts time on its own, goes along.
     """
-    calm = calmed(hunt.lasso.system, hunt.lasso.goal, run)
+    calm = minimise_inputs(hunt.lasso.system, hunt.lasso.goal, run)
     save = hunt.lasso.save.name
     start = next(i for i, inputs in enumerate(calm.inputs) if inputs[save])
     inputs = tuple({n: v for n, v in tick.items() if n != save} for tick in calm.inputs)
-    once = replay(hunt.question.system, hunt.goal, Run(calm.frozen, inputs))
-    twice = replay(hunt.question.system, hunt.goal, Run(calm.frozen, inputs + inputs[start:]))
-    _check(hunt, twice, start, len(inputs))
+    return repeated(hunt, Run(calm.frozen, inputs), start)
+
+
+def repeated(hunt: LoopHunt, run: Run, start: int) -> Trace:
+    """The trace of a run of the system that repeats for ever what follows tick ``start``.
+
+    Raises ``ReplayError`` unless it does.
+    """
+    once = replay(hunt.question.system, hunt.goal, run)
+    twice = replay(hunt.question.system, hunt.goal, Run(run.frozen, run.inputs + run.inputs[start:]))
+    _check(hunt, twice, start, len(run))
     return replace(once, loop=start)
 
 
@@ -70,4 +78,4 @@ def _check(hunt: LoopHunt, twice: Trace, start: int, end: int) -> None:
             raise ReplayError(f"{id}: {recurring.doc} does not recur in the loop.")
 
 
-__all__ = ["LoopHunt", "hunt", "looped"]
+__all__ = ["LoopHunt", "hunt", "looped", "repeated"]

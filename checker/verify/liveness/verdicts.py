@@ -1,7 +1,7 @@
 """Verdicts on properties about infinite runs: a stronger bounded property first, then what refutes them.
 
 A ``LeadsTo`` or ``Settles`` is broken by a loop; that there is none proves it.  A ``Recoverable`` is
-broken by a valuation from which there is no way back (``checker.verify.liveness.verdicts``).
+broken by a state from which there is no way back (``checker.verify.liveness.verdicts``).
 """
 
 from collections.abc import Iterable, Mapping
@@ -22,15 +22,15 @@ from rovercheck.checker.results.verdict import (
     Verdict,
     Violated,
 )
-from rovercheck.checker.system.lowered import lowered
+from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.system.slice import check_way_back, sliced
 from rovercheck.checker.verify.liveness.loops import LoopHunt, hunt, looped
-from rovercheck.checker.verify.liveness.settling import settled
-from rovercheck.checker.verify.portfolio.question import Hint, PortfolioQuestion
+from rovercheck.checker.verify.liveness.repetition import repeating_loop
+from rovercheck.checker.verify.portfolio.question import PortfolioQuestion, Prior
 from rovercheck.checker.verify.portfolio.shape import VAST, shape
 from rovercheck.checker.verify.reachable import ReachableSearch, TooLarge
-from rovercheck.checker.verify.result import Ask, Result, check_domains
-from rovercheck.checker.verify.runs.calm import calmed
+from rovercheck.checker.verify.result import EngineQuery, Result, check_domains
+from rovercheck.checker.verify.runs.minimise import minimise_inputs
 from rovercheck.checker.verify.runs.replay import replay
 from rovercheck.checker.verify.runs.reproduce import only_there
 from rovercheck.properties.forms import Form, HoldsAfter, LeadsTo, Property, Recoverable, Responds, Settles
@@ -50,17 +50,17 @@ MOST_TICKS = 500_000
 
 @dataclass(frozen=True)
 class Trap:
-    """A valuation of ``variables`` that is reached after some tick, and how many it can lead to."""
+    """A state of ``variables`` that is reached after some tick, and how many it can lead to."""
 
     variables: tuple[Var, ...]
     valuation: Values
     leads_to: int
 
 
-def recovered(prop: Property, system: System, ask: Ask, progress: Progress) -> Verdict:
+def recovered(prop: Property, system: System, query: EngineQuery, progress: Progress) -> Verdict:
     """The verdict on a ``Recoverable``: proved, a run into a trap, or unknown for a large system."""
     question = reduce(lowered(system), [prop])
-    open_ = left_open(question.system, ask)
+    open_ = left_open(question.system, query)
     if open_ is not None:
         return open_
     if system.over:
@@ -69,21 +69,21 @@ def recovered(prop: Property, system: System, ask: Ask, progress: Progress) -> V
     try:
         found = trapped(question, question.goals[0].var, progress)
     except TooLarge:
-        limit = f"more than {MOST_VALUATIONS:,} valuations or {MOST_TICKS:,} ticks between them"
+        limit = f"more than {MOST_VALUATIONS:,} states or {MOST_TICKS:,} ticks between them"
         return Unknown(f"{limit}; all of them are needed to tell what can be reached again", 0, ENGINE)
     if isinstance(found, Exhausted):
         return Proved(found, ENGINE)
-    return shown(question, found, ask)
+    return shown(question, found, query)
 
 
-def left_open(system: TransitionSystem, ask: Ask) -> Unknown | None:
-    """Unknown, unless every run stays in all domains: a graph of valuations goes on where a run does not.
+def left_open(system: TransitionSystem, query: EngineQuery) -> Unknown | None:
+    """Unknown, unless every run stays in all domains: a graph of states goes on where a run does not.
 
     Raises ``LeavesDomain`` if some run is known to leave one.
     """
     if not system.checks:
         return None
-    found = ask(system, [])
+    found = query(system, [])
     check_domains(system, found)
     for check, _ in system.checks:
         answer, by = found[check.name]
@@ -94,7 +94,7 @@ def left_open(system: TransitionSystem, ask: Ask) -> Unknown | None:
 
 
 def trapped(question: Question, to: Var, progress: Progress) -> Trap | Exhausted:
-    """The first valuation after some tick from which no run reaches ``to``, if there is one."""
+    """The first state after some tick from which no run reaches ``to``, if there is one."""
     part = sliced(question.system, [to])
     carried = [v for v in (*part.frozen, *part.variables) if v.name != to.name]
     variables = (*carried, to)
@@ -138,23 +138,23 @@ def _reached(start: Iterable[Values], following: Mapping[Values, set[Values]]) -
     return found
 
 
-def shown(question: Question, trap: Trap, ask: Ask) -> Verdict:
+def shown(question: Question, trap: Trap, query: EngineQuery) -> Verdict:
     """A shortest run into the trap, replayed."""
     [goal] = question.goals
-    entered = Var(f"{goal.var.name} trap", boolean, 0, "the run is in a valuation without a way back")
+    entered = Var(f"{goal.var.name} trap", boolean, 0, "the run is in a state without a way back")
     there = all_of(*(v == Const(raw, v.sort) for v, raw in zip(trap.variables, trap.valuation, strict=True)))
     system = replace(
         question.system,
         variables=(*question.system.variables, entered),
         step=(*question.system.step, Assign(entered, there)),
     )
-    found = ask(system, [entered])
+    found = query(system, [entered])
     check_domains(system, found)
     answer, by = found[entered.name]
     if not isinstance(answer, Reached):
         return Unknown(f"a trap is known to exist, but {by} found no run into it", 0, by)
     into = Goal(goal.property, entered, False, goal.parts, goal.memory)
-    trace = replay(system, into, calmed(system, entered, answer.run))
+    trace = replay(system, into, minimise_inputs(system, entered, answer.run))
     return Violated(replace(trace, trapped=trap.leads_to), ENGINE)
 
 
@@ -167,23 +167,23 @@ SETTLING = "settling"
 """What finds loops by chance, in the place of an engine's name."""
 
 
-def unbounded(prop: Property, systems: Systems, ask: Ask, progress: Progress) -> Result:
+def unbounded(prop: Property, systems: Systems, query: EngineQuery, progress: Progress) -> Result:
     """The result of one property about infinite runs.
 
     Raises ``ModelError`` when the model leaves a domain, ``ReplayError`` when a run cannot be replayed.
     """
-    proved = _by_bound(prop, systems, ask)
+    proved = _by_bound(prop, systems, query)
     if proved is not None:
         return Result(prop, proved, prop.on)
     if isinstance(prop.form, Recoverable):
-        return Result(prop, recovered(prop, systems[prop.on], ask, progress), prop.on)
-    return _by_loop(prop, systems, ask, progress)
+        return Result(prop, recovered(prop, systems[prop.on], query, progress), prop.on)
+    return _by_loop(prop, systems, query, progress)
 
 
 # --- a bounded property that is stronger -----------------------------------------------------------
 
 
-def _by_bound(prop: Property, systems: Systems, ask: Ask) -> Proved | None:
+def _by_bound(prop: Property, systems: Systems, query: EngineQuery) -> Proved | None:
     """A proof by the bounded property that implies this one, if there is one and it holds."""
     bounded = _bounded(prop, systems)
     if bounded is None:
@@ -191,7 +191,7 @@ def _by_bound(prop: Property, systems: Systems, ask: Ask) -> Proved | None:
     form, span = bounded
     question = reduce(lowered(systems[prop.on]), [replace(prop, form=form)])
     goal = question.goals[0].var
-    found = ask(question.system, [goal])
+    found = query(question.system, [goal])
     check_domains(question.system, found)
     answer, by = found[goal.name]
     return Proved(answer.because, by, f"even within {span}") if isinstance(answer, Unreachable) else None
@@ -214,16 +214,16 @@ def _bounded(prop: Property, systems: Systems) -> tuple[Form, Span] | None:
 # --- loops -----------------------------------------------------------------------------------------
 
 
-def _by_loop(prop: Property, systems: Systems, ask: Ask, progress: Progress) -> Result:
+def _by_loop(prop: Property, systems: Systems, query: EngineQuery, progress: Progress) -> Result:
     system = systems[prop.on]
-    hunted, answer, by = _hunted(prop, system, ask, progress)
+    hunted, answer, by = _hunted(prop, system, query, progress)
     if not (isinstance(answer, Reached) and system.over):
         return _result(hunted, answer, by)
     if not system.concrete:
         reason = only_there(system.name, len(answer.run))
         return Result(prop, Unknown(reason, len(answer.run) - 1, by), system.name)
     there = systems[system.concrete]
-    result = _result(*_hunted(replace(prop, on=there.name), there, ask, progress))
+    result = _result(*_hunted(replace(prop, on=there.name), there, query, progress))
     if isinstance(result.verdict, Unknown):
         reason = (
             f"a loop of {system.name}, an over-approximation, was found "
@@ -233,21 +233,25 @@ def _by_loop(prop: Property, systems: Systems, ask: Ask, progress: Progress) -> 
     return result
 
 
-def _hunted(prop: Property, system: System, ask: Ask, progress: Progress) -> tuple[LoopHunt, Answer, str]:
+def _hunted(
+    prop: Property, system: System, query: EngineQuery, progress: Progress
+) -> tuple[LoopHunt, Answer, str]:
     question = reduce(lowered(system), [prop])
     hunted = hunt(question, question.goals[0])
-    loop = attempted(SETTLING, system.name, lambda: settled(hunted, progress)) if _vast(hunted) else None
+    loop = (
+        attempted(SETTLING, system.name, lambda: repeating_loop(hunted, progress)) if _vast(hunted) else None
+    )
     if isinstance(loop, Reached):
         if question.system.checks and shape(PortfolioQuestion(question.system, ())).enumerable:
-            check_domains(question.system, ask(question.system, []))
+            check_domains(question.system, query(question.system, []))
         return hunted, loop, SETTLING
-    found = ask(hunted.lasso.system, [hunted.lasso.goal], Hint.SHORT)
+    found = query(hunted.lasso.system, [hunted.lasso.goal], Prior.SHORT)
     check_domains(hunted.lasso.system, found)
     return hunted, *found[hunted.lasso.goal.name]
 
 
 def _vast(hunted: LoopHunt) -> bool:
-    """Whether pairs of valuations are too wide to enumerate, so that a long loop is best met by chance."""
+    """Whether pairs of states are too wide to enumerate, so that a long loop is best met by chance."""
     return shape(PortfolioQuestion(hunted.lasso.system, (hunted.lasso.goal,))).bits > VAST
 
 

@@ -1,4 +1,4 @@
-"""Answers that cannot both be true are a bug of ours, and shown as one."""
+"""Answers that cannot both be true are an internal error, and shown as one."""
 
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -32,13 +32,13 @@ class Statement:
 
 
 class Disagreement(Exception):
-    """Two engines gave answers that cannot both be true: a bug of ours."""
+    """Two engines gave answers that cannot both be true: an internal error."""
 
-    def __init__(self, system: str, goal: str, said: tuple[Statement, ...]) -> None:
-        super().__init__(system, goal, said)
+    def __init__(self, system: str, goal: str, disagreement_of: tuple[Statement, ...]) -> None:
+        super().__init__(system, goal, disagreement_of)
         self.system = system
         self.goal = goal
-        self.said = said
+        self.said = disagreement_of
 
     def __str__(self) -> str:
         return f"engines disagree about {self.goal} of {self.system}. " + "; ".join(map(str, self.said)) + "."
@@ -55,6 +55,6 @@ def together(system: TransitionSystem, goal: Var, each: Sequence[EngineAnswer]) 
 
 def _replays(system: TransitionSystem, goal: Var, answer: Answer) -> bool | None:
     """Whether the run of an answer reaches the goal by the reference semantics."""
-    from rovercheck.checker.verify.runs.calm import transferred
+    from rovercheck.checker.verify.runs.minimise import transferred
 
     return transferred(answer.run, system, goal) is not None if isinstance(answer, Reached) else None

@@ -45,23 +45,23 @@ def _least(first: int | None, second: int | None) -> int | None:
 MB = 1 << 20
 
 CHECKS = Turn("explicit", memory=128 * MB, transitions=250_000_000, share=0.5)
-"""The turn in which it is asked at last whether a model of few valuations leaves a domain at all, where a run
+"""The turn in which it is asked at last whether a model of few states leaves a domain at all, where a run
 that counts whatever other runs do has ended the other turns before that was known."""
 
 RECORDED = Turn("kinduction", seconds=120, share=0.3)
-"""Before any search: what a proof on record still shows is shown in seconds."""
+"""Before any search: what a recorded proof still shows is shown in seconds."""
 
 _FEW = Turn("explicit", memory=32 * MB, transitions=32_000_000, share=0.3)
-"""A second at most: of a broad question it is not known before whether it has few valuations."""
+"""A second at most: of a broad question it is not known before whether it has few states."""
 
 _SHARED = Turn("explicit", transitions=64_000_000, share=0.4)
 """Half a minute that the cases of a scene share: where one has a short run, the largest need not be searched
 to its end; where none has, this is lost on what takes longer."""
 
 SOON = Turn("kinduction", seconds=60, share=0.2)
-"""A broad question with more valuations than that is mostly proved in one to four seconds, or not at all.
+"""A broad question with more states than that is mostly proved in one to four seconds, or not at all.
 
-Not asked where a proof is on record: what that leaves open was not proved like this.
+Not asked where a proof is recorded: what that leaves open was not proved like this.
 """
 
 _RUNS = Turn("simulation", share=0.2)

@@ -87,8 +87,8 @@ def conclusive(answer: Answer) -> bool:
     return isinstance(answer, Unreachable) or (isinstance(answer, Reached) and answer.shortest)
 
 
-class Hint(StrEnum):
-    """What whoever asks knows of the answer."""
+class Prior(StrEnum):
+    """What is known of the answer beforehand."""
 
     NONE = ""
     SHORT = "short"
@@ -101,13 +101,13 @@ class Hint(StrEnum):
 class PortfolioQuestion:
     """Is any of the ``wanted`` goals ever true after a tick, and does the model leave a domain?
 
-    ``candidates`` are formulas that may be an invariant, from a proof on record: of the same charts, or of
-    charts before they were changed.  None: no proof is on record.
+    ``candidates`` are formulas that may be an invariant, from a recorded proof: of the same charts, or of
+    charts before they were changed.  None: no proof is recorded.
     """
 
     system: TransitionSystem
     wanted: tuple[Var, ...]
-    hint: Hint = Hint.NONE
+    prior: Prior = Prior.NONE
     candidates: tuple[Expr, ...] | None = None
 
     @property
@@ -117,7 +117,7 @@ class PortfolioQuestion:
 
     @property
     def goals(self) -> tuple[Var, ...]:
-        """All that engines are asked about."""
+        """All goals that engines decide."""
         return (*self.wanted, *self.checks)
 
     def open(self, found: Found) -> list[Var]:
@@ -143,19 +143,19 @@ def _no_answers(_: PortfolioQuestion, __: Found) -> None:
 
 @dataclass(frozen=True)
 class Callbacks:
-    """Who is told what.
+    """Functions that an engine call reports to.
 
-    ``granted`` hears, before each engine and when it has answered, how many seconds are left for the
-    question (None: any number).  ``answered`` hears the answers of a question as they are found.
+    ``on_budget`` receives, before each engine and after its answer, how many seconds are left for the
+    question (None: any number).  ``on_answer`` receives the answers of a question as they are found.
     """
 
     progress: Progress = quiet
-    granted: Callable[[float | None], None] = _nothing
-    answered: Callable[[PortfolioQuestion, Found], None] = _no_answers
+    on_budget: Callable[[float | None], None] = _nothing
+    on_answer: Callable[[PortfolioQuestion, Found], None] = _no_answers
 
 
 def in_words(answer: Answer) -> str:
-    """``after 8 ticks``, ``never: all 154 valuations``, ``not within 300 ticks: the time limit ...``."""
+    """``after 8 ticks``, ``never: all 154 reachable states``, ``not within 300 ticks: the time ...``."""
     match answer:
         case Reached(run):
             return f"after {counted_ticks(len(run))}"
@@ -166,10 +166,10 @@ def in_words(answer: Answer) -> str:
 
 
 def light(answer: Answer) -> Answer:
-    """The answer without the valuations that an exhausted search kept: fit for travelling."""
+    """The answer without the states that an exhausted search kept: fit for travelling."""
     return Unreachable(light_evidence(answer.because)) if isinstance(answer, Unreachable) else answer
 
 
 def light_evidence(evidence: Evidence) -> Evidence:
-    """The evidence without the valuations themselves."""
+    """The evidence without the states themselves."""
     return replace(evidence, closed=None, diagram=None) if isinstance(evidence, Exhausted) else evidence

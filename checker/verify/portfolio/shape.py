@@ -4,37 +4,37 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from rovercheck.checker.system.slice import sliced
-from rovercheck.checker.verify.portfolio.question import Hint, PortfolioQuestion
+from rovercheck.checker.verify.portfolio.question import PortfolioQuestion, Prior
 from rovercheck.spec_model.lang.chart import Chart, Path
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TransitionSystem
 
 WIDE, VAST = 200, 800
-"""Bits of a valuation, of what the goals depend on: up to the first, enumerating valuations is worth much
+"""Bits of a state, of what the goals depend on: up to the first, enumerating states is worth much
 effort, up to the second some, above it none (compiling such a step takes longer than deciding it)."""
 
 BROAD = 64
-"""Bits of a valuation: with more, enumerating is soon given up, and taken up again if no proof is found."""
+"""Bits of a state: with more, enumerating is soon given up, and taken up again if no proof is found."""
 
 FEW = 4
-"""Bits that are free in each tick: with so few a valuation has few successors, however wide it is."""
+"""Bits that are free in each tick: with so few a state has few successors, however wide it is."""
 
 MANY = 40
-"""Bits that are free in each tick: with more, a wide valuation has more successors than can be enumerated."""
+"""Bits that are free in each tick: with more, a wide state has more successors than can be enumerated."""
 
 
 @dataclass(frozen=True)
 class Shape:
-    """``bits`` of a valuation of what the goals depend on, and what whoever asks knows of the answer.
+    """``bits`` of a state of what the goals depend on, and what the caller knows of the answer.
 
     ``free`` bits of it are chosen anew in each tick.
 
-    ``at_once`` of the bits can differ from their start in one valuation: of the counters of states that are
+    ``at_once`` of the bits can differ from their start in one state: of the counters of chart states that are
     never active together all but one are 0.  None: all of them.
     """
 
     bits: int
-    hint: Hint = Hint.NONE
+    prior: Prior = Prior.NONE
     at_once: int | None = None
     free: int | None = None
 
@@ -43,21 +43,21 @@ class Shape:
         """The row of the table of orders that is meant for it."""
         at_once = self.bits if self.at_once is None else self.at_once
         wide = at_once > WIDE
-        free = None if self.hint.value or not wide else self.free
+        free = None if self.prior.value or not wide else self.free
         if free is not None and free <= FEW:
             return "driven"
         if wide and (self.bits > VAST or (free is not None and free > MANY)):
             return "vast"
-        return self.hint.value or ("wide" if wide else "broad" if at_once > BROAD else "narrow")
+        return self.prior.value or ("wide" if wide else "broad" if at_once > BROAD else "narrow")
 
     @property
     def enumerable(self) -> bool:
-        """Whether enumerating its valuations is worth much effort."""
+        """Whether enumerating its states is worth much effort."""
         return self.kind in ("narrow", "broad")
 
 
 def driven(system: TransitionSystem) -> bool:
-    """Whether little is chosen in each tick, so that most of a valuation follows from what was chosen."""
+    """Whether little is chosen in each tick, so that most of a state follows from what was chosen."""
     return _bits(system.inputs) <= (FEW if _bits(system.variables) > WIDE else 1)
 
 
@@ -69,7 +69,7 @@ def shape(question: PortfolioQuestion) -> Shape:
     """The shape of a question."""
     part = sliced(question.system, question.goals)
     bits = {v.name: (len(v.domain) - 1).bit_length() for v in part.variables}
-    return Shape(sum(bits.values()), question.hint, _at_once(question.system, bits), _bits(part.inputs))
+    return Shape(sum(bits.values()), question.prior, _at_once(question.system, bits), _bits(part.inputs))
 
 
 def _at_once(system: TransitionSystem, bits: Mapping[str, int]) -> int:
@@ -90,7 +90,7 @@ def _counters(chart: Chart, left: dict[str, int]) -> dict[Path, int]:
 
 
 def _counting(chart: Chart, path: Path, counters: Mapping[Path, int]) -> int:
-    """The most bits of counters in and below a state that can count in one valuation."""
+    """The most bits of counters in and below a chart state that can count in one state."""
     state = chart.states[path]
     inside = [_counting(chart, (*path, child.name), counters) for child in state.states]
     return counters.get(path, 0) + (sum(inside) if state.parallel else max(inside, default=0))

@@ -24,13 +24,13 @@ from rovercheck.spec_model.lang.system import TransitionSystem
 
 # --- engines in turn -----------------------------------------------------------------------------------
 
-# --- proofs on record, tried before anything is searched -----------------------------------------------
+# --- recorded proofs, tried before anything is searched -----------------------------------------------
 
 
 class RecordedInvariants:
     """An engine that tries the conjuncts of earlier proofs and searches for nothing."""
 
-    SUMMARY = "the invariants on record"
+    SUMMARY = "the recorded invariants"
 
     def __init__(self, prover: Prover, candidates: Sequence[Expr]) -> None:
         self.NAME = prover.NAME
@@ -49,12 +49,12 @@ SHORTENED = 128
 """Ticks of the longest run for which a shorter one is looked for: unrolling further takes minutes."""
 
 
-def in_turn(question: PortfolioQuestion, limits: Limits, told: Callbacks) -> Iterator[Found]:
+def in_turn(question: PortfolioQuestion, limits: Limits, callbacks: Callbacks) -> Iterator[Found]:
     """After each turn all that is found so far; the last one holds an answer for every goal.
 
     Raises ``Disagreement`` when a turn contradicts what an earlier one left to be confirmed.
     """
-    known, turns = engines(), _Turns(question, limits, told, limits.deadline())
+    known, turns = engines(), _Turns(question, limits, callbacks, limits.deadline())
     order: Sequence[Turn] = ORDERS[shape(question).kind]
     prover = known.get(RECORDED.engine)
     if question.candidates is not None and isinstance(prover, Prover):
@@ -77,16 +77,16 @@ class _Turns:
 
     question: PortfolioQuestion
     limits: Limits
-    told: Callbacks
+    callbacks: Callbacks
     deadline: float | None
     found: Found = field(default_factory=dict)
 
     def take(self, engine: Engine, turn: Turn, goals: Sequence[Var]) -> Found:
         """What is found so far, with what an engine says of some goals in its turn."""
         left = None if self.deadline is None else max(0.0, self.deadline - monotonic())
-        self.told.granted(left)
-        answers = asked(engine, self.question, turn.within(self.limits, left), self.told, goals)
-        self.told.granted(self.limits.seconds)  # for what is made of the answers
+        self.callbacks.on_budget(left)
+        answers = run_turn(engine, self.question, turn.within(self.limits, left), self.callbacks, goals)
+        self.callbacks.on_budget(self.limits.seconds)  # for what is made of the answers
         for goal in goals:
             each = [*filter(None, [self.found.get(goal.name)]), answers[goal.name]]
             self.found = {**self.found, goal.name: together(self.question.system, goal, each)}
@@ -123,14 +123,14 @@ def _looked(answer: Answer, depth: int) -> bool:
     return isinstance(answer, Open) and answer.depth >= depth
 
 
-def asked(
-    engine: Engine, question: PortfolioQuestion, limits: Limits, told: Callbacks, goals: Sequence[Var]
+def run_turn(
+    engine: Engine, question: PortfolioQuestion, limits: Limits, callbacks: Callbacks, goals: Sequence[Var]
 ) -> dict[str, EngineAnswer]:
     """What one engine says of some goals; nothing, if it fails: the others have their turns all the same."""
-    told.progress(Stage(f"{engine.NAME}: searching"))
+    callbacks.progress(Stage(f"{engine.NAME}: searching"))
 
     def work() -> Mapping[str, Answer]:
-        answers = engine.check(question.system, goals, limits, told.progress)
+        answers = engine.check(question.system, goals, limits, callbacks.progress)
         meant = _without_strays(question, answers) if question.checks else answers
         return {**{goal.name: meant[goal.name] for goal in goals}, **meant}
 
@@ -164,13 +164,13 @@ def _without_strays(question: PortfolioQuestion, answers: Mapping[str, Answer]) 
 # --- every engine on the same question, and their answers compared -------------------------------------
 
 
-def compared(question: PortfolioQuestion, limits: Limits, told: Callbacks) -> Found:
+def compared(question: PortfolioQuestion, limits: Limits, callbacks: Callbacks) -> Found:
     """The best answer to each goal, when all engines have been asked.  Raises ``Disagreement``."""
     by_engine = {}
     for name, engine in engines().items():
-        told.granted(limits.seconds)
-        by_engine[name] = asked(engine, question, limits, told, question.goals)
-    told.granted(limits.seconds)
+        callbacks.on_budget(limits.seconds)
+        by_engine[name] = run_turn(engine, question, limits, callbacks, question.goals)
+    callbacks.on_budget(limits.seconds)
     goals = {g.name: g for g in question.goals}
     merged: dict[str, EngineAnswer] = {}
     for name, goal in goals.items():
@@ -178,49 +178,50 @@ def compared(question: PortfolioQuestion, limits: Limits, told: Callbacks) -> Fo
     return merged
 
 
-def answers(question: PortfolioQuestion, engine: str | Engine, limits: Limits, told: Callbacks) -> Found:
+def answers(question: PortfolioQuestion, engine: str | Engine, limits: Limits, callbacks: Callbacks) -> Found:
     """An answer for each goal and each check of the system.  Raises ``Disagreement``."""
     found: dict[str, EngineAnswer] = {}
-    for more in as_found(question, engine, limits, told):
+    for more in as_found(question, engine, limits, callbacks):
         found |= more
     return found
 
 
 def as_found(
-    question: PortfolioQuestion, engine: str | Engine, limits: Limits, told: Callbacks
+    question: PortfolioQuestion, engine: str | Engine, limits: Limits, callbacks: Callbacks
 ) -> Iterator[Found]:
     """The same answers, each once: runs as they are found, the rest when no more can change.
 
-    That a goal is never reached counts only if the model never leaves a domain; that it does is told at once.
+    That a goal is never reached counts only if the model never leaves a domain; that it does is reported at
+    once.
     """
     given: set[str] = set()
     found: Found = {}
-    for found in _rounds(question, engine, limits, told):
+    for found in _rounds(question, engine, limits, callbacks):
         new = {n: a for n, a in found.items() if n not in given and _final(question, found, n)}
         given |= new.keys()
-        yield from _told(question, new, told)
+        yield from _reported(question, new, callbacks)
     rest = {n: _meant(question, found, n) for n in found if n not in given}
-    yield from _told(question, rest, told)
+    yield from _reported(question, rest, callbacks)
 
 
-def _told(question: PortfolioQuestion, new: Found, told: Callbacks) -> Iterator[Found]:
+def _reported(question: PortfolioQuestion, new: Found, callbacks: Callbacks) -> Iterator[Found]:
     if new:
-        told.answered(question, new)
+        callbacks.on_answer(question, new)
         yield new
 
 
 def _rounds(
-    question: PortfolioQuestion, engine: str | Engine, limits: Limits, told: Callbacks
+    question: PortfolioQuestion, engine: str | Engine, limits: Limits, callbacks: Callbacks
 ) -> Iterator[Found]:
     if engine == AUTO:
-        yield from in_turn(question, limits, told)
+        yield from in_turn(question, limits, callbacks)
     elif engine == ALL:
-        yield compared(question, limits, told)
+        yield compared(question, limits, callbacks)
     else:
         one = engines()[engine] if isinstance(engine, str) else engine
-        told.granted(limits.seconds)
-        alone = asked(one, question, limits, told, question.goals)
-        told.granted(limits.seconds)
+        callbacks.on_budget(limits.seconds)
+        alone = run_turn(one, question, limits, callbacks, question.goals)
+        callbacks.on_budget(limits.seconds)
         yield alone
 
 

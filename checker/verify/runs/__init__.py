@@ -1,1 +1,1 @@
-"""What becomes of a run that an engine found: moved to the concrete system, calmed, replayed."""
+"""What becomes of a run that an engine found: moved to the concrete system, minimised, replayed."""

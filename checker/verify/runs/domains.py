@@ -24,7 +24,7 @@ class LeavesDomain(ModelError):
 
 
 @dataclass(frozen=True)
-class Stray:
+class DomainViolation:
     """The first assignment of a run whose value does not fit: its tick, raw value and check."""
 
     tick: int
@@ -40,18 +40,18 @@ class Stray:
         return f"{self.assignment} gives {shown}, outside {var.domain}"
 
 
-def stray(system: TransitionSystem, run: Run) -> Stray | None:
+def stray(system: TransitionSystem, run: Run) -> DomainViolation | None:
     """Where a run first leaves a domain, by the reference semantics; None if it never does."""
     at: dict[str, int] = {**system.init, **run.frozen}
     for tick, inputs in enumerate(run.inputs if system.checks else (), start=1):
         at |= inputs
         found = _executed(system.step, at)
         if found is not None:
-            return Stray(tick, *found)
+            return DomainViolation(tick, *found)
     return None
 
 
-def leaves(system: TransitionSystem, found: Stray, *, first: bool = False) -> LeavesDomain:
+def leaves(system: TransitionSystem, found: DomainViolation, *, first: bool = False) -> LeavesDomain:
     """The error that a stray assignment is; ``first``: no run of the system has one earlier."""
     when = f"first in tick {found.tick}" if first else f"in tick {found.tick} of a run"
     place = _writer(system, found.assignment.var)
@@ -69,7 +69,7 @@ def _writer(system: TransitionSystem, var: Var) -> Place | None:
 
 
 def stayed(system: TransitionSystem, after: Mapping[str, int]) -> bool:
-    """Whether the tick that ended in a valuation left no domain."""
+    """Whether the tick that ended in a state left no domain."""
     return not any(after.get(check.name) for check, _ in system.checks)
 
 

@@ -7,7 +7,7 @@ trace that both produce is evidence about the charts.
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import accumulate
 
-from rovercheck.checker.results.trace import Arrow, Tick, Trace
+from rovercheck.checker.results.trace import TakenTransition, Tick, Trace
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.system.slice import sliced
 from rovercheck.checker.verify.runs.domains import leaves, stayed, stray
@@ -15,21 +15,21 @@ from rovercheck.properties.reduce import Goal
 from rovercheck.spec_model.lang.chart import Chart, Path
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.evaluate import admissible, evaluate, step
-from rovercheck.spec_model.lang.interpret import Fired, Interpreter
+from rovercheck.spec_model.lang.interpret import FiredTransition, Interpreter
 from rovercheck.spec_model.lang.system import TransitionSystem
 from rovercheck.spec_model.lang.walk import variables
 
 
 class ReplayError(Exception):
-    """Two parts of the checker disagree about a run: a bug of ours, never a verdict."""
+    """Two parts of the checker disagree about a run: an internal error, never a verdict."""
 
 
 def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
     """The trace of a run that reaches the goal in its last tick.
 
     Raises ``ReplayError`` when the run is not admissible, does not reach the goal, or when the
-    interpreter of the charts computes another valuation or refuses a step; ``LeavesDomain`` when the run
-    leaves a domain, which is no fault of ours but one of the model.
+    interpreter of the charts computes another state or refuses a step; ``LeavesDomain`` when the run
+    leaves a domain, which is an error of the model.
     """
     ticks, last = followed(system, run, goal.var.name)
     if not ticks or not last[goal.var.name]:
@@ -60,7 +60,7 @@ def ends(system: TransitionSystem, ticks: Sequence[Tick]) -> tuple[int, ...]:
 
 
 def followed(system: TransitionSystem, run: Run, what: str) -> tuple[tuple[Tick, ...], Mapping[str, int]]:
-    """The ticks of a run, ``what`` it shows being named in errors, and the valuation after the last.
+    """The ticks of a run, ``what`` it shows being named in errors, and the state after the last.
 
     Raises ``ReplayError`` when the run is not admissible, or the interpreter of the charts disagrees, and
     ``LeavesDomain`` when a tick leaves a domain.
@@ -75,7 +75,7 @@ def followed(system: TransitionSystem, run: Run, what: str) -> tuple[tuple[Tick,
         if not stayed(system, after) and (found := stray(system, run)) is not None:
             raise leaves(system, found)
         fired = _interpreted(interpreter, inputs, after, number) if interpreter else ()
-        ticks.append(Tick(number, dict(inputs), _visible(system, after), tuple(map(arrow_of, fired))))
+        ticks.append(Tick(number, dict(inputs), _visible(system, after), tuple(map(transition_of, fired))))
         at = {n: v for n, v in after.items() if n not in inputs}
     return tuple(ticks), after if ticks else at
 
@@ -104,7 +104,7 @@ def _visible(system: TransitionSystem, after: Mapping[str, int]) -> dict[str, in
 
 def _interpreted(
     interpreter: Interpreter, inputs: Mapping[str, int], after: Mapping[str, int], number: int
-) -> tuple[Fired, ...]:
+) -> tuple[FiredTransition, ...]:
     try:
         fired = interpreter.step(inputs)
     except ModelError as error:
@@ -117,9 +117,9 @@ def _interpreted(
     return fired
 
 
-def arrow_of(fired: Fired) -> Arrow:
-    """An arrow taken by the interpreter, as traces hold it."""
-    return Arrow(
+def transition_of(fired: FiredTransition) -> TakenTransition:
+    """A transition taken by the interpreter, as traces hold it."""
+    return TakenTransition(
         fired.chart,
         _dotted(fired.source),
         _dotted(fired.target),

@@ -5,11 +5,11 @@ from dataclasses import replace
 
 from rovercheck.checker.results.trace import counted_ticks
 from rovercheck.checker.results.verdict import Reached, Unknown
-from rovercheck.checker.system.lowered import lowered
-from rovercheck.checker.verify.portfolio.question import Hint, PortfolioQuestion
+from rovercheck.checker.system.lowering_cache import lowered
+from rovercheck.checker.verify.portfolio.question import PortfolioQuestion, Prior
 from rovercheck.checker.verify.portfolio.shape import shape
-from rovercheck.checker.verify.result import Ask, Result, check_domains, result
-from rovercheck.checker.verify.runs.calm import calmed, transferred
+from rovercheck.checker.verify.result import EngineQuery, Result, check_domains, result
+from rovercheck.checker.verify.runs.minimise import minimise_inputs, transferred
 from rovercheck.properties.reduce import Goal, Question, reduce
 from rovercheck.spec_model.lang.system import System
 
@@ -17,7 +17,7 @@ Runs = Mapping[str, tuple[Reached, str]]
 """The goals that were reached, with the engine that did."""
 
 
-def reproduced(question: Question, runs: Runs, concrete: System, ask: Ask) -> list[Result]:
+def reproduced(question: Question, runs: Runs, concrete: System, query: EngineQuery) -> list[Result]:
     """A result about ``concrete`` for each goal reached on the over-approximation in ``question``.
 
     The same inputs are tried first: a run of the concrete system as short as the shortest of the
@@ -27,7 +27,7 @@ def reproduced(question: Question, runs: Runs, concrete: System, ask: Ask) -> li
     there = reduce(lowered(concrete), [replace(g.property, on=concrete.name) for g in reached])
     asked = PortfolioQuestion(there.system, ())
     if there.system.checks and shape(asked).enumerable:  # else it costs too much
-        check_domains(there.system, ask(there.system, []))
+        check_domains(there.system, query(there.system, []))
     found: list[Result] = []
     left: list[tuple[Goal, Goal]] = []
     for goal, same in zip(reached, there.goals, strict=True):
@@ -37,7 +37,7 @@ def reproduced(question: Question, runs: Runs, concrete: System, ask: Ask) -> li
             left.append((goal, same))
         else:
             found.append(result(there.system, same, run, by))
-    return found + (_searched(question, runs, there, left, ask) if left else [])
+    return found + (_searched(question, runs, there, left, query) if left else [])
 
 
 def not_reproducible(question: Question, runs: Runs) -> list[Result]:
@@ -61,7 +61,7 @@ def only_there(name: str, ticks: int) -> str:
 
 def moved(question: Question, goal: Goal, answer: Reached, there: Question, same: Goal) -> Reached | None:
     """The run with the same inputs on the system of ``there``, if it reaches the same goal."""
-    for run in (answer.run, calmed(question.system, goal.var, answer.run)):
+    for run in (answer.run, minimise_inputs(question.system, goal.var, answer.run)):
         moved = transferred(run, there.system, same.var)
         if moved is not None:
             return Reached(moved, answer.shortest)
@@ -73,9 +73,9 @@ def _searched(
     runs: Runs,
     there: Question,
     left: list[tuple[Goal, Goal]],
-    ask: Ask,
+    query: EngineQuery,
 ) -> list[Result]:
-    answers = ask(there.system, [same.var for _, same in left], Hint.CONCRETE)
+    answers = query(there.system, [same.var for _, same in left], Prior.CONCRETE)
     check_domains(there.system, answers)
     found = []
     for goal, same in left:

@@ -9,7 +9,7 @@ from rovercheck.spec_model.lang.chart import NOWHERE, Chart, Path, State, Transi
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Expr, Var
-from rovercheck.spec_model.lang.interpret.fired import Fired, path_label
+from rovercheck.spec_model.lang.interpret.fired_transition import FiredTransition, path_label
 from rovercheck.spec_model.lang.interpret.words import InterpretedWords
 
 Values = MutableMapping[str, int]
@@ -18,7 +18,7 @@ Admits = Callable[[Var, int], bool]
 ValueOf = Callable[[Expr], int]
 """The value of a part of a guard at the moment it is tested."""
 Testing = Callable[[str, Path | None, Transition, bool, ValueOf], None]
-"""Told of every arrow tested: its chart, the state left (None: a default one), itself, whether valid."""
+"""Told of every transition tested: its chart, the state left (None: a default one), itself, whether valid."""
 
 
 @dataclass(frozen=True)
@@ -33,14 +33,14 @@ class ChartRun:
     """The run of one chart over values shared with the other components.
 
     ``at`` holds all data; the chart keeps its own location variables there up to date.  ``fired``
-    receives every path taken, in order, and ``tested`` is told of every arrow tested.
+    receives every path taken, in order, and ``tested`` is told of every transition tested.
     """
 
     def __init__(
         self,
         chart: Chart,
         at: Values,
-        fired: list[Fired],
+        fired: list[FiredTransition],
         tick_ms: int,
         admits: Admits | None = None,
         tested: Testing | None = None,
@@ -74,11 +74,11 @@ class ChartRun:
     # --- execution of an active state ---
 
     def execute(self, path: Path, event: str | None) -> None:
-        """Arrows in priority order, else the during action and what is inside (rules G4, G5)."""
+        """Transitions in priority order, else the during action and what is inside (rules G4, G5)."""
         self._words.executed(path, self._at)
         state = self.chart.states[path]
-        for order, arrow in enumerate(state.transitions, start=1):
-            route = self._route([arrow], path[:-1], path, event)
+        for order, transition in enumerate(state.transitions, start=1):
+            route = self._route([transition], path[:-1], path, event)
             if route is not None:
                 self._take(path, route, order, event)
                 return
@@ -99,21 +99,21 @@ class ChartRun:
 
     def _route(
         self,
-        arrows: Sequence[Transition],
+        transitions: Sequence[Transition],
         level: Path,
         source: Path | None,
         event: str | None,
         so_far: tuple[Transition, ...] = (),
     ) -> _Route | None:
         """The first complete path; condition actions run as soon as their segment is valid (G6 to G8)."""
-        for arrow in arrows:
-            valid = self._valid(arrow, source, event)
+        for transition in transitions:
+            valid = self._valid(transition, source, event)
             if self._tested is not None:
-                self._tested(self.chart.name, source, arrow, valid, partial(self._part, source))
+                self._tested(self.chart.name, source, transition, valid, partial(self._part, source))
             if not valid:
                 continue
-            self._run(arrow.do, event)
-            target, segments = self._resolve(level, arrow), (*so_far, arrow)
+            self._run(transition.do, event)
+            target, segments = self._resolve(level, transition), (*so_far, transition)
             junction = self.chart.junctions.get(target)
             if junction is None:
                 return _Route(segments, target)
@@ -122,18 +122,20 @@ class ChartRun:
                 return onward
         return None
 
-    def _valid(self, arrow: Transition, source: Path | None, event: str | None) -> bool:
-        if arrow.event is not None and arrow.event != event:
+    def _valid(self, transition: Transition, source: Path | None, event: str | None) -> bool:
+        if transition.event is not None and transition.event != event:
             return False
-        return arrow.guard is None or bool(self._words.value(arrow.guard, self._at, source))
+        return transition.guard is None or bool(self._words.value(transition.guard, self._at, source))
 
     def _part(self, source: Path | None, part: Expr) -> int:
         return self._words.part(part, self._at, source)
 
-    def _resolve(self, level: Path, arrow: Transition) -> Path:
-        target = self.chart.resolve(level, arrow.target)
+    def _resolve(self, level: Path, transition: Transition) -> Path:
+        target = self.chart.resolve(level, transition.target)
         if target is None:
-            raise ModelError(f"{self.chart.name}: an arrow goes to {arrow.target!r}, which is no state.")
+            raise ModelError(
+                f"{self.chart.name}: a transition goes to {transition.target!r}, which is no state."
+            )
         return target
 
     # --- taking it ---
@@ -163,7 +165,7 @@ class ChartRun:
         if label is None:
             label = self._labels[key] = path_label(route.segments)
         place = route.segments[0].place
-        self._fired.append(Fired(self.chart.name, source, route.target, label, order, event, place))
+        self._fired.append(FiredTransition(self.chart.name, source, route.target, label, order, event, place))
 
     def _leave(self, path: Path, event: str | None) -> None:
         """Leave an active state and everything active in it; regions in reverse order."""

@@ -8,7 +8,7 @@ from rovercheck.spec_model.lang.domain import Bool, Enum
 from rovercheck.spec_model.lang.errors import ModelError, did_you_mean
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Var
-from rovercheck.spec_model.lang.interpret.fired import Fired
+from rovercheck.spec_model.lang.interpret.fired_transition import FiredTransition
 from rovercheck.spec_model.lang.interpret.run import Admits, ChartRun, Testing, contains, store, within
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.wellformed import check_system
@@ -19,7 +19,7 @@ class Interpreter:
 
     ``frozen`` gives raw values of frozen variables; those left out have their initial value.  With
     ``measured``, numbers may lie between the values of their domains: inputs are any numbers, and what is
-    computed from them stays between the ends of its domain.  ``tested`` is told of every arrow tested.
+    computed from them stays between the ends of its domain.  ``tested`` is told of every transition tested.
     Raises ``ModelError`` for an ill-formed system.
     """
 
@@ -37,7 +37,7 @@ class Interpreter:
         self._inputs = system.inputs
         self._at: dict[str, int] = {n: v.init for n, v in system.written.items()}
         self._at |= {v.name: v.init for v in system.frozen} | _checked("frozen", system.frozen, frozen)
-        self._fired: list[Fired] = []
+        self._fired: list[FiredTransition] = []
         self._places = {v.name for c in system.charts for v in (*c.locations, c.entered)}
         self._runs = {
             id(c): ChartRun(c, self._at, self._fired, system.step_ms, self._admits, tested, system.elapsed)
@@ -53,8 +53,8 @@ class Interpreter:
         """The data, the location variables of every chart, and whether each chart was entered."""
         return dict(self._at)
 
-    def step(self, inputs: Mapping[str, int]) -> tuple[Fired, ...]:
-        """One tick: all components in order.  Returns the arrows taken, in order.
+    def step(self, inputs: Mapping[str, int]) -> tuple[FiredTransition, ...]:
+        """One tick: all components in order.  Returns the transitions taken, in order.
 
         Raises ``ModelError`` for a missing or foreign input and for a value outside its domain.
         """

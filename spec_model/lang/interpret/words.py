@@ -83,7 +83,7 @@ class InterpretedWords:
         del self._since[path]
 
     def executed(self, path: Path, at: Mapping[str, int]) -> None:
-        """Before the arrows of a state are tested: a false condition restarts its duration (G14)."""
+        """Before the transitions of a state are tested: a false condition restarts its duration (G14)."""
         for timer in self._durations[path].values():
             if not _argument(timer.word, at):
                 timer.count = 0

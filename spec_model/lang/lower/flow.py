@@ -15,8 +15,8 @@ from rovercheck.spec_model.lang.system import Statement
 Statements = list[Statement]
 
 FEW = 8
-"""States, or arrows, that are told apart one after the other; more are halved first, so that a step is never
-nested as deep as a level has states."""
+"""States, or transitions, that are distinguished one after the other; more are halved first, so that a step
+is never nested as deep as a level has states."""
 
 
 @dataclass(frozen=True)
@@ -63,8 +63,8 @@ class ChartFlow:
         if key not in self._executions:
             state = self.chart.states[path]
             body = self._body(path, event)
-            arrows = self.attempt(state.transitions, path[:-1], FlowWay(path, event), lambda: body)
-            self._executions[key] = (*self.timers.on_execution(path), *arrows)
+            transitions = self.attempt(state.transitions, path[:-1], FlowWay(path, event), lambda: body)
+            self._executions[key] = (*self.timers.on_execution(path), *transitions)
         return self._executions[key]
 
     def _body(self, path: Path, event: str | None) -> Statements:
@@ -77,7 +77,7 @@ class ChartFlow:
         return during + self._active_child(path, lambda child: list(self.execute(child, event)))
 
     def _regions(self, path: Path, event: str | None) -> Statements:
-        """The regions in order (G3); those after one whose arrow leaves the composite are not executed."""
+        """The regions in order (G3); those after one whose transition leaves the composite do not execute."""
         regions = [list(self.execute(region, event)) for region in self._children(path)]
         if path not in self._left:
             return [s for region in regions for s in region]
@@ -108,7 +108,7 @@ class ChartFlow:
                 switch = [If(self.chart.active_path(child), tuple(inside), tuple(switch))]
         return switch
 
-    # --- arrows (G5 to G8) ---
+    # --- transitions (G5 to G8) ---
 
     def attempt(
         self, segments: Sequence[Transition], level: Path, way: FlowWay, otherwise: Callable[[], Statements]
@@ -169,7 +169,7 @@ class ChartFlow:
         return self.leave(left) + self.actions(way.then) + self.enter(scope, target) + gone
 
     def _composites_left(self, source: Path, scope: Path) -> list[Var]:
-        """A flag for each parallel composite that an arrow from inside one of its regions leaves."""
+        """A flag for each parallel composite that a transition from inside one of its regions leaves."""
         found = [source[:depth] for depth in range(len(scope) + 1, len(source))]
         return [self._left_flag(path) for path in found if self.chart.states[path].parallel]
 
@@ -306,7 +306,7 @@ def _first(sure: Sequence[tuple[Expr, Statements]], rest: Statements) -> Stateme
 
 
 def common_composite(source: Path, target: Path) -> Path:
-    """The innermost composite that properly contains both ends of an arrow."""
+    """The innermost composite that properly contains both ends of a transition."""
     depth = 0
     while depth < min(len(source), len(target)) - 1 and source[depth] == target[depth]:
         depth += 1

@@ -1,8 +1,8 @@
 """Temporal words of a chart as saturating counters and one-tick memories (rules G13-G15, section 7).
 
 A counter stops one above what is ever asked of it and is 0 while its state is not active, so that
-valuations that behave alike are equal.  One that is only asked for its first tick is set anew in each
-step and belongs to no valuation.  Where ticks last unlike times, ``held`` counts milliseconds: 1 in the first
+states that behave alike are equal.  One that is only asked for its first tick is set anew in each
+step and belongs to no state.  Where ticks last unlike times, ``held`` counts milliseconds: 1 in the first
 tick, and in each later one what has elapsed.
 """
 
@@ -34,10 +34,10 @@ class ChartTimers:
         for word in (w for e in chart.expressions for w in _words(e)):
             self._of_chart(word)
 
-    def _segments(self, source: Path, arrows: tuple[Transition, ...]) -> Iterator[Transition]:
+    def _segments(self, source: Path, transitions: tuple[Transition, ...]) -> Iterator[Transition]:
         """The segments of every path that leaves the source."""
         seen: set[Path] = set()
-        stack = [(source[:-1], t) for t in arrows]
+        stack = [(source[:-1], t) for t in transitions]
         while stack:
             level, segment = stack.pop()
             yield segment
@@ -88,7 +88,7 @@ class ChartTimers:
         return (*self.after.values(), *durations, *others)
 
     def plainly(self, expr: Expr, source: Path | None = None) -> Expr:
-        """The formula with temporal words replaced; ``source`` is the state its arrow leaves."""
+        """The formula with temporal words replaced; ``source`` is the state its transition leaves."""
         match expr:
             case Temporal():
                 return self._counter_test(expr, source)

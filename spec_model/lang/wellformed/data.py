@@ -18,7 +18,9 @@ def chart_data_faults(chart: Chart) -> Iterator[str]:
     for place in places(chart):
         for name in writes(place.actions):
             if name in own:
-                yield f"{place.where} assigns {name}, which says where the chart is; draw an arrow instead."
+                yield (
+                    f"{place.where} assigns {name}, which says where the chart is; draw a transition instead."
+                )
     for data, owners in chart.local_to:
         yield from _local_faults(chart, data, owners)
 

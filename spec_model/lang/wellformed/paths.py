@@ -41,7 +41,7 @@ def _crossing_faults(chart: Chart, leg: Leg) -> Iterator[str]:
 class PathReach:
     """The states that can be active, and the composites ``completed``: entered without an explicit child.
 
-    Every state is looked at once, however deeply it lies and in whatever order arrows lead to it.
+    Every state is looked at once, however deeply it lies and in whatever order transitions lead to it.
     """
 
     def __init__(self, chart: Chart, all_legs: Sequence[Leg]) -> None:
@@ -60,7 +60,7 @@ class PathReach:
             self._name(self._todo.pop())
 
     def _name(self, target: Path) -> None:
-        """An arrow leads to the state: it is entered, and what it lies in, each with its other regions."""
+        """A transition leads to the state: it and what it lies in are entered, with their other regions."""
         state = target
         while state and state not in self._named:
             self._named.add(state)
@@ -104,18 +104,18 @@ def _completion_faults(chart: Chart, completed: set[Path]) -> Iterator[str]:
                 f"{name_of(path)} is entered without naming one of its states and has no default transition; "
                 "give it default=."
             )
-        elif not any(_always(chart, path, arrow) for arrow in default):
+        elif not any(_always(chart, path, transition) for transition in default):
             yield (
                 f"the default transitions of {name_of(path)} all have guards, so that it may be entered with "
                 "none valid; end them with one that has no guard."
             )
 
 
-def _always(chart: Chart, level: Path, arrow: Transition) -> bool:
-    """Whether the arrow can always be followed to a state."""
-    if arrow.guard is not None or arrow.event is not None:
+def _always(chart: Chart, level: Path, transition: Transition) -> bool:
+    """Whether the transition can always be followed to a state."""
+    if transition.guard is not None or transition.event is not None:
         return False
-    end = chart.resolve(level, arrow.target)
+    end = chart.resolve(level, transition.target)
     if end is None or end not in chart.junctions:
         return True
     return any(_always(chart, end[:-1], onward) for onward in chart.junctions[end].transitions)
@@ -126,8 +126,8 @@ def _unreachable_faults(chart: Chart, entered: set[Path], all_legs: list[Leg]) -
         parent = chart.states[path[:-1]]
         known = not path[:-1] or path[:-1] in entered
         if path not in entered and known and (parent.parallel or parent.default):
-            yield f"no arrow and no default transition leads to {name_of(path)}; draw one or remove it."
+            yield f"no transition and no default transition leads to {name_of(path)}; draw one or remove it."
     reached = {leg.end for leg in all_legs}
     for path in chart.junctions:
         if path not in reached:
-            yield f"no arrow leads to junction {name_of(path)}; draw one or remove the junction."
+            yield f"no transition leads to junction {name_of(path)}; draw one or remove the junction."

@@ -1,4 +1,4 @@
-"""Where something is written in a chart: the arrows with the states they leave, and the actions."""
+"""Where something is written in a chart: the transitions with the states they leave, and the actions."""
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -21,14 +21,16 @@ def parallel_name(path: Path) -> str:
     return f"the parallel {path[-1] if path else 'chart'}"
 
 
-def arrow_names(
-    arrows: Sequence[Transition], path: Path, default: bool = False
+def transition_names(
+    transitions: Sequence[Transition], path: Path, default: bool = False
 ) -> list[tuple[str, Transition]]:
-    """Each arrow with the words that point at it; ``path`` is its state, junction or composite."""
-    if default and len(arrows) == 1:
-        return [(f"the default transition of {name_of(path)}", arrows[0])]
+    """Each transition with the words that point at it; ``path`` is its state, junction or composite."""
+    if default and len(transitions) == 1:
+        return [(f"the default transition of {name_of(path)}", transitions[0])]
     of = f"the default transitions of {name_of(path)}" if default else name_of(path)
-    return [(f"arrow {number} of {of}", arrow) for number, arrow in enumerate(arrows, start=1)]
+    return [
+        (f"transition {number} of {of}", transition) for number, transition in enumerate(transitions, start=1)
+    ]
 
 
 @dataclass(frozen=True)
@@ -52,8 +54,8 @@ def legs(chart: Chart) -> tuple[Leg, ...]:
     """Every segment with every state or composite from which a path reaches it."""
     found: list[Leg] = []
     for path, state in chart.states.items():
-        found += _legs(chart, path, True, path, arrow_names(state.default, path, default=True))
-        found += _legs(chart, path, False, path[:-1], arrow_names(state.transitions, path))
+        found += _legs(chart, path, True, path, transition_names(state.default, path, default=True))
+        found += _legs(chart, path, False, path[:-1], transition_names(state.transitions, path))
     return tuple(found)
 
 
@@ -70,7 +72,7 @@ def _legs(
         yield Leg(source, default, name, segment, end, junction is None)
         if junction is not None and end not in seen:
             seen.add(end)
-            todo += [(end[:-1], n, s) for n, s in arrow_names(junction.transitions, end)]
+            todo += [(end[:-1], n, s) for n, s in transition_names(junction.transitions, end)]
 
 
 class ActionKind(StrEnum):
@@ -124,7 +126,7 @@ def conditions(actions: Sequence[Action]) -> Iterator[Expr]:
 
 
 def common_composite(source: Path, target: Path) -> Path:
-    """The innermost composite with both ends of an arrow properly inside it."""
+    """The innermost composite with both ends of a transition properly inside it."""
     most = max(min(len(source), len(target)) - 1, 0)
     if source[:most] == target[:most]:  # nearly always, and at once also where states lie deep
         return source[:most]

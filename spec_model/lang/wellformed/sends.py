@@ -18,7 +18,7 @@ from rovercheck.spec_model.lang.wellformed.places import (
 
 @dataclass(frozen=True)
 class _Site:
-    """A send, the state whose action or arrow it is in, and the state it executes."""
+    """A send, the state whose action or transition it is in, and the state it executes."""
 
     send: Send
     place: ActionPlace
@@ -29,7 +29,7 @@ class _Site:
 
 
 def send_faults(chart: Chart) -> Iterator[str]:
-    """Faults of sends and of arrows that wait for an event."""
+    """Faults of sends and of transitions that wait for an event."""
     sites, faults = _sites(chart)
     yield from faults
     all_legs = [leg for leg in legs(chart) if not leg.default]
@@ -57,7 +57,10 @@ def _silence_faults(sites: list[_Site], all_legs: list[Leg]) -> Iterator[str]:
     waits = {(outer, leg.segment.event) for leg in waiting for outer in _around(leg.source)}
     for site in sites:
         if (site.receiver, site.send.event) not in waits:
-            yield f"{site}: no arrow inside {name_of(site.receiver)} waits for the event {site.send.event}."
+            yield (
+                f"{site}: no transition inside {name_of(site.receiver)} "
+                f"waits for the event {site.send.event}."
+            )
     sent = {(site.receiver, site.send.event) for site in sites}
     heard = {
         id(leg.segment)
@@ -84,9 +87,10 @@ def _nesting_faults(chart: Chart, sites: list[_Site], all_legs: list[Leg]) -> It
 
 
 class _Run:
-    """What may happen when a state is executed: arrows inside it by the states they leave, and ``touched``.
+    """What may happen when a state is executed: transitions inside it by the states they leave, and
+    ``touched``.
 
-    These are the states whose actions may run: those inside it, and what its arrows leave and enter.
+    These are the states whose actions may run: those inside it, and what its transitions leave and enter.
     """
 
     def __init__(self, chart: Chart, executed: Path, all_legs: list[Leg]) -> None:
@@ -102,7 +106,7 @@ class _Run:
 
 
 def _departure_faults(site: _Site, run: _Run) -> Iterator[str]:
-    """Arrows taken during a send that leave the state the sender is in."""
+    """Transitions taken during a send that leave the state the sender is in."""
     for left in _around(site.place.owner):
         for leg in run.leaving.get(left, ()):
             yield (

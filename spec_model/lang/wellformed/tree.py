@@ -1,11 +1,11 @@
-"""The drawing as a tree: names, composites, where arrows end, junction cycles."""
+"""The drawing as a tree: names, composites, where transitions end, junction cycles."""
 
 from collections import Counter
 from collections.abc import Iterator, Sequence
 
 from rovercheck.spec_model.lang.chart import NOWHERE, Chart, Path, State, Transition
 from rovercheck.spec_model.lang.errors import did_you_mean
-from rovercheck.spec_model.lang.wellformed.places import arrow_names, name_of, parallel_name
+from rovercheck.spec_model.lang.wellformed.places import name_of, parallel_name, transition_names
 
 
 def tree_faults(chart: Chart) -> Iterator[str]:
@@ -38,7 +38,10 @@ def _composite_faults(path: Path, state: State) -> Iterator[str]:
         yield f"{name_of(path)} has a default transition and no states; remove it."
     for junction in state.junctions:
         if not junction.transitions:
-            yield f"junction {junction.name} has no arrows, so that no path through it is complete; draw one."
+            yield (
+                f"junction {junction.name} has no transitions, "
+                "so that no path through it is complete; draw one."
+            )
     if state.parallel:
         yield from _region_faults(path, state)
 
@@ -47,25 +50,25 @@ def _region_faults(path: Path, state: State) -> Iterator[str]:
     for region in state.states:
         if region.transitions:
             yield (
-                f"{region.name} is a region of {parallel_name(path)} and has arrows; "
-                "a region is left only with all its siblings: draw the arrow from the composite."
+                f"{region.name} is a region of {parallel_name(path)} and has transitions; "
+                "a region is left only with all its siblings: draw the transition from the composite."
             )
 
 
 def target_faults(chart: Chart) -> Iterator[str]:
-    """Arrows whose end is unknown or ambiguous."""
+    """Transitions whose end is unknown or ambiguous."""
     for path, state in chart.states.items():
-        yield from _ends(chart, path, arrow_names(state.default, path, default=True))
-        yield from _ends(chart, path[:-1], arrow_names(state.transitions, path))
+        yield from _ends(chart, path, transition_names(state.default, path, default=True))
+        yield from _ends(chart, path[:-1], transition_names(state.transitions, path))
         for junction in state.junctions:
-            yield from _ends(chart, path, arrow_names(junction.transitions, (*path, junction.name)))
+            yield from _ends(chart, path, transition_names(junction.transitions, (*path, junction.name)))
 
 
-def _ends(chart: Chart, level: Path, arrows: Sequence[tuple[str, Transition]]) -> Iterator[str]:
-    for name, arrow in arrows:
-        end = chart.resolve(level, arrow.target)
+def _ends(chart: Chart, level: Path, transitions: Sequence[tuple[str, Transition]]) -> Iterator[str]:
+    for name, transition in transitions:
+        end = chart.resolve(level, transition.target)
         if end is None:
-            yield f"{name} goes to {arrow.target!r}, {_why(chart, arrow.target)}"
+            yield f"{name} goes to {transition.target!r}, {_why(chart, transition.target)}"
         elif not end:
             yield f"{name} goes to the chart itself; name one of its states."
 
@@ -80,7 +83,7 @@ def _why(chart: Chart, target: str) -> str:
 
 
 def junction_cycle_faults(chart: Chart) -> Iterator[str]:
-    """Junctions from which arrows lead back to them without passing a state."""
+    """Junctions from which transitions lead back to them without passing a state."""
     onward = {
         path: [chart.resolve(path[:-1], t.target) for t in junction.transitions]
         for path, junction in chart.junctions.items()
@@ -94,4 +97,6 @@ def junction_cycle_faults(chart: Chart) -> Iterator[str]:
                 seen.add(end)
                 todo += onward[end]
         if start in seen:
-            yield f"the arrows from junction {start[-1]} lead back to it without a state; break the cycle."
+            yield (
+                f"the transitions from junction {start[-1]} lead back to it without a state; break the cycle."
+            )

@@ -35,7 +35,7 @@ def _place_faults(place: ActionPlace, own: set[str], tick_ms: int) -> Iterator[s
     for expr in expressions(place.actions):
         for word in _words(expr):
             if word.when in _OF_A_STATE:
-                yield f"{place.where}: `{word}` belongs in a guard of an arrow that leaves a state."
+                yield f"{place.where}: `{word}` belongs in a guard of a transition that leaves a state."
             yield from _faults_of(place.where, word, own, tick_ms)
 
 

@@ -60,7 +60,7 @@ class Decisions:
         self._straight.tick()
 
     def execute(self, event: Event | None, yaw: float, prev_deg_b1: bool) -> None:
-        """One execution, nested or not: arrows without an event are tested in both."""
+        """One execution, nested or not: transitions without an event are tested in both."""
         match self.decision:
             case Decision.READY:
                 if event is not None and event in FROM_WAITING:

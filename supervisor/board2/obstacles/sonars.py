@@ -10,7 +10,7 @@ from rovercheck.supervisor.board2.obstacles.events import Event, Send
 class NearObstacle:
     """``distance_70``: tells of an emergency, and when it is over [seed Fig 26].
 
-    Its arrows see the ``stop`` of the step before, so that the events come one step after the distances.
+    Its transitions see the ``stop`` of the step before, so that the events come one step after the distances.
     """
 
     stop: bool = False

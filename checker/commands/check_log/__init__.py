@@ -1,0 +1,43 @@
+"""The verb ``check-log``: logs checked against the properties and the charts."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import VariantOptions, changing, gathered, quietly
+
+
+@dataclass(frozen=True)
+class LogOptions:
+    """How a log is read, and how much is told of it."""
+
+    map_file: Path | None = None
+    system: str | None = None
+    as_json: bool = False
+    verbose: bool = False
+
+
+@click.command(short_help="Check logs recorded on a board.")
+@click.argument("place", type=click.Path(exists=True, path_type=Path), metavar="LOG|DIR")
+@click.option(
+    "--map",
+    "map_file",
+    type=click.Path(path_type=Path),
+    metavar="MAP.toml",
+    help="What the columns are (docs/logs.md).",
+)
+@click.option(
+    "--system", metavar="NAME", help="The board: board1 or board2; by default found from the columns."
+)
+@click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
+@click.option("--verbose", "-v", is_flag=True, help="Every property, also those that are never triggered.")
+@changing
+@quietly
+@gathered(LogOptions, "options")
+def check_log(place: Path, options: LogOptions, charts: VariantOptions) -> Exit:
+    """Check a log, or all logs of a folder: every property as a monitor, and as a run of the charts."""
+    from rovercheck.checker.commands.check_log.run import check_log as run
+
+    return run(place, options, charts.variant())

@@ -1,0 +1,138 @@
+"""``rovercheck check-log``: logs checked against the properties and the charts."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from rovercheck.checker.commands.check_log import LogOptions
+from rovercheck.checker.commands.check_log.document import as_json
+from rovercheck.checker.commands.check_log.text import LogFault, Outcome, page, summary
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.failure import error_message
+from rovercheck.checker.commands.shared.output import err, out
+from rovercheck.checker.commands.shared.progress import ProgressLine
+from rovercheck.checker.compare.variants import varied
+from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.logs import ColumnMap, LogError, LogReference, LogResult, examine, read_map
+from rovercheck.checker.model.variant import Variant
+
+SCHEMA = "rovercheck/conform/1"
+"""The format of the JSON documents, and its version."""
+
+SUFFIXES = (".csv", ".csv.gz", ".tsv", ".tsv.gz", ".parquet")
+GRAVEST = (Exit.INTERNAL, Exit.FAILED, Exit.USAGE, Exit.INCONCLUSIVE)
+"""Of a folder the first of these that applies to some log."""
+
+
+@dataclass(frozen=True)
+class LogRequest:
+    """What is asked of logs; ``against``: the charts, with ``charts`` in words where changed."""
+
+    how: ColumnMap
+    options: LogOptions
+    charts: str = ""
+    against: LogReference | None = None
+
+    def examined(self, path: Path) -> LogResult:
+        """What one log says.  Raises ``LogError``."""
+        return examine(path, self.how, self.options.system or "", self.against)
+
+    def outcome(self, path: Path) -> Outcome:
+        """What one of many logs says, or why it says nothing, whatever that is: the others are judged."""
+        try:
+            return self.examined(path)
+        except LogError as error:
+            return error
+        except MemoryError:
+            return LogError("takes more memory than there is; cut it into several logs.")
+        except Exception as error:
+            return LogFault(error_message(error))
+
+
+def check_log(place: Path, options: LogOptions, variant: Variant) -> Exit:
+    """Check one log or all logs of a folder against the charts, changed or not.
+
+    Raises ``UsageError`` for a map without meaning, and for a single log that cannot be read.
+    """
+    against = _against(variant) if variant.name else None
+    asked = LogRequest(_map(options.map_file), options, variant.name, against)
+    return _folder(place, asked) if place.is_dir() else _log(place, asked)
+
+
+def _log(place: Path, asked: LogRequest) -> Exit:
+    try:
+        found = asked.examined(place)
+    except LogError as error:
+        raise UsageError(f"{place}: {error}") from error
+    code = _code_of(found)
+    if asked.options.as_json:
+        print(json_text({"schema": SCHEMA, "exit": code, **as_json(found, asked.charts)}))
+    else:
+        out.print(page(found, asked.options.verbose, asked.charts), markup=False)
+    return code
+
+
+def _against(variant: Variant) -> LogReference:
+    """The boards, properties and expected verdicts of a variant."""
+    found = varied(variant.choices, variant.repair)
+    properties, systems = variant.properties(), variant.systems()
+    return LogReference(found, properties, systems, lambda id: variant.expected(id).verdict)
+
+
+def _map(file: Path | None) -> ColumnMap:
+    if file is None:
+        return ColumnMap()
+    try:
+        return read_map(file)
+    except LogError as error:
+        raise UsageError(str(error)) from error
+
+
+def _folder(folder: Path, asked: LogRequest) -> Exit:
+    """Every log of a folder; one that cannot be read or judged leaves the others' results."""
+    try:
+        logs = sorted(p for p in folder.iterdir() if p.is_file() and p.name.lower().endswith(SUFFIXES))
+    except OSError as error:
+        raise UsageError(f"Cannot read the folder {folder}: {error.strerror}. Write another.") from error
+    if not logs:
+        err.print(f"{folder} holds no log ({', '.join(SUFFIXES)}).", markup=False)
+        return Exit.NOTHING
+    found: dict[str, Outcome] = {}
+    with ProgressLine() as line:
+        for number, log in enumerate(logs, 1):
+            line.show(f"{number} of {len(logs)}: {log.name}")
+            found[log.name] = asked.outcome(log)
+    code = _code(list(found.values()))
+    if asked.options.as_json:
+        entries = [_entry(n, r, asked.charts) for n, r in found.items()]
+        print(json_text({"schema": SCHEMA, "exit": code, "logs": entries}))
+    else:
+        out.print(summary(found, asked.charts), markup=False)
+    return code
+
+
+def _entry(name: str, found: Outcome, charts: str) -> Mapping[str, object]:
+    match found:
+        case LogResult():
+            return as_json(found, charts)
+        case LogFault(message):
+            return {"log": name, "error": message, "internal": True}
+        case _:
+            return {"log": name, "error": str(found)}
+
+
+def _code(found: Sequence[Outcome]) -> Exit:
+    """The gravest code of all logs."""
+    codes = set(map(_code_of, found))
+    return next((code for code in GRAVEST if code in codes), Exit.AS_EXPECTED)
+
+
+def _code_of(found: Outcome) -> Exit:
+    match found:
+        case LogFault():
+            return Exit.INTERNAL
+        case LogError():
+            return Exit.USAGE
+    if found.deviates or found.invalid:
+        return Exit.FAILED
+    return Exit.INCONCLUSIVE if found.behaviour.undecided else Exit.AS_EXPECTED

@@ -1,0 +1,82 @@
+"""The verb ``compare``: an implementation and the charts side by side."""
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import click
+
+from rovercheck.checker.commands.shared.codes import Exit
+from rovercheck.checker.commands.shared.options import VariantOptions, changing, gathered, quietly
+
+
+@dataclass(frozen=True)
+class ComparisonOptions:
+    """What is compared, on how many runs, and how much is reported."""
+
+    system: str | None
+    impl: str | None
+    profile: str
+    examples: int | None
+    seed: int | None
+    tests: Path | None
+    mismatches: int
+    failures: int
+
+
+@click.command(short_help="Compare a supervisor with the charts, step by step.")
+@click.option("--system", metavar="NAME", help="The board: board1 or board2; by default both.")
+@click.option("--impl", metavar="KIND:WHAT", help="Its supervisor; by default that of the project.")
+@click.option(
+    "--profile", type=click.Choice(["ci", "nightly"]), default="ci", show_default=True, help="How long."
+)
+@click.option("--examples", type=click.IntRange(min=0), metavar="N", help="Random runs on each board.")
+@click.option("--seed", type=click.IntRange(min=0), metavar="S", help="Draw the runs of this number.")
+@click.option(
+    "--tests", type=click.Path(path_type=Path), metavar="DIR", help="Also the tests there, as CSV or JSON."
+)
+@click.option(
+    "--mismatches",
+    type=click.IntRange(min=0),
+    default=5,
+    show_default=True,
+    metavar="N",
+    help="Distinct mismatches reported with inputs and a test; the others in a line each.",
+)
+@click.option(
+    "--failures",
+    type=click.IntRange(min=1),
+    default=3,
+    show_default=True,
+    metavar="N",
+    help="Runs it may fail to survive before no more are tried.",
+)
+@click.option("--json", "as_json", is_flag=True, help="The results as JSON.")
+@click.option(
+    "--output",
+    "-o",
+    type=click.Path(file_okay=False, path_type=Path),
+    metavar="DIR",
+    help="Write a test for each of these mismatches there, not here.",
+)
+@changing
+@quietly
+@gathered(ComparisonOptions, "options")
+def compare(options: ComparisonOptions, as_json: bool, output: Path | None, charts: VariantOptions) -> Exit:
+    """Run a supervisor and the charts side by side; exit code 1 where they differ."""
+    from rovercheck.checker.commands.compare.run import CrosscheckOptions
+    from rovercheck.checker.commands.compare.run import compare as run
+    from rovercheck.checker.compare import Allowance
+
+    allowed = Allowance(options.mismatches, options.failures)
+    asked = CrosscheckOptions(
+        options.system,
+        options.impl,
+        options.profile,
+        options.examples,
+        options.seed,
+        options.tests,
+        allowed,
+        charts.chosen,
+        charts.repair,
+    )
+    return run(asked, output, as_json)

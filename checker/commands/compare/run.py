@@ -1,0 +1,168 @@
+"""``rovercheck compare``: an implementation and the charts side by side, under the same inputs."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+from rovercheck.checker.adapters import start
+from rovercheck.checker.adapters.implementation import ImplementationError
+from rovercheck.checker.commands.compare.text import CrosscheckReport, report, row, shown
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
+from rovercheck.checker.commands.shared.output import counted, err, out, write
+from rovercheck.checker.commands.shared.progress import ProgressLine
+from rovercheck.checker.commands.shared.text_wrap import whole
+from rovercheck.checker.commands.shared.variant import pick_variant
+from rovercheck.checker.compare import Allowance, CompareResult, cross_check, effort
+from rovercheck.checker.compare.reproduce import file_name, pytest_file
+from rovercheck.checker.compare.result import ALLOWED, RANDOM
+from rovercheck.checker.compare.search import CompareSearch
+from rovercheck.checker.compare.variants import varied
+from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.model.variant import Variant
+from rovercheck.spec_model.abstraction import Board
+from rovercheck.spec_model.lang.errors import did_you_mean
+
+SCHEMA = 1
+OURS: Mapping[str, str] = {
+    "board1": "python:supervisor.board1:Board1",
+    "board2": "python:supervisor.board2.board:Board2",
+}
+"""The supervisors of the project, which are checked unless another is named."""
+
+
+@dataclass(frozen=True)
+class CrosscheckOptions:
+    """What the command line asks for."""
+
+    system: str | None
+    address: str | None
+    profile: str
+    examples: int | None
+    seed: int | None
+    tests: Path | None
+    allowance: Allowance = ALLOWED
+    chosen: tuple[str, ...] = ()
+    repair: str | None = None
+
+    @cached_property
+    def variant(self) -> Variant:
+        """How the charts are changed.  Raises ``UsageError`` or ``ModelError``."""
+        return pick_variant(self.chosen, self.repair, ())
+
+
+def compare(asked: CrosscheckOptions, output: Path | None, as_json: bool) -> Exit:
+    """Compare one board, or both, and write a test for every mismatch and failure that is shown.
+
+    Raises ``UsageError`` for a board that does not exist and an implementation that cannot be started.
+    """
+    named = _boards(asked)
+    seed = effort(asked.profile, asked.examples, asked.seed).seed  # one for all boards
+    reports: list[CrosscheckReport] = []
+    for board in named:
+        address = asked.address or OURS[board.name]
+        if not as_json:
+            _announce(asked, board, address, seed)
+        result = _checked(asked, board, address, seed)
+        files = _write_tests(result, address, asked.variant, output or Path())
+        reports.append(CrosscheckReport(result, address, files, asked.variant.name))
+        if not as_json:
+            out.print(report(reports[-1]), markup=False)
+        if result.interrupted:
+            err.print(f"Interrupted: {counted(len(reports), 'board', 'boards')} of {len(named)} begun.")
+            break
+    code = worst(reports)
+    if as_json:
+        print(json_text(document(reports, code), ascii=True))
+    return code
+
+
+def _announce(asked: CrosscheckOptions, board: Board, address: str, seed: int) -> None:
+    runs = effort(asked.profile, asked.examples, seed).examples
+    out.print(
+        f"{board.name}: {address}\n"
+        f"  beside {counted(len(board.system.charts), 'chart', 'charts')}"
+        f"{f' {asked.variant.name}' if asked.variant.name else ''}; "
+        f"{counted(runs, 'random run', 'random runs')} from seed {seed}.",
+        markup=False,
+    )
+
+
+def _boards(asked: CrosscheckOptions) -> list[Board]:
+    known = varied(asked.variant.choices, asked.variant.repair)
+    if asked.system is None:
+        if asked.address is not None:
+            raise UsageError(
+                f"--impl {asked.address} is the supervisor of one board; write --system board1 or board2 too."
+            )
+        return list(known.values())
+    if asked.system not in known:
+        raise UsageError(f"No board {asked.system!r}. {did_you_mean(asked.system, known)}")
+    return [known[asked.system]]
+
+
+def _checked(asked: CrosscheckOptions, board: Board, address: str, seed: int) -> CompareResult:
+    if asked.tests is not None and not asked.tests.is_dir():
+        raise UsageError(f"{asked.tests} is no folder; write one with tests as CSV or JSON.")
+    try:
+        implementation = start(address, board)
+    except ImplementationError as error:
+        raise UsageError(str(error)) from error
+    try:
+        with ProgressLine() as line:
+            return cross_check(
+                board if asked.variant.name else board.name,
+                implementation,
+                effort(asked.profile, asked.examples, seed),
+                folder=asked.tests,
+                allowance=asked.allowance,
+                progress=lambda search: line.show(_doing(board, search)),
+            )
+    finally:
+        implementation.close()
+
+
+def _doing(board: Board, search: CompareSearch) -> str:
+    """One line on what a cross-check is doing."""
+    of = f" {search.tried[RANDOM]} of {search.effort.examples}" if search.doing == RANDOM else ""
+    found = counted(len(search.found), "mismatch", "mismatches")
+    return (
+        f"{board.name}: {search.doing}{of} | {found}, {search.coverage.steps:,} steps, "
+        f"{len(search.coverage.taken)} transitions"
+    )
+
+
+def _write_tests(result: CompareResult, address: str, variant: Variant, folder: Path) -> list[Path]:
+    """A test for each mismatch and failure that is shown."""
+    written = []
+    for found in shown(result):
+        place = folder / file_name(found)
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+        except OSError as error:
+            raise UsageError(
+                f"Cannot make {whole(folder)}: {error.strerror}. Choose another --output."
+            ) from error
+        repair = variant.repair.name if variant.repair else ""
+        write(pytest_file(found, address, variant.choices, repair), place)
+        written.append(place)
+    return written
+
+
+def worst(reports: Sequence[CrosscheckReport]) -> Exit:
+    """What differs outweighs a search that is not finished."""
+    if any(r.result.differs for r in reports):
+        return Exit.FAILED
+    if any(r.result.interrupted for r in reports):
+        return Exit.INTERRUPTED
+    return Exit.AS_EXPECTED if all(r.result.conforms for r in reports) else Exit.INCONCLUSIVE
+
+
+def document(reports: Sequence[CrosscheckReport], code: Exit) -> dict[str, object]:
+    """The results as JSON."""
+    return {
+        "schema": f"rovercheck/crosscheck/{SCHEMA}",
+        "complete": not any(r.result.interrupted for r in reports),
+        "exit": int(code),
+        "results": [row(r) for r in reports],
+    }

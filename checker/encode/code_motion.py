@@ -1,0 +1,54 @@
+"""Sinking: the statements of a step that only goals need, moved behind all others.
+
+Whatever such a statement chooses or computes, the state after the tick is the same.  So a search can
+store that state first, and then ask of it which goals are reached.
+"""
+
+from collections.abc import Iterator
+
+from rovercheck.checker.system.partition import expressions
+from rovercheck.checker.system.slice import Names, live_before, names
+from rovercheck.spec_model.lang.action import Assign, If
+from rovercheck.spec_model.lang.system import Program, Statement
+
+
+def sunk(step: Program, stored: Names) -> tuple[Program, Program]:
+    """The step in two parts, to be run one after the other; the second writes nothing that is stored."""
+    reads = [names(expressions((s,))) for s in step]
+    writes = [frozenset(_written(s)) for s in step]
+    early: set[int] = set()
+    while True:
+        needed = set(_needed(step, stored, early, writes))
+        found = needed | set(_overtaken(needed, reads, writes))
+        if found == early:
+            first = tuple(s for i, s in enumerate(step) if i in early)
+            return first, tuple(s for i, s in enumerate(step) if i not in early)
+        early = found
+
+
+def _needed(step: Program, stored: Names, early: set[int], writes: list[Names]) -> Iterator[int]:
+    """The statements that what is stored depends on, and those said to come early: each as a whole."""
+    live, cache = stored, dict[int, Names]()
+    for at in reversed(range(len(step))):
+        if at in early or writes[at] & live:
+            yield at
+            live, _ = live_before((step[at],), live | writes[at], cache)
+
+
+def _overtaken(early: set[int], reads: list[Names], writes: list[Names]) -> Iterator[int]:
+    """Other statements with an early one after them that writes what they read or write."""
+    after: set[str] = set()
+    for at in reversed(range(len(reads))):
+        if at in early:
+            after |= writes[at]
+        elif not after.isdisjoint(reads[at] | writes[at]):
+            yield at
+
+
+def _written(statement: Statement) -> Iterator[str]:
+    if isinstance(statement, Assign):
+        yield statement.var.name
+    else:
+        for inner in (*statement.then, *statement.otherwise):
+            if isinstance(inner, Assign | If):
+                yield from _written(inner)

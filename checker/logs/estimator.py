@@ -1,0 +1,142 @@
+"""The states of a part of a board that explain a log so far, and how they go on."""
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+
+from rovercheck.checker.logs.cells import Raw
+from rovercheck.checker.logs.cones import LogCone
+from rovercheck.checker.logs.program import Known, NeededInputs
+from rovercheck.spec_model.lang.domain import Num
+
+MOST_VALUATIONS = 512
+"""States that are followed at a time."""
+
+FIRST_RUNS, MORE_RUNS = 4_000, 30
+"""Steps that may be tried at first, and how many more for each tick of the log."""
+
+MOST_REMEMBERED = 50_000
+
+NEARLY = 1e-6
+"""How far numbers may lie apart for the rounding of a 32-bit float, in parts of their size or in units."""
+
+
+@dataclass(frozen=True)
+class BeliefOutcome:
+    """What a step may lead to: the states before and after it, and the outputs it requires."""
+
+    before: Known
+    after: Known
+    outputs: Known
+
+
+class TooMany(Exception):
+    """More states than are followed; the message names what multiplies them."""
+
+
+class StateEstimator:
+    """Takes the steps of one part of a board, from sets of states."""
+
+    def __init__(self, cone: LogCone, tolerance: Mapping[str, float]) -> None:
+        self.cone = cone
+        self.incomplete: set[str] = set()
+        self.runs_left = FIRST_RUNS
+        self._step = cone.step
+        self._state = [v.name for v in cone.system.variables]
+        self._inputs = [v.name for v in cone.system.inputs]
+        self._apart = [_apart(o.signal.domain.sort, tolerance.get(o.name)) for o in cone.outputs]
+        self._remembered: dict[tuple[Known, Known], tuple[tuple[BeliefOutcome, ...], frozenset[str]]] = {}
+        self._asked: Counter[str] = Counter()
+        self._guessed: set[str] = set()
+
+    def power_up(self) -> tuple[Known, ...]:
+        """The state before the first tick."""
+        return (tuple(v.init for v in self.cone.system.variables),)
+
+    def anything(self, told: Mapping[str, Raw]) -> tuple[Known, ...]:
+        """Every state in which these variables have these values."""
+        return (tuple(told.get(name) for name in self._state),)
+
+    def outcomes(self, valuations: Sequence[Known], inputs: Known) -> list[BeliefOutcome]:
+        """What one step may lead to.  Raises ``TooMany``."""
+        return [outcome for v in valuations for outcome in self._after(v, inputs)]
+
+    def explains(self, outcome: BeliefOutcome, logged: Known) -> bool:
+        """Whether the outputs are those of the log; what is not logged may be anything."""
+        if outcome.outputs == logged:
+            return True
+        return not self.differing(outcome, logged)
+
+    def differing(self, outcome: BeliefOutcome, logged: Known) -> list[int]:
+        """Positions of the outputs that are not as the charts require."""
+        rows = zip(outcome.outputs, logged, self._apart, strict=True)
+        return [i for i, (wanted, got, apart) in enumerate(rows) if differs(wanted, got, apart)]
+
+    def kept(self, outcomes: Sequence[BeliefOutcome]) -> tuple[Known, ...]:
+        """The states after the step, each once.  Raises ``TooMany``."""
+        found = tuple(dict.fromkeys(o.after for o in outcomes))
+        if len(found) > MOST_VALUATIONS:
+            raise self._too_many()
+        return found
+
+    def _after(self, valuation: Known, inputs: Known) -> tuple[BeliefOutcome, ...]:
+        key = (valuation, inputs)
+        if key not in self._remembered:
+            if len(self._remembered) > MOST_REMEMBERED:
+                self._remembered.clear()
+            self._guessed = set[str]()
+            found = tuple(self._tried(valuation, inputs))
+            self._remembered[key] = found, frozenset(self._guessed)
+        found, guessed = self._remembered[key]
+        self.incomplete |= guessed
+        return found
+
+    def _tried(self, valuation: Known, inputs: Known) -> Iterator[BeliefOutcome]:
+        """Steps with values for what they turn out to need."""
+        waiting, seen = [(valuation, inputs)], set[tuple[Known, Known]]()
+        while waiting:
+            before, given = waiting.pop()
+            self.runs_left -= 1
+            if self.runs_left < 0:
+                raise self._too_many()
+            try:
+                after, outputs = self._step(before, given)
+            except NeededInputs as needed:
+                waiting += self._with_values(needed.name, before, given)
+                continue
+            if (after, outputs) not in seen:
+                seen.add((after, outputs))
+                yield BeliefOutcome(before, after, outputs)
+
+    def _with_values(self, name: str, before: Known, given: Known) -> list[tuple[Known, Known]]:
+        values = self.cone.values(name)
+        self._asked[name] += len(values)
+        if not self.cone.complete(name):
+            self._guessed.add(name)
+        if name in self._inputs:
+            return [(before, _with(given, self._inputs.index(name), value)) for value in values]
+        return [(_with(before, self._state.index(name), value), given) for value in values]
+
+    def _too_many(self) -> TooMany:
+        most = [name for name, _ in self._asked.most_common(3)]
+        return TooMany(", ".join(most) or "what is not logged")
+
+
+def _with(values: Known, index: int, value: Raw) -> Known:
+    return (*values[:index], value, *values[index + 1 :])
+
+
+def _apart(sort: object, tolerance: float | None) -> float | None:
+    """How far a number of this sort may lie from the one required, in raw units; ``None``: not at all."""
+    if not isinstance(sort, Num):
+        return None
+    if tolerance is not None:
+        return float(tolerance / sort.resolution)
+    return None if sort.resolution == 1 else float(NEARLY / sort.resolution)
+
+
+def differs(wanted: Raw | None, got: Raw | None, apart: float | None) -> bool:
+    """Whether a logged value is another than the one required; ``None``: not logged, not required."""
+    if wanted is None or got is None or wanted == got:
+        return False
+    return apart is None or abs(float(wanted) - float(got)) > max(apart, NEARLY * abs(float(wanted)))

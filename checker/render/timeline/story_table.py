@@ -1,0 +1,29 @@
+"""The story of a trace as a part of a page: a table of what happened, and the inputs that force the end."""
+
+from functools import partial
+from itertools import groupby
+
+from markupsafe import Markup
+
+from rovercheck.checker.render.page import Part
+from rovercheck.checker.render.reasons import cause, meaning, reasons
+from rovercheck.checker.render.story import OMITTED, rows, standstill, start_of, start_values
+from rovercheck.checker.render.timeline.fragment import TEMPLATES, own
+from rovercheck.checker.results.trace import Trace
+
+
+def story_part(trace: Trace, *, everything: bool = False) -> Part:
+    """The table with the same rows as that of the terminal, and the reasons where they were examined."""
+    shown = trace if everything or not trace.relevant else trace.focused()
+    by_ticks = groupby(reasons(trace, regular=True), key=lambda reason: f"{reason.when} ({reason.ms})")
+    body = TEMPLATES.get_template("story.html").render(
+        chosen=start_values(shown),
+        rows=list(rows(shown)),
+        start_of=start_of,
+        standstill=partial(standstill, shown),
+        omitted=OMITTED,
+        cause=cause(trace),
+        meaning=meaning(trace),
+        reasons=[(ticks, [reason.what for reason in group]) for ticks, group in by_ticks],
+    )
+    return Part(Markup(body), (own("story.css"),))
