@@ -14,11 +14,11 @@ from typing import TYPE_CHECKING
 from rovercheck.properties.expected import Expected, on_record
 from rovercheck.properties.forms import Property, formulas
 from rovercheck.properties.requirements import requirement
+from rovercheck.spec_model.ambiguity import ambiguities, fixed
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.place import Place
 from rovercheck.spec_model.lang.walk import variables
-from rovercheck.spec_model.readings import fixed, readings
-from rovercheck.spec_model.rover import readings_of
+from rovercheck.spec_model.rover import interpretations_of
 
 if TYPE_CHECKING:
     from rovercheck.properties.promises.promise import Promise
@@ -26,28 +26,28 @@ if TYPE_CHECKING:
 
 @cache
 def catalogue() -> dict[str, Property]:
-    """Every property by id, area by area, every reading at its default."""
+    """Every property by id, area by area, every interpretation at its default."""
     return under({})
 
 
 def under(choices: Mapping[str, str]) -> dict[str, Property]:
-    """Every property by id under chosen readings; what reads no reading is the same under all.
+    """Every property by id under chosen interpretations; what reads no interpretation is the same under all.
 
-    Raises ``ModelError`` for an unknown reading or choice.
+    Raises ``ModelError`` for an unknown interpretation or choice.
     """
     fixing = fixed(choices)
     return {id: replace(prop, form=fixing.parts_of(prop.form)) for id, prop in as_written().items()}
 
 
 def read_by(prop: Property) -> set[str]:
-    """The readings that the property or its system depends on."""
+    """The interpretations that the property or its system depends on."""
     own = {name for e in formulas(as_written()[prop.id].form) for name in variables(e)}
-    return (own & readings().keys()) | readings_of(prop.on)
+    return (own & ambiguities().keys()) | interpretations_of(prop.on)
 
 
 @cache
 def as_written() -> dict[str, Property]:
-    """Every property by id, with its readings open.  Raises ``ModelError`` for an id used twice."""
+    """Every property by id, with its interpretations open.  Raises ``ModelError`` for an id used twice."""
     found: dict[str, Property] = {}
     for folder in ("areas", "promises"):
         for area, thing in _stated_in(folder):

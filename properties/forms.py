@@ -274,7 +274,7 @@ def formulas(form: Form) -> list[Expr]:
 class Property:
     """A requirement made precise: id, sentence, form, the requirements it covers, the system it is about.
 
-    ``readings`` names the readings of ambiguous sentences under which it is stated.  ``costly``: it is
+    ``interpretations`` names the ambiguous sentences on whose interpretation it depends.  ``costly``: it is
     decided only on request and in the full profile, not in the default one.  ``about`` is what was given
     for ``on``, if that was no name; ``place`` is where it is written.
     """
@@ -285,7 +285,7 @@ class Property:
     covers: tuple[str, ...]
     on: str
     from_tick: int = 1
-    readings: tuple[str, ...] = ()
+    interpretations: tuple[str, ...] = ()
     costly: bool = False
     area: str = field(default="", compare=False)
     about: Chart | System | None = field(default=None, compare=False, repr=False)
@@ -302,95 +302,103 @@ On = str | Chart | System
 
 
 def _property(
-    id: str, text: str, form: Form, covers: Sequence[str], on: On, from_tick: int, readings: Sequence[str]
+    id: str,
+    text: str,
+    form: Form,
+    covers: Sequence[str],
+    on: On,
+    from_tick: int,
+    interpretations: Sequence[str],
 ) -> Property:
     about, name = (on, on.name) if isinstance(on, Chart | System) else (None, on)
     ids = several(id, "covers", covers)
     if not ids:
         raise ModelError(f"{id} covers no requirement; write covers=[...] with at least one requirement id.")
-    return Property(id, text, form, ids, name, from_tick, several(id, "readings", readings), about=about)
+    return Property(
+        id, text, form, ids, name, from_tick, several(id, "interpretations", interpretations), about=about
+    )
 
 
 def always(id: str, text: str, *, that: Expr, covers: Sequence[str], on: On,
-           from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+           from_tick: int = 1, interpretations: Sequence[str] = ()) -> Property:  # fmt: skip
     """``that`` is true in every tick."""
-    return _property(id, text, Always(that), covers, on, from_tick, readings)
+    return _property(id, text, Always(that), covers, on, from_tick, interpretations)
 
 
 def never(id: str, text: str, *, that: Expr, covers: Sequence[str], on: On,
-          from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+          from_tick: int = 1, interpretations: Sequence[str] = ()) -> Property:  # fmt: skip
     """``that`` is true in no tick."""
-    return _property(id, text, Never(that), covers, on, from_tick, readings)
+    return _property(id, text, Never(that), covers, on, from_tick, interpretations)
 
 
 def responds(id: str, text: str, *, trigger: Expr, response: Expr, within: Span, covers: Sequence[str],
-             on: On, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+             on: On, from_tick: int = 1, interpretations: Sequence[str] = ()) -> Property:  # fmt: skip
     """After ``trigger``, ``response`` comes within a time: see ``Responds``."""
-    return _property(id, text, Responds(trigger, response, within), covers, on, from_tick, readings)
+    return _property(id, text, Responds(trigger, response, within), covers, on, from_tick, interpretations)
 
 
 def holds_after(id: str, text: str, *, premise: Expr, for_: Span, then: Expr, covers: Sequence[str],
-                on: On, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+                on: On, from_tick: int = 1, interpretations: Sequence[str] = ()) -> Property:  # fmt: skip
     """Where ``premise`` has been true for a time, ``then`` is true: see ``HoldsAfter``."""
-    return _property(id, text, HoldsAfter(premise, for_, then), covers, on, from_tick, readings)
+    return _property(id, text, HoldsAfter(premise, for_, then), covers, on, from_tick, interpretations)
 
 
 def holds_for(id: str, text: str, *, start: Expr, that: Expr, for_: Span, covers: Sequence[str],
-              on: On, from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+              on: On, from_tick: int = 1, interpretations: Sequence[str] = ()) -> Property:  # fmt: skip
     """From ``start`` on, ``that`` is true for a time: see ``HoldsFor``."""
-    return _property(id, text, HoldsFor(start, that, for_), covers, on, from_tick, readings)
+    return _property(id, text, HoldsFor(start, that, for_), covers, on, from_tick, interpretations)
 
 
 def leaves_only_if(id: str, text: str, *, leaving: Expr, only_if: Expr, covers: Sequence[str], on: On,
-                   from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+                   from_tick: int = 1, interpretations: Sequence[str] = ()) -> Property:  # fmt: skip
     """``leaving`` ends only in a tick with ``only_if``: see ``LeavesOnlyIf``."""
-    return _property(id, text, LeavesOnlyIf(leaving, only_if), covers, on, from_tick, readings)
+    return _property(id, text, LeavesOnlyIf(leaving, only_if), covers, on, from_tick, interpretations)
 
 
 def enters_only_if(id: str, text: str, *, entering: Expr, only_if: Expr, covers: Sequence[str], on: On,
-                   from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+                   from_tick: int = 1, interpretations: Sequence[str] = ()) -> Property:  # fmt: skip
     """``entering`` begins only in a tick with ``only_if``: see ``EntersOnlyIf``."""
-    return _property(id, text, EntersOnlyIf(entering, only_if), covers, on, from_tick, readings)
+    return _property(id, text, EntersOnlyIf(entering, only_if), covers, on, from_tick, interpretations)
 
 
 def precedes(id: str, text: str, *, first: Expr, then: Expr, covers: Sequence[str], on: On,
-             from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+             from_tick: int = 1, interpretations: Sequence[str] = ()) -> Property:  # fmt: skip
     """``then`` is true only once ``first`` has been: see ``Precedes``."""
-    return _property(id, text, Precedes(first, then), covers, on, from_tick, readings)
+    return _property(id, text, Precedes(first, then), covers, on, from_tick, interpretations)
 
 
 def until(id: str, text: str, *, start: Expr, holds: Expr, release: Expr, covers: Sequence[str], on: On,
-          from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+          from_tick: int = 1, interpretations: Sequence[str] = ()) -> Property:  # fmt: skip
     """From ``start`` on, ``holds`` is true until ``release``: see ``Until``."""
-    return _property(id, text, Until(start, holds, release), covers, on, from_tick, readings)
+    return _property(id, text, Until(start, holds, release), covers, on, from_tick, interpretations)
 
 
 def reachable(id: str, text: str, *, that: Expr, covers: Sequence[str], on: On,
-              from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+              from_tick: int = 1, interpretations: Sequence[str] = ()) -> Property:  # fmt: skip
     """Some run gets to ``that``."""
-    return _property(id, text, Reachable(that), covers, on, from_tick, readings)
+    return _property(id, text, Reachable(that), covers, on, from_tick, interpretations)
 
 
 def leads_to(id: str, text: str, *, trigger: Expr, response: Expr, covers: Sequence[str], on: On,
              bound: Span | None = None, fair: Sequence[Expr] = (),
-             from_tick: int = 1, readings: Sequence[str] = ()) -> Property:  # fmt: skip
+             from_tick: int = 1, interpretations: Sequence[str] = ()) -> Property:  # fmt: skip
     """After ``trigger``, ``response`` comes some day: see ``LeadsTo``."""
     form = LeadsTo(trigger, response, bound, several(id, "fair", fair))
-    return _property(id, text, form, covers, on, from_tick, readings)
+    return _property(id, text, form, covers, on, from_tick, interpretations)
 
 
 def settles(id: str, text: str, *, premise: Expr, then: Expr, covers: Sequence[str], on: On,
             bound: Span | None = None, fair: Sequence[Expr] = (),
-            readings: Sequence[str] = ()) -> Property:  # fmt: skip
+            interpretations: Sequence[str] = ()) -> Property:  # fmt: skip
     """If ``premise`` is true from some tick on, so is ``then``: see ``Settles``."""
     form = Settles(premise, then, bound, several(id, "fair", fair))
-    return _property(id, text, form, covers, on, 1, readings)
+    return _property(id, text, form, covers, on, 1, interpretations)
 
 
 def recoverable(id: str, text: str, *, to: Expr, covers: Sequence[str], on: On,
                 by: Expr | None = None, within: Span | None = None,
-                readings: Sequence[str] = ()) -> Property:  # fmt: skip
+                interpretations: Sequence[str] = ()) -> Property:  # fmt: skip
     """From everywhere there is a way to ``to``: see ``Recoverable``."""
     if (by is None) != (within is None):
         raise ModelError(f"{id} gives only one of by= and within=; write both, or neither.")
-    return _property(id, text, Recoverable(to, by, within), covers, on, 1, readings)
+    return _property(id, text, Recoverable(to, by, within), covers, on, 1, interpretations)

@@ -14,11 +14,11 @@ can change beyond it:
 * both 500 ms later where the estimate counts from 0.5 s on (S09, S24).
 """
 
+from rovercheck.spec_model.ambiguity import choose
 from rovercheck.spec_model.lang.action import assign, when
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.expr import Expr, Var, all_of, const, implies
 from rovercheck.spec_model.lang.words import absolute, minimum
-from rovercheck.spec_model.readings import choose
 from rovercheck.spec_model.signals import board1 as b1
 
 
@@ -33,11 +33,11 @@ def clock(name: str, update: Var, age: Var) -> Block:
     return Block(name, [when(update, [assign(age, 0)], [grow])], text=f"Time since {update.name}.")
 
 
-def measurement(name: str, update: Var, reading: Var, value: Var, age: Var, older: Expr) -> Block:
+def measurement(name: str, update: Var, ambiguity: Var, value: Var, age: Var, older: Expr) -> Block:
     """A datum of a snapshot with its age, else one step ``older``: an update replaces the value."""
     return Block(
         name,
-        [when(update, [assign(value, reading), assign(age, 0)], [assign(age, older)])],
+        [when(update, [assign(value, ambiguity), assign(age, 0)], [assign(age, older)])],
         text=f"{value.name} keeps the last valid reading.",
     )
 

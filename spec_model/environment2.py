@@ -8,12 +8,12 @@ scan time of up to 20 ms, by which one replacement may come a step later, is lef
 Without ``turns_as_told`` the heading is arbitrary in every step, which covers every rover.
 """
 
+from rovercheck.spec_model.ambiguity import choose, under
 from rovercheck.spec_model.lang.action import assign, when
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.domain import chosen, integer
 from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, all_of, any_of, flag, implies, ite, var
 from rovercheck.spec_model.lang.words import maximum, wrap
-from rovercheck.spec_model.readings import choose, under
 from rovercheck.spec_model.signals.board2 import SONARS, B2Decision, number, sonar_fault
 
 # One distance for each set that no limit of the charts divides: ..70, 71..100, 101..300, 301..

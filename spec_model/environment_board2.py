@@ -7,11 +7,11 @@ power-up with all stamps 0, and the first step is at 20 ms.  A datum changes onl
 from collections.abc import Sequence
 
 from rovercheck.spec_model import environment_fine
+from rovercheck.spec_model.ambiguity import under
 from rovercheck.spec_model.environment import clock
 from rovercheck.spec_model.lang.action import Action, assign, when
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.expr import Const, Var, implies
-from rovercheck.spec_model.readings import under
 from rovercheck.spec_model.signals import board2_motion as motion
 from rovercheck.spec_model.signals import board2_supervisor as b2
 from rovercheck.spec_model.signals.board2 import SONARS

@@ -7,13 +7,13 @@ step is at 20 ms.
 
 from dataclasses import replace
 
+from rovercheck.spec_model.ambiguity import under
 from rovercheck.spec_model.intervals import STEP, Arrivals, any_mean
 from rovercheck.spec_model.lang.action import Action, assign, when
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.expr import Expr, Var, const
 from rovercheck.spec_model.lang.system import Note
 from rovercheck.spec_model.lang.words import minimum
-from rovercheck.spec_model.readings import under
 from rovercheck.spec_model.records import window_of
 from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board1_fine as fine

@@ -8,12 +8,12 @@ one fact: when all of them lie on one side of 40 ms, so does their mean.
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
+from rovercheck.spec_model.ambiguity import choose, under
 from rovercheck.spec_model.lang.action import Action, assign, when
 from rovercheck.spec_model.lang.domain import fixed, integer
 from rovercheck.spec_model.lang.expr import Expr, Var, any_of, const, flag, ite, var
 from rovercheck.spec_model.lang.system import TICK_MS
 from rovercheck.spec_model.lang.words import minimum
-from rovercheck.spec_model.readings import choose, under
 
 INTERVALS = 10
 """The moving mean is over the last ten intervals [seed Table 2]."""

@@ -3,13 +3,13 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+from rovercheck.spec_model.ambiguity import choose, under
 from rovercheck.spec_model.intervals import INTERVALS, Arrivals, from_power_up, interval_record
 from rovercheck.spec_model.lang.action import Action, assign, when
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.domain import integer
 from rovercheck.spec_model.lang.expr import Expr, Var, any_of, const, flag, ite
 from rovercheck.spec_model.lang.words import bit, minimum, modulo
-from rovercheck.spec_model.readings import choose, under
 
 
 def slow_record(name: str, update: Var, *, exact: bool = True, moves: Var | None = None) -> Block:

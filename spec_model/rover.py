@@ -7,14 +7,14 @@ from importlib import import_module
 from importlib.util import find_spec
 from types import MappingProxyType
 
+from rovercheck.spec_model.ambiguity import ambiguities, fixed, left_open, modelled_only
 from rovercheck.spec_model.interpretations import woven
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System, charts_of
-from rovercheck.spec_model.readings import fixed, left_open, modelled_only, readings
 
 AS_READ: Mapping[str, str] = MappingProxyType({})
-"""Every reading at its default."""
+"""Every interpretation at its default."""
 
 BOARDS = (
     "rovercheck.spec_model.board1.systems",
@@ -37,10 +37,10 @@ BOARDS = (
 
 
 def systems(choices: Mapping[str, str] = AS_READ) -> Mapping[str, System]:
-    """Every system by name, under chosen readings; a reading not mentioned takes its default.
+    """Every system by name, under chosen interpretations; an interpretation not mentioned takes its default.
 
-    A reading chosen as ``any`` is a frozen variable of every system.  Raises ``ModelError`` for a name
-    used twice, an unknown reading or choice.
+    One chosen as ``any`` is a frozen variable of every system.  Raises ``ModelError`` for a name
+    used twice, an unknown interpretation or choice.
     """
     return _systems(tuple(sorted(choices.items())))
 
@@ -51,7 +51,7 @@ def _systems(chosen: tuple[tuple[str, str], ...]) -> "_Read":
 
 
 class _Read(Mapping[str, System]):
-    """The systems under chosen readings: modules are read until a name is found, and its system is fixed."""
+    """The systems under chosen interpretations: modules are read until a name is found."""
 
     def __init__(self, choices: Mapping[str, str]) -> None:
         self._choices, self._fixing, self._open = choices, fixed(choices), left_open(choices)
@@ -95,14 +95,14 @@ class _Read(Mapping[str, System]):
 
 
 def as_written() -> Iterator[System]:
-    """Every system with its readings open, the alternatives of its charts included."""
+    """Every system with its interpretations open, the alternatives of its charts included."""
     return (woven(system) for module in BOARDS for system in _systems_of(module))
 
 
 @cache
-def readings_of(name: str) -> frozenset[str]:
-    """The readings on which the behaviour of a system depends.  Raises ``KeyError`` for an unknown one."""
-    return frozenset(woven(_systems(()).declared(name)).inputs.keys() & readings().keys())
+def interpretations_of(name: str) -> frozenset[str]:
+    """The interpretations that a system depends on.  Raises ``KeyError`` for an unknown one."""
+    return frozenset(woven(_systems(()).declared(name)).inputs.keys() & ambiguities().keys())
 
 
 def _systems_of(module: str) -> tuple[System, ...]:
@@ -124,5 +124,5 @@ def merged(found: Iterable[System]) -> dict[str, System]:
 
 
 def charts(choices: Mapping[str, str] = AS_READ) -> dict[str, Chart]:
-    """Every chart by name, as drawn under chosen readings."""
+    """Every chart by name, as drawn under chosen interpretations."""
     return charts_of(systems(choices))

@@ -18,16 +18,18 @@ COUNTERS = ("PSY-21a",)
 WHEEL = ("PB1-06a-FR", "PB1-06b-FR")
 
 
-def written(folder: Path, *ids: str, readings: dict[str, str] | None = None) -> Path:
+def written(folder: Path, *ids: str, interpretations: dict[str, str] | None = None) -> Path:
     """The file that a search of these properties by the naive engine writes."""
-    known, by_name = under(readings or {}), systems(readings or {})
+    known, by_name = under(interpretations or {}), systems(interpretations or {})
     properties = tuple(known[id] for id in ids)
     task = Task(by_name[properties[0].on], properties)
     recorder = Recorder()
     told = Listeners(on_answer=recorder.answered)
     results = list(decide(task, by_name, Naive(), Limits(), quiet, told))
     proved = certified({r.property.id: r.verdict for r in results}, recorder.made)
-    return write(folder, CertificateOrigin(task.system.name, ids, proved, readings or {}), recorder.made)
+    return write(
+        folder, CertificateOrigin(task.system.name, ids, proved, interpretations or {}), recorder.made
+    )
 
 
 def changed(path: Path, folder: Path, change: Callable[[Any], None]) -> Path:

@@ -260,14 +260,14 @@ def _localise(draft: Draft, wiring: Wiring, datum: Var) -> None:
         return
     owners = {source.pick(names) for _ in range(1 + source.below(2))}
     draft.local_to.append((datum, [".".join(p) for p in sorted(owners)]))
-    reading = Source(source.choices, [datum, *draft.data], source.steady)
+    interpretation = Source(source.choices, [datum, *draft.data], source.steady)
     for path in sorted(owners):
         node = wiring.nodes[path]
         node.entry = [assign(datum, source.value(datum, source.scope)), *node.entry]
-        node.during += [reading.assignment([datum, *draft.data])]
-        node.exit += [reading.assignment(draft.data)]
+        node.during += [interpretation.assignment([datum, *draft.data])]
+        node.exit += [interpretation.assignment(draft.data)]
         node.transitions = [
-            replace(a, guard=reading.guard()) if source.chance(3) else a for a in node.transitions
+            replace(a, guard=interpretation.guard()) if source.chance(3) else a for a in node.transitions
         ]
 
 

@@ -29,7 +29,7 @@ class CertificateOrigin:
     system: str
     properties: tuple[str, ...]
     proved: tuple[str, ...]
-    readings: Mapping[str, str]
+    interpretations: Mapping[str, str]
     repair: str = ""
     without: tuple[str, ...] = ()
     timers: str = "exact"
@@ -73,7 +73,7 @@ def _document(origin: CertificateOrigin, certificates: Sequence[Certificate]) ->
             "system": origin.system,
             "properties": list(origin.properties),
             "proved": list(origin.proved),
-            "readings": dict(sorted(origin.readings.items())),
+            "readings": dict(sorted(origin.interpretations.items())),
             "repair": origin.repair,
             "without": sorted(origin.without),
             "timers": origin.timers,
@@ -109,11 +109,11 @@ def _origin(found: Any) -> CertificateOrigin:
     try:
         texts = [str(found[name]) for name in ("system", "repair", "timers")]
         lists = [tuple(map(str, found[name])) for name in ("properties", "proved", "without")]
-        readings = {str(id): str(choice) for id, choice in found["readings"].items()}
+        interpretations = {str(id): str(choice) for id, choice in found["readings"].items()}
     except (KeyError, TypeError, AttributeError) as error:
         raise Malformed(f"{type(error).__name__} {error} in its origin") from error
     if not lists[0] or not set(lists[1]) <= set(lists[0]):
         raise Malformed("its origin names no property, or proves one that was not searched")
     if any(len(set(named)) < len(named) for named in lists):
         raise Malformed("its origin names something twice")
-    return CertificateOrigin(texts[0], lists[0], lists[1], readings, texts[1], lists[2], texts[2])
+    return CertificateOrigin(texts[0], lists[0], lists[1], interpretations, texts[1], lists[2], texts[2])

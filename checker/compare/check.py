@@ -180,14 +180,18 @@ def recorded_suite(board: str, profile: str = "ci", examples: int | None = None)
 
 
 def replay(
-    board: str, address: str, stimulus: Stimulus, readings: Mapping[str, str] = AS_READ, repair: str = ""
+    board: str,
+    address: str,
+    stimulus: Stimulus,
+    interpretations: Mapping[str, str] = AS_READ,
+    repair: str = "",
 ) -> StepMismatch | None:
     """Run the implementation at an address ``KIND:WHAT`` and the charts under one stimulus.
 
-    The charts are those under ``readings``, with a repair if one is named.
+    The charts are those under ``interpretations``, with a repair if one is named.
     The first step in which they differ, or None.  Raises ``ImplementationError``.
     """
-    which = named(readings, repair)[board]
+    which = named(interpretations, repair)[board]
     implementation = start(address, which)
     try:
         return compared(which, played(which, {}, stimulus), implementation)

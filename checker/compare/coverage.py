@@ -42,7 +42,7 @@ def taken(fired: FiredTransition) -> CoveredTransition:
 
 
 def transitions(board: Board) -> frozenset[CoveredTransition]:
-    """All transitions of a board, those left out that no reading of a sentence lets fire."""
+    """All transitions of a board, those left out that no interpretation of a sentence lets fire."""
     return _transitions(board.name, board)
 
 

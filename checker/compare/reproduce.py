@@ -52,11 +52,14 @@ def _subject(found: StepMismatch | Failure) -> str:
 
 
 def pytest_file(
-    found: StepMismatch | Failure, address: str, readings: Mapping[str, str] = AS_READ, repair: str = ""
+    found: StepMismatch | Failure,
+    address: str,
+    interpretations: Mapping[str, str] = AS_READ,
+    repair: str = "",
 ) -> str:
     """The text of the test.
 
-    ``address`` is that of the implementation, ``KIND:WHAT``; ``readings`` and ``repair`` are those of the
+    ``address`` is that of the implementation, ``KIND:WHAT``; ``interpretations`` and ``repair`` those of the
     charts.
     """
     stimulus = stimulus_of(found)
@@ -71,14 +74,14 @@ def pytest_file(
         address=dumps(address),
         start=stimulus.start_ms,
         blocks=blocks,
-        charts=_charts(readings, repair),
+        charts=_charts(interpretations, repair),
         board=found.board.name,
         output="".join(c if c.isalnum() else "_" for c in _subject(found)),
     )
 
 
-def _charts(readings: Mapping[str, str], repair: str) -> str:
-    parts = [f"readings={dumps(dict(readings))}"] if readings else []
+def _charts(interpretations: Mapping[str, str], repair: str) -> str:
+    parts = [f"interpretations={dumps(dict(interpretations))}"] if interpretations else []
     parts += [f"repair={dumps(repair)}"] if repair else []
     return "".join(f", {part}" for part in parts)
 

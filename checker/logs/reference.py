@@ -56,5 +56,5 @@ class LogReference:
 
 @cache
 def as_drawn() -> LogReference:
-    """The charts as specified, every reading at its default."""
+    """The charts as specified, every interpretation at its default."""
     return LogReference(boards(), catalogue(), systems(), lambda id: expected(id).verdict)

@@ -1,4 +1,4 @@
-"""The rover as a model: the charts of this repository under chosen readings."""
+"""The rover as a model: the charts of this repository under chosen interpretations."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -10,9 +10,9 @@ from rovercheck.spec_model.rover import AS_READ, systems
 
 
 def rover(choices: Mapping[str, str] = AS_READ) -> Model:
-    """The rover; a reading not mentioned takes its default.
+    """The rover; an interpretation not mentioned takes its default.
 
-    Raises ``ModelError`` for an unknown reading or choice.
+    Raises ``ModelError`` for an unknown interpretation or choice.
     """
     return _rover(tuple(sorted(choices.items())))
 

@@ -55,8 +55,9 @@ def _property_faults(prop: Property) -> Iterator[str]:
         yield f"{prop.id}: covers={list(prop.covers)} names no requirement; write the ids of some."
     if prop.from_tick < 1:
         yield f"{prop.id}: from_tick={prop.from_tick} is no tick; the first is 1."
-    if prop.readings:
-        yield f"{prop.id}: readings={list(prop.readings)} are of the rover only; leave readings= out."
+    if prop.interpretations:
+        given = list(prop.interpretations)
+        yield f"{prop.id}: interpretations={given} are of the rover only; leave interpretations= out."
 
 
 def _texts(thing: object, place: object) -> Iterator[tuple[object, object, str, str]]:

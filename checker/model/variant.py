@@ -1,6 +1,6 @@
-"""What is checked instead of the rover's charts as specified: other readings, a repair, fewer assumptions.
+"""What is checked instead of the charts as specified: other interpretations, a repair, fewer assumptions.
 
-It may also be a model of the user's own, which has no readings and no repairs.
+It may also be a model of the user's own, which has no interpretations and no repairs.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -12,16 +12,16 @@ from rovercheck.checker.model.rover import rover
 from rovercheck.properties.catalogue import read_by
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property, formulas
+from rovercheck.spec_model.ambiguity import fixed
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.walk import variables
-from rovercheck.spec_model.readings import fixed
 from rovercheck.spec_model.repairs import Repair, repaired, touches
 from rovercheck.spec_model.rover import systems
 
 
 @dataclass(frozen=True)
 class Variant:
-    """Chosen readings, at most one repair, dropped assumptions; none means the charts as specified.
+    """Chosen interpretations, at most one repair, dropped assumptions; none means the charts as specified.
 
     ``own`` is the user's own model, None for the rover.
     """
@@ -33,7 +33,7 @@ class Variant:
 
     @property
     def model(self) -> Model:
-        """What is changed: the user's own model, or the rover under the chosen readings."""
+        """What is changed: the user's own model, or the rover under the chosen interpretations."""
         return rover(self.choices) if self.own is None else self.own
 
     @property
@@ -46,15 +46,15 @@ class Variant:
 
     @property
     def options(self) -> str:
-        """What a command needs to be about the same charts: ``--reading S43=AND``, ``--model heater.py``."""
-        given = [("--reading", f"{id}={choice}") for id, choice in self.choices.items()]
+        """What makes a command be about the same charts: ``--interpret S43=AND``, ``--model heater.py``."""
+        given = [("--interpret", f"{id}={choice}") for id, choice in self.choices.items()]
         given += [("--repair", self.repair.name)] if self.repair else []
         given += [("--without", assumption) for assumption in sorted(self.without)]
         options = [f"{option} {quote(value)}" for option, value in given]
         return " ".join(filter(None, [*options, self.model.options]))
 
     def unchanged(self) -> Mapping[str, System]:
-        """Every system by name, under the chosen readings alone."""
+        """Every system by name, under the chosen interpretations alone."""
         return systems(self.choices) if self.own is None else self.own.systems
 
     def systems(self) -> Mapping[str, System]:
@@ -69,7 +69,7 @@ class Variant:
         return {n: s if s is found[n] else fixing.system(s) for n, s in edited.items()}
 
     def properties(self) -> dict[str, Property]:
-        """Every property by id, under the chosen readings.  Raises ``ModelError`` if there is none."""
+        """Every property by id, under the chosen interpretations.  Raises ``ModelError`` if there is none."""
         return dict(self.model.stated())
 
     def concerns(self) -> Callable[[Property], bool]:
@@ -91,7 +91,7 @@ class Variant:
     def askable(self, properties: Sequence[Property]) -> tuple[list[Property], list[str]]:
         """The properties that speak of what the changed systems still have; of each other, why not.
 
-        Under another reading a chart may no longer read or write a variable that a property names.
+        Under another interpretation a chart may no longer read or write a variable that a property names.
         """
         by_name = self.systems()
         asked, left = list[Property](), list[str]()

@@ -21,12 +21,12 @@ from rovercheck.spec_model.lang.system import System, TransitionSystem
 class Certification:
     """What to do with proofs: write them into a ``folder``, check them again, or both.
 
-    ``readings``, ``repair`` and ``without`` say how the charts that are checked differ from those specified.
+    ``interpretations``, ``repair`` and ``without`` say how the charts differ from those specified.
     """
 
     folder: Path | None = None
     again: bool = False
-    readings: Mapping[str, str] = field(default_factory=dict)
+    interpretations: Mapping[str, str] = field(default_factory=dict)
     repair: str = ""
     without: tuple[str, ...] = ()
     effort: CheckEffort = field(default_factory=CheckEffort)
@@ -39,7 +39,7 @@ class Certification:
         if self.folder is not None and made:
             searched = tuple(p.id for p in task.properties)
             timers = limits.timers.value
-            changed = self.readings, self.repair, self.without
+            changed = self.interpretations, self.repair, self.without
             write(self.folder, CertificateOrigin(task.system.name, searched, proved, *changed, timers), made)
 
     def outcomes(

@@ -7,9 +7,9 @@ older ones.
 from rovercheck.properties.document.sources import BLE, IMU, RX, SUP
 from rovercheck.properties.forms import Property, always
 from rovercheck.properties.past import STEPPED
+from rovercheck.spec_model.ambiguity import choose
 from rovercheck.spec_model.lang.expr import Expr, Var, const, ite
 from rovercheck.spec_model.lang.words import previous
-from rovercheck.spec_model.readings import choose
 from rovercheck.spec_model.signals.board1 import (
     batt_age,
     batt_update,

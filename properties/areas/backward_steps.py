@@ -31,7 +31,7 @@ def _combination(
 
     yield precedes(
         f"{id}a", "Backward mode is off until btn2 is pressed for the first time.",
-        first=rising(btn2) & hands_off, then=backward, covers=[covers], on=on, readings=["S59"],
+        first=rising(btn2) & hands_off, then=backward, covers=[covers], on=on, interpretations=["S59"],
     )  # fmt: skip
     yield always(
         f"{id}b", "With the stick at rest each press that is in time leads the combination on.",
@@ -39,14 +39,14 @@ def _combination(
             implies(previous(chart.active(before)) & rising(button) & hands_off, chart.active(after))
             for before, button, after in presses
         )),
-        covers=[covers], on=on, from_tick=2, readings=["S59"],
+        covers=[covers], on=on, from_tick=2, interpretations=["S59"],
     )  # fmt: skip
     yield always(
         f"{id}c", "The fourth press changes backward mode.",
         that=implies(
             previous(chart.active("Step4")) & rising(btn2) & hands_off, backward != previous(backward)
         ),
-        covers=[covers], on=on, from_tick=2, readings=["S59"],
+        covers=[covers], on=on, from_tick=2, interpretations=["S59"],
     )  # fmt: skip
     yield always(
         f"{id}d", "No step of the combination is reached without its press from the step before.",
@@ -57,7 +57,7 @@ def _combination(
             )
             for before, button, after in presses[:-1]
         )),
-        covers=[covers], on=on, readings=["S59"],
+        covers=[covers], on=on, interpretations=["S59"],
     )  # fmt: skip
     yield always(
         f"{id}e", "A step of the combination ends only by its press, a touch of the stick, or after 1 s.",
@@ -68,7 +68,7 @@ def _combination(
             )
             for before, button, _ in presses[1:]
         )),
-        covers=[covers], on=on, from_tick=2, readings=["S59"],
+        covers=[covers], on=on, from_tick=2, interpretations=["S59"],
     )  # fmt: skip
 
 

@@ -42,7 +42,7 @@ PUBLISHED = (axis_x, axis_y, button1, button2)
 PB2_24 = always(
     "PB2-24", "Axes and buttons change only in an execution with a complete read.",
     that=implies(any_of(*(datum != previous(datum) for datum in PUBLISHED)), complete),
-    covers=["B2-BLE-02"], on=JOYSTICK, readings=["E28"],
+    covers=["B2-BLE-02"], on=JOYSTICK, interpretations=["E28"],
 )  # fmt: skip
 PB2_24b = always(
     "PB2-24b", "An axis below a tenth of its range is 0, and none exceeds 1.",
@@ -131,21 +131,21 @@ PB2_27b = always(
 PB2_27c = responds(
     "PB2-27c", "The snapshot is published at most 20 ms after the trigger.",
     trigger=triggered, response=published, within=20 * ms,
-    covers=["B2-SON-04"], on=SONAR, readings=["E13"],
+    covers=["B2-SON-04"], on=SONAR, interpretations=["E13"],
 )  # fmt: skip
 PB2_27d = always(
     "PB2-27d", "A scan that is over before 20 ms was notified; its snapshot is published in that instant.",
     that=implies(
         previous(scanning) & ~scanning, published & (notified | held(previous(scanning), for_=19 * ms))
     ),
-    covers=["B2-SON-04"], on=SONAR, readings=["E13"],
+    covers=["B2-SON-04"], on=SONAR, interpretations=["E13"],
 )  # fmt: skip
 PB2_27e = always(
     "PB2-27e", "A channel without an echo is published as 301 cm.",
     that=implies(published, all_of(*(
         implies(~f, d == NO_ECHO) for f, d in zip(flags, distance, strict=True)
     ))),
-    covers=["B2-SON-04"], on=SONAR, readings=["E13"],
+    covers=["B2-SON-04"], on=SONAR, interpretations=["E13"],
 )  # fmt: skip
 PB2_27f = enters_only_if(
     "PB2-27f", "From one trigger to the next 60 ms pass.",
@@ -159,7 +159,7 @@ PB2_27g = always(
         for f, pulse, d in zip(flags, captured, distance, strict=True)
         for microseconds, centimetres in ((4060, 70), (4118, 71), (17400, 300))
     ))),
-    covers=["B2-SON-04"], on=SONAR, readings=["E13"],
+    covers=["B2-SON-04"], on=SONAR, interpretations=["E13"],
 )  # fmt: skip
 REACH_SONAR_NOTIFIED = reachable(
     "REACH-SONAR-NOTIFIED", "A scan can end by its notification with three near obstacles.",
@@ -167,7 +167,7 @@ REACH_SONAR_NOTIFIED = reachable(
 )  # fmt: skip
 REACH_SONAR_TIMEOUT = reachable(
     "REACH-SONAR-TIMEOUT", "A scan can end after 20 ms with a channel missing.",
-    that=published & ~notified & (count == 2), covers=["B2-SON-04"], on=SONAR, readings=["E13"],
+    that=published & ~notified & (count == 2), covers=["B2-SON-04"], on=SONAR, interpretations=["E13"],
 )  # fmt: skip
 REACH_SONAR_LATE = reachable(
     "REACH-SONAR-LATE", "The third echo can come after the scan is over; its notification is lost.",
@@ -181,12 +181,12 @@ fault_or_stop = (critical_mask != 0) | (degraded_mask != 0) | (command == "CMD_E
 PB2_22a = always(
     "PB2-22a", "Sonar data 300 ms old set a fault bit or command a stop.",
     that=implies(sonar_age >= 300, fault_or_stop),
-    covers=["B2-GEN-03", "B2-OBS-01"], on=SILENT, from_tick=2, readings=["E13"],
+    covers=["B2-GEN-03", "B2-OBS-01"], on=SILENT, from_tick=2, interpretations=["E13"],
 )  # fmt: skip
 PB2_22b = always(
     "PB2-22b", "A sensor without an echo for 300 ms sets a fault bit or commands a stop.",
     that=implies(held(d1 == NO_ECHO, for_=300 * ms), fault_or_stop),
-    covers=["B2-GEN-03", "B2-OBS-01"], on="sonar_without_echo", from_tick=2, readings=["E13"],
+    covers=["B2-GEN-03", "B2-OBS-01"], on="sonar_without_echo", from_tick=2, interpretations=["E13"],
 )  # fmt: skip
 REACH_SONAR_STALE = reachable(
     "REACH-SONAR-STALE", "Sonar data can be 300 ms old while Board 2 commands a stop.",

@@ -27,12 +27,12 @@ no_motion = named("zero references", (v_ref_actuation == 0) & (omega_ref_actuati
 
 PB2_16m = always(
     "PB2-16m", "Board 2 sends motor commands only in steps in which it is authorised.",
-    that=implies(sends_speeds, autorized), covers=["B2-ACT-01"], on=ON, readings=["E22"],
+    that=implies(sends_speeds, autorized), covers=["B2-ACT-01"], on=ON, interpretations=["E22"],
 )  # fmt: skip
 PB2_16n = always(
     "PB2-16n", "The commanded wheel speeds are at most 80 rpm in magnitude.",
     that=(absolute(left_rpm) <= LIMIT) & (absolute(right_rpm) <= LIMIT),
-    covers=["B2-ACT-01", "B1-REF-05"], on=ON, readings=["E25"],
+    covers=["B2-ACT-01", "B1-REF-05"], on=ON, interpretations=["E25"],
 )  # fmt: skip
 PB2_16o = always(
     "PB2-16o", "A commanded wheel speed changes by at most 4 rpm from one command to the next.",
@@ -92,7 +92,7 @@ PB2_16w = always(
         ~autorized,
         all_of(*(side == previous(side) for side in (left_rpm, right_rpm)), stop_pin == previous(stop_pin)),
     ),
-    covers=["B2-ACT-01"], on=ON, from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on=ON, from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 
 REACH_B2_FULL_SPEED = reachable(

@@ -34,12 +34,12 @@ STOP = cmd == "CMD_ESTOP"
 PB2_14a = always(
     "PB2-14a", "Board 2 is authorised in every step with a request to switch or a critical link.",
     that=implies(q, autorized),
-    covers=["B2-ACT-01"], on=ON, from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on=ON, from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 PB2_14b = enters_only_if(
     "PB2-14b", "Board 2 becomes authorised only in a step with a request to switch or a critical link.",
     entering=autorized, only_if=q,
-    covers=["B2-ACT-01"], on=ON, from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on=ON, from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 PB2_14_first = always(
     "PB2-14-first", "In the very first step Board 2 is not authorised, whatever it hears.",
@@ -49,32 +49,32 @@ PB2_14_first = always(
 PB2_14c = always(
     "PB2-14c", "Board 2 is authorised in every step in which Board 1 is silent.",
     that=implies(silent(RX) | silent(SUP), autorized),
-    covers=["B2-ACT-01"], on="check_board1_fading", from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on="check_board1_fading", from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 PB2_14d = holds_after(
     "PB2-14d", "Board 2 is authorised when the reception from Board 1 is silent for two steps.",
     premise=silent(RX), for_=1 * tick, then=autorized,
-    covers=["B2-ACT-01"], on=LINKS, from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on=LINKS, from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 PB2_15a = leaves_only_if(
     "PB2-15a", "Board 2 loses the authorisation only after 3.02 s without request and critical link.",
     leaving=autorized, only_if=held(~q, for_=151 * ticks),
-    covers=["B2-ACT-01"], on=ON, from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on=ON, from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 PB2_15b = holds_after(
     "PB2-15b", "After 3.02 s without request and critical link Board 2 is not authorised.",
     premise=~q, for_=151 * ticks, then=~autorized,
-    covers=["B2-ACT-01"], on=ON, from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on=ON, from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 PB2_15c = holds_for(
     "PB2-15c", "Once given, the authorisation lasts for at least 3.02 s.",
     start=autorized, that=autorized, for_=151 * ticks,
-    covers=["B2-ACT-01"], on=ON, from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on=ON, from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 PB2_15d = leaves_only_if(
     "PB2-15d", "Board 2 does not lose the authorisation where Board 1 has been silent for two steps.",
     leaving=autorized, only_if=~held(silent(RX), for_=1 * tick) & ~held(silent(SUP), for_=1 * tick),
-    covers=["B2-ACT-01"], on=LINKS, from_tick=2, readings=["E22", "E29"],
+    covers=["B2-ACT-01"], on=LINKS, from_tick=2, interpretations=["E22", "E29"],
 )  # fmt: skip
 
 PB2_17s = always(
@@ -96,17 +96,17 @@ PB2_17u = always(
 PB2_13s = always(
     "PB2-13s", "While Board 2 is authorised, an obstacle within 3 m commands a stop in the same step.",
     that=implies(close, STOP),
-    covers=["B2-OBS-04", "B2-OBS-22"], on=DRIVING, from_tick=2, readings=["E09", "E12"],
+    covers=["B2-OBS-04", "B2-OBS-22"], on=DRIVING, from_tick=2, interpretations=["E09", "E12"],
 )  # fmt: skip
 PB2_13t = holds_after(
     "PB2-13t", "An obstacle within 3 m in two successive authorised steps commands a stop in the second.",
     premise=close, for_=1 * tick, then=STOP,
-    covers=["B2-OBS-04", "B2-OBS-22"], on=DRIVING, from_tick=2, readings=["E09", "E12"],
+    covers=["B2-OBS-04", "B2-OBS-22"], on=DRIVING, from_tick=2, interpretations=["E09", "E12"],
 )  # fmt: skip
 PB2_13u = always(
     "PB2-13u", "While Board 2 is authorised, it commands a stop only for an obstacle within 3 m.",
     that=implies(autorized & ~within(300), cmd == "CMD_NORMAL"),
-    covers=["B2-OBS-22"], on=DRIVING, from_tick=2, readings=["E09"],
+    covers=["B2-OBS-22"], on=DRIVING, from_tick=2, interpretations=["E09"],
 )  # fmt: skip
 
 REACH_B2_AUTORIZED = reachable(

@@ -21,17 +21,17 @@ COVERS = ["B1-MASK-01", "B2-FLT-02", "B2-COM-07"]
 PB1_10d = always(
     "PB1-10d", "Board 2: bit i of the critical mask is set if and only if source i is critical.",
     that=all_of(*(bit(critical_mask, i) == (s == critical) for i, (s, critical, _) in enumerate(BOARD_2))),
-    covers=COVERS, on=ON, from_tick=2, readings=["E24"],
+    covers=COVERS, on=ON, from_tick=2, interpretations=["E24"],
 )  # fmt: skip
 PB1_10e = always(
     "PB1-10e", "Board 2: bit i of the degraded mask is set if and only if source i is degraded.",
     that=all_of(*(bit(degraded_mask, i) == (s == degraded) for i, (s, _, degraded) in enumerate(BOARD_2))),
-    covers=COVERS, on=ON, from_tick=2, readings=["E24"],
+    covers=COVERS, on=ON, from_tick=2, interpretations=["E24"],
 )  # fmt: skip
 PB1_10f = always(
     "PB1-10f", "Board 2: no bit is set in both masks.",
     that=all_of(*(~(bit(critical_mask, i) & bit(degraded_mask, i)) for i in range(len(BOARD_2)))),
-    covers=COVERS, on=ON, from_tick=2, readings=["E24"],
+    covers=COVERS, on=ON, from_tick=2, interpretations=["E24"],
 )  # fmt: skip
 PB2_14e = always(
     "PB2-14e", "Every critical bit of Board 1 either stops Board 2 or asks it to move the rover.",
@@ -40,12 +40,12 @@ PB2_14e = always(
         b1_emergency == any_of(*(bit(crit_mask_b1, i) for i in (0, 1, 3, 4, 5, 6))),
         (crit_mask_b1 != 0) == (b1_requests_switch | b1_emergency),
     ),
-    covers=["B2-ACT-01", "B2-FLT-01"], on=ON, from_tick=2, readings=["E22", "E23"],
+    covers=["B2-ACT-01", "B2-FLT-01"], on=ON, from_tick=2, interpretations=["E22", "E23"],
 )  # fmt: skip
 PB2_17r = always(
     "PB2-17r", "The own emergency of Board 2 is a critical joystick link or a critical IMU.",
     that=b2_emergency == ((esp_status == "CRITICAL") | (imu_status == "CRITICAL")),
-    covers=["B2-FLT-01", "B2-REF-01"], on=ON, from_tick=2, readings=["E23"],
+    covers=["B2-FLT-01", "B2-REF-01"], on=ON, from_tick=2, interpretations=["E23"],
 )  # fmt: skip
 
 REACH_B2_MASKS_FULL = reachable(

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 from rovercheck.properties.document.sources import BLE, IMU, RX, SUP, Source, silent
 from rovercheck.properties.forms import Property, always, costly
 from rovercheck.properties.past import STEPPED
+from rovercheck.spec_model.ambiguity import choose
 from rovercheck.spec_model.lang.domain import Bool, Domain, boolean, integer
 from rovercheck.spec_model.lang.expr import FALSE, Expr, Var, all_of, const, implies, ite, var
 from rovercheck.spec_model.lang.time import ticks
 from rovercheck.spec_model.lang.words import held, maximum, minimum, once, previous
-from rovercheck.spec_model.readings import choose
 
 STEP, GAPS = 20, 10
 """Milliseconds of a step, and the gaps of which the mean is asked."""
@@ -95,7 +95,7 @@ def _status(id: str, source: Source, what: str, recovery: int) -> Property:
             implies(was == gone, (status == fine) == returns(gone, recovery, ~late)),
             implies(was == gone, status != slow),
         ),
-        covers=COVERS, on=f"monitors_2_{source.region}", readings=["E29"],
+        covers=COVERS, on=f"monitors_2_{source.region}", interpretations=["E29"],
     )  # fmt: skip
 
 
@@ -148,7 +148,7 @@ def _rows(source: Source, what: str, recovery: int) -> Iterator[Property]:
             _enough(monitor) & ((row >= number) | ((row > -number) & free)),
             _before(source.deg),
         ),
-        covers=COVERS, on=on, readings=["E26"],
+        covers=COVERS, on=on, interpretations=["E26"],
     )  # fmt: skip
 
 
@@ -178,7 +178,7 @@ def _gaps(source: Source, what: str) -> Iterator[Property]:
         f"PB2-76-{region}", f"{what}: its mean is long exactly if the gaps on record, ten or fewer, are "
         f"longer than {source.mean} ms on average.",
         that=source.deg == _enough(monitor) & (total > monitor.number * (source.mean // STEP)),
-        covers=COVERS, on=on, readings=["E26"],
+        covers=COVERS, on=on, interpretations=["E26"],
     )  # fmt: skip
 
 

@@ -72,7 +72,7 @@ def _noticed(id: str, source: Source, what: str) -> Property:
     return holds_after(
         id, f"{what} silent in three successive steps is critical in one of them.",
         premise=silent(source), for_=2 * ticks, then=any_of(critical(source), *_before(critical(source), 2)),
-        covers=["B2-FLT-01"], on=alone(source), from_tick=2, readings=["E29"],
+        covers=["B2-FLT-01"], on=alone(source), from_tick=2, interpretations=["E29"],
     )  # fmt: skip
 
 
@@ -88,12 +88,12 @@ PB2_19e = always(
 PB2_19f = leaves_only_if(
     "PB2-19f", "The reception leaves critical only after its mean gap was short enough for 1.00 s.",
     leaving=critical(RX), only_if=held(previous(critical(RX) & ~RX.deg), for_=50 * ticks),
-    covers=["B2-FLT-01"], on=alone(RX), from_tick=2, readings=["E29"],
+    covers=["B2-FLT-01"], on=alone(RX), from_tick=2, interpretations=["E29"],
 )  # fmt: skip
 PB2_19g = holds_for(
     "PB2-19g", "The supervisor of Board 1, once critical, is so for at least 2.02 s.",
     start=critical(SUP), that=critical(SUP), for_=100 * ticks,
-    covers=["B2-FLT-01"], on=alone(SUP), from_tick=2, readings=["E29"],
+    covers=["B2-FLT-01"], on=alone(SUP), from_tick=2, interpretations=["E29"],
 )  # fmt: skip
 
 
@@ -129,7 +129,7 @@ def _stays(id: str, source: Source, what: str) -> Property:
     return until(
         id, f"{what}, critical and silent, stays critical until a stamp arrives.",
         start=critical(source) & silent(source), holds=critical(source), release=~silent(source),
-        covers=["B2-FLT-01", "B2-FLT-02"], on=alone(source), from_tick=2, readings=["E29"],
+        covers=["B2-FLT-01", "B2-FLT-02"], on=alone(source), from_tick=2, interpretations=["E29"],
     )  # fmt: skip
 
 
@@ -140,7 +140,7 @@ PB2_20d = _stays("PB2-20d", RX, "The reception from Board 1")
 PB2_20e = holds_after(
     "PB2-20e", "A joystick link silent in four successive steps is critical in the last or the one before.",
     premise=silent(BLE), for_=3 * ticks, then=critical(BLE) | previous(critical(BLE)),
-    covers=["B2-FLT-01", "B2-FLT-02"], on=alone(BLE), from_tick=2, readings=["E29"],
+    covers=["B2-FLT-01", "B2-FLT-02"], on=alone(BLE), from_tick=2, interpretations=["E29"],
 )  # fmt: skip
 
 # --- PB2-21: a slow source is noticed, and only the source itself ---------------------------------------
@@ -151,7 +151,7 @@ def _slow(id: str, source: Source, what: str) -> Property:
     return holds_after(
         id, f"{what} updated every {period} ms for eleven periods is degraded.",
         premise=periodic(source), for_=eleven(source) * ticks, then=degraded(source),
-        covers=["B2-FLT-01"], on=alone(source), from_tick=2, readings=["E26"],
+        covers=["B2-FLT-01"], on=alone(source), from_tick=2, interpretations=["E26"],
     )  # fmt: skip
 
 
@@ -160,7 +160,7 @@ def _slow_not_critical(id: str, source: Source, what: str) -> Property:
     return holds_after(
         id, f"{what} updated every {period} ms for eleven periods, not critical meanwhile, is degraded.",
         premise=periodic(source) & ~critical(source), for_=eleven(source) * ticks, then=degraded(source),
-        covers=["B2-FLT-01"], on=alone(source), from_tick=2, readings=["E26"],
+        covers=["B2-FLT-01"], on=alone(source), from_tick=2, interpretations=["E26"],
     )  # fmt: skip
 
 
@@ -175,12 +175,12 @@ PB2_21h = _slow_not_critical("PB2-21h", RX, "The reception from Board 1")
 PB2_21i = holds_after(
     "PB2-21i", "A joystick link updated every 60 ms for eleven periods is not OK.",
     premise=periodic(BLE), for_=eleven(BLE) * ticks, then=~ok(BLE),
-    covers=["B2-FLT-01"], on=alone(BLE), from_tick=2, readings=["E26"],
+    covers=["B2-FLT-01"], on=alone(BLE), from_tick=2, interpretations=["E26"],
 )  # fmt: skip
 PB2_21j = precedes(
     "PB2-21j", "The joystick link is not OK only if there was a gap of more than 40 ms.",
     first=BLE.age > 40 - TICK, then=~ok(BLE),
-    covers=["B2-FLT-01"], on=alone(BLE), readings=["E26"],
+    covers=["B2-FLT-01"], on=alone(BLE), interpretations=["E26"],
 )  # fmt: skip
 
 

@@ -57,14 +57,14 @@ forward = ay_norm > 0
 def _stops(id: str, text: str, premise: Expr, steps: Span, then: Expr) -> Property:
     return holds_after(
         f"PB2-13{id}", text, premise=premise, for_=steps, then=then,
-        covers=["B2-OBS-04"], on=ON, from_tick=2, readings=["E09", "E11", "E12"],
+        covers=["B2-OBS-04"], on=ON, from_tick=2, interpretations=["E09", "E11", "E12"],
     )  # fmt: skip
 
 
 PB2_13a0 = always(
     "PB2-13a-0", "While Board 2 drives, an obstacle within 300 cm makes the linear reference zero at once.",
     that=implies(obstacle, v_ref == 0),
-    covers=["B2-OBS-04"], on=ON, from_tick=2, readings=["E09", "E11", "E12"],
+    covers=["B2-OBS-04"], on=ON, from_tick=2, interpretations=["E09", "E11", "E12"],
 )  # fmt: skip
 PB2_13a1 = _stops("a-1", "The same for an obstacle in two successive steps.", obstacle, 1 * tick, v_ref == 0)
 PB2_13a2 = _stops(
@@ -73,7 +73,7 @@ PB2_13a2 = _stops(
 PB2_13b0 = always(
     "PB2-13b-0", "An obstacle within 300 cm makes the linear reference zero at once, stick forward.",
     that=implies(obstacle & forward, v_ref == 0),
-    covers=["B2-OBS-04"], on=ON, from_tick=2, readings=["E09", "E11", "E12"],
+    covers=["B2-OBS-04"], on=ON, from_tick=2, interpretations=["E09", "E11", "E12"],
 )  # fmt: skip
 PB2_13b1 = _stops(
     "b-1", "The same for an obstacle in two successive steps.", obstacle & forward, 1 * tick, v_ref == 0
@@ -84,7 +84,7 @@ PB2_13b2 = _stops(
 PB2_13c0 = always(
     "PB2-13c-0", "An obstacle within 300 cm makes the angular reference zero at once, stick forward.",
     that=implies(obstacle & forward, omega_ref == 0),
-    covers=["B2-OBS-04"], on=ON, from_tick=2, readings=["E09", "E11", "E12"],
+    covers=["B2-OBS-04"], on=ON, from_tick=2, interpretations=["E09", "E11", "E12"],
 )  # fmt: skip
 PB2_13c2 = _stops(
     "c-2",
@@ -106,7 +106,7 @@ PB2_13d1 = _stops(
 PB2_16a = always(
     "PB2-16a", "The references of Board 2 are at most half of full speed, whatever happens to the links.",
     that=(absolute(v_ref) <= 0.5) & (absolute(omega_ref) <= 0.5),
-    covers=["B2-ACT-01", "B1-REF-05"], on=ON, readings=["E22", "E25"],
+    covers=["B2-ACT-01", "B1-REF-05"], on=ON, interpretations=["E22", "E25"],
 )  # fmt: skip
 PB2_16b = always(
     "PB2-16b", "References, emergency stop and current action of Board 2 change only while it drives.",
@@ -115,7 +115,7 @@ PB2_16b = always(
                actuate_emergency_stop != previous(actuate_emergency_stop)),
         drives,
     ),
-    covers=["B2-ACT-01"], on=ON, readings=["E22"],
+    covers=["B2-ACT-01"], on=ON, interpretations=["E22"],
 )  # fmt: skip
 PB2_16c = always(
     "PB2-16c", "The emergency stop of Board 2 implies zero references.",
@@ -125,12 +125,12 @@ PB2_16c = always(
 PB2_16d = enters_only_if(
     "PB2-16d", "The linear reference of Board 2 becomes negative only in backward mode.",
     entering=v_ref < 0, only_if=backward_enabled & (ay_norm < 0) & drives,
-    covers=["B2-REF-01"], on=ON, readings=["S59"],
+    covers=["B2-REF-01"], on=ON, interpretations=["S59"],
 )  # fmt: skip
 PB2_16e = always(
     "PB2-16e", "During a 180° rotation of Board 2 the linear reference is zero.",
     that=implies(current_action == "CMD_ROTATE_180", v_ref == 0),
-    covers=["B2-REF-01"], on=ON, readings=["S60"],
+    covers=["B2-REF-01"], on=ON, interpretations=["S60"],
 )  # fmt: skip
 PB2_16f = always(
     "PB2-16f", "At 45° and less Board 2 still turns toward the target of the rotation.",
@@ -138,7 +138,7 @@ PB2_16f = always(
         drives & rotating & previous(rotating) & (angle_err != 0) & (absolute(angle_err) <= 45),
         (omega_ref > 0) == (angle_err < 0),
     ),
-    covers=["B2-REF-01"], on=ON, readings=["S60", "S64"],
+    covers=["B2-REF-01"], on=ON, interpretations=["S60", "S64"],
 )  # fmt: skip
 PB2_16g = always(
     "PB2-16g", "Above 45° the rover turns at half of full angular speed, the shorter way.",
@@ -146,17 +146,17 @@ PB2_16g = always(
         drives & rotating & previous(rotating),
         implies(angle_err > 45, omega_ref == -0.5) & implies(angle_err < -45, omega_ref == 0.5),
     ),
-    covers=["B2-REF-01"], on=ON, readings=["S60", "S64"],
+    covers=["B2-REF-01"], on=ON, interpretations=["S60", "S64"],
 )  # fmt: skip
 PB2_16h = leaves_only_if(
     "PB2-16h", "The emergency stop of Board 2 is released only from Motori_fermi.",
     leaving=actuate_emergency_stop, only_if=previous(at_rest),
-    covers=["B2-REF-01"], on=ON, readings=["S62"],
+    covers=["B2-REF-01"], on=ON, interpretations=["S62"],
 )  # fmt: skip
 PB2_16i = never(
     "PB2-16i", "With the reception critical the stop of Board 2 lasts at most 2 s of executed steps.",
     that=held(braking & (rx_status == "RX_CRITICAL"), for_=100 * ticks),
-    covers=["B2-REF-01"], on=EXECUTED, readings=["S62"],
+    covers=["B2-REF-01"], on=EXECUTED, interpretations=["S62"],
 )  # fmt: skip
 
 # --- a critical cause stops the rover [seed §2.7, Fig 20] --------------------------------------------
@@ -183,12 +183,12 @@ hands_off = (bx_norm == 0) & (ay_norm == 0)
 PB2_16j = always(
     "PB2-16j", "Backward mode of Board 2 changes only with a press of btn2, hands off the stick.",
     that=implies(backward_enabled != previous(backward_enabled), rising(btn2) & hands_off),
-    covers=["B2-REF-01"], on=TOGGLE, from_tick=2, readings=["S59"],
+    covers=["B2-REF-01"], on=TOGGLE, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB2_16k = never(
     "PB2-16k", "No step of the combination lasts longer than 1 s of executed steps.",
     that=any_of(*(held(toggle_2.active(step), for_=50 * ticks) for step in ("Step2", "Step3", "Step4"))),
-    covers=["B2-REF-01"], on=TOGGLE, readings=["S59"],
+    covers=["B2-REF-01"], on=TOGGLE, interpretations=["S59"],
 )  # fmt: skip
 
 # --- every state and every transition ---------------------------------------------------------------------
@@ -208,20 +208,22 @@ always_turning = ~wheels_below_2_5 & held(~wheels_below_2_5, for_=102 * ticks)
 REACH2_N = reachable(
     "REACH2-NORMALE", "Board 2 can drive at half of full speed.",
     that=normal & (current_action == "CMD_NORMAL") & (v_ref == 0.5) & (omega_ref == -0.5),
-    covers=["B2-REF-01"], on=ON, readings=["E25"],
+    covers=["B2-REF-01"], on=ON, interpretations=["E25"],
 )  # fmt: skip
 REACH2_BACK = reachable(
     "REACH2-BACKWARD", "Board 2 can drive backward in backward mode.",
-    that=normal & (v_ref == -0.5) & backward_enabled, covers=["B2-REF-01"], on=EXECUTED, readings=["S59"],
+    that=normal & (v_ref == -0.5) & backward_enabled, covers=["B2-REF-01"], on=EXECUTED,
+    interpretations=["S59"],
 )  # fmt: skip
 REACH2_INVERTED = reachable(
     "REACH2-INVERTED", "After a rotation a stick pulled back can count as forward.",
-    that=invert_y & (v_user == 0.5) & (ay_norm == -1), covers=["B2-REF-01"], on=EXECUTED, readings=["S59"],
+    that=invert_y & (v_user == 0.5) & (ay_norm == -1), covers=["B2-REF-01"], on=EXECUTED,
+    interpretations=["S59"],
 )  # fmt: skip
 REACH2_ESTOP_IGNORED = reachable(
     "REACH2-ESTOP-IGNORED", "A rotation can go on under CMD_ESTOP with the stick pushed forward.",
     that=rotating & previous(rotating & (v_user > 0)) & (cmd == "CMD_ESTOP"),
-    covers=["B2-REF-01"], on=EXECUTED, readings=["S63"],
+    covers=["B2-REF-01"], on=EXECUTED, interpretations=["S63"],
 )  # fmt: skip
 REACH2_N_R = _move(
     "NORMAL-ROTATE", "The transition of Normale_marcia.", N, R, current_action == "CMD_ROTATE_180"
@@ -239,7 +241,9 @@ REACH2_M_N = _move("REST-NORMAL", "The stop is released.", M, N, rover_safety_st
 def _press(id: str, text: str, source: str, target: str, why: Expr = TRUE) -> Property:
     """A companion: one transition of the toggle can be taken."""
     that = previous(toggle_2.active(source)) & toggle_2.active(target) & why
-    return reachable(f"REACH2-{id}", text, that=that, covers=["B2-REF-01"], on=TOGGLE, readings=["S59"])
+    return reachable(
+        f"REACH2-{id}", text, that=that, covers=["B2-REF-01"], on=TOGGLE, interpretations=["S59"]
+    )
 
 
 START = "Combo_starting_point"

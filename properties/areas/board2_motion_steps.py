@@ -36,12 +36,12 @@ PB2_33a = always(
         drives & previous(once(drives)),
         critical == emergency,
     ),
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["E22"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 PB2_33b = always(
     "PB2-33b", "Board 2 never drives with a safety state of OK, which it has before it drives.",
     that=(rover_safety_state == "SAFETY_OK") == ~once(drives),
-    covers=["B2-REF-01"], on=ON, readings=["E22"],
+    covers=["B2-REF-01"], on=ON, interpretations=["E22"],
 )  # fmt: skip
 
 # --- the stop ------------------------------------------------------------------------------------------
@@ -54,7 +54,7 @@ PB2_33c = always(
         previous(drives) & stopped & ~previous(stopped),
         (cmd == "CMD_ESTOP") & previous(forward & ~is_rotating180) | critical,
     ),
-    covers=["B2-REF-01"], on=ON, from_tick=3, readings=["S61", "S63"],
+    covers=["B2-REF-01"], on=ON, from_tick=3, interpretations=["S61", "S63"],
 )  # fmt: skip
 standing = stopped & (wheels_below_2_5 | ~drives)
 """In the stop with all wheels below 2.5 rpm, which only a step in which Board 2 drives looks at."""
@@ -63,31 +63,31 @@ PB2_33d = enters_only_if(
     "With reception the first stop of Board 2 counts as done only after 51 steps of it with all wheels below "
     "2.5 rpm.",
     entering=once(at_rest), only_if=previous(held(standing, for_=50 * ticks)) | unheard,
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S62"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 PB2_33e = enters_only_if(
     "PB2-33e", "A stop with turning wheels counts as done only after 2 s of it, the last without reception.",
     entering=at_rest, only_if=previous(standing) | unheard & held(previous(braking), for_=99 * ticks),
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S62"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 PB2_33f = holds_after(
     "PB2-33f", "Braking ends when the rover has stood for more than 1 s, Board 2 driving.",
     premise=drives & previous(drives & braking & wheels_below_2_5), for_=51 * ticks, then=~braking,
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S62"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 PB2_33g = never(
     "PB2-33g", "Without reception braking lasts at most 2 s, Board 2 driving.",
     that=held(drives & braking & unheard, for_=100 * ticks),
-    covers=["B2-REF-01"], on=ON, readings=["S62"],
+    covers=["B2-REF-01"], on=ON, interpretations=["S62"],
 )  # fmt: skip
 
 PB2_33h = always(
     "PB2-33h", "For Board 2 the rover stands where all four wheels, as last received, turn below 2.5 rpm.",
     that=wheels_below_2_5 == all_of(*(absolute(speed) < 2.5 for speed in wheel_speed_rpm.values())),
-    covers=["B2-REF-01"], on="references_2_drawn", readings=["S62"],
+    covers=["B2-REF-01"], on="references_2_drawn", interpretations=["S62"],
 )  # fmt: skip
 REACH2_NEAR = reachable(
     "REACH2-ROTATION-NEAR", "A rotation of Board 2 can come near its target.",
     that=drives & rotating & previous(rotating) & (absolute(angle_err) < 7.5),
-    covers=["B2-REF-01"], on=ON, readings=["S60"],
+    covers=["B2-REF-01"], on=ON, interpretations=["S60"],
 )  # fmt: skip

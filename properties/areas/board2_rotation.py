@@ -28,21 +28,21 @@ back = (ay_norm < -0.5) & ~backward_enabled
 
 PB2_30a = always(
     "PB2-30a", "The flag of the rotation is set in the rotation and nowhere else.",
-    that=is_rotating180 == rotating, covers=["B2-REF-01"], on=ON, readings=["S60"],
+    that=is_rotating180 == rotating, covers=["B2-REF-01"], on=ON, interpretations=["S60"],
 )  # fmt: skip
 PB2_30b = enters_only_if(
     "PB2-30b", "A rotation begins only for a stick pulled back beyond half, outside backward mode.",
     entering=rotating, only_if=back & drives,
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59", "S60"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S59", "S60"],
 )  # fmt: skip
 PB2_30c = always(
     "PB2-30c", "Normal running does not go on with a stick pulled back beyond half, outside backward mode.",
-    that=~(in_normal & back), covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59", "S60"],
+    that=~(in_normal & back), covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S59", "S60"],
 )  # fmt: skip
 PB2_30d = leaves_only_if(
     "PB2-30d", "The rotation ends less than 7.5° from its target, or by a critical safety state.",
     leaving=rotating, only_if=(absolute(previous(angle_err)) < 7.5) | critical,
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S60", "S61"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S60", "S61"],
 )  # fmt: skip
 PB2_30e = always(
     "PB2-30e", "A rotation that was executed less than 7.5° from its target is over after the next step.",
@@ -50,39 +50,39 @@ PB2_30e = always(
         drives & previous(drives & rotating & previous(rotating)) & (absolute(previous(angle_err)) < 7.5),
         ~rotating,
     ),
-    covers=["B2-REF-01"], on=ON, from_tick=3, readings=["S60"],
+    covers=["B2-REF-01"], on=ON, from_tick=3, interpretations=["S60"],
 )  # fmt: skip
 PB2_30f = enters_only_if(
     "PB2-30f", "The stick changes its meaning only where a rotation ends with the stick pulled back.",
     entering=invert_y, only_if=previous(rotating) & normal & (ay_norm < 0),
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB2_30g = leaves_only_if(
     "PB2-30g", "It keeps that meaning until the stick is no longer pulled back or the rover must stop.",
     leaving=invert_y, only_if=(ay_norm >= 0) | braking | critical,
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB2_30h = always(
     "PB2-30h", "Where a rotation ends in normal running with the stick pulled back, its meaning changes.",
     that=implies(drives & previous(rotating) & normal, invert_y == (ay_norm < 0)),
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB2_31a = always(
     "PB2-31a", "In normal running Board 2 moves at half of what the stick says, back only in backward mode.",
     that=implies(
         in_normal & as_pulled, v_ref_actuation == ite(backward_enabled | (ay_norm > 0), ay_norm * 0.5, 0)
     ),
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB2_31b = always(
     "PB2-31b", "In normal running Board 2 turns at half of what the stick says.",
     that=implies(in_normal, omega_ref_actuation == bx_norm * 0.5),
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB2_31c = always(
     "PB2-31c", "Outside backward mode normal running never moves the rover with the stick pulled back.",
     that=implies(in_normal & (ay_norm < 0) & ~backward_enabled, v_ref_actuation == 0),
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB2_32a = always(
     "PB2-32a", "From the second step in which Board 2 drives, its current action is that of its state.",
@@ -95,12 +95,12 @@ PB2_32a = always(
             implies(at_rest, current_action == "CMD_STOP"),
         ),
     ),
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S60"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S60"],
 )  # fmt: skip
 PB2_32b = always(
     "PB2-32b", "Board 2 actuates the emergency stop in the stop procedure and nowhere else.",
     that=implies(drives, actuate_emergency_stop == (braking | at_rest)),
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S62"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 PB2_32c = always(
     "PB2-32c", "Before Board 2 drives for the first time it stands, without stop, rotation or changed stick.",
@@ -116,12 +116,12 @@ PB2_32c = always(
 PB2_32d = always(
     "PB2-32d", "The stop procedure takes back what a pulled stick means.",
     that=implies(drives & (braking | at_rest), ~invert_y),
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB2_32e = always(
     "PB2-32e", "A rover at rest runs again in the next step in which Board 2 drives and nothing is critical.",
     that=implies(previous(at_rest) & drives & ~critical, ~at_rest),
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S62"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 
 
@@ -133,7 +133,7 @@ def _rests(id: str, steps: int) -> Property:
         f"Board 2 counts a stop as done only after {steps} successive executed steps of it with all wheels "
         f"below 2.5 rpm, or after 2 s of it without reception.",
         entering=at_rest, only_if=stood | unheard,
-        covers=["B2-REF-01"], on=EXECUTED, from_tick=2, readings=["S62"],
+        covers=["B2-REF-01"], on=EXECUTED, from_tick=2, interpretations=["S62"],
     )  # fmt: skip
 
 
@@ -141,7 +141,7 @@ PB2_32f, PB2_32h = _rests("PB2-32f", 51), _rests("PB2-32h", 50)
 PB2_32g = never(
     "PB2-32g", "Braking ends when the rover has stood for more than 1 s.",
     that=braking & held(previous(braking) & previous(wheels_below_2_5), for_=53 * ticks),
-    covers=["B2-REF-01"], on=EXECUTED, from_tick=2, readings=["S62"],
+    covers=["B2-REF-01"], on=EXECUTED, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 PB2_31d = always(
     "PB2-31d", "At 45° and less from its target the turning reference stays as it is.",
@@ -149,12 +149,12 @@ PB2_31d = always(
         drives & rotating & previous(rotating) & (absolute(angle_err) <= 45),
         omega_ref_actuation == previous(omega_ref_actuation),
     ),
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S60", "S64"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S60", "S64"],
 )  # fmt: skip
 PB2_31e = always(
     "PB2-31e", "In backward mode a stick that has changed its meaning and is pulled back moves forward.",
     that=implies(
         in_normal & invert_y & previous(invert_y) & backward_enabled, v_ref_actuation == ay_norm * -0.5
     ),
-    covers=["B2-REF-01"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B2-REF-01"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip

@@ -65,7 +65,7 @@ def _carried(
                 accepted, ite(arrives == "newest", ago(sent, 1), ago(sent, 2)), previous(received)
             ),
             covers=covers.get(field, covers[""]), on=ON, from_tick=3,
-            readings=["E31"] if field == "x_norm" else [],
+            interpretations=["E31"] if field == "x_norm" else [],
         )  # fmt: skip
 
 
@@ -88,7 +88,7 @@ def _replaced() -> Iterator[Property]:
             f"PSY-23c-{_suffix(field)}",
             f"An accepted frame replaces {field}, and nothing else changes what Board 1 has of it.",
             that=received == ite(b1.rx_update, frame, previous(received)),
-            covers=["B2-COM-04"], on="board1", from_tick=2, readings=["S31"],
+            covers=["B2-COM-04"], on="board1", from_tick=2, interpretations=["S31"],
         )  # fmt: skip
 
 

@@ -55,7 +55,8 @@ PB1_43b = always(
         CRITICAL == (rx_age_ms > 120),
         (b1.rx_status == "RX_DEGRADED") == ((rx_age_ms <= 120) & b1.rx_slow),
     ),
-    covers=["B1-RX-05", "B1-RX-03"], on="reception_jitter", from_tick=2, readings=["S34", "S37", "S38"],
+    covers=["B1-RX-05", "B1-RX-03"], on="reception_jitter", from_tick=2,
+    interpretations=["S34", "S37", "S38"],
 )  # fmt: skip
 PB1_43c = always(
     "PB1-43c", "With jitter, the last frame is 19 to 21 ms old for each one lost since, up to 20 ms more.",
@@ -69,7 +70,7 @@ def _lost(id: str, frames: int) -> Property:
     return always(
         id, f"With jitter on both boards, at most {frames} frames lost in a row are not critical.",
         that=implies(~once(in_a_row > frames), ~CRITICAL),
-        covers=["B1-RX-03"], on="frames_jitter", from_tick=2, readings=["S37"],
+        covers=["B1-RX-03"], on="frames_jitter", from_tick=2, interpretations=["S37"],
     )  # fmt: skip
 
 
@@ -89,23 +90,23 @@ PB1_44a = leaves_only_if(
     "With jitter, Board 1 takes the motors back only if for 3 s frames and heartbeats came within "
     "120 ms.",
     leaving=b1.give_b2_actuation, only_if=held(heard, for_=REQUIRED),
-    covers=["B1-REL-04"], on=SILENCE, from_tick=2, readings=["S37", "S45"],
+    covers=["B1-REL-04"], on=SILENCE, from_tick=2, interpretations=["S37", "S45"],
 )  # fmt: skip
 PB1_44b = leaves_only_if(
     "PB1-44b",
     "With jitter, Board 1 takes the motors back only if for 2.869 s no link was critical.",
     leaving=b1.give_b2_actuation, only_if=held(uncritical, for_=LEAST),
-    covers=["B1-REL-04"], on=RELAY, from_tick=2, readings=["S44", "S45"],
+    covers=["B1-REL-04"], on=RELAY, from_tick=2, interpretations=["S44", "S45"],
 )  # fmt: skip
 PB1_44c = holds_after(
     "PB1-44c", "With jitter, Board 1 has the motors once no link was critical for 3.171 s.",
     premise=uncritical, for_=MOST, then=~b1.give_b2_actuation,
-    covers=["B1-REL-04"], on=RELAY, from_tick=2, readings=["S44", "S45"],
+    covers=["B1-REL-04"], on=RELAY, from_tick=2, interpretations=["S44", "S45"],
 )  # fmt: skip
 REACH_RELAY_EARLY = reachable(
     "REACH-RELAY-EARLY", "Board 1 can take the motors back after 2.869 s: the bound of PB1-44b is the least.",
     that=previous(b1.give_b2_actuation) & ~b1.give_b2_actuation & ~held(heard, for_=2870 * ms),
-    covers=["B1-REL-04"], on=SILENCE, readings=["S37", "S45"],
+    covers=["B1-REL-04"], on=SILENCE, interpretations=["S37", "S45"],
 )  # fmt: skip
 
 autorized = b2.autorized_to_send_command
@@ -113,17 +114,17 @@ PB2_58a = leaves_only_if(
     "PB2-58a",
     "With jitter, Board 2 loses the authorisation only after 3 s without request and critical link.",
     leaving=autorized, only_if=held(~q, for_=REQUIRED),
-    covers=["B2-ACT-01"], on="check_board1_requests_jitter", from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on="check_board1_requests_jitter", from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 PB2_58b = leaves_only_if(
     "PB2-58b", "With jitter, Board 2 loses the authorisation only after 2.869 s without either.",
     leaving=autorized, only_if=held(~q, for_=LEAST),
-    covers=["B2-ACT-01"], on="check_board1_jitter", from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on="check_board1_jitter", from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 PB2_58c = holds_after(
     "PB2-58c", "With jitter, Board 2 is not authorised once there was neither for 3.171 s.",
     premise=~q, for_=MOST, then=~autorized,
-    covers=["B2-ACT-01"], on="check_board1_jitter", from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on="check_board1_jitter", from_tick=2, interpretations=["E22"],
 )  # fmt: skip
 
 # --- what is held for 4 s and 5 s, measured by time stamps [seed Table 2] -------------------------------
@@ -156,22 +157,22 @@ PB1_45c, PB1_45d = _held(
 PB1_46a = holds_for(
     "PB1-46a", "With jitter, an emergency stop of Board 1 lasts at least 1 s.",
     start=braking_1, that=braking_1, for_=1 * sec,
-    covers=["B1-EST-01"], on="stop_jitter", from_tick=2, readings=["S62"],
+    covers=["B1-EST-01"], on="stop_jitter", from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 PB1_46b = holds_for(
     "PB1-46b", "With jitter, an emergency stop of Board 1 lasts at least 0.968 s.",
     start=braking_1, that=braking_1, for_=968 * ms,
-    covers=["B1-EST-01"], on="references_jitter", from_tick=2, readings=["S62"],
+    covers=["B1-EST-01"], on="references_jitter", from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 PB2_59a = holds_for(
     "PB2-59a", "With jitter, a stop of Board 2, deaf and on turning wheels, lasts at least 2 s.",
     start=braking_2, that=braking_2, for_=1999 * ms,
-    covers=["B2-REF-01"], on="deaf_jitter", readings=["S62"],
+    covers=["B2-REF-01"], on="deaf_jitter", interpretations=["S62"],
 )  # fmt: skip
 PB2_59b = holds_for(
     "PB2-59b", "With jitter, a stop of Board 2, deaf and on turning wheels, lasts at least 1.9 s.",
     start=braking_2, that=braking_2, for_=1899 * ms,
-    covers=["B2-REF-01"], on="deaf_jitter", readings=["S62"],
+    covers=["B2-REF-01"], on="deaf_jitter", interpretations=["S62"],
 )  # fmt: skip
 
 # --- the monitors of Board 2 [seed §3.1] ----------------------------------------------------------------
@@ -217,7 +218,7 @@ def _recovers(id: str, source: Source, what: str, for_: Span, free: bool = False
     return leaves_only_if(
         id, f"With jitter, {what} leaves critical only after {for_} with a short mean gap.",
         leaving=critical, only_if=held(previous(critical & ~source.deg), for_=for_),
-        covers=["B2-FLT-01"], on=_on(source, free), from_tick=2, readings=["E29"],
+        covers=["B2-FLT-01"], on=_on(source, free), from_tick=2, interpretations=["E29"],
     )  # fmt: skip
 
 
@@ -232,7 +233,7 @@ PB2_60e, PB2_60f, PB2_60g, PB2_60h = (
 WITHOUT_LOSS = "frames_2_jitter"
 PB2_60m = always(
     "PB2-60m", "With jitter on both boards, without loss, the reception of Board 2 is OK.",
-    that=_status(RX, 0), covers=["B2-FLT-01"], on=WITHOUT_LOSS, readings=["E26"],
+    that=_status(RX, 0), covers=["B2-FLT-01"], on=WITHOUT_LOSS, interpretations=["E26"],
 )  # fmt: skip
 PB2_60n = always(
     "PB2-60n", "With jitter on both boards, without loss, the last frame for Board 2 is at most 20 ms old.",
@@ -257,7 +258,7 @@ def _in_time(id: str, for_: Span) -> Property:
         id, "With jitter, an obstacle that S1 has lost and S2 detects at most "
         f"{for_} later makes the rover turn toward S1.",
         start=lost_1, that=implies(found_2, toward_1), for_=for_,
-        covers=OBSTACLE, on=PASSING, from_tick=2, readings=["E14", "E15"],
+        covers=OBSTACLE, on=PASSING, from_tick=2, interpretations=["E14", "E15"],
     )  # fmt: skip
 
 
@@ -265,7 +266,7 @@ def _too_late(id: str, after: Span) -> Property:
     return enters_only_if(
         id, f"With jitter, the rover turns toward S1 only for an obstacle lost by S1 in the last {after}.",
         entering=toward_1, only_if=~held(~lost_1, for_=after),
-        covers=OBSTACLE, on=PASSING, from_tick=2, readings=["E14", "E15"],
+        covers=OBSTACLE, on=PASSING, from_tick=2, interpretations=["E14", "E15"],
     )  # fmt: skip
 
 
@@ -278,10 +279,10 @@ open_12 = named("the window of S1 and S2 is open", drawn_n.active("timerSonar12.
 PB2_61e = leaves_only_if(
     "PB2-61e", "With jitter, the window of S1 and S2 ends without a detection by S2 only after 2.831 s.",
     leaving=open_12, only_if=obj2Detected | held(previous(open_12), for_=2831 * ms),
-    covers=OBSTACLE, on=WINDOW, from_tick=2, readings=["E14", "E15", "E16"],
+    covers=OBSTACLE, on=WINDOW, from_tick=2, interpretations=["E14", "E15", "E16"],
 )  # fmt: skip
 PB2_61f = never(
     "PB2-61f", "With jitter, the window of S1 and S2 is never open for 3.13 s.",
     that=held(open_12, for_=3130 * ms),
-    covers=OBSTACLE, on=WINDOW, readings=["E14", "E16"],
+    covers=OBSTACLE, on=WINDOW, interpretations=["E14", "E16"],
 )  # fmt: skip

@@ -36,15 +36,15 @@ PSY_21a = always(
     "PSY-21a", "The alive counter rises by exactly 1 in each execution and stays in between.",
     that=counters.counter
     == modulo(previous(counters.counter) + ite(counters.executes, 1, 0), MODULUS),
-    covers=["B2-COM-06", "B1-SUP-01"], on="counters", from_tick=2, readings=["S40"],
+    covers=["B2-COM-06", "B1-SUP-01"], on="counters", from_tick=2, interpretations=["S40"],
 )  # fmt: skip
 PSY_21b = always(
     "PSY-21b", "A heartbeat is seen in exactly the steps with an accepted frame whose counter is a new one.",
     that=counters.says_new == (counters.accepted & counters.differs),
-    covers=["B2-COM-06", "B1-SUP-01"], on="counters", readings=["S40"],
+    covers=["B2-COM-06", "B1-SUP-01"], on="counters", interpretations=["S40"],
 )  # fmt: skip
 REACH_COUNTER_SKIPS = reachable(
     "REACH-COUNTER-SKIPS", "The received counter can move by more than 1 at once.",
     that=(counters.received == 5) & (previous(counters.received) == 2),
-    covers=["B1-SUP-01"], on="counters", readings=["S40"],
+    covers=["B1-SUP-01"], on="counters", interpretations=["S40"],
 )  # fmt: skip

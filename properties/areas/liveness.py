@@ -15,13 +15,13 @@ RESUMES = ("B1-EST-01", "B1-ACT-01")
 PB1_25 = settles(
     "PB1-25", "With no critical cause, CMD_NORMAL and wheels at rest for good, Board 1 resumes for good.",
     premise=calm, then=resumed,
-    covers=RESUMES, on="references_executed", readings=["S62"],
+    covers=RESUMES, on="references_executed", interpretations=["S62"],
 )  # fmt: skip
 
 PB1_25_turned = settles(
     "PB1-25-turned", "The same if every 180° rotation ends.",
     premise=calm, then=resumed, fair=[~is_rotating180],
-    covers=RESUMES, on="references_executed", readings=["S62"],
+    covers=RESUMES, on="references_executed", interpretations=["S62"],
 )  # fmt: skip
 
 # --- every deviation ends [seed §3.4.1 (1), Fig 25] ------------------------------------------------
@@ -29,31 +29,31 @@ PB1_25_turned = settles(
 PB2_09_left = leads_to(
     "PB2-09-left", "Moving toward sonar 1 ends.",
     trigger=B2Decision == 2, response=B2Decision != 2,
-    covers=["B2-OBS-09"], on="obstacles_heading", readings=["E08"],
+    covers=["B2-OBS-09"], on="obstacles_heading", interpretations=["E08"],
 )  # fmt: skip
 
 PB2_09_straight = leads_to(
     "PB2-09-straight", "Moving toward sonar 2 ends.",
     trigger=B2Decision == 3, response=B2Decision != 3,
-    covers=["B2-OBS-08"], on="obstacles_n_sides", readings=("E05", "E08"),
+    covers=["B2-OBS-08"], on="obstacles_n_sides", interpretations=("E05", "E08"),
 )  # fmt: skip
 
 PB2_09_right = leads_to(
     "PB2-09-right", "Moving toward sonar 3 ends.",
     trigger=B2Decision == 4, response=B2Decision != 4,
-    covers=["B2-OBS-09"], on="obstacles_heading", readings=["E08"],
+    covers=["B2-OBS-09"], on="obstacles_heading", interpretations=["E08"],
 )  # fmt: skip
 
 PB2_09c_ends_left = leads_to(
     "PB2-09c-ends-left", "If the rover turns as told, moving toward sonar 1 ends.",
     trigger=B2Decision == 2, response=B2Decision != 2, bound=3 * ticks,
-    covers=["B2-OBS-09"], on="obstacles_turning_free", readings=("E06", "E08"),
+    covers=["B2-OBS-09"], on="obstacles_turning_free", interpretations=("E06", "E08"),
 )  # fmt: skip
 
 PB2_09c_ends_right = leads_to(
     "PB2-09c-ends-right", "If the rover turns as told, moving toward sonar 3 ends.",
     trigger=B2Decision == 4, response=B2Decision != 4,
-    covers=["B2-OBS-09"], on="obstacles_turning", readings=("E06", "E08"),
+    covers=["B2-OBS-09"], on="obstacles_turning", interpretations=("E06", "E08"),
 )  # fmt: skip
 
 # --- waiting returns [seed §3.4.1, Fig 25] ---------------------------------------------------------

@@ -2,10 +2,10 @@
 
 from rovercheck.properties.areas.references import drives, running
 from rovercheck.properties.forms import Property, always
+from rovercheck.spec_model.ambiguity import choose
 from rovercheck.spec_model.board1.motion import motion_supervision
 from rovercheck.spec_model.lang.expr import Expr, all_of, any_of, implies
 from rovercheck.spec_model.lang.words import maximum, minimum, once, previous
-from rovercheck.spec_model.readings import choose
 from rovercheck.spec_model.signals.board1 import (
     actuate_emergency_stop,
     backward_enabled,
@@ -49,7 +49,7 @@ def _moves(id: str, text: str, state: str, v: Expr, omega: Expr) -> Property:
     """The references of a healthy rover while a state is executed with the stick forward."""
     return always(
         f"PB1-39{id}", text, that=implies(_forward(state) & OK, (v_ref == v) & (omega_ref == omega)),
-        covers=["B1-ACT-01", "B1-REF-04"], on=ON, from_tick=2, readings=["S57", "S59", "S60"],
+        covers=["B1-ACT-01", "B1-REF-04"], on=ON, from_tick=2, interpretations=["S57", "S59", "S60"],
     )  # fmt: skip
 
 
@@ -59,12 +59,12 @@ PB1_38 = always(
         drives & previous(drives),
         all_of(*(implies(motion_supervision.active(s), current_action == a) for s, a in ACTIONS.items())),
     ),
-    covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
+    covers=["B1-ACT-01"], on=ON, from_tick=2, interpretations=["S60"],
 )  # fmt: skip
 PB1_38b = always(
     "PB1-38b", "The emergency stop is actuated in the stop procedure and nowhere else.",
     that=implies(drives, actuate_emergency_stop == ~running),
-    covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S62"],
+    covers=["B1-EST-01"], on=ON, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 PB1_39a = _moves(
     "a", "In normal running with the stick forward the healthy rover moves as the stick says.",
@@ -83,7 +83,7 @@ PB1_39d = always(
     that=all_of(
         implies(during("Evita_sinistra"), omega_ref <= 0), implies(during("Evita_destra"), omega_ref >= 0)
     ),
-    covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
+    covers=["B1-ACT-01"], on=ON, from_tick=2, interpretations=["S60"],
 )  # fmt: skip
 PB1_39e = always(
     "PB1-39e", "A manoeuvre begins only from normal running, by its command.",
@@ -94,7 +94,7 @@ PB1_39e = always(
         )
         for state in ("Schivata_a_sinistra", "Schivata_a_destra", "Evita_sinistra", "Evita_destra")
     )),
-    covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
+    covers=["B1-ACT-01"], on=ON, from_tick=2, interpretations=["S60"],
 )  # fmt: skip
 PB1_39f = always(
     "PB1-39f", "CMD_NORMAL ends a manoeuvre in the same step.",
@@ -105,14 +105,14 @@ PB1_39f = always(
             for state in ("Schivata_a_sinistra", "Schivata_a_destra", "Evita_sinistra", "Evita_destra")
         )),
     ),
-    covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
+    covers=["B1-ACT-01"], on=ON, from_tick=2, interpretations=["S60"],
 )  # fmt: skip
 PB1_39g = always(
     "PB1-39g", "In backward mode the healthy rover follows the stick forward and back.",
     that=implies(
         during("Normale_marcia") & backward_enabled & ~invert_y & ~previous(invert_y) & OK, v_ref == y_norm
     ),
-    covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB1_39h = always(
     "PB1-39h", "A rover that is degraded for a second step runs at half of what the stick says.",
@@ -120,7 +120,7 @@ PB1_39h = always(
         _forward("Normale_marcia") & DEGRADED & previous(DEGRADED),
         v_ref == choose("S57", {"SCALE": y_norm * 0.5, "CLIP": minimum(y_norm, 0.5)}),
     ),
-    covers=["B1-GEN-05", "B1-REF-05"], on=ON, from_tick=2, readings=["S57", "S59"],
+    covers=["B1-GEN-05", "B1-REF-05"], on=ON, from_tick=2, interpretations=["S57", "S59"],
 )  # fmt: skip
 PB1_38c = always(
     "PB1-38c",
@@ -137,5 +137,6 @@ PB1_38c = always(
 )  # fmt: skip
 PB1_38d = always(
     "PB1-38d", "The stop procedure takes back what a pulled stick means.",
-    that=implies(drives & ~running, ~invert_y), covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S59"],
+    that=implies(drives & ~running, ~invert_y), covers=["B1-EST-01"], on=ON, from_tick=2,
+    interpretations=["S59"],
 )  # fmt: skip

@@ -17,17 +17,17 @@ ON = "masks"
 PB1_10a = always(
     "PB1-10a", "Bit i of the critical mask is set if and only if component i is critical.",
     that=all_of(*(bit(critical_mask, i) == (s == critical) for i, (s, critical, _) in enumerate(BOARD_1))),
-    covers=["B1-MASK-01", "B1-MASK-02"], on=ON, from_tick=2, readings=["S51"],
+    covers=["B1-MASK-01", "B1-MASK-02"], on=ON, from_tick=2, interpretations=["S51"],
 )  # fmt: skip
 PB1_10b = always(
     "PB1-10b", "Bit i of the degraded mask is set if and only if component i is degraded.",
     that=all_of(*(bit(degraded_mask, i) == (s == degraded) for i, (s, _, degraded) in enumerate(BOARD_1))),
-    covers=["B1-MASK-01", "B1-MASK-03"], on=ON, from_tick=2, readings=["S51"],
+    covers=["B1-MASK-01", "B1-MASK-03"], on=ON, from_tick=2, interpretations=["S51"],
 )  # fmt: skip
 PB1_10c = always(
     "PB1-10c", "No bit is set in both masks.",
     that=all_of(*(~(bit(critical_mask, i) & bit(degraded_mask, i)) for i in range(len(BOARD_1)))),
-    covers=["B1-MASK-02", "B1-MASK-03"], on=ON, from_tick=2, readings=["S52"],
+    covers=["B1-MASK-02", "B1-MASK-03"], on=ON, from_tick=2, interpretations=["S52"],
 )  # fmt: skip
 PB1_10g = always(
     "PB1-10g",
@@ -41,7 +41,7 @@ PB1_31a = always(
         (bit(critical_mask, i) | bit(degraded_mask, i)) == (wheel_status[wheel] != "WHEEL_OK")
         for i, wheel in enumerate(WHEELS, start=3)
     )),
-    covers=["B1-WHL-05"], on=ON, from_tick=2, readings=["S33", "S51"],
+    covers=["B1-WHL-05"], on=ON, from_tick=2, interpretations=["S33", "S51"],
 )  # fmt: skip
 
 REACH_MASKS_FULL = reachable(

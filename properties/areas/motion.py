@@ -48,25 +48,25 @@ at_rest = motion_supervision.active("Motori_fermi")
 PB1_24a = leaves_only_if(
     "PB1-24a", "The emergency stop is released only by a rover that had come to rest (Motori_fermi).",
     leaving=stopped, only_if=previous(at_rest),
-    covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S62"],
+    covers=["B1-EST-01"], on=ON, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 PB1_24b = enters_only_if(
     "PB1-24b",
     "A stop counts as done only after 51 successive executed steps of it with all wheels below 2.5 rpm.",
     entering=at_rest, only_if=previous(held(stopped & wheels_below_2_5, for_=50 * ticks)),
-    covers=["B1-EST-01"], on=EXECUTED, from_tick=2, readings=["S62"],
+    covers=["B1-EST-01"], on=EXECUTED, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 PB1_24c = enters_only_if(
     "PB1-24c",
     "A stop counts as done only after 50 successive executed steps of it with all wheels below 2.5 rpm.",
     entering=at_rest, only_if=previous(held(stopped & wheels_below_2_5, for_=49 * ticks)),
-    covers=["B1-EST-01"], on=EXECUTED, from_tick=2, readings=["S62"],
+    covers=["B1-EST-01"], on=EXECUTED, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 
 PB1_24d = always(
     "PB1-24d", "The rover counts as standing where all four wheels are slower than 2.5 rpm.",
     that=wheels_below_2_5 == all_of(*(absolute(speed) < 2.5 for speed in wheel_speed_rpm.values())),
-    covers=["B1-EST-01"], on="board1", readings=["S62"],
+    covers=["B1-EST-01"], on="board1", interpretations=["S62"],
 )  # fmt: skip
 
 calm = named(
@@ -80,17 +80,17 @@ PB1_25a = holds_after(
     "PB1-25a",
     "After 53 executed steps without critical cause, with CMD_NORMAL and wheels at rest, Board 1 resumes.",
     premise=calm, for_=52 * ticks, then=resumed,
-    covers=["B1-EST-01", "B1-ACT-01"], on=EXECUTED, from_tick=2, readings=["S62"],
+    covers=["B1-EST-01", "B1-ACT-01"], on=EXECUTED, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 PB1_25b = holds_after(
     "PB1-25b", "The same for a rover that is not in a 180° rotation.",
     premise=calm & ~is_rotating180, for_=52 * ticks, then=resumed,
-    covers=["B1-EST-01", "B1-ACT-01"], on=EXECUTED, from_tick=2, readings=["S62"],
+    covers=["B1-EST-01", "B1-ACT-01"], on=EXECUTED, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 RESUME_BOUND = reachable(
     "REACH1-RESUME-BOUND", "Board 1 may need 53 such steps to resume: the bound of PB1-25b is the least.",
     that=held(calm & ~is_rotating180, for_=51 * ticks) & ~resumed,
-    covers=["B1-EST-01", "B1-ACT-01"], on=EXECUTED, readings=["S62"],
+    covers=["B1-EST-01", "B1-ACT-01"], on=EXECUTED, interpretations=["S62"],
 )  # fmt: skip
 
 # --- 180° rotation [seed Fig 12] -------------------------------------------------------------------
@@ -98,17 +98,17 @@ RESUME_BOUND = reachable(
 PB1_26 = always(
     "PB1-26", "During the 180° rotation the linear reference is zero.",
     that=implies(current_action == "CMD_ROTATE_180", v_ref == 0),
-    covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
+    covers=["B1-ACT-01"], on=ON, from_tick=2, interpretations=["S60"],
 )  # fmt: skip
 PB1_26b = always(
     "PB1-26b", "During the 180° rotation the linear reference keeps the value of the step before.",
     that=implies(rotating, v_ref == previous(v_ref)),
-    covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
+    covers=["B1-ACT-01"], on=ON, from_tick=2, interpretations=["S60"],
 )  # fmt: skip
 PB1_26c = always(
     "PB1-26c", "The rotation begins with the opposite heading as its target: an error of -180°.",
     that=implies(rotating & ~previous(rotating), angle_err == -180),
-    covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
+    covers=["B1-ACT-01"], on=ON, from_tick=2, interpretations=["S60"],
 )  # fmt: skip
 still = rotating & previous(rotating) & drives
 shorter_way = (omega_ref > 0) == (angle_err < 0)
@@ -119,7 +119,7 @@ PB1_26d = always(
         still & (rover_safety_state == "SAFETY_OK"),
         implies(angle_err > 45, omega_ref == -1) & implies(angle_err < -45, omega_ref == 1),
     ),
-    covers=["B1-ACT-01", "B1-REF-04"], on=ON, from_tick=2, readings=["S60", "S64"],
+    covers=["B1-ACT-01", "B1-REF-04"], on=ON, from_tick=2, interpretations=["S60", "S64"],
 )  # fmt: skip
 PB1_26e = always(
     "PB1-26e", "At 45° and less the healthy rover turns the shorter way, at 0.075 to 0.225.",
@@ -127,7 +127,7 @@ PB1_26e = always(
         still & (rover_safety_state == "SAFETY_OK") & (absolute(angle_err) <= 45) & (angle_err != 0),
         (absolute(omega_ref) >= 0.075) & (absolute(omega_ref) <= 0.225) & shorter_way,
     ),
-    covers=["B1-ACT-01", "B1-REF-04"], on=ON, from_tick=2, readings=["S60", "S64"],
+    covers=["B1-ACT-01", "B1-REF-04"], on=ON, from_tick=2, interpretations=["S60", "S64"],
 )  # fmt: skip
 PB1_26f = always(
     "PB1-26f", "The same for a degraded rover, which is to turn the shorter way at 45° and less.",
@@ -135,22 +135,22 @@ PB1_26f = always(
         still & (rover_safety_state == "SAFETY_DEGRADED") & (absolute(angle_err) <= 45) & (angle_err != 0),
         shorter_way,
     ),
-    covers=["B1-ACT-01", "B1-REF-05"], on=ON, from_tick=2, readings=["S60", "S64"],
+    covers=["B1-ACT-01", "B1-REF-05"], on=ON, from_tick=2, interpretations=["S60", "S64"],
 )  # fmt: skip
 PB1_26g = leaves_only_if(
     "PB1-26g", "The rotation ends less than 7.5° from its target, or by a critical safety state.",
     leaving=rotating, only_if=(absolute(previous(angle_err)) < 7.5) | CRITICAL,
-    covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60", "S61"],
+    covers=["B1-ACT-01"], on=ON, from_tick=2, interpretations=["S60", "S61"],
 )  # fmt: skip
 PB1_26h = always(
     "PB1-26h", "The flag of the rotation is set in the rotation and nowhere else.",
     that=is_rotating180 == rotating,
-    covers=["B1-ACT-01"], on=ON, readings=["S60"],
+    covers=["B1-ACT-01"], on=ON, interpretations=["S60"],
 )  # fmt: skip
 PB1_26i = enters_only_if(
     "PB1-26i", "A rotation begins only for a stick pulled back beyond half, outside backward mode.",
     entering=rotating, only_if=(y_norm < -0.5) & ~backward_enabled & drives,
-    covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S59", "S60"],
+    covers=["B1-ACT-01"], on=ON, from_tick=2, interpretations=["S59", "S60"],
 )  # fmt: skip
 
 # --- a stick pulled back means forward after the rotation ------------------------------------------
@@ -158,17 +158,17 @@ PB1_26i = enters_only_if(
 PB1_26j = enters_only_if(
     "PB1-26j", "The stick changes its meaning only where a rotation ends with the stick pulled back.",
     entering=invert_y, only_if=previous(rotating) & normal & (y_norm < 0),
-    covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB1_26k = leaves_only_if(
     "PB1-26k", "It keeps that meaning until the stick is no longer pulled back or the rover must stop.",
     leaving=invert_y, only_if=(y_norm >= 0) | ~running | CRITICAL,
-    covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB1_26l = always(
     "PB1-26l", "Outside backward mode normal running never moves the rover with the stick pulled back.",
     that=implies(drives & normal & previous(normal) & (y_norm < 0) & ~backward_enabled, v_ref == 0),
-    covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 
 # --- backward mode [seed §2.2] ----------------------------------------------------------------------
@@ -176,12 +176,12 @@ PB1_26l = always(
 PB1_27a = always(
     "PB1-27a", "The linear reference is negative only in backward mode.",
     that=implies(drives & (v_ref < 0), backward_enabled),
-    covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB1_27b = always(
     "PB1-27b", "In normal running the linear reference is negative only in backward mode.",
     that=implies(drives & normal & previous(normal) & (v_ref < 0), backward_enabled),
-    covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 
 hands_off = (x_norm == 0) & (y_norm == 0)
@@ -202,34 +202,34 @@ changed = backward_enabled != previous(backward_enabled)
 PB1_27c = always(
     "PB1-27c", "Backward mode changes only with a press of btn2, hands off the stick.",
     that=implies(changed, edge2),
-    covers=["B1-REF-02"], on=TOGGLE, from_tick=2, readings=["S59"],
+    covers=["B1-REF-02"], on=TOGGLE, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB1_27d = always(
     "PB1-27d", "Backward mode changes only at most 1 s after an earlier press of btn2.",
     that=implies(changed, _lately(edge2)),
-    covers=["B1-REF-02"], on=TOGGLE, from_tick=2, readings=["S59"],
+    covers=["B1-REF-02"], on=TOGGLE, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB1_27e = always(
     "PB1-27e", "Backward mode changes only after btn1, btn1, btn2, btn2, at most 1 s apart, hands off.",
     that=implies(changed, edge2 & _lately(press_3)),
-    covers=["B1-REF-02"], on=TOGGLE, from_tick=2, readings=["S59"],
+    covers=["B1-REF-02"], on=TOGGLE, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB1_27f = never(
     "PB1-27f", "No step of the combination lasts longer than 1 s of executed steps.",
     that=held(toggle.active("Step2"), for_=50 * ticks)
     | held(toggle.active("Step3"), for_=50 * ticks)
     | held(toggle.active("Step4"), for_=50 * ticks),
-    covers=["B1-REF-02"], on=TOGGLE, readings=["S59"],
+    covers=["B1-REF-02"], on=TOGGLE, interpretations=["S59"],
 )  # fmt: skip
 PB1_27g = never(
     "PB1-27g", "No step of the combination lasts longer than 1 s, whoever moves the rover meanwhile.",
     that=held(toggle.active("Step2"), for_=50 * ticks),
-    covers=["B1-REF-02"], on="backward_frozen", readings=["S48", "S59"],
+    covers=["B1-REF-02"], on="backward_frozen", interpretations=["S48", "S59"],
 )  # fmt: skip
 PB1_27h = always(
     "PB1-27h", "The combination goes on only while the stick is at rest.",
     that=implies(toggle.active("Combo_toggle_backward"), hands_off),
-    covers=["B1-REF-02"], on=TOGGLE, from_tick=2, readings=["S59"],
+    covers=["B1-REF-02"], on=TOGGLE, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 
 # --- every state and every transition ---------------------------------------------------------------------
@@ -238,31 +238,34 @@ PB1_27h = always(
 def _move(id: str, text: str, source: str, target: str, why: Expr = TRUE) -> Property:
     """A companion: one transition of the motion chart can be taken."""
     that = previous(motion_supervision.active(source)) & motion_supervision.active(target) & why
-    return reachable(f"REACH1-{id}", text, that=that, covers=["B1-ACT-01"], on=EXECUTED, readings=["S60"])
+    return reachable(
+        f"REACH1-{id}", text, that=that, covers=["B1-ACT-01"], on=EXECUTED, interpretations=["S60"]
+    )
 
 
 REACH_ROTATION = reachable(
     "REACH1-RETROMARCIA", "The rover can rotate by 180°, and is then told to turn to the left.",
     that=rotating & (current_action == "CMD_ROTATE_180") & (omega_ref == 1) & (v_ref == 0),
-    covers=["B1-ACT-01"], on=EXECUTED, readings=["S60"],
+    covers=["B1-ACT-01"], on=EXECUTED, interpretations=["S60"],
 )  # fmt: skip
 REACH_SLOW = reachable(
     "REACH1-ROTATION-SLOW", "Near its target the rover turns slowly, to the right too.",
-    that=rotating & (omega_ref == -0.075), covers=["B1-ACT-01"], on=EXECUTED, readings=["S60", "S64"],
+    that=rotating & (omega_ref == -0.075), covers=["B1-ACT-01"], on=EXECUTED, interpretations=["S60", "S64"],
 )  # fmt: skip
 REACH_AT_45 = reachable(
     "REACH1-ROTATION-45", "At 45° the rover turns with 0.225.",
     that=rotating & (angle_err == 45) & (omega_ref == -0.225),
-    covers=["B1-ACT-01"], on=EXECUTED, readings=["S60"],
+    covers=["B1-ACT-01"], on=EXECUTED, interpretations=["S60"],
 )  # fmt: skip
 REACH_FORWARD = reachable(
     "REACH1-INVERTED", "After a rotation a stick pulled back can count as forward.",
-    that=invert_y & (v_user == 1) & (y_norm == -1), covers=["B1-REF-02"], on=EXECUTED, readings=["S59"],
+    that=invert_y & (v_user == 1) & (y_norm == -1), covers=["B1-REF-02"], on=EXECUTED,
+    interpretations=["S59"],
 )  # fmt: skip
 REACH_ESTOP_IN_ROTATION = reachable(
     "REACH1-ESTOP-IGNORED", "A rotation can go on under CMD_ESTOP with the stick pushed forward.",
     that=rotating & previous(rotating & (v_user > 0)) & (cmd == "CMD_ESTOP"),
-    covers=["B1-EST-01"], on=EXECUTED, readings=["S63"],
+    covers=["B1-EST-01"], on=EXECUTED, interpretations=["S63"],
 )  # fmt: skip
 
 N, SL, SR, EL, ER, R, F, M = (
@@ -298,7 +301,9 @@ REACH_M_N = _move("REST-NORMAL", "The stop is released.", M, N)
 def _press(id: str, text: str, source: str, target: str, why: Expr) -> Property:
     """A companion: one transition of the toggle can be taken."""
     that = previous(toggle.active(source)) & toggle.active(target) & why
-    return reachable(f"REACH1-{id}", text, that=that, covers=["B1-REF-02"], on=TOGGLE, readings=["S59"])
+    return reachable(
+        f"REACH1-{id}", text, that=that, covers=["B1-REF-02"], on=TOGGLE, interpretations=["S59"]
+    )
 
 
 START = "Combo_starting_point"

@@ -9,11 +9,11 @@ from rovercheck.properties.areas.manoeuvres import ACTIONS, DEGRADED, OK, during
 from rovercheck.properties.areas.motion import at_rest, braking, normal, rotating, stopped
 from rovercheck.properties.areas.references import drives, running
 from rovercheck.properties.forms import Property, always, enters_only_if, holds_after, reachable
+from rovercheck.spec_model.ambiguity import choose
 from rovercheck.spec_model.board1.motion import motion_supervision
 from rovercheck.spec_model.lang.expr import Expr, all_of, const, implies
 from rovercheck.spec_model.lang.time import ticks
 from rovercheck.spec_model.lang.words import absolute, held, maximum, minimum, once, previous
-from rovercheck.spec_model.readings import choose
 from rovercheck.spec_model.signals.board1 import (
     angle_err,
     backward_enabled,
@@ -45,19 +45,19 @@ forward = (y_norm > 0) | (y_norm < 0) & previous(invert_y)
 PB1_40a = always(
     "PB1-40a", "Where a rotation ends in running, a stick pulled back means forward, and no other does.",
     that=implies(drives & previous(rotating) & normal, invert_y == (y_norm < 0)),
-    covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB1_40b = always(
     "PB1-40b", "A stick that is no longer pulled back means what it says.",
     that=implies(drives & (y_norm >= 0), ~invert_y),
-    covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB1_40c = always(
     "PB1-40c", "In backward mode a stick that has changed its meaning and is pulled back moves forward.",
     that=implies(
         during("Normale_marcia") & invert_y & previous(invert_y) & backward_enabled & OK, v_ref == -y_norm
     ),
-    covers=["B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 
 # --- dodging and avoiding ----------------------------------------------------------------------------
@@ -65,7 +65,7 @@ PB1_40c = always(
 PB1_40d = always(
     "PB1-40d", "A manoeuvre begins only for a user who drives forward.",
     that=all_of(*(implies(active(state) & ~previous(active(state)), forward) for state in MANOEUVRES)),
-    covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
+    covers=["B1-ACT-01"], on=ON, from_tick=2, interpretations=["S60"],
 )  # fmt: skip
 PB1_40e = always(
     "PB1-40e", "A user who drives forward in normal running does the manoeuvre of its command at once.",
@@ -73,7 +73,7 @@ PB1_40e = always(
         implies(drives & running & previous(normal) & forward & (cmd == command), active(state))
         for state, command in MANOEUVRES.items()
     )),
-    covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
+    covers=["B1-ACT-01"], on=ON, from_tick=2, interpretations=["S60"],
 )  # fmt: skip
 PB1_40f = always(
     "PB1-40f", "A manoeuvre ends only by CMD_NORMAL or by the stop.",
@@ -81,7 +81,7 @@ PB1_40f = always(
         implies(previous(active(state)) & ~active(state), (cmd == "CMD_NORMAL") & normal | stopped)
         for state in MANOEUVRES
     )),
-    covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S60"],
+    covers=["B1-ACT-01"], on=ON, from_tick=2, interpretations=["S60"],
 )  # fmt: skip
 
 
@@ -91,7 +91,7 @@ def _dodges(id: str, side: str, state: str, omega: Expr) -> Property:
         that=implies(
             during(state) & (y_norm > 0) & OK, (v_ref == minimum(y_norm, 0.8)) & (omega_ref == omega)
         ),
-        covers=["B1-ACT-01", "B1-REF-04"], on=ON, from_tick=2, readings=["S57", "S60"],
+        covers=["B1-ACT-01", "B1-REF-04"], on=ON, from_tick=2, interpretations=["S57", "S60"],
     )  # fmt: skip
 
 
@@ -115,12 +115,12 @@ PB1_40i = always(
             ),
         ),
     ),
-    covers=["B1-ACT-01", "B1-REF-05"], on=ON, from_tick=2, readings=["S57", "S60"],
+    covers=["B1-ACT-01", "B1-REF-05"], on=ON, from_tick=2, interpretations=["S57", "S60"],
 )  # fmt: skip
 PB1_40j = always(
     "PB1-40j", "In normal running the degraded rover turns at half of what the stick says.",
     that=implies(during("Normale_marcia") & DEGRADED, omega_ref == half_x),
-    covers=["B1-REF-05"], on=ON, from_tick=2, readings=["S57", "S59"],
+    covers=["B1-REF-05"], on=ON, from_tick=2, interpretations=["S57", "S59"],
 )  # fmt: skip
 
 # --- the 180° rotation ---------------------------------------------------------------------------------
@@ -131,7 +131,7 @@ PB1_40k = always(
         drives & previous(drives & rotating & previous(rotating)) & (absolute(previous(angle_err)) < 7.5),
         ~rotating,
     ),
-    covers=["B1-ACT-01"], on=ON, from_tick=3, readings=["S60"],
+    covers=["B1-ACT-01"], on=ON, from_tick=3, interpretations=["S60"],
 )  # fmt: skip
 slowing = maximum(absolute(angle_err), 15) * const(Fraction("0.005"), "1/°")
 PB1_40l = always(
@@ -144,18 +144,18 @@ PB1_40l = always(
             implies(angle_err == 0, omega_ref == 0),
         ),
     ),
-    covers=["B1-ACT-01", "B1-REF-04"], on=ON, from_tick=2, readings=["S60", "S64"],
+    covers=["B1-ACT-01", "B1-REF-04"], on=ON, from_tick=2, interpretations=["S60", "S64"],
 )  # fmt: skip
 
 PB1_40q = always(
     "PB1-40q", "Normal running does not go on with a stick pulled back beyond half, outside backward mode.",
     that=~(during("Normale_marcia") & (y_norm < -0.5) & ~backward_enabled),
-    covers=["B1-ACT-01"], on=ON, from_tick=2, readings=["S59", "S60"],
+    covers=["B1-ACT-01"], on=ON, from_tick=2, interpretations=["S59", "S60"],
 )  # fmt: skip
 REACH_NEAR = reachable(
     "REACH1-ROTATION-NEAR", "A rotation can come near its target.",
     that=during("Retromarcia_180") & (absolute(angle_err) < 7.5),
-    covers=["B1-ACT-01"], on=ON, readings=["S60"],
+    covers=["B1-ACT-01"], on=ON, interpretations=["S60"],
 )  # fmt: skip
 
 # --- the stop -----------------------------------------------------------------------------------------
@@ -172,28 +172,28 @@ PB1_40m = always(
     "A stop begins only by CMD_ESTOP to a rover that the user drove forward, not rotating, or by a critical "
     "safety state.",
     that=implies(previous(drives) & stopped & ~previous(stopped), commanded | CRITICAL),
-    covers=["B1-EST-01"], on=ON, from_tick=3, readings=["S61", "S63"],
+    covers=["B1-EST-01"], on=ON, from_tick=3, interpretations=["S61", "S63"],
 )  # fmt: skip
 PB1_40n = always(
     "PB1-40n",
     "A rover at rest runs again in the next step in which Board 1 drives, nothing critical and no CMD_ESTOP.",
     that=implies(previous(at_rest) & drives & ~CRITICAL & (cmd != "CMD_ESTOP"), running & ~stopped),
-    covers=["B1-EST-01", "B1-ACT-01"], on=ON, from_tick=2, readings=["S62"],
+    covers=["B1-EST-01", "B1-ACT-01"], on=ON, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 standing = stopped & (wheels_below_2_5 | ~drives)
 """In the stop with all wheels below 2.5 rpm, which only a step in which Board 1 drives looks at."""
 PB1_40o = enters_only_if(
     "PB1-40o", "The first stop counts as done only after 51 steps of it with all wheels below 2.5 rpm.",
     entering=once(at_rest), only_if=previous(held(standing, for_=50 * ticks)),
-    covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S48", "S62"],
+    covers=["B1-EST-01"], on=ON, from_tick=2, interpretations=["S48", "S62"],
 )  # fmt: skip
 PB1_40p = enters_only_if(
     "PB1-40p", "A stop counts as done only after 50 steps of it with all wheels below 2.5 rpm.",
     entering=at_rest, only_if=previous(held(standing, for_=49 * ticks)),
-    covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S48", "S62"],
+    covers=["B1-EST-01"], on=ON, from_tick=2, interpretations=["S48", "S62"],
 )  # fmt: skip
 PB1_40r = holds_after(
     "PB1-40r", "Braking ends when the rover has stood for more than 1 s, Board 1 driving.",
     premise=drives & previous(drives & braking & wheels_below_2_5), for_=51 * ticks, then=~braking,
-    covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S62"],
+    covers=["B1-EST-01"], on=ON, from_tick=2, interpretations=["S62"],
 )  # fmt: skip

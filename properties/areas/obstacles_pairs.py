@@ -80,7 +80,7 @@ def recently(event: Expr) -> Expr:
 PB2_05c = always(
     "PB2-05c", "A sonar is said to be close at the end of a step if it measures more than 100, up to 300 cm.",
     that=all_of(*(said == in_range(d) for said, d in zip(isClose, SONARS, strict=True))),
-    covers=["B2-OBS-16"], on="obstacles_n", readings=("E01", "E03"),
+    covers=["B2-OBS-16"], on="obstacles_n", interpretations=("E01", "E03"),
 )  # fmt: skip
 
 # --- no signal without its cause -------------------------------------------------------------------
@@ -103,7 +103,7 @@ def within_the_window(id: str, pair: Pair) -> Property:
             f"last 3 s and sonar {pair.name[1]} has one.",
         entering=B2Decision == pair.decision,
         only_if=(recently(cause) & pair.confirming) | another,
-        covers=WINDOW, on=pair.on, readings=("E05", "E14", "E15", "E16"),
+        covers=WINDOW, on=pair.on, interpretations=("E05", "E14", "E15", "E16"),
     )  # fmt: skip
 
 
@@ -120,7 +120,7 @@ def from_an_open_window(id: str, *pairs: Pair) -> Property:
         id, f"Decision {decision} is taken only from a window of 3 s that is open in that step.",
         entering=B2Decision == decision, only_if=any_of(*(p.was_open & p.confirming for p in pairs)),
         covers=("B2-OBS-18", "B2-OBS-20", "B2-OBS-21"), on="obstacles_n_free",
-        readings=("E15", "E16"),
+        interpretations=("E15", "E16"),
     )  # fmt: skip
 
 
@@ -146,7 +146,7 @@ def confirmed(id: str, pair: Pair) -> Property:
             f"leads to decision {pair.decision} in the step of its detection.",
         that=implies(premise, B2Decision == pair.decision),
         covers=("B2-OBS-03", "B2-OBS-18", "B2-OBS-19", "B2-OBS-21"), on=pair.on, from_tick=2,
-        readings=("E05", "E14", "E15", "E20"),
+        interpretations=("E05", "E14", "E15", "E20"),
     )  # fmt: skip
 
 
@@ -166,7 +166,7 @@ def left_sideways(id: str, sonar: int, decision: int) -> Property:
         id, f"Decision {decision} is not taken for an object that S{sonar} lost by its coming nearer "
             "than 100 cm.",
         start=d <= 100, holds=~begins, release=in_range(d),
-        covers=("B2-OBS-02", "B2-OBS-17"), on="obstacles_n", from_tick=2, readings=["E17"],
+        covers=("B2-OBS-02", "B2-OBS-17"), on="obstacles_n", from_tick=2, interpretations=["E17"],
     )  # fmt: skip
 
 

@@ -36,5 +36,5 @@ window_12 = chart.active("timerSonar12.Fall1Detected")
 PB2_23_expiry = reachable(
     "PB2-23-expiry", "A window of 3 s can end without a confirmation.",
     that=previous(window_12) & ~window_12 & ~previous(obj2Detected) & ~obj2Detected,
-    covers=("B2-OBS-18", "B2-OBS-20"), on="obstacles_n_12", readings=["E14"],
+    covers=("B2-OBS-18", "B2-OBS-20"), on="obstacles_n_12", interpretations=["E14"],
 )  # fmt: skip

@@ -32,7 +32,7 @@ near = within(70)
 PB2_40 = always(
     "PB2-40", "In every step the flag stop is up exactly if some sonar measures 70 cm or less.",
     that=stop == near,
-    covers=["B2-OBS-11"], on=ON, readings=("E02", "E27"),
+    covers=["B2-OBS-11"], on=ON, interpretations=("E02", "E27"),
 )  # fmt: skip
 
 
@@ -44,7 +44,7 @@ def _flag(id: str, sonar: int) -> Property:
             "obstacle at 70 cm or less, exactly if it held one then.",
         that=detected == ite(near, previous(detected), previous(in_range(d))),
         covers=("B2-OBS-15", "B2-OBS-16", "B2-OBS-17"), on=ON, from_tick=2,
-        readings=("E01", "E02", "E03", "E17", "E18", "E27"),
+        interpretations=("E01", "E02", "E03", "E17", "E18", "E27"),
     )  # fmt: skip
 
 
@@ -52,7 +52,7 @@ def _only_after_range(id: str, sonar: int) -> Property:
     return precedes(
         id, f"S{sonar} holds a detection only if it has measured an object in range.",
         first=in_range(SONARS[sonar - 1]), then=DETECTED[sonar - 1],
-        covers=["B2-OBS-16"], on=ON, readings=("E01", "E03"),
+        covers=["B2-OBS-16"], on=ON, interpretations=("E01", "E03"),
     )  # fmt: skip
 
 
@@ -67,7 +67,7 @@ def _begins(id: str, pair: Pair) -> Property:
         id, f"A window of pair {pair.name} that was closed is open after a step exactly if S{pair.first} "
             f"lost its object in it and S{pair.name[1]} holds none.",
         that=implies(~previous(pair.open), pair.open == (lost[pair.first - 1] & ~pair.confirming)),
-        covers=("B2-OBS-18", "B2-OBS-19", "B2-OBS-21"), on=ON, readings=("E15", "E17"),
+        covers=("B2-OBS-18", "B2-OBS-19", "B2-OBS-21"), on=ON, interpretations=("E15", "E17"),
     )  # fmt: skip
 
 
@@ -75,7 +75,7 @@ def _confirmed(id: str, pair: Pair) -> Property:
     return always(
         id, f"After no step is the window of pair {pair.name} open while S{pair.name[1]} holds a detection.",
         that=implies(pair.open, ~pair.confirming),
-        covers=("B2-OBS-19", "B2-OBS-21"), on=ON, readings=["E15"],
+        covers=("B2-OBS-19", "B2-OBS-21"), on=ON, interpretations=["E15"],
     )  # fmt: skip
 
 
@@ -84,7 +84,7 @@ def _lasts(id: str, pair: Pair) -> Property:
         id, f"The window of pair {pair.name} closes only after 150 steps, or when S{pair.name[1]} holds a "
             "detection.",
         leaving=pair.open, only_if=previous(held(pair.open, 149 * ticks)) | pair.confirming,
-        covers=("B2-OBS-18", "B2-OBS-20", "B2-OBS-21"), on=ON, readings=("E14", "E15"),
+        covers=("B2-OBS-18", "B2-OBS-20", "B2-OBS-21"), on=ON, interpretations=("E14", "E15"),
     )  # fmt: skip
 
 
@@ -93,7 +93,7 @@ def _expires(id: str, pair: Pair) -> Property:
         id, f"The window of pair {pair.name} is not open in 150 steps running in which S{pair.first} loses "
             "no object.",
         that=held(pair.open & ~lost[pair.first - 1], 149 * ticks),
-        covers=("B2-OBS-18", "B2-OBS-20", "B2-OBS-21"), on=ON, readings=("E14", "E16"),
+        covers=("B2-OBS-18", "B2-OBS-20", "B2-OBS-21"), on=ON, interpretations=("E14", "E16"),
     )  # fmt: skip
 
 
@@ -111,13 +111,13 @@ to_S1, to_S2, to_S3 = (chart.active(f"MoveToS{i}") for i in (1, 2, 3))
 PB2_46 = always(
     "PB2-46", "The chart is in InEmergency exactly if an obstacle was at 70 cm or less one step ago.",
     that=in_emergency == previous(near),
-    covers=("B2-OBS-11", "B2-OBS-12"), on=FREE, from_tick=2, readings=("E02", "E10", "E27"),
+    covers=("B2-OBS-11", "B2-OBS-12"), on=FREE, from_tick=2, interpretations=("E02", "E10", "E27"),
 )  # fmt: skip
 
 PB2_47 = always(
     "PB2-47", "While prevDEG_B1 is true the chart is in Waiting or InEmergency.",
     that=implies(prevDEG_B1, waiting | in_emergency),
-    covers=["B2-OBS-09"], on=FREE, readings=("E05", "E08"),
+    covers=["B2-OBS-09"], on=FREE, interpretations=("E05", "E08"),
 )  # fmt: skip
 
 
@@ -127,7 +127,7 @@ def _goes_on(id: str, state: str, moving: Expr) -> Property:
         id, f"{state} goes on in a step in which turned_45 and prevDEG_B1 are false, unless an obstacle was "
             "at 70 cm or less one step ago.",
         that=implies(previous(moving) & undisturbed, moving),
-        covers=["B2-OBS-09"], on=FREE, from_tick=2, readings=("E06", "E08", "E19"),
+        covers=["B2-OBS-09"], on=FREE, from_tick=2, interpretations=("E06", "E08", "E19"),
     )  # fmt: skip
 
 
@@ -136,7 +136,7 @@ PB2_48_S1, PB2_48_S3 = _goes_on("PB2-48-S1", "MoveToS1", to_S1), _goes_on("PB2-4
 PB2_49_S1 = always(
     "PB2-49-S1", "MoveToS1 ends in the first step after its begin in which turned_45 is true.",
     that=implies(previous(to_S1) & turned_45, ~to_S1),
-    covers=["B2-OBS-09"], on=FREE, from_tick=2, readings=("E06", "E08"),
+    covers=["B2-OBS-09"], on=FREE, from_tick=2, interpretations=("E06", "E08"),
 )  # fmt: skip
 
 # Of decision 4 PB2-09c-right asks the same without the exception, and is violated.
@@ -144,7 +144,7 @@ PB2_49_S3 = always(
     "PB2-49-S3", "MoveToS3 ends in the first step after its begin in which turned_45 is true, unless a "
                  "window of pair 32 is confirmed in that step.",
     that=implies(previous(to_S3) & turned_45 & ~PAIR_32.sends, ~to_S3),
-    covers=["B2-OBS-09"], on=FREE, from_tick=2, readings=("E06", "E08"),
+    covers=["B2-OBS-09"], on=FREE, from_tick=2, interpretations=("E06", "E08"),
 )  # fmt: skip
 
 
@@ -158,7 +158,8 @@ def _at_once(id: str, pair: Pair, moving: Expr) -> Property:
             f"window of pair {pair.name} is closed leads to decision {pair.decision} in the same step, if no "
             "obstacle is or was at 70 cm or less, prevDEG_B1 is false and no earlier pair sends its signal.",
         that=implies(premise, moving & (B2Decision == pair.decision)),
-        covers=("B2-OBS-03", "B2-OBS-19", "B2-OBS-21"), on=FREE, from_tick=2, readings=("E05", "E15", "E20"),
+        covers=("B2-OBS-03", "B2-OBS-19", "B2-OBS-21"), on=FREE, from_tick=2,
+        interpretations=("E05", "E15", "E20"),
     )  # fmt: skip
 
 
@@ -172,5 +173,5 @@ PB2_50 = never(
     "PB2-50", "Decision 3 does not hold in 25 steps running in which no window of pair 21 or 23 is "
               "confirmed.",
     that=held((B2Decision == 3) & ~(PAIR_21.sends | PAIR_23.sends), 24 * ticks),
-    covers=["B2-OBS-08"], on="obstacles_n_straight", readings=["E05"],
+    covers=["B2-OBS-08"], on="obstacles_n_straight", interpretations=["E05"],
 )  # fmt: skip

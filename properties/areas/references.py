@@ -38,30 +38,30 @@ CRITICAL = drives & (rover_safety_state == "SAFETY_CRITICAL")
 PB1_17a = always(
     "PB1-17a", "While Board 1 actuates, a critical cause makes both references zero in the same step.",
     that=implies(critical_cause, zero),
-    covers=["B1-REF-03", "B1-REF-06"], on=ON, from_tick=2, readings=["S48", "S55"],
+    covers=["B1-REF-03", "B1-REF-06"], on=ON, from_tick=2, interpretations=["S48", "S55"],
 )  # fmt: skip
 PB1_17b = always(
     "PB1-17b", "While Board 1 actuates, a critical safety state makes both references zero in the same step.",
     that=implies(CRITICAL, zero),
-    covers=["B1-REF-06"], on=ON, from_tick=2, readings=["S48"],
+    covers=["B1-REF-06"], on=ON, from_tick=2, interpretations=["S48"],
 )  # fmt: skip
 PB1_18a = holds_after(
     "PB1-18a",
     "A critical cause in two successive steps of actuation makes both references zero in the second.",
     premise=critical_cause, for_=1 * tick, then=zero,
-    covers=["B1-REF-06"], on=ON, from_tick=2, readings=["S55"],
+    covers=["B1-REF-06"], on=ON, from_tick=2, interpretations=["S55"],
 )  # fmt: skip
 PB1_18b = holds_after(
     "PB1-18b",
     "A critical cause in three successive steps of actuation makes both references zero in the third.",
     premise=critical_cause, for_=2 * ticks, then=zero,
-    covers=["B1-REF-06"], on=ON, from_tick=2, readings=["S55"],
+    covers=["B1-REF-06"], on=ON, from_tick=2, interpretations=["S55"],
 )  # fmt: skip
 PB1_19 = until(
     "PB1-19",
     "Zero references with a critical cause stay zero until the cause or the actuation of Board 1 ends.",
     start=critical_cause & zero, holds=zero, release=~critical_cause,
-    covers=["B1-REF-06"], on=ON, from_tick=2, readings=["S62"],
+    covers=["B1-REF-06"], on=ON, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 
 # --- limits [seed Fig 20] ------------------------------------------------------------------------
@@ -70,30 +70,30 @@ PB1_20a = always(
     "PB1-20a",
     "While Board 1 actuates, the linear reference is within V_MAX of the safety state of the step.",
     that=implies(drives, absolute(v_ref) <= V_MAX),
-    covers=["B1-REF-04", "B1-REF-05", "B1-REF-06"], on=ON, from_tick=2, readings=["S57"],
+    covers=["B1-REF-04", "B1-REF-05", "B1-REF-06"], on=ON, from_tick=2, interpretations=["S57"],
 )  # fmt: skip
 PB1_20b = always(
     "PB1-20b",
     "While Board 1 actuates, the angular reference is within OMEGA_MAX of the safety state of the step.",
     that=implies(drives, absolute(omega_ref) <= OMEGA_MAX),
-    covers=["B1-REF-04", "B1-REF-05", "B1-REF-06"], on=ON, from_tick=2, readings=["S57"],
+    covers=["B1-REF-04", "B1-REF-05", "B1-REF-06"], on=ON, from_tick=2, interpretations=["S57"],
 )  # fmt: skip
 PB1_20c = always(
     "PB1-20c", "While Board 1 actuates and is degraded, both references are at most 0.5.",
     that=implies(DEGRADED, (absolute(v_ref) <= 0.5) & (absolute(omega_ref) <= 0.5)),
-    covers=["B1-REF-05"], on=ON, from_tick=2, readings=["S57"],
+    covers=["B1-REF-05"], on=ON, from_tick=2, interpretations=["S57"],
 )  # fmt: skip
 PB1_20d = holds_after(
     "PB1-20d", "Degraded in ten successive steps of actuation, both references are at most 0.5 in the last.",
     premise=DEGRADED, for_=9 * ticks, then=(absolute(v_ref) <= 0.5) & (absolute(omega_ref) <= 0.5),
-    covers=["B1-REF-05"], on=ON, from_tick=2, readings=["S57"],
+    covers=["B1-REF-05"], on=ON, from_tick=2, interpretations=["S57"],
 )  # fmt: skip
 PB1_20e = holds_after(
     "PB1-20e",
     "Degraded in two successive steps of actuation under one command, both references are at most 0.5.",
     premise=DEGRADED & (cmd == previous(cmd)), for_=1 * tick,
     then=(absolute(v_ref) <= 0.5) & (absolute(omega_ref) <= 0.5),
-    covers=["B1-REF-05"], on=ON, from_tick=2, readings=["S57"],
+    covers=["B1-REF-05"], on=ON, from_tick=2, interpretations=["S57"],
 )  # fmt: skip
 
 
@@ -125,17 +125,17 @@ as_commanded = (v_ref == y_norm) & (omega_ref == x_norm)
 PB1_21a = always(
     "PB1-21a", "Without anomaly and with CMD_NORMAL for two steps, the references are the user's commands.",
     that=implies(previous(nominal) & nominal, as_commanded),
-    covers=["B1-REF-01", "B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B1-REF-01", "B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB1_21b = always(
     "PB1-21b", "The same for a forward command.",
     that=implies(previous(nominal) & nominal & (y_norm > 0), as_commanded),
-    covers=["B1-REF-01", "B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B1-REF-01", "B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 PB1_21c = always(
     "PB1-21c", "The same in backward mode.",
     that=implies(previous(nominal) & nominal & backward_enabled, as_commanded),
-    covers=["B1-REF-01", "B1-REF-02"], on=ON, from_tick=2, readings=["S59"],
+    covers=["B1-REF-01", "B1-REF-02"], on=ON, from_tick=2, interpretations=["S59"],
 )  # fmt: skip
 
 # --- emergency stop [seed §2.3] --------------------------------------------------------------------
@@ -143,39 +143,39 @@ PB1_21c = always(
 PB1_22 = always(
     "PB1-22", "The emergency stop implies zero references.",
     that=implies(actuate_emergency_stop, zero),
-    covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S62"],
+    covers=["B1-EST-01"], on=ON, from_tick=2, interpretations=["S62"],
 )  # fmt: skip
 stop_commanded = named("CMD_ESTOP while Board 1 actuates", drives & (cmd == "CMD_ESTOP"))
 PB1_23a = always(
     "PB1-23a", "While Board 1 actuates, CMD_ESTOP actuates the emergency stop in the same step.",
     that=implies(stop_commanded, actuate_emergency_stop),
-    covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S63", "E11"],
+    covers=["B1-EST-01"], on=ON, from_tick=2, interpretations=["S63", "E11"],
 )  # fmt: skip
 PB1_23b = holds_after(
     "PB1-23b", "CMD_ESTOP in two successive steps of actuation actuates the emergency stop in the second.",
     premise=stop_commanded, for_=1 * tick, then=actuate_emergency_stop,
-    covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S63", "E11"],
+    covers=["B1-EST-01"], on=ON, from_tick=2, interpretations=["S63", "E11"],
 )  # fmt: skip
 PB1_23c = always(
     "PB1-23c", "While Board 1 actuates, CMD_ESTOP with a forward user command stops in the same step.",
     that=implies(stop_commanded & (v_user > 0), actuate_emergency_stop),
-    covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S63", "E11"],
+    covers=["B1-EST-01"], on=ON, from_tick=2, interpretations=["S63", "E11"],
 )  # fmt: skip
 PB1_23d = holds_after(
     "PB1-23d",
     "CMD_ESTOP with a forward user command in two successive steps of actuation stops in the second.",
     premise=stop_commanded & (y_norm > 0), for_=1 * tick, then=actuate_emergency_stop,
-    covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S63", "E11"],
+    covers=["B1-EST-01"], on=ON, from_tick=2, interpretations=["S63", "E11"],
 )  # fmt: skip
 PB1_23e = always(
     "PB1-23e", "CMD_ESTOP to a rover that runs forward since the step before stops it in the same step.",
     that=implies(stop_commanded & previous(drives & running & (v_user > 0)), actuate_emergency_stop),
-    covers=["B1-EST-01"], on=ON, from_tick=2, readings=["S63", "E11"],
+    covers=["B1-EST-01"], on=ON, from_tick=2, interpretations=["S63", "E11"],
 )  # fmt: skip
 PB1_23f = always(
     "PB1-23f", "While Board 1 actuates, CMD_ESTOP makes both references zero in the same step.",
     that=implies(stop_commanded, (v_ref == 0) & (omega_ref == 0)),
-    covers=["B1-EST-01", "B2-OBS-01"], on=ON, from_tick=2, readings=["S63", "E11"],
+    covers=["B1-EST-01", "B2-OBS-01"], on=ON, from_tick=2, interpretations=["S63", "E11"],
 )  # fmt: skip
 
 # --- outputs of a board that does not actuate [seed §2.1] --------------------------------------------
@@ -187,7 +187,7 @@ PB1_34 = always(
                actuate_emergency_stop != previous(actuate_emergency_stop)),
         drives,
     ),
-    covers=["B1-GEN-05"], on=ON, from_tick=2, readings=["S48"],
+    covers=["B1-GEN-05"], on=ON, from_tick=2, interpretations=["S48"],
 )  # fmt: skip
 
 # --- every state can be entered ----------------------------------------------------------------------
@@ -200,20 +200,22 @@ def _can_be_active(state: str, action: str) -> Expr:
 REACH_SCHIVATA_SINISTRA = reachable(
     "REACH-SCHIVATA-SINISTRA", "The rover can dodge to the left.",
     that=_can_be_active("Schivata_a_sinistra", "CMD_GO_LEFT") & (v_ref == 0.8) & (omega_ref == 0.4),
-    covers=["B1-ACT-01", "B1-REF-04"], on=ON, readings=["S60"],
+    covers=["B1-ACT-01", "B1-REF-04"], on=ON, interpretations=["S60"],
 )  # fmt: skip
 REACH_SCHIVATA_DESTRA = reachable(
     "REACH-SCHIVATA-DESTRA", "The rover can dodge to the right, half as fast when degraded.",
     that=_can_be_active("Schivata_a_destra", "CMD_GO_RIGHT") & (v_ref == 0.4) & (omega_ref == -0.2),
-    covers=["B1-ACT-01", "B1-REF-05"], on=ON, readings=["S60"],
+    covers=["B1-ACT-01", "B1-REF-05"], on=ON, interpretations=["S60"],
 )  # fmt: skip
 REACH_EVITA_SINISTRA = reachable(
     "REACH-EVITA-SINISTRA", "The rover can avoid the left.",
-    that=_can_be_active("Evita_sinistra", "CMD_AVOID_LEFT"), covers=["B1-ACT-01"], on=ON, readings=["S60"],
+    that=_can_be_active("Evita_sinistra", "CMD_AVOID_LEFT"), covers=["B1-ACT-01"], on=ON,
+    interpretations=["S60"],
 )  # fmt: skip
 REACH_EVITA_DESTRA = reachable(
     "REACH-EVITA-DESTRA", "The rover can avoid the right.",
-    that=_can_be_active("Evita_destra", "CMD_AVOID_RIGHT"), covers=["B1-ACT-01"], on=ON, readings=["S60"],
+    that=_can_be_active("Evita_destra", "CMD_AVOID_RIGHT"), covers=["B1-ACT-01"], on=ON,
+    interpretations=["S60"],
 )  # fmt: skip
 REACH_MOTORI_FERMI = reachable(
     "REACH-MOTORI-FERMI", "The rover can come to rest after an emergency stop.",
@@ -223,5 +225,5 @@ REACH_MOTORI_FERMI = reachable(
 REACH_RECOVERY = reachable(
     "REACH-RECOVERY", "The emergency stop can be released.",
     that=running & previous(actuate_emergency_stop) & ~actuate_emergency_stop,
-    covers=["B1-EST-01"], on="references_executed", readings=["S62"],
+    covers=["B1-EST-01"], on="references_executed", interpretations=["S62"],
 )  # fmt: skip

@@ -120,7 +120,7 @@ PB2_57b = replace(
         "they stay, at rest at first.",
         BLE.update, (ay_norm, bx_norm, btn1, btn2), ["B2-GEN-03"],
     ),
-    readings=("E28",),
+    interpretations=("E28",),
 )  # fmt: skip
 PB2_57c = _snapshot(
     "c", "A datum of the IMU replaces heading and yaw rate; without one they stay, 0 at first.",

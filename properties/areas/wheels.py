@@ -29,14 +29,14 @@ def _each(
     text: str,
     that: Callable[[str, Expr], Expr],
     covers: str,
-    readings: list[str],
+    interpretations: list[str],
     from_tick: int = 2,
 ) -> Iterator[Property]:
     """The sentence for FL, FR, RL and RR, of a wheel and its lost feedback."""
     for wheel in WHEELS:
         yield always(
             f"{id}-{wheel}", f"Wheel {wheel} {text}", that=that(wheel, has_no_feedback[wheel]),
-            covers=[covers], on=f"wheel_{wheel}", from_tick=from_tick, readings=readings,
+            covers=[covers], on=f"wheel_{wheel}", from_tick=from_tick, interpretations=interpretations,
         )  # fmt: skip
 
 
@@ -89,5 +89,5 @@ REACH_WHEEL_CRIT = reachable(
 REACH_WHEELS_DIFFER = reachable(
     "REACH-WHEELS-DIFFER", "One wheel can be critical while another is not.",
     that=monitor_wheel_FL.active("Wheel_CRIT") & ~monitor_wheel_FR.active("Wheel_CRIT"),
-    covers=["B1-WHL-03"], on="board1", readings=["S33"],
+    covers=["B1-WHL-03"], on="board1", interpretations=["S33"],
 )  # fmt: skip

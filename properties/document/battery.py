@@ -2,9 +2,9 @@
 
 from fractions import Fraction
 
+from rovercheck.spec_model.ambiguity import choose
 from rovercheck.spec_model.lang.expr import const
 from rovercheck.spec_model.lang.words import named
-from rovercheck.spec_model.readings import choose
 from rovercheck.spec_model.signals.board1 import batt_age
 from rovercheck.spec_model.signals.board1 import battery_pct as b
 from rovercheck.spec_model.signals.board1 import temperature_degC as T

@@ -1,8 +1,8 @@
 """Why the rover slows down, stops or changes hands: causes of the safety state, of a switch, of a return."""
 
+from rovercheck.spec_model.ambiguity import choose
 from rovercheck.spec_model.lang.expr import FALSE, any_of
 from rovercheck.spec_model.lang.words import named
-from rovercheck.spec_model.readings import choose
 from rovercheck.spec_model.signals.board1 import b1_critical, b1_degraded, b2_critical, b2_degraded
 from rovercheck.spec_model.signals.board2_supervisor import (
     b1_emergency,

@@ -1,8 +1,8 @@
 """What the sonars measure: an obstacle near enough to stop for, a moving one in range [seed §3.4]."""
 
+from rovercheck.spec_model.ambiguity import choose
 from rovercheck.spec_model.lang.expr import TRUE, Expr, Var, any_of
 from rovercheck.spec_model.lang.words import named
-from rovercheck.spec_model.readings import choose
 from rovercheck.spec_model.signals.board2 import d1, d2, d3
 
 NO_ECHO = 301

@@ -3,9 +3,9 @@
 from collections.abc import Callable
 from fractions import Fraction
 
+from rovercheck.spec_model.ambiguity import choose
 from rovercheck.spec_model.lang.expr import Expr, const, ite
 from rovercheck.spec_model.lang.words import named
-from rovercheck.spec_model.readings import choose
 from rovercheck.spec_model.signals.board1 import temp_age
 from rovercheck.spec_model.signals.board1 import temperature_degC as T
 
@@ -20,9 +20,11 @@ assumed_T = named(
 """Without readings the temperature is assumed to rise by 1 °C/s [seed Table 2]."""
 
 
-def _side(reading: str, limit: Callable[[Expr], Expr]) -> Expr:
+def _side(interpretation: str, limit: Callable[[Expr], Expr]) -> Expr:
     """A limit on the last reading, or on the estimate while readings are absent (S11 hot, S12 cold)."""
-    return choose(reading, {"MEASURED": limit(T), "ESTIMATED": ite(absent, limit(assumed_T), limit(T))})
+    return choose(
+        interpretation, {"MEASURED": limit(T), "ESTIMATED": ite(absent, limit(assumed_T), limit(T))}
+    )
 
 
 def _hot(limit: Callable[[Expr], Expr]) -> Expr:

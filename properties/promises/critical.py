@@ -23,7 +23,7 @@ def _board_1(id: str, text: str, cause: Expr, covers: Sequence[str]) -> Property
         f"P-CRITICAL-{id}", f"{text}, in two successive steps of actuation: zero references in the second.",
         premise=cause & drives_1, for_=1 * tick, then=zero_1,
         covers=[*covers, "B1-REF-03", "B1-REF-06", "B1-REF-07"], on="board1_ms", from_tick=2,
-        readings=["S55"],
+        interpretations=["S55"],
     ))  # fmt: skip
 
 

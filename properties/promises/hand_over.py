@@ -14,14 +14,14 @@ SWITCHED = costly(always(
     "In every step of Board 1 with a last frame or heartbeat of Board 2 over 120 ms old, the motors are "
     "connected to Board 2, whatever happens.",
     that=implies(unheard & runs_1, connected == "Board2"),
-    covers=["B1-REL-02", "B1-RX-03", "B1-SUP-03"], on="rover_ms", from_tick=2, readings=["S43", "S37"],
+    covers=["B1-REL-02", "B1-RX-03", "B1-SUP-03"], on="rover_ms", from_tick=2, interpretations=["S43", "S37"],
 ))  # fmt: skip
 SWITCHED_BACK = costly(holds_after(
     "P-RELAY-SWITCHED-BACK",
     "After 3.02 s of Board 1 in which frames and heartbeats came within 120 ms, the motors are connected to "
     "Board 1, whatever happens.",
     premise=~unheard & runs_1, for_=151 * ticks, then=connected == "Board1",
-    covers=["B1-REL-04"], on="rover_ms", from_tick=2, readings=["S44", "S45"],
+    covers=["B1-REL-04"], on="rover_ms", from_tick=2, interpretations=["S44", "S45"],
 ))  # fmt: skip
 
 

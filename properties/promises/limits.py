@@ -32,7 +32,7 @@ DEGRADED = costly(holds_after(
     "rotation: both references are at most 0.5 in the last.",
     premise=degraded & uncritical & drives_1 & (b1.cmd == "CMD_NORMAL") & ~b1.is_rotating180,
     for_=2 * ticks, then=half_1,
-    covers=["B1-REF-05", "B1-REF-03"], on="board1_ms", from_tick=2, readings=["S57"],
+    covers=["B1-REF-05", "B1-REF-03"], on="board1_ms", from_tick=2, interpretations=["S57"],
 ))  # fmt: skip
 FULL = costly(always(
     "P-LIMITS-FULL", "The references of Board 1 are at most full speed, whatever happens.",
@@ -42,7 +42,7 @@ FULL = costly(always(
 BOARD_2 = costly(always(
     "P-LIMITS-BOARD-2", "The references of Board 2 are at most half of full speed, whatever happens.",
     that=half_2,
-    covers=["B2-ACT-01", "B1-REF-05"], on="board2_ms", readings=["E25"],
+    covers=["B2-ACT-01", "B1-REF-05"], on="board2_ms", interpretations=["E25"],
 ))  # fmt: skip
 MOTORS = costly(always(
     "P-LIMITS-MOTORS", "Board 2 commands at most 80 rpm on each side, whatever happens.",
@@ -52,12 +52,12 @@ MOTORS = costly(always(
 ESTOP_1 = costly(always(
     "P-LIMITS-ESTOP-1", "The emergency stop of Board 1 implies zero references.",
     that=implies(b1.actuate_emergency_stop, zero_1),
-    covers=["B1-EST-01"], on="board1_ms", from_tick=2, readings=["S62"],
+    covers=["B1-EST-01"], on="board1_ms", from_tick=2, interpretations=["S62"],
 ))  # fmt: skip
 ESTOP_2 = costly(always(
     "P-LIMITS-ESTOP-2", "The emergency stop of Board 2 implies zero references.",
     that=implies(motion.actuate_emergency_stop, zero_2),
-    covers=["B1-EST-01", "B2-REF-01"], on="board2_ms", readings=["S62"],
+    covers=["B1-EST-01", "B2-REF-01"], on="board2_ms", interpretations=["S62"],
 ))  # fmt: skip
 
 LIMITS = Promise(

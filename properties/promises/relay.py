@@ -17,31 +17,32 @@ OPENS = costly(always(
     "P-RELAY-OPENS",
     "In every step with a last frame or heartbeat of Board 2 over 120 ms old the relay is open.",
     that=implies(unheard, b1.give_b2_actuation),
-    covers=["B1-REL-02", "B1-RX-03", "B1-SUP-03"], on="board1_ms", from_tick=2, readings=["S43", "S37"],
+    covers=["B1-REL-02", "B1-RX-03", "B1-SUP-03"], on="board1_ms", from_tick=2,
+    interpretations=["S43", "S37"],
 ))  # fmt: skip
 ONLY_THEN = costly(enters_only_if(
     "P-RELAY-ONLY-THEN",
     "The relay opens only in a step with a last frame or heartbeat of Board 2 over 120 ms old.",
     entering=b1.give_b2_actuation, only_if=unheard,
-    covers=["B1-REL-02", "B1-REL-04"], on="board1_ms", from_tick=2, readings=["S43", "S44"],
+    covers=["B1-REL-02", "B1-REL-04"], on="board1_ms", from_tick=2, interpretations=["S43", "S44"],
 ))  # fmt: skip
 CLOSES = costly(leaves_only_if(
     "P-RELAY-CLOSES",
     "The relay closes only after 3.02 s in which frames and heartbeats came within 120 ms.",
     leaving=b1.give_b2_actuation, only_if=held(~unheard, for_=151 * ticks),
-    covers=["B1-REL-04"], on="board1_ms", from_tick=2, readings=["S44", "S45"],
+    covers=["B1-REL-04"], on="board1_ms", from_tick=2, interpretations=["S44", "S45"],
 ))  # fmt: skip
 CLOSED_AGAIN = costly(holds_after(
     "P-RELAY-CLOSED-AGAIN",
     "After 3.02 s in which frames and heartbeats came within 120 ms the relay is closed.",
     premise=~unheard, for_=151 * ticks, then=~b1.give_b2_actuation,
-    covers=["B1-REL-04"], on="board1_ms", from_tick=2, readings=["S44", "S45"],
+    covers=["B1-REL-04"], on="board1_ms", from_tick=2, interpretations=["S44", "S45"],
 ))  # fmt: skip
 ASKED = costly(always(
     "P-RELAY-ASKED",
     "Board 2 is authorised in every step in which the last mask of Board 1 asks to switch.",
     that=implies(asked, b2.autorized_to_send_command),
-    covers=["B2-ACT-01"], on="board2_ms", from_tick=2, readings=["E22"],
+    covers=["B2-ACT-01"], on="board2_ms", from_tick=2, interpretations=["E22"],
 ))  # fmt: skip
 
 RELAY = Promise(

@@ -23,7 +23,7 @@ def _degraded(index: int) -> Expr:
 def _board_1(id: str, text: str, that: Expr, covers: list[str]) -> Property:
     return costly(always(
         f"P-SHOWN-{id}", text, that=that,
-        covers=[*covers, "B1-MASK-01"], on="board1_ms", from_tick=2, readings=["S51"],
+        covers=[*covers, "B1-MASK-01"], on="board1_ms", from_tick=2, interpretations=["S51"],
     ))  # fmt: skip
 
 
@@ -84,7 +84,7 @@ def _silence(id: str, source: Source, index: int, what: str, steps: int) -> Prop
         f"{what}, silent for over {source.limit} ms in {steps + 1} successive steps, is bit {index} of "
         "Board 2's critical mask in one of the last two.",
         premise=silent_ms(source), for_=steps * ticks, then=_critical_2(index),
-        covers=["B2-FLT-01", "B2-FLT-02"], on="board2_ms", from_tick=2, readings=["E29", "E24"],
+        covers=["B2-FLT-01", "B2-FLT-02"], on="board2_ms", from_tick=2, interpretations=["E29", "E24"],
     ))  # fmt: skip
 
 

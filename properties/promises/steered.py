@@ -46,28 +46,28 @@ NEAR = costly(holds_after(
     "P-WEATHER-NEAR-STEERED",
     "With an obstacle at 70 cm for 80 ms, the motors stand, steered at will.",
     premise=near, for_=80 * ms, then=at_rest,
-    covers=covers, on="weather_near_steered", from_tick=2, readings=["E11", "S63"],
+    covers=covers, on="weather_near_steered", from_tick=2, interpretations=["E11", "S63"],
 ))  # fmt: skip
 PUSHED = costly(holds_after(
     "P-WEATHER-NEAR-PUSHED",
     "With an obstacle at 70 cm for 80 ms, the stick forward or at rest meanwhile and no half turn, the "
     "motors stand.",
     premise=near & (motion.ay_norm >= 0) & (motion.bx_norm == 0) & ~half_turn, for_=80 * ms, then=at_rest,
-    covers=covers, on="weather_near_steered", from_tick=2, readings=["S63"],
+    covers=covers, on="weather_near_steered", from_tick=2, interpretations=["S63"],
 ))  # fmt: skip
 FORWARD = costly(holds_after(
     "P-WEATHER-NEAR-FORWARD",
     "With an obstacle at 70 cm for 80 ms, the stick forward meanwhile and no half turn, the motors stand, "
     "however the rover was steered before.",
     premise=near & (motion.ay_norm > 0) & ~half_turn, for_=80 * ms, then=at_rest,
-    covers=covers, on="weather_near_steered", from_tick=2, readings=["S63"],
+    covers=covers, on="weather_near_steered", from_tick=2, interpretations=["S63"],
 ))  # fmt: skip
 CALM = holds_after(
     "P-WEATHER-CALM",
     "With obstacles at 70 cm or less for 100 ms, Board 1 healthy and driving, the motors stand, "
     "whatever stick, buttons and heading do.",
     premise=within(70) & healthy, for_=100 * ms, then=at_rest,
-    covers=covers, on="weather_calm", from_tick=2, readings=["E11", "S63"],
+    covers=covers, on="weather_calm", from_tick=2, interpretations=["E11", "S63"],
 )  # fmt: skip
 NEAR_LINK21 = costly(holds_after(
     "P-WEATHER-NEAR-LINK21",

@@ -20,28 +20,28 @@ NEAR = costly(holds_after(
     "P-STOP-NEAR",
     "An obstacle at 70 cm or less in two successive steps: Board 2 commands CMD_ESTOP in the second.",
     premise=within(70), for_=1 * tick, then=COMMANDED,
-    covers=["B2-OBS-01", "B2-OBS-11"], on="board2_ms", from_tick=2, readings=["E02", "E12"],
+    covers=["B2-OBS-01", "B2-OBS-11"], on="board2_ms", from_tick=2, interpretations=["E02", "E12"],
 ))  # fmt: skip
 DEGRADED = costly(holds_after(
     "P-STOP-DEGRADED",
     "An obstacle at 300 cm or less in two successive steps, a fault of Board 1 received in both: Board 2 "
     "commands CMD_ESTOP in the second.",
     premise=within(300) & ((b2.crit_mask_b1 != 0) | (b2.degr_mask_b1 != 0)), for_=1 * tick, then=COMMANDED,
-    covers=["B2-OBS-04", "B2-OBS-22"], on="board2_ms", from_tick=2, readings=["E09", "E12"],
+    covers=["B2-OBS-04", "B2-OBS-22"], on="board2_ms", from_tick=2, interpretations=["E09", "E12"],
 ))  # fmt: skip
 DEGRADED_BY_2 = costly(holds_after(
     "P-STOP-DEGRADED-BY-2",
     "An obstacle at 300 cm or less in two successive steps, a fault in a mask of Board 2 in both: Board 2 "
     "commands CMD_ESTOP in the second.",
     premise=within(300) & OF_BOARD_2, for_=1 * tick, then=COMMANDED,
-    covers=["B2-OBS-04", "B2-OBS-22"], on="board2_ms", from_tick=2, readings=["E09", "E12"],
+    covers=["B2-OBS-04", "B2-OBS-22"], on="board2_ms", from_tick=2, interpretations=["E09", "E12"],
 ))  # fmt: skip
 WHILE_2_DRIVES = costly(holds_after(
     "P-STOP-WHILE-2-DRIVES",
     "An obstacle at 300 cm or less while Board 2 is authorised, in three successive steps: Board 2 commands "
     "CMD_ESTOP in the last.",
     premise=within(300) & drives_2, for_=2 * ticks, then=COMMANDED,
-    covers=["B2-OBS-04", "B2-OBS-22"], on="board2_ms", from_tick=2, readings=["E09", "E12"],
+    covers=["B2-OBS-04", "B2-OBS-22"], on="board2_ms", from_tick=2, interpretations=["E09", "E12"],
 ))  # fmt: skip
 OBEYED = costly(holds_after(
     "P-STOP-OBEYED",
@@ -49,7 +49,7 @@ OBEYED = costly(holds_after(
     "references in the second.",
     premise=(b1.cmd == "CMD_ESTOP") & (b1.y_norm > 0) & ~b1.is_rotating180 & drives_1, for_=1 * tick,
     then=zero_1,
-    covers=["B1-EST-01", "B2-OBS-01"], on="board1_ms", from_tick=2, readings=["S63", "E11"],
+    covers=["B1-EST-01", "B2-OBS-01"], on="board1_ms", from_tick=2, interpretations=["S63", "E11"],
 ))  # fmt: skip
 
 

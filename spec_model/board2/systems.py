@@ -91,7 +91,7 @@ SCAN = in_order(
 
 
 TURNS = ("MoveToS1", "MoveToS3")
-"""As drawn, these have no timer; where a reading gives them one it stays counted (E08)."""
+"""As drawn, these have no timer; where an interpretation gives them one it stays counted (E08)."""
 
 
 def _counting(*kept: str, name: str, text: str) -> System:

@@ -37,7 +37,7 @@ from rovercheck.spec_model.signals.common import RX_STATUS, SUP_STATUS
 PHASES = "Every task executes in its period of 20 ms (control: 10 ms) at a constant phase nobody knows."
 FREE = (
     "Statuses that nothing in the chain computes are arbitrary in every execution (more runs); contracts "
-    "are proved for the default readings."
+    "are proved for the default interpretations."
 )
 NO_LOSS = "No frame of the chain is lost or corrupted (A02); a frame takes one millisecond."
 

@@ -6,12 +6,12 @@ line is on Board 2 (S47).  The driver keeps the last command, and stops the moto
 300 ms.  Speeds are only told zero or not.  Under B2-ONLY both boards may command it in one step (E22).
 """
 
+from rovercheck.spec_model.ambiguity import under
 from rovercheck.spec_model.lang.action import assign, when
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.domain import boolean, enumeration, integer
 from rovercheck.spec_model.lang.expr import flag, ite, member, var
 from rovercheck.spec_model.lang.words import minimum, named
-from rovercheck.spec_model.readings import under
 from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board2_supervisor as b2
 

@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from rovercheck.spec_model import environment as env1
 from rovercheck.spec_model import environment_board2 as env2
+from rovercheck.spec_model.ambiguity import under
 from rovercheck.spec_model.board1 import SUPERVISOR as SUPERVISOR_1
 from rovercheck.spec_model.board1 import references
 from rovercheck.spec_model.board1.motion import motion_with_free_error
@@ -27,7 +28,6 @@ from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block, Component, Enabled
 from rovercheck.spec_model.lang.expr import Var, all_of, any_of, implies, ite
 from rovercheck.spec_model.lang.system import Assumption, Note, System, in_order
-from rovercheck.spec_model.readings import under
 from rovercheck.spec_model.records import arrival_window
 from rovercheck.spec_model.signals import board1 as b1
 from rovercheck.spec_model.signals import board2 as obstacles

@@ -1,9 +1,9 @@
 """Interpretations: what a chart becomes where a sentence of the document is read in another way.
 
-A chart file holds the figure, under the default of ``readings.toml``.  Each other choice is a change of a
+A chart file holds the figure, under the default of ``ambiguity.toml``.  Each other choice is a change of a
 chart, a function block or a subsystem, in a module of this folder: it says what it replaces there, in the
 words of ``spec_model.lang.change`` and ``spec_model.lang.edit``, as a repair does.  ``woven`` puts all of
-them into a system, each under the condition that its choice is taken; ``readings.fixed`` says which are.
+them into a system, each under the condition that its choice is taken; ``ambiguity.fixed`` says which are.
 
 Changes are applied in the order of their module, from top to bottom, each to what those before it made.
 So a change that brings in a formula comes before those that change what is inside it.
@@ -16,6 +16,7 @@ from dataclasses import dataclass, replace
 from functools import cache, reduce
 from typing import Any
 
+from rovercheck.spec_model.ambiguity import ambiguity, under
 from rovercheck.spec_model.lang.chart import Component, Enabled
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import Expr, Named
@@ -23,7 +24,6 @@ from rovercheck.spec_model.lang.merge import Merge
 from rovercheck.spec_model.lang.place import Place, here
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.walk import variables
-from rovercheck.spec_model.readings import reading, under
 
 Change = Callable[[Any], Component | tuple[Component, ...]]
 """What becomes of a chart or block, or of that and blocks beside it."""
@@ -35,9 +35,9 @@ def _everywhere(system: System) -> bool:
 
 @dataclass(frozen=True, eq=False)
 class Alternative:
-    """What one choice of a reading changes in one part.
+    """What one choice of an interpretation changes in one part.
 
-    reading   its id, with the ``choice`` that is not the default
+    interpretation   its id, with the ``choice`` that is not the default
     text      what changes, in one sentence
     part      the name of the chart or block, or of the condition of a subsystem
     change    what becomes of the part
@@ -45,7 +45,7 @@ class Alternative:
     place     where it is written
     """
 
-    reading: str
+    interpretation: str
     choice: str
     text: str
     part: str
@@ -56,7 +56,7 @@ class Alternative:
     @property
     def condition(self) -> Expr:
         """The choice is taken."""
-        return under(self.reading, self.choice)
+        return under(self.interpretation, self.choice)
 
     def applied(self, part: Component) -> tuple[Component, ...]:
         """The part as drawn, and as changed where the choice is taken.
@@ -66,14 +66,18 @@ class Alternative:
         try:
             made = Merge(self.condition).components(self.change(part), part)
         except ModelError as error:
-            raise ModelError(f"{self.place}: {self.reading}={self.choice} does not fit. {error}") from error
+            raise ModelError(
+                f"{self.place}: {self.interpretation}={self.choice} does not fit. {error}"
+            ) from error
         if made == (part,):
-            raise ModelError(f"{self.place}: {self.reading}={self.choice} changes nothing in {self.part}.")
+            raise ModelError(
+                f"{self.place}: {self.interpretation}={self.choice} changes nothing in {self.part}."
+            )
         return made
 
 
 def alternative(
-    reading: str,
+    interpretation: str,
     choice: str,
     text: str,
     part: str,
@@ -85,7 +89,7 @@ def alternative(
     def change(part: Any) -> Any:
         return reduce(lambda made, one: one(made), changes, part)
 
-    return Alternative(reading, choice, text, part, change, among, here(__name__))
+    return Alternative(interpretation, choice, text, part, change, among, here(__name__))
 
 
 @cache
@@ -98,12 +102,12 @@ def alternatives() -> tuple[Alternative, ...]:
 
 
 def woven(system: System, choices: Mapping[str, str] | None = None) -> System:
-    """The system as drawn, with every alternative under its condition: its readings are left open.
+    """The system as drawn, with every alternative under its condition: its interpretations are left open.
 
     Where all the ``choices`` are defaults the system stays as drawn, which is what fixing them would leave;
     a part that is woven already stays as it is.  Raises ``ModelError`` for an alternative that does not fit.
     """
-    if choices is not None and all(choice == reading(id).default for id, choice in choices.items()):
+    if choices is not None and all(choice == ambiguity(id).default for id, choice in choices.items()):
         return system
     chosen = tuple(one for one in alternatives() if one.among(system))
     return replace(system, components=_woven(system.components, chosen))
@@ -121,7 +125,7 @@ def _woven(
         if isinstance(component, Enabled):
             inside = _woven(component.components, chosen, around | _reads(component))
             component = Enabled(component.by, *inside, name=component.name, place=component.place)
-        own = {one.reading for one in chosen if one.part == name_of(component)}
+        own = {one.interpretation for one in chosen if one.part == name_of(component)}
         if own and own.isdisjoint(around | _reads(component)):
             made += _part(component, chosen)
         else:  # as drawn whatever is read, or woven already

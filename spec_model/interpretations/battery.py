@@ -1,4 +1,4 @@
-"""Battery monitor of Board 1 under other readings (S15 to S24, S26, S65)."""
+"""Battery monitor of Board 1 under other interpretations (S15 to S24, S26, S65)."""
 
 from rovercheck.spec_model.board1.battery import FALL, absent, assumed_b, b, critical_range, stale_below_15
 from rovercheck.spec_model.interpretations import alternative

@@ -1,4 +1,4 @@
-"""What Board 1 makes of its statuses under other readings: masks, relay, safety state, what is computed."""
+"""What Board 1 makes of its statuses under other interpretations: masks, relay, safety, what is computed."""
 
 from rovercheck.spec_model.board1 import computed, safety_computed
 from rovercheck.spec_model.board1.classify import degraded_required, stop_required

@@ -1,4 +1,4 @@
-"""Board 2 beside its obstacle charts under other readings: acquisition, monitors, masks, authorisation."""
+"""Board 2 without its obstacle charts under other interpretations: acquisition, monitors, masks."""
 
 from collections.abc import Callable
 from dataclasses import replace

@@ -1,5 +1,6 @@
-"""How the obstacle chart knows that the rover has turned, under other readings (E06, E07)."""
+"""How the obstacle chart knows that the rover has turned, under other interpretations (E06, E07)."""
 
+from rovercheck.spec_model.ambiguity import under
 from rovercheck.spec_model.board2.heading import angleCalculator, either_way, turned_45
 from rovercheck.spec_model.interpretations import Alternative, Change, alternative
 from rovercheck.spec_model.lang.action import Action, assign, when
@@ -9,7 +10,6 @@ from rovercheck.spec_model.lang.domain import Num, fixed
 from rovercheck.spec_model.lang.expr import Var, var
 from rovercheck.spec_model.lang.system import System
 from rovercheck.spec_model.lang.words import absolute, maximum, minimum, named, wrap
-from rovercheck.spec_model.readings import under
 from rovercheck.spec_model.signals.board2 import B2Decision, objDetected
 
 CHART = "Obstacles"

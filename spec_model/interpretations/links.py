@@ -1,4 +1,4 @@
-"""Link monitors of Board 1 under other readings: reception and heartbeat (S37 to S39, S41, S65)."""
+"""Link monitors of Board 1 under other interpretations: reception and heartbeat (S37 to S39, S41, S65)."""
 
 from rovercheck.spec_model.interpretations import Alternative, Change, alternative
 from rovercheck.spec_model.lang.change import ENTERED, formula, guard, guard_of

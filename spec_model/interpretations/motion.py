@@ -1,4 +1,4 @@
-"""Motion supervision of Board 1 under other readings: references and emergency stop (S57, S59 to S63)."""
+"""Motion supervision of Board 1 under other interpretations: references, emergency stop (S57, S59 to S63)."""
 
 from dataclasses import replace
 

@@ -1,4 +1,4 @@
-"""Obstacle chart of Board 2, non-degraded state, under other readings (E01 to E03, E05, E08, E10, E14 to E20,
+"""Obstacle chart of Board 2, other interpretations (E01 to E03, E05, E08, E10, E14 to E20,
 E27, E31).
 
 Where the document gives a choice no words, the choice here is a modelling choice, and its text says which.

@@ -1,4 +1,4 @@
-"""Which obstacle chart decides, and the command, under other readings (E04, E05, E09, E31, E32)."""
+"""Which obstacle chart decides, and the command, under other interpretations (E04, E05, E09, E31, E32)."""
 
 from collections.abc import Callable
 

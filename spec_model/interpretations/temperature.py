@@ -1,4 +1,4 @@
-"""Temperature monitor of Board 1 under other readings (S01 to S14, S65)."""
+"""Temperature monitor of Board 1 under other interpretations (S01 to S14, S65)."""
 
 from collections.abc import Callable
 from dataclasses import replace

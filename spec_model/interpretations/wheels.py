@@ -1,4 +1,4 @@
-"""Wheel monitors of Board 1 under other readings (S27 to S32, S65)."""
+"""Wheel monitors of Board 1 under other interpretations (S27 to S32, S65)."""
 
 from rovercheck.spec_model.interpretations import Alternative, alternative
 from rovercheck.spec_model.interpretations.links import FRAME_AGES

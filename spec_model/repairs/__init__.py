@@ -1,7 +1,7 @@
 """Proposed repairs: variants of charts in which a property holds that fails on the chart as specified.
 
 A repair lies in a file of its own beside the specified charts, which it does not change: it names the
-findings it repairs, the charts or function blocks it edits and how, or the readings it takes.
+findings it repairs, the charts or function blocks it edits and how, or the interpretations it takes.
 ``repaired`` applies it to systems, ``in_force`` makes one of several.  Whatever lies in this folder
 is found.
 """
@@ -33,7 +33,7 @@ class Repair:
     fixes      ids of properties that fail as specified and hold with the repair
     charts     how each chart changes, by its name
     blocks     how each function block changes, by its name
-    readings   readings it takes instead of the default
+    interpretations   interpretations it takes instead of the default
     gives_up   ids of properties that no longer hold, each with the reason
     """
 
@@ -42,7 +42,7 @@ class Repair:
     fixes: tuple[str, ...]
     charts: Mapping[str, Callable[[Chart], Chart]] = field(default_factory=dict)
     blocks: Mapping[str, Callable[[Block], Block]] = field(default_factory=dict)
-    readings: Mapping[str, str] = field(default_factory=dict)
+    interpretations: Mapping[str, str] = field(default_factory=dict)
     gives_up: Mapping[str, str] = field(default_factory=dict)
 
 
@@ -63,9 +63,9 @@ def repairs() -> dict[str, Repair]:
 def in_force(chosen: Iterable[Repair], name: str = ALL) -> Repair:
     """One repair of several: their edits in the order given.
 
-    Repairs that take another reading are left out: of the readings of one sentence only one can hold.
+    Repairs that take another interpretation are left out: of those of one sentence only one can hold.
     """
-    edits = [one for one in chosen if not one.readings]
+    edits = [one for one in chosen if not one.interpretations]
     fixes = dict.fromkeys(id for one in edits for id in one.fixes)
     given_up = {id: why for one in edits for id, why in one.gives_up.items() if id not in fixes}
     return Repair(

@@ -6,5 +6,5 @@ absent_degrades = Repair(
     name="battery-absent-degrades",
     text="Half a second without a reading makes the battery at least degraded (S26).",
     fixes=("PB1-33g",),
-    readings={"S26": "TABLE1"},
+    interpretations={"S26": "TABLE1"},
 )

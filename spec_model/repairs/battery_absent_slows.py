@@ -7,6 +7,6 @@ absent_slows = Repair(
     text="battery-absent-degrades and safety-critical-first together (S26).",
     fixes=("P-WEATHER-BATTERY",),
     charts=safety_critical_first.critical_first.charts,
-    readings=battery_absent_degrades.absent_degrades.readings,
+    interpretations=battery_absent_degrades.absent_degrades.interpretations,
     gives_up=safety_critical_first.critical_first.gives_up,
 )

@@ -6,5 +6,5 @@ bounded = Repair(
     name="deviation-bounded",
     text="MoveToS1 and MoveToS3 are left after 10 s, turned or not (E08).",
     fixes=("PB2-09b",),
-    readings={"E08": "BOUNDED"},
+    interpretations={"E08": "BOUNDED"},
 )

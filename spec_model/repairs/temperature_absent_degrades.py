@@ -6,5 +6,5 @@ absent_degrades = Repair(
     name="temperature-absent-degrades",
     text="Half a second without a reading makes the temperature at least degraded (S13).",
     fixes=("PB1-33b",),
-    readings={"S13": "TABLE1-DEG"},
+    interpretations={"S13": "TABLE1-DEG"},
 )

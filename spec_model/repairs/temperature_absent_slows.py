@@ -7,6 +7,6 @@ absent_slows = Repair(
     text="temperature-absent-degrades and safety-critical-first together (S13).",
     fixes=("P-WEATHER-TEMPERATURE",),
     charts=safety_critical_first.critical_first.charts,
-    readings=temperature_absent_degrades.absent_degrades.readings,
+    interpretations=temperature_absent_degrades.absent_degrades.interpretations,
     gives_up=safety_critical_first.critical_first.gives_up,
 )

@@ -6,6 +6,6 @@ absent_stops = Repair(
     name="temperature-absent-stops",
     text="Half a second without a reading makes the temperature critical (S13).",
     fixes=("PB1-33b", "PB1-33c"),
-    readings={"S13": "TABLE1-CRIT"},
+    interpretations={"S13": "TABLE1-CRIT"},
     gives_up={"PB1-03": "It allows a critical temperature for the causes of Table 2 only, without absence."},
 )

@@ -7,5 +7,5 @@ by_feedback = Repair(
     name="wheel-by-feedback",
     text="A wheel with feedback and inconsistent motion, which no row of Table 2 covers, is OK (S27).",
     fixes=tuple(f"PB1-30c-{wheel}" for wheel in WHEELS),
-    readings={"S27": "OK"},
+    interpretations={"S27": "OK"},
 )

@@ -1,9 +1,9 @@
 """Signals of the obstacle logic of Board 2: what the sonars measure, what the charts keep and decide."""
 
+from rovercheck.spec_model.ambiguity import choose
 from rovercheck.spec_model.lang.domain import chosen, integer
 from rovercheck.spec_model.lang.expr import Expr, Var, any_of, flag, var
 from rovercheck.spec_model.lang.words import named
-from rovercheck.spec_model.readings import choose
 from rovercheck.spec_model.signals.common import COMMAND, USER_X
 
 # Both sides of every limit the charts compare with: 70, 100 and 300 cm; 301 is "no echo" (E13).

@@ -137,15 +137,17 @@ def test_what_is_folded_away_never_changes(system: TransitionSystem) -> None:
 
 
 def test_an_input_that_the_assumption_settles_is_folded_away() -> None:
-    stops, reading, mode = flag("stops"), var("reading", integer(0, 9)), var("mode", integer(0, 3))
+    stops, interpretation, mode = flag("stops"), var("reading", integer(0, 9)), var("mode", integer(0, 3))
     runs, level, goal = var("runs", boolean, True), var("level", integer(0, 9)), flag("goal")
     steps = (
         Assign(runs, runs & ~stops),
-        Assign(level, reading),
+        Assign(level, interpretation),
         Assign(goal, ~runs | (level == 4) | (mode > 2)),
     )
-    assumed = ~stops & (reading == 5) & (mode != 0)
-    system = TransitionSystem("settled", (stops, reading, mode), (), (runs, level, goal), (), steps, assumed)
+    assumed = ~stops & (interpretation == 5) & (mode != 0)
+    system = TransitionSystem(
+        "settled", (stops, interpretation, mode), (), (runs, level, goal), (), steps, assumed
+    )
     whole = transition(system)
     assert settled(whole) == {"stops": 0, "reading": 5}
     assert constants(whole) == {"runs": 1}

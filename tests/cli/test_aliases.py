@@ -15,6 +15,10 @@ def test_an_alias_leads_to_a_word_that_exists(old: str) -> None:
     verb, *rest = ALIASES[old].split()
     command = app.commands[verb]
     assert not {old, old.partition(" ")[0]} - {verb} & app.commands.keys()
+    if rest and not rest[0].startswith("-"):
+        [first, *_] = (p for p in command.params if isinstance(p, click.Argument))
+        assert isinstance(first.type, click.Choice) and rest[0] in first.type.choices
+        return
     for option, *values in [rest] if rest else []:
         [found] = [p for p in command.params if option in p.opts]
         if values:
@@ -26,6 +30,7 @@ def test_an_alias_leads_to_a_word_that_exists(old: str) -> None:
     [
         ("conform --help", "check-log --help", "conform is now check-log."),
         ("trace --arrow=X", "trace --transition=X", "trace --arrow is now trace --transition."),
+        ("list readings --json", "list interpretations --json", "list readings is now list interpretations."),
         ("trace -- --arrow", "trace -- --arrow", ""),
         ("trace --by=arrows", "trace --by=transitions", "trace --by arrows is now trace --by transitions."),
         ("trace --by reason", "trace --by reason", ""),

@@ -136,10 +136,10 @@ def test_where_nothing_can_be_written(made: Path, tmp_path: Path) -> None:
 
 
 def test_a_proof_under_another_reading_is_derived_under_it(tmp_path: Path) -> None:
-    path = written(tmp_path, *WHEEL, readings={"S27": "OK"})
-    assert read(path).origin.readings == {"S27": "OK"}
+    path = written(tmp_path, *WHEEL, interpretations={"S27": "OK"})
+    assert read(path).origin.interpretations == {"S27": "OK"}
     assert certify([path], SOLVER, None, False) is Exit.AS_EXPECTED
-    otherwise = changed(path, tmp_path, lambda document: document["origin"].update(readings={}))
+    otherwise = changed(path, tmp_path, lambda document: document["origin"].update(interpretations={}))
     assert certify([otherwise], SOLVER, None, False) is Exit.FAILED
 
 

@@ -63,7 +63,7 @@ def test_an_origin_that_does_not_exist_is_rejected(
         lambda d: d["origin"].update(system="nowhere"),
         lambda d: d["origin"].update(system="relay"),
         lambda d: d["origin"].update(repair="none"),
-        lambda d: d["origin"].update(readings={"S0": "x"}),
+        lambda d: d["origin"].update(interpretations={"S0": "x"}),
         lambda d: d["origin"].update(timers="none"),
         lambda d: d["origin"].update(properties=["PX-1"], proved=["PX-1"]),
     ]
@@ -73,8 +73,8 @@ def test_an_origin_that_does_not_exist_is_rejected(
 
 
 def test_what_was_proved_is_said(made: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A verdict about other readings is not one about the charts as specified."""
-    path = written(tmp_path, *WHEEL, readings={"S27": "OK"})
+    """A verdict about other interpretations is not one about the charts as specified."""
+    path = written(tmp_path, *WHEEL, interpretations={"S27": "OK"})
     assert certify([path, counters(made)], SOLVER, None, False) is Exit.AS_EXPECTED
     said = capsys.readouterr().out
     assert "accepted  proved of wheel_FR under S27=OK: 4 obligations" in said

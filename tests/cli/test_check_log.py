@@ -56,14 +56,14 @@ def test_json(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_another_reading_explains_another_log(capsys: pytest.CaptureFixture[str]) -> None:
     good = str(EXAMPLES / "good.csv")
-    assert check_log(good, "--reading", "S43=AND") is Exit.FAILED
+    assert check_log(good, "--interpret", "S43=AND") is Exit.FAILED
     printed = capsys.readouterr().out
     assert (
         "under S43=AND" in printed
         and "1 distinct deviation" in printed
         and "Relay: in B1_actuating" in printed
     )
-    assert check_log(good, "--reading", "S43=OR", "--json") is Exit.AS_EXPECTED
+    assert check_log(good, "--interpret", "S43=OR", "--json") is Exit.AS_EXPECTED
     assert json.loads(capsys.readouterr().out)["charts"] == "under S43=OR"
 
 
@@ -83,9 +83,9 @@ def test_a_repair_is_compared_with_and_its_promises_are_expected(
 @pytest.mark.parametrize(
     ("option", "value", "says"),
     [
-        ("--reading", "S43=any", "leaves the sentence open"),
-        ("--reading", "S43=NAND", "has no choice 'NAND'"),
-        ("--reading", "S34=PARTIAL", "at the default readings only"),
+        ("--interpret", "S43=any", "leaves the sentence open"),
+        ("--interpret", "S43=NAND", "has no choice 'NAND'"),
+        ("--interpret", "S34=PARTIAL", "at the default interpretations only"),
         ("--repair", "relay-with-delay", "Did you mean 'relay-without-delay'"),
     ],
 )

@@ -206,7 +206,7 @@ def test_names_of_files_are_printed_as_they_are(
         ["check-log", "NAME"],
         ["check-log", "LOG", "--map", "NAME"],
         ["check-log", "LOG", "--system", "NAME"],
-        ["check-log", "LOG", "--reading", "NAME"],
+        ["check-log", "LOG", "--interpret", "NAME"],
         ["compare", "--impl", "NAME"],
         ["compare", "--system", "board1", "--impl", "command:NAME"],
         ["check", "NAME"],

@@ -169,7 +169,7 @@ def test_other_charts_require_something_else(capsys: pytest.CaptureFixture[str],
     assert "charts under S45=IMMEDIATE with relay-without-delay; 0 random runs" in said
     assert "give_b2_actuation differs" in said
     written = min(tmp_path.glob("crosscheck_board1_*.py"))
-    charts = 'readings={"S45": "IMMEDIATE"}, repair="relay-without-delay")'
+    charts = 'interpretations={"S45": "IMMEDIATE"}, repair="relay-without-delay")'
     assert charts in written.read_text(encoding="utf-8")
     assert pytest.main(["-q", "-p", "no:cacheprovider", str(written)]) is pytest.ExitCode.TESTS_FAILED
 
@@ -177,7 +177,7 @@ def test_other_charts_require_something_else(capsys: pytest.CaptureFixture[str],
 @pytest.mark.parametrize(
     ("arguments", "says"),
     [
-        (["--reading", "S43=any"], "leaves the sentence open"),
+        (["--interpret", "S43=any"], "leaves the sentence open"),
         (["--repair", "relay-with-delay"], "relay-without-delay"),
         (["--system", "board3"], "No board 'board3'"),
         (["--impl", "python:a:B"], "write --system"),

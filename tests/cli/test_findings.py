@@ -116,7 +116,11 @@ def test_the_promises_of_the_rover_come_first() -> None:
 
 @pytest.mark.parametrize(
     ("arguments", "same"),
-    [([], ["--model", LIFT]), (["PB1-15"], []), (["PB1-15", "--system", "relay"], ["--reading", "S43=AND"])],
+    [
+        ([], ["--model", LIFT]),
+        (["PB1-15"], []),
+        (["PB1-15", "--system", "relay"], ["--interpret", "S43=AND"]),
+    ],
 )
 def test_the_commands_that_show_more_can_be_typed(
     arguments: list[str],

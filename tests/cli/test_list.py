@@ -14,7 +14,7 @@ from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.engines import engines
 from rovercheck.properties.catalogue import catalogue
 from rovercheck.properties.requirements import requirements
-from rovercheck.spec_model.readings import readings
+from rovercheck.spec_model.ambiguity import ambiguities
 from rovercheck.spec_model.repairs import proposals
 from rovercheck.spec_model.rover import systems
 from tests.model_files.files import START
@@ -37,7 +37,7 @@ ALL = [
     ("properties", catalogue()),
     ("systems", systems()),
     ("requirements", requirements()),
-    ("readings", readings()),
+    ("interpretations", ambiguities()),
     ("repairs", proposals()),
     ("engines", (*engines(), "auto", "all")),
     ("charts", {chart.name for system in systems().values() for chart in system.charts}),

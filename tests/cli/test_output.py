@@ -20,8 +20,8 @@ COMMANDS = [["check", "PB1-11"], ["check", "PB1-11", "--json"], ["list", "proper
 @pytest.fixture
 def unread() -> Iterator[int]:
     """A pipe that nobody reads."""
-    reading, writing = os.pipe()
-    os.close(reading)
+    interpretation, writing = os.pipe()
+    os.close(interpretation)
     yield writing
     os.close(writing)
 

@@ -141,7 +141,7 @@ def test_runs_of_others_stay(hall: Path, capsys: pytest.CaptureFixture[str]) -> 
         (["--strict", "--no-premises"], "--no-premises leaves out what --strict needs"),
         (["--record-premises", "--no-premises"], "--no-premises leaves out what --record-premises needs"),
         (
-            ["--record-premises", "--reading", "S43=AND"],
+            ["--record-premises", "--interpret", "S43=AND"],
             "--record-premises keeps runs of the charts as they are",
         ),
     ],

@@ -127,6 +127,6 @@ def test_a_file_with_something_else_is_told(
 
 
 def test_charts_that_are_changed_leave_no_record(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["check", "PB1-11", "--record-invariants", "--reading", "S43=AND"]) == Exit.USAGE
+    assert run(["check", "PB1-11", "--record-invariants", "--interpret", "S43=AND"]) == Exit.USAGE
     said = " ".join(capsys.readouterr().err.split())
     assert "--record-invariants keeps invariants of the charts as they are" in said

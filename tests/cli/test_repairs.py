@@ -59,7 +59,7 @@ def test_the_pages_show_the_changed_transitions_and_the_picture_of_the_repaired_
 def test_the_page_of_promises_says_what_holds_with_each_repair() -> None:
     """Decided now, or as expected, which ``check --repair NAME`` decides again."""
     repair = repairs()["relay-without-delay"]
-    variant = Variant(repair.readings, repair)
+    variant = Variant(repair.interpretations, repair)
     decided = results([variant.properties()["PB1-15"]], variant.systems())
     text = page([], [Proof(repair, tuple(decided))])
     rows = [row.split(" | ") for row in text.splitlines() if row.startswith("| [")]

@@ -90,11 +90,22 @@ def test_the_page_shows_how_it_was_made_but_no_place_and_no_time(made: tuple[Exi
 
 
 def test_the_command_holds_what_differs_from_the_defaults() -> None:
-    line = ["B-1", "-o", "x.html", "--reading", "S43=AND", "--reading", "S44=any", "--timeout", "5", "--full"]
+    line = [
+        "B-1",
+        "-o",
+        "x.html",
+        "--interpret",
+        "S43=AND",
+        "--interpret",
+        "S44=any",
+        "--timeout",
+        "5",
+        "--full",
+    ]
     with verb.make_context("report", line) as context:
         shown = command(context)
     assert shown == (
-        "rovercheck report B-1 --output FILE --full --reading S43=AND --reading S44=any --timeout 5.0"
+        "rovercheck report B-1 --output FILE --full --interpret S43=AND --interpret S44=any --timeout 5.0"
     )
 
 

@@ -140,7 +140,7 @@ def test_what_a_property_does_not_depend_on_is_shown_by_exits_that_can(tmp_path:
 def test_a_file_says_how_its_run_was_asked_for(named: tuple[str | None, ...], again: str) -> None:
     wanted = trace_request(pick_variant(["S43=AND"], None, []), *named)
     [finding] = of_trace(wanted.drawn(first())).findings
-    assert finding.shown_with == f"{again} --reading S43=AND"
+    assert finding.shown_with == f"{again} --interpret S43=AND"
 
 
 def test_an_example_is_written_nowhere() -> None:

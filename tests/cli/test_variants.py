@@ -1,4 +1,4 @@
-"""Other readings, repairs and dropped assumptions on the command line."""
+"""Other interpretations, repairs and dropped assumptions on the command line."""
 
 import json
 
@@ -8,10 +8,10 @@ from rovercheck.checker.cli import run
 from rovercheck.checker.commands.shared.codes import Exit
 
 WRONG = [
-    (["check", "PB1-11", "--reading", "S43=XOR"], "S43 has no choice 'XOR'. Did you mean 'OR'"),
-    (["check", "PB1-11", "--reading", "S43"], "'S43' names no choice; write S43= and one of OR, AND, any."),
-    (["check", "PB1-11", "--reading", "S99=AND"], "There is no reading 'S99'. Did you mean"),
-    (["check", "--reading", "S25=VOLT"], "S25=VOLT is not modelled"),
+    (["check", "PB1-11", "--interpret", "S43=XOR"], "S43 has no choice 'XOR'. Did you mean 'OR'"),
+    (["check", "PB1-11", "--interpret", "S43"], "'S43' names no choice; write S43= and one of OR, AND, any."),
+    (["check", "PB1-11", "--interpret", "S99=AND"], "There is no reading 'S99'. Did you mean"),
+    (["check", "--interpret", "S25=VOLT"], "S25=VOLT is not modelled"),
     (["check", "--repair", "safety-first"], "There is no repair 'safety-first'. Did you mean"),
     (["check", "--without", "A99"], "There is no assumption 'A99'."),
 ]
@@ -26,21 +26,21 @@ def test_a_slip_gets_one_message(
 
 
 def test_another_reading_changes_a_verdict_and_says_so(capfd: pytest.CaptureFixture[str]) -> None:
-    assert run(["check", "PB1-11", "--reading", "S43=AND"]) == Exit.FAILED
+    assert run(["check", "PB1-11", "--interpret", "S43=AND"]) == Exit.FAILED
     shown = " ".join(capfd.readouterr().out.split())
     assert "PB1-11 violated" in shown
     assert "under S43=AND; as specified it is proved" in shown
 
 
 def test_a_verdict_can_hold_for_every_choice_of_a_reading(capfd: pytest.CaptureFixture[str]) -> None:
-    assert run(["check", "PB1-12", "--reading", "S43=any"]) == Exit.AS_EXPECTED
+    assert run(["check", "PB1-12", "--interpret", "S43=any"]) == Exit.AS_EXPECTED
     assert "PB1-12" in capfd.readouterr().out
 
 
 def test_what_is_violated_by_default_may_hold_under_another_reading(
     capfd: pytest.CaptureFixture[str],
 ) -> None:
-    assert run(["check", "PB1-15", "--reading", "S45=IMMEDIATE", "--json"]) == Exit.AS_EXPECTED
+    assert run(["check", "PB1-15", "--interpret", "S45=IMMEDIATE", "--json"]) == Exit.AS_EXPECTED
     found = json.loads(capfd.readouterr().out)
     assert found["variant"] == "under S45=IMMEDIATE"
     assert [row["verdict"] for row in found["results"]] == ["proved"]
@@ -53,7 +53,7 @@ def test_a_repair_is_checked_against_what_it_promises(capfd: pytest.CaptureFixtu
 
 def test_the_lists_explain_readings_repairs_and_assumptions(capfd: pytest.CaptureFixture[str]) -> None:
     for what, word in (
-        ("readings", "STRICT-OK-KEPT"),
+        ("interpretations", "STRICT-OK-KEPT"),
         ("repairs", "safety-critical-first"),
         ("assumptions", "A02"),
     ):

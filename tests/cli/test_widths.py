@@ -56,8 +56,8 @@ def test_a_piece_that_is_copied_whole_has_its_own_line_before_it_is_cut() -> Non
     assert plain(fitted(text, 30)) == f"It is an input of oven:\n{command}\nor nothing."
     assert fitted(text, 200) == text
     assert plain(filled(text, 62)) == f"It is an input of oven: {command}\nor nothing."
-    assert plain(fitted("Of all, `rovercheck list readings` names some.", 24)) == (
-        "Of all,\n`rovercheck list readings`\nnames some."
+    assert plain(fitted("Of all, `rovercheck list interpretations` names some.", 24)) == (
+        "Of all,\n`rovercheck list interpretations`\nnames some."
     )
 
 

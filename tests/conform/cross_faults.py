@@ -96,7 +96,7 @@ class Rounded(Board1):
 
 
 class EstimateFromHalfASecond(Board1):
-    """The battery is assumed to fall from 0.5 s on, instead of from the last reading."""
+    """The battery is assumed to fall from 0.5 s on, instead of from the last interpretation."""
 
     def reset(self) -> None:
         super().reset()

@@ -41,7 +41,7 @@ COMMANDS = {
     "rovercheck compare": CROSSCHECKS,
     "rovercheck compare --system board1 --impl python:mine.py:Board1": CROSSCHECKS,
     "rovercheck compare --system board1 --impl c:supervisor.toml --profile nightly": CROSSCHECKS,
-    "rovercheck compare --system board1 --reading S43=AND": CROSSCHECKS,
+    "rovercheck compare --system board1 --interpret S43=AND": CROSSCHECKS,
     "rovercheck compare --system board1 --impl c:FOLDER": CROSSCHECKS,
     "rovercheck compare --system board1 --impl c:examples/board1_c": CROSSCHECKS,
     f"rovercheck compare --system board1 --impl {FAULTY}": CROSSCHECKS,

@@ -11,7 +11,7 @@ import pytest
 ROOT = Path(__file__).parents[2]
 BY_HAND = {
     "Add or change a chart": "the lift of examples/models is one, and tests/model_files adds charts",
-    "Add a reading": "a sentence of the document has to be ambiguous: tests/model/test_readings.py has all",
+    "Add an interpretation": "an ambiguous sentence: tests/interpretations runs each choice",
     "Change what a board reads or produces": "tests/model/test_abstraction.py",
     "Add a word to the language": "two independent meanings, which tests/lang compares",
     "Add a form of properties": "a monitor and a sentence, which tests/properties compares",
@@ -32,7 +32,7 @@ WARM = always(
 REPAIR = """
 from rovercheck.spec_model.repairs import Repair
 
-at_once = Repair("at-once", "The relay does not wait.", ("PB1-15",), readings={"S45": "IMMEDIATE"})
+at_once = Repair("at-once", "The relay does not wait.", ("PB1-15",), interpretations={"S45": "IMMEDIATE"})
 """
 ENGINE = '''
 """An engine that gives up at once."""

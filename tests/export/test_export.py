@@ -77,7 +77,7 @@ def test_all_properties_of_a_system(tmp_path: Path) -> None:
 
 
 def test_a_variant_is_named_in_the_file(capfd: pytest.CaptureFixture[str]) -> None:
-    assert run(["export", "PB1-15", "--reading", "S43=AND", "--format", "smv"]) == Exit.AS_EXPECTED
+    assert run(["export", "PB1-15", "--interpret", "S43=AND", "--format", "smv"]) == Exit.AS_EXPECTED
     assert "-- variant: under S43=AND" in capfd.readouterr().out
 
 

@@ -74,10 +74,10 @@ def test_blocks_run_in_order_and_read_what_earlier_ones_wrote() -> None:
 
 
 def test_frozen_values_and_inputs_are_part_of_the_valuation() -> None:
-    reading = Var("reading", boolean, 1)
-    loop = State("A", during=[assign(n, maximum(n, 1))], transitions=[to("A", when=reading & a)])
+    interpretation = Var("reading", boolean, 1)
+    loop = State("A", during=[assign(n, maximum(n, 1))], transitions=[to("A", when=interpretation & a)])
     chart = Chart("C", [loop], default="A")
-    interpreter = Interpreter(in_order("S", chart, frozen=[reading]), {"reading": 0})
+    interpreter = Interpreter(in_order("S", chart, frozen=[interpretation]), {"reading": 0})
     assert interpreter.valuation() == {"n": 0, "reading": 0, "C": 0, "C.entered": 0}
     assert interpreter.step({"a": 1})
     assert interpreter.data == {"n": 0, "reading": 0, "a": 1}

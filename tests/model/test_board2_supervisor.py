@@ -9,6 +9,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from rovercheck.spec_model.ambiguity import fixed
 from rovercheck.spec_model.board2 import acquisition, coherence
 from rovercheck.spec_model.board2.monitor_systems import SYSTEMS as MONITORS
 from rovercheck.spec_model.board2.monitors import from_critical
@@ -17,7 +18,6 @@ from rovercheck.spec_model.board2.supervisor_systems import SYSTEMS as OTHERS
 from rovercheck.spec_model.lang.chart import Chart, State
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.system import System, in_order
-from rovercheck.spec_model.readings import fixed
 from rovercheck.spec_model.signals import board2_motion as motion
 from rovercheck.spec_model.signals import board2_supervisor as b2
 from rovercheck.spec_model.signals.board2_supervisor import BLE, IMU, RX, SOURCES, SUP, SourceSignals

@@ -1,7 +1,7 @@
 """What the document demands of the structure: who writes what, which states there are, what a frame holds.
 
 Each test is named after its requirement; reasons in `properties/requirements.toml` rest on them.
-All are about the default readings.
+All are about the default interpretations.
 """
 
 from collections.abc import Iterator

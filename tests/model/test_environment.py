@@ -2,6 +2,7 @@
 
 import pytest
 
+from rovercheck.spec_model.ambiguity import fixed
 from rovercheck.spec_model.environment import (
     battery_readings,
     heartbeat_clock,
@@ -14,7 +15,6 @@ from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.system import in_order
-from rovercheck.spec_model.readings import fixed
 from rovercheck.spec_model.rover import systems
 from rovercheck.spec_model.signals.board1 import (
     batt_age,
@@ -49,12 +49,12 @@ def test_an_age_stops_where_every_estimate_is_past_its_limit(
     slowest: int,
     choices: dict[str, str],
 ) -> None:
-    reading, last = fixed(choices), age.domain.raw(last_ms)
+    interpretation, last = fixed(choices), age.domain.raw(last_ms)
     [chart] = systems(choices)[name].charts
     past = formula_of(chart, estimate)
     assert all(evaluate(past, {value.name: raw, age.name: last}) for raw in value.domain.values)
     assert not evaluate(past, {value.name: value.domain.raw(slowest), age.name: last - 1})
-    board = Interpreter(in_order("board", *reading.components([block])))
+    board = Interpreter(in_order("board", *interpretation.components([block])))
     for _ in range(last + 2):
         board.step({name: 0 for name in board.system.inputs})
     assert board.data[age.name] == last
@@ -75,7 +75,7 @@ def test_before_the_first_update_the_age_counts_from_power_up() -> None:
 def test_a_reading_is_kept_until_the_next() -> None:
     board = Interpreter(in_order("board", *fixed({}).components([temperature_readings])))
     warm, cold = (temperature_degC.domain.raw(t) for t in (57, -6))
-    for update, reading in [(1, warm), (0, cold), (0, cold)]:
-        board.step({"temp_update": update, "temp_reading": reading})
+    for update, interpretation in [(1, warm), (0, cold), (0, cold)]:
+        board.step({"temp_update": update, "temp_reading": interpretation})
     assert board.data["temperature_degC"] == warm
     assert temp_age.domain.show(board.data["temp_age"]) == "40"

@@ -4,12 +4,12 @@ from random import Random
 
 import pytest
 
+from rovercheck.spec_model.ambiguity import fixed
 from rovercheck.spec_model.board2.heading import angleCalculator, headings, measured
 from rovercheck.spec_model.board2.obstacles import obstacles_n
 from rovercheck.spec_model.lang.evaluate import evaluate
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.system import in_order
-from rovercheck.spec_model.readings import fixed
 from rovercheck.spec_model.signals.board2 import B2Decision
 
 yaw, target = headings(15)

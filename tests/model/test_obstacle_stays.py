@@ -4,12 +4,12 @@ from random import Random
 
 import pytest
 
+from rovercheck.spec_model.ambiguity import fixed
 from rovercheck.spec_model.board2.obstacles import WINDOWS, obstacles_n
 from rovercheck.spec_model.lang.evaluate import step
 from rovercheck.spec_model.lang.expiry import free_timers
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import in_order
-from rovercheck.spec_model.readings import fixed
 
 drawn = fixed({}).system(in_order("counted", obstacles_n()))
 counted, free = lower(drawn), lower(free_timers(drawn))

@@ -11,10 +11,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rovercheck.spec_model.ambiguity import fixed
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.system import TICK_MS, in_order
-from rovercheck.spec_model.readings import fixed
 from rovercheck.spec_model.records import arrival_window, slow_record
 from rovercheck.spec_model.signals.board1 import rx_update
 from tests.profiles import examples

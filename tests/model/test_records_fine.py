@@ -8,13 +8,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from rovercheck.spec_model.ambiguity import fixed
 from rovercheck.spec_model.environment_fine import heartbeat_record, reception_any_mean, reception_record
 from rovercheck.spec_model.lang.chart import Block
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.system import TICK_MS, in_order
-from rovercheck.spec_model.readings import fixed
+from tests.interpretations.arrivals import at
 from tests.profiles import examples
-from tests.readings.arrivals import at
 
 intervals = st.lists(
     st.tuples(st.sampled_from([20, 21, 38, 39, 40, 41, 50, 130, 421, *range(1, 20)]), st.integers(1, 12)),

@@ -26,7 +26,7 @@ CHEAP = (
 
 
 def variant(repair: Repair) -> Variant:
-    return Variant(repair.readings, repair)
+    return Variant(repair.interpretations, repair)
 
 
 def test_every_violation_on_record_has_a_repair_or_a_reason_why_none_is_proposed() -> None:
@@ -45,7 +45,9 @@ def test_a_repair_is_about_violations_on_record_and_what_it_gives_up_holds_witho
     assert all(why.endswith(".") for why in repair.gives_up.values())
 
 
-@pytest.mark.parametrize("repair", [r for r in proposals().values() if not r.readings], ids=lambda r: r.name)
+@pytest.mark.parametrize(
+    "repair", [r for r in proposals().values() if not r.interpretations], ids=lambda r: r.name
+)
 def test_a_repair_edits_parts_of_the_rover_and_leaves_their_states(repair: Repair) -> None:
     known = {part.name for system in SPECIFIED.values() for part in parts(system.components)}
     assert {*repair.charts, *repair.blocks} <= known
@@ -59,10 +61,10 @@ def test_a_repair_edits_parts_of_the_rover_and_leaves_their_states(repair: Repai
     assert changed == {*repair.charts, *repair.blocks}
 
 
-@pytest.mark.parametrize("repair", [r for r in EVERY if r.readings], ids=lambda r: r.name)
+@pytest.mark.parametrize("repair", [r for r in EVERY if r.interpretations], ids=lambda r: r.name)
 def test_a_reading_taken_as_a_repair_changes_the_rover(repair: Repair) -> None:
     assert any(map(variant(repair).concerns(), catalogue().values()))
-    read = systems(repair.readings)
+    read = systems(repair.interpretations)
     assert any(
         changes(before, after)
         for name, system in SPECIFIED.items()
@@ -83,9 +85,9 @@ def test_all_repairs_together_are_those_that_edit_charts_in_the_order_of_their_n
     second = Repair(
         "second", "B.", ("Q",), {"Relay": lambda c: begin(c, [to("B2_actuating")])}, gives_up={"P": "C."}
     )
-    other = Repair("other", "D.", ("R",), readings={"S45": "IMMEDIATE"})
+    other = Repair("other", "D.", ("R",), interpretations={"S45": "IMMEDIATE"})
     both = in_force([first, other, second])
-    assert both.name == ALL and both.fixes == ("P", "Q") and not both.readings and not both.gives_up
+    assert both.name == ALL and both.fixes == ("P", "Q") and not both.interpretations and not both.gives_up
     drawn = both.charts["Relay"](charts()["Relay"])
     assert isinstance(drawn, Chart)
     assert [c.place for c in changes(charts()["Relay"], drawn)] == [

@@ -1,4 +1,4 @@
-"""The scenarios that tell the readings of the Board 1 sentences apart, run on the charts as drawn.
+"""The scenarios that tell the interpretations of the Board 1 sentences apart, run on the charts as drawn.
 
 A scenario is a list of blocks: how long (in ms) and what is given meanwhile.  Time 0 is its first
 step; "at" names the step at that time.  Before it the rover runs nominally, long enough for ten
@@ -54,7 +54,7 @@ NO_HEARTBEAT: Given = {"heartbeat_update": False}
 
 
 def stale_temp(celsius: float, ms: int) -> list[Block]:
-    """The last valid reading at 0, then none."""
+    """The last valid interpretation at 0, then none."""
     return [(TICK_MS, temp(celsius)), (ms, NO_TEMP)]
 
 

@@ -1,4 +1,4 @@
-"""The scenarios that tell the readings of the obstacle sentences apart, run on the charts as drawn.
+"""The scenarios that tell the interpretations of the obstacle sentences apart, run on the charts as drawn.
 
 A scenario is a list of blocks: a number of steps, and what the sonars measure meanwhile (301 cm, no
 echo, where nothing is said).  The expected outputs start with step 2: in step 1 the chart is entered.
@@ -8,11 +8,11 @@ from itertools import groupby
 
 import pytest
 
+from rovercheck.spec_model.ambiguity import fixed
 from rovercheck.spec_model.board2.heading import headings, measured
 from rovercheck.spec_model.board2.obstacles import obstacles_n
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.system import System, in_order
-from rovercheck.spec_model.readings import fixed
 from rovercheck.spec_model.rover import systems
 
 Block = tuple[int, dict[str, int]]

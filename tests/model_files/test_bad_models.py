@@ -120,7 +120,7 @@ PATHS = {
 }
 
 OPTIONS = {
-    "--reading S43=AND": "--reading changes the rover's charts, and m.py is a model of your own.",
+    "--interpret S43=AND": "--interpret changes the rover's charts, and m.py is a model of your own.",
     "--repair relay-timer": "--repair changes the rover's charts, and m.py is a model of your own.",
     "--without A1": "There is no assumption 'A1'.",
     "--system heater": "There is no system 'heater'. Did you mean 'Heater'?",

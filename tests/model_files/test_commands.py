@@ -73,7 +73,7 @@ def test_what_a_model_holds_is_listed(capfd: pytest.CaptureFixture[str]) -> None
         assert shown in listed and hidden not in listed
     english = said(capfd, "list", "properties", "HEAT-2", "--english", "--model", str(START))
     assert "one of the next 500 (10000 ms) heating is false" in " ".join(english.split())
-    for name in ("readings", "repairs"):
+    for name in ("interpretations", "repairs"):
         said(capfd, "list", name, "--model", str(START), code=Exit.USAGE)
 
 

@@ -57,7 +57,10 @@ WRONG = {
     "a part of a tick": (responds("3 * ms"), "P-1: within=3 ms is not a whole number of ticks of 20 ms"),
     "a time before": (responds("-3 * sec"), "P-1: within=-3 s is not a whole number of ticks of 20 ms"),
     "a text for a tick": (always(more=', from_tick="2"'), "P-1: from_tick is '2', a text; write a whole"),
-    "one reading": (always(more=', readings="S1"'), "readings='S1' is one text; write readings=['S1']."),
+    "one interpretation": (
+        always(more=', interpretations="S1"'),
+        "interpretations='S1' is one text; write interpretations=['S1'].",
+    ),
     "a number for a requirement": (always(covers="[1]"), "P-1: covers holds 1, a number; write a text"),
     "one formula for several": (
         'P = leads_to("P-1", "t", trigger=on, response=hot, fair=on, covers=["R"], on="Oven")',
@@ -236,7 +239,10 @@ WRONG = {
         "P-1: covers=[] names no requirement; write the ids of some.",
     ),
     "before the first tick": (always(more=", from_tick=0"), "P-1: from_tick=0 is no tick; the first is 1."),
-    "a reading of the rover": (always(more=', readings=["S43"]'), "readings=['S43'] are of the rover only;"),
+    "an interpretation of the rover": (
+        always(more=', interpretations=["S43"]'),
+        "interpretations=['S43'] are of the rover only;",
+    ),
     "steps between ticks": (system("oven, step_ms=30"), "S: step_ms=30 is no multiple of tick_ms=20;"),
     "a chart without a name": ('C = Chart("", [State("A")], default="A")', "'' has an empty name, or a part"),
     "its own charts": (system('oven, concrete="S"'), "S names concrete='S', which leads back to S; name the"),

@@ -25,7 +25,7 @@ ROOT = Path(__file__).parents[2]
 FOLDER = ROOT / "properties"
 STATES_NO_PROPERTY = {"properties/catalogue.py"}
 MODULES = {p.relative_to(ROOT).as_posix() for p in FOLDER.rglob("*.py")} - STATES_NO_PROPERTY
-VOCABULARY = ("rovercheck.spec_model.lang", "rovercheck.spec_model.readings")
+VOCABULARY = ("rovercheck.spec_model.lang", "rovercheck.spec_model.ambiguity")
 
 
 def faults(source: str) -> list[str]:
@@ -140,7 +140,7 @@ def test_what_a_chart_computes_is_refused(source: str) -> None:
         "from rovercheck.spec_model.signals.common import COMMAND",
         "from rovercheck.spec_model.signals.board1 import v_ref, has_no_feedback",
         "from rovercheck.spec_model.signals import board2\nmoving = board2.B2Decision == 2",
-        "from rovercheck.spec_model.lang.words import held\nfrom spec_model.readings import choose",
+        "from rovercheck.spec_model.lang.words import held\nfrom spec_model.ambiguity import choose",
         "from rovercheck.properties.document.distances import within",
     ],
 )

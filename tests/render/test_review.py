@@ -91,7 +91,7 @@ def test_what_is_missing_is_said_or_left_out() -> None:
     bare = replace(
         review((FINE,)),
         demands=(),
-        readings=(),
+        interpretations=(),
         repairs=(),
         charts={},
         assumptions=(),

@@ -5,9 +5,9 @@ from typing import Any
 
 from rovercheck.checker.explore.graphs.construction import made
 from rovercheck.checker.render.review.model import (
-    Ambiguity,
     Covered,
     Edit,
+    InterpretationRow,
     Remedy,
     RequirementRow,
     Review,
@@ -41,7 +41,7 @@ def checked(id: str, verdict: str, **more: Any) -> ReviewedProperty:
 
 BROKEN = checked(
     "T-1", "violated", trace=RUN, because=f"Because of <b>this</b> {EVIL}", requirements=("R-1",),
-    readings=("S1",), cause="T-1", record="violated",
+    interpretations=("S1",), cause="T-1", record="violated",
 )  # fmt: skip
 SAME = checked("T-2", "violated", trace=RUN, because="As T-1.", cause="T-1", no_repair="There is none.")
 CHANGED = checked("T-3", "proved", as_expected=False, record="violated after 3 ticks")
@@ -80,7 +80,10 @@ def review(properties: tuple[ReviewedProperty, ...] = ALL) -> Review:
             RequirementRow("R-1", "First.", "§2", "violated", "", ("T-1", "T-5")),
             RequirementRow("R-2", "Second.", "§3", "proved", "", ("T-5", "T-away")),
         ),
-        readings=(Ambiguity("S1", "Relays", EVIL, "OR", (("OR", "either"), ("AND", EVIL)), EVIL, EVIL),),
+
+        interpretations=(
+            InterpretationRow("S1", "Relays", EVIL, "OR", (("OR", "either"), ("AND", EVIL)), EVIL, EVIL),
+        ),
         assumptions=(ReviewAssumption("A1", EVIL, ("toy",)),),
         repairs=(
             Remedy("mend", EVIL, (Edit("Relay", "transitions", ("[a < b]",), (EVIL,)),),

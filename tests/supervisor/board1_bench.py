@@ -8,20 +8,20 @@ from rovercheck.supervisor.timing import CLOCK
 
 
 class Sensor:
-    """A monitor fed with fresh readings, one per step of 20 ms."""
+    """A monitor fed with fresh interpretations, one per step of 20 ms."""
 
     def __init__(self, monitor, start_ms=1000):
         self.monitor, self.now = monitor, start_ms - 20
 
-    def fresh(self, *readings):
-        for reading in readings:
+    def fresh(self, *interpretations):
+        for interpretation in interpretations:
             self.now += 20
-            self.monitor.step(reading, self.now % CLOCK, self.now % CLOCK)
+            self.monitor.step(interpretation, self.now % CLOCK, self.now % CLOCK)
         return self.monitor.status
 
-    def stale(self, reading, age):
-        """One step so long after the reading."""
-        return self.monitor.step(reading, (self.now - age) % CLOCK, self.now % CLOCK)
+    def stale(self, interpretation, age):
+        """One step so long after the interpretation."""
+        return self.monitor.step(interpretation, (self.now - age) % CLOCK, self.now % CLOCK)
 
 
 class Bench:

@@ -12,8 +12,8 @@ from tests.supervisor.board1_bench import Sensor
 OK, DEGRADED, CRITICAL = Level.OK, Level.DEGRADED, Level.CRITICAL
 
 
-def battery(*readings, start_ms=1000):
-    return Sensor(BatteryMonitor(), start_ms).fresh(*readings)
+def battery(*interpretations, start_ms=1000):
+    return Sensor(BatteryMonitor(), start_ms).fresh(*interpretations)
 
 
 @pytest.mark.parametrize(

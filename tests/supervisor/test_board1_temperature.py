@@ -12,8 +12,8 @@ from tests.supervisor.board1_bench import Sensor
 OK, DEGRADED, CRITICAL = Level.OK, Level.DEGRADED, Level.CRITICAL
 
 
-def temperature(*readings, start_ms=1000):
-    return Sensor(TemperatureMonitor(), start_ms).fresh(*readings)
+def temperature(*interpretations, start_ms=1000):
+    return Sensor(TemperatureMonitor(), start_ms).fresh(*interpretations)
 
 
 @pytest.mark.parametrize(

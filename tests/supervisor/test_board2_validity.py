@@ -1,4 +1,4 @@
-"""Readings that are no numbers: they are no readings, and the rover stops when they last."""
+"""Interpretations that are no numbers: they are no interpretations, and the rover stops when they last."""
 
 from dataclasses import replace
 from typing import Any

@@ -134,8 +134,8 @@ def _decided(
 
 
 def _variant(origin: CertificateOrigin, model: Path | None) -> Variant:
-    readings = [f"{id}={choice}" for id, choice in origin.readings.items()]
-    return pick_variant(readings, origin.repair or None, origin.without, model)
+    interpretations = [f"{id}={choice}" for id, choice in origin.interpretations.items()]
+    return pick_variant(interpretations, origin.repair or None, origin.without, model)
 
 
 def _outcome(one: Result, reader: CertificateReader) -> Outcome:

@@ -238,8 +238,10 @@ def _premises(options: CheckOptions, variant: "Variant", search: "SearchSettings
 
 def _again(options: str, chosen: tuple[str, ...], repair: str | None, dropped: tuple[str, ...]) -> str:
     """The options that let another command speak of the same charts."""
-    readings, without = [f"--reading {c}" for c in chosen], [f"--without {d}" for d in dropped]
-    return " ".join(filter(None, [options, *readings, f"--repair {repair}" if repair else "", *without]))
+    interpretations, without = [f"--interpretation {c}" for c in chosen], [f"--without {d}" for d in dropped]
+    return " ".join(
+        filter(None, [options, *interpretations, f"--repair {repair}" if repair else "", *without])
+    )
 
 
 def _engine_choice(engine: str, every: bool) -> str:

@@ -1,4 +1,4 @@
-"""What becomes of the chains of the promises where charts or readings are changed: link by link."""
+"""What becomes of the chains of the promises where charts or interpretations are changed: link by link."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass

@@ -29,7 +29,7 @@ FIELDS: Mapping[str, Expr] = {
 def check(promise: Promise) -> None:
     """Raises ``ModelError`` that names every hole in the chains of a promise.
 
-    Readings are left open, so that a chain without a hole has none under any of their choices.
+    Interpretations are left open, so that a chain without a hole has none under any of their choices.
     """
     found = [f"{_place(promise, chain)}{hole}" for chain in promise.chains for hole in holes(chain)]
     if found:

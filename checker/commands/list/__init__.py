@@ -7,7 +7,16 @@ import click
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.commands.shared.options import modelling
 
-LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs", "assumptions", "engines")
+LISTS = (
+    "properties",
+    "systems",
+    "charts",
+    "requirements",
+    "interpretations",
+    "repairs",
+    "assumptions",
+    "engines",
+)
 
 
 @click.command("list", short_help="List properties, systems, engines and so on.")
@@ -17,7 +26,7 @@ LISTS = ("properties", "systems", "charts", "requirements", "readings", "repairs
 @click.option("--json", "as_json", is_flag=True, help="The list as JSON (checker/schemas/list-1.json).")
 @modelling
 def list_(what: str, ids: tuple[str, ...], english: bool, as_json: bool, model: Path | None) -> Exit:
-    """List WHAT: properties, systems, charts, requirements, readings, repairs, assumptions or engines."""
+    """List properties, systems, charts, requirements, interpretations, repairs, assumptions or engines."""
     from rovercheck.checker.commands.list.run import listing
 
     return listing(what, ids, english, model, as_json)

@@ -6,13 +6,15 @@ from rovercheck.checker.commands.shared.property_text import formally
 from rovercheck.checker.engines import ALL, AUTO, engines
 from rovercheck.checker.model import Model
 from rovercheck.properties.forms import Property
+from rovercheck.spec_model.ambiguity import ambiguities
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.system import System
-from rovercheck.spec_model.readings import readings
 from rovercheck.spec_model.repairs import proposals
 
 Item = Mapping[str, object]
 SCHEMA = 1
+IN_SCHEMA = {"interpretations": "readings"}
+"""What version 1 of the document calls a list by an older name."""
 
 
 def document(what: str, chosen: Sequence[Property], model: Model | None) -> Item:
@@ -21,7 +23,7 @@ def document(what: str, chosen: Sequence[Property], model: Model | None) -> Item
     ``model`` is None for a list that is the same whatever is checked.
     """
     items = ITEMS[what]() if model is None else _of(model, what, chosen)
-    return {"schema": f"rovercheck/list/{SCHEMA}", "what": what, "items": items}
+    return {"schema": f"rovercheck/list/{SCHEMA}", "what": IN_SCHEMA.get(what, what), "items": items}
 
 
 def _of(model: Model, what: str, chosen: Sequence[Property]) -> list[Item]:
@@ -37,7 +39,7 @@ def _property(prop: Property, model: Model) -> Item:
         "system": prop.on,
         "area": prop.area,
         "requirements": list(prop.covers),
-        "readings": list(prop.readings),
+        "readings": list(prop.interpretations),
         "costly": prop.costly,
         "expected": on_record.verdict,
         "because": on_record.because,
@@ -102,7 +104,7 @@ def _assumptions(model: Model) -> list[Item]:
     return [{"id": id, "text": text, "systems": names} for (id, text), names in holders.items()]
 
 
-def _readings() -> list[Item]:
+def _interpretations() -> list[Item]:
     return [
         {
             "id": one.id,
@@ -114,7 +116,7 @@ def _readings() -> list[Item]:
             "scenario": one.scenario,
             "because": one.because,
         }
-        for one in readings().values()
+        for one in ambiguities().values()
     ]
 
 
@@ -126,7 +128,7 @@ def _repairs() -> list[Item]:
             "fixes": list(one.fixes),
             "gives_up": dict(one.gives_up),
             "changes": [*one.charts, *one.blocks],
-            "readings": dict(one.readings),
+            "readings": dict(one.interpretations),
         }
         for one in proposals().values()
     ]
@@ -152,7 +154,7 @@ OF_MODEL: Mapping[str, Callable[[Model], list[Item]]] = {
     "assumptions": _assumptions,
 }
 ITEMS: Mapping[str, Callable[[], list[Item]]] = {
-    "readings": _readings,
+    "interpretations": _interpretations,
     "repairs": _repairs,
     "engines": _engines,
 }

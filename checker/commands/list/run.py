@@ -51,12 +51,12 @@ def list_requirements(model: "Model") -> None:
     )
 
 
-def list_readings() -> None:
-    """Every reading: the sentence, the choices (the default marked), what tells them apart."""
-    from rovercheck.spec_model.readings import readings
+def list_interpretations() -> None:
+    """Every interpretation: the sentence, the choices (the default marked), what tells them apart."""
+    from rovercheck.spec_model.ambiguity import ambiguities
 
     about = ""
-    for one in readings().values():
+    for one in ambiguities().values():
         if one.about != about:
             about = one.about
             out.print(f"\n{about}", style="bold", markup=False)
@@ -109,7 +109,7 @@ LISTS: dict[str, Callable[["Model"], None]] = {
     "assumptions": list_assumptions,
 }
 OTHERS: dict[str, Callable[[], None]] = {
-    "readings": list_readings,
+    "interpretations": list_interpretations,
     "repairs": list_repairs,
     "engines": list_engines,
 }

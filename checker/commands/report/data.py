@@ -9,8 +9,8 @@ from rovercheck.checker.commands.check.further import noticing
 from rovercheck.checker.commands.shared.property_text import formally
 from rovercheck.checker.model import Model
 from rovercheck.checker.render.review.model import (
-    Ambiguity,
     Covered,
+    InterpretationRow,
     Remedy,
     RequirementRow,
     Review,
@@ -41,13 +41,13 @@ SAME_CAUSE = re.compile(r"As ([\w-]*\d[\w-]*)\b")
 class Extras:
     """What a model may have besides properties and systems.
 
-    ``depends`` names the readings on which a property depends; ``reasons`` are the recorded causes, by id,
+    ``depends`` names the interpretations that a property depends on; ``reasons`` are recorded causes, by id,
     ``premises`` what came of asking whether the case occurs that a property speaks of.  ``graphs`` are the
     state graphs of systems, ``undrawn`` says of some why there is none.
     """
 
-    readings: tuple[Ambiguity, ...] = ()
-    depends: Callable[[Property], Sequence[str]] = lambda prop: prop.readings
+    interpretations: tuple[InterpretationRow, ...] = ()
+    depends: Callable[[Property], Sequence[str]] = lambda prop: prop.interpretations
     repairs: tuple[Remedy, ...] = ()
     coverage: tuple[Covered, ...] = ()
     reasons: Mapping[str, str] = field(default_factory=dict)
@@ -68,7 +68,7 @@ def reviewed(
     verdicts = {c.result.property.id: c.verdict.word for c in shown}
     verdicts |= {p.id: model.expected(p.id).verdict for p in left}
     checks = tuple(checked(c, model, extras) for c in shown)
-    read = {id for one in checks for id in one.readings}
+    read = {id for one in checks for id in one.interpretations}
     return Review(
         f"Review of {model.name}",
         f"What was checked of {model.name}, with which verdict and evidence, and how to check it again.",
@@ -77,7 +77,7 @@ def reviewed(
         {s.name: about(s) for s in systems},
         drawn(systems, model),
         demands([*properties, *left], verdicts, model, whole),
-        tuple(r for r in extras.readings if whole or r.id in read),
+        tuple(r for r in extras.interpretations if whole or r.id in read),
         assumed(systems),
         extras.repairs,
         extras.coverage,
@@ -118,7 +118,7 @@ def checked(compared: CheckedProperty, model: Model, extras: Extras) -> Reviewed
         no_repair=entry.no_repair if on_record else "",
         cause=cause(prop.id, extras.reasons),
         requirements=prop.covers,
-        readings=tuple(extras.depends(prop)),
+        interpretations=tuple(extras.depends(prop)),
         quiet=isinstance(because, Exhausted) and because.skipped,
         on=prop.on if prop.on != compared.result.system else "",
         again=again(prop.id, model.options),

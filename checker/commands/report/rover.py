@@ -1,4 +1,4 @@
-"""What only the rover has on its review page: readings of its document, repairs, tests that are kept."""
+"""What only the rover has on its review page: interpretations, repairs, tests that are kept."""
 
 from collections.abc import Iterator, Sequence
 
@@ -8,7 +8,7 @@ from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.model.kept_invariants import invariants_of_rover
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.render.drawing.changes import changes
-from rovercheck.checker.render.review.model import Ambiguity, Covered, Edit, Remedy
+from rovercheck.checker.render.review.model import Covered, Edit, InterpretationRow, Remedy
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.system.instrument.goals import GoalKind
 from rovercheck.checker.system.instrument.watch import watched
@@ -18,28 +18,34 @@ from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.catalogue import expected, read_by
 from rovercheck.spec_model.abstraction import boards
+from rovercheck.spec_model.ambiguity import Ambiguity, ambiguities
 from rovercheck.spec_model.lang.chart import Chart
-from rovercheck.spec_model.readings import Reading, readings
 from rovercheck.spec_model.repairs import Repair, repairs
 
 
 def extras(variant: Variant, found: Sequence[CheckedProperty], with_repairs: bool) -> Extras:
     """All of it; repairs, which are decided now, only if wanted and for the charts as specified."""
     mended = tuple(remedies(found)) if with_repairs and not variant.name else ()
-    taken = tuple(ambiguity(one, variant.choices.get(one.id, one.default)) for one in readings().values())
+    taken = tuple(
+        interpretation(one, variant.choices.get(one.id, one.default)) for one in ambiguities().values()
+    )
     reasons = {c.result.property.id: expected(c.result.property.id).because for c in found}
     return Extras(
-        taken, lambda prop: sorted({*prop.readings, *read_by(prop)}), mended, tuple(coverage()), reasons
+        taken,
+        lambda prop: sorted({*prop.interpretations, *read_by(prop)}),
+        mended,
+        tuple(coverage()),
+        reasons,
     )
 
 
-def ambiguity(one: Reading, taken: str) -> Ambiguity:
-    """A reading as the page shows it."""
+def interpretation(one: Ambiguity, taken: str) -> InterpretationRow:
+    """An interpretation as the page shows it."""
     choices = tuple((name, _meaning(one, name)) for name in one.choices)
-    return Ambiguity(one.id, one.about, one.says, taken, choices, one.scenario, one.because)
+    return InterpretationRow(one.id, one.about, one.says, taken, choices, one.scenario, one.because)
 
 
-def _meaning(one: Reading, choice: str) -> str:
+def _meaning(one: Ambiguity, choice: str) -> str:
     why = one.not_modelled.get(choice)
     return f"{one.choices[choice]} (not modelled: {why})".strip() if why else one.choices[choice]
 
@@ -53,7 +59,7 @@ def remedies(found: Sequence[CheckedProperty]) -> Iterator[Remedy]:
 
 
 def _decided(repair: Repair, violated: set[str]) -> Iterator[Result]:
-    variant = Variant(repair.readings, repair)
+    variant = Variant(repair.interpretations, repair)
     wanted = [variant.properties()[id] for id in repair.fixes if id in violated]
     search = SearchSettings(limits=LIMITS, invariants=invariants_of_rover())
     by_id = {r.property.id: r for r in results(wanted, variant.systems(), search)}

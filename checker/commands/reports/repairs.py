@@ -33,7 +33,7 @@ class Proof:
 
     @cached_property
     def variant(self) -> Variant:
-        return Variant(self.repair.readings, self.repair)
+        return Variant(self.repair.interpretations, self.repair)
 
     @cached_property
     def changed(self) -> Sequence[tuple[Chart | Block, Chart | Block]]:
@@ -68,7 +68,7 @@ def _specified() -> Mapping[str, System]:
 
 
 def _decided(repair: Repair, record: VerdictRecord) -> Iterator[Result]:
-    variant = Variant(repair.readings, repair)
+    variant = Variant(repair.interpretations, repair)
     wanted = [prop for id in repair.fixes if not (prop := variant.properties()[id]).costly]
     decided = record.decided(wanted, variant.systems(), LIMITS, f"{repair.name}: ")
     found = {r.property.id: r for r in decided}

@@ -250,8 +250,8 @@ def _finding(compared: CheckedProperty, proved: Sequence[Proof]) -> str:
     lines = [f"# {prop.id}: violated", "", prop.text, ""]
     lines += ["\n>\n".join(f"> {escape(line, quote=False)}" for line in formally(prop)), ""]
     lines += [f"- {known[id].id} [{known[id].source}]: {known[id].text}" for id in prop.covers]
-    if prop.readings:
-        lines.append(f"- readings: {', '.join(prop.readings)}")
+    if prop.interpretations:
+        lines.append(f"- interpretations: {', '.join(prop.interpretations)}")
     lines += [f"- about {_about(compared.result.system, '../')}"]
     lines += [f"- {evidence(compared.result)}", "", "## Why", "", compared.expected.because, ""]
     lines += sections(prop.id, compared.expected, proved)

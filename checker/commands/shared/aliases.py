@@ -7,8 +7,17 @@ ALIASES: Mapping[str, str] = {
     "crosscheck": "compare",
     "testgen": "generate-tests",
     "generate-tests --cover arrows": "generate-tests --cover transitions",
+    "list readings": "list interpretations",
     "trace --arrow": "trace --transition",
     "trace --by arrows": "trace --by transitions",
+    "check --reading": "check --interpret",
+    "check-log --reading": "check-log --interpret",
+    "compare --reading": "compare --interpret",
+    "explore --reading": "explore --interpret",
+    "export --reading": "export --interpret",
+    "graph --reading": "graph --interpret",
+    "report --reading": "report --interpret",
+    "trace --reading": "trace --interpret",
 }
 """An old verb, option or value -> what is written now; of an option the verb as it is called now."""
 

@@ -82,10 +82,10 @@ def _repairs(_: click.Context) -> Iterable[str]:
     return proposals()
 
 
-def _readings(_: click.Context) -> Iterable[str]:
-    from rovercheck.spec_model.readings import readings
+def _interpretations(_: click.Context) -> Iterable[str]:
+    from rovercheck.spec_model.ambiguity import ambiguities
 
-    return [f"{id}={choice}" for id, one in readings().items() for choice in one.choices]
+    return [f"{id}={choice}" for id, one in ambiguities().items() for choice in one.choices]
 
 
 properties = _offering(_properties)
@@ -95,11 +95,11 @@ trace_formats = _offering(_formats("trace"))
 graph_formats = _offering(_formats("graph"))
 engines = _offering(_engines)
 repairs = _offering(_repairs)
-readings = _offering(_readings)
+interpretations = _offering(_interpretations)
 
 BY_NAME: dict[str, Completing] = {
     "ids": properties, "id": properties, "traced": properties, "bad": properties, "system": systems,
-    "about": systems, "engine": engines, "repair": repairs, "chosen": readings,
+    "about": systems, "engine": engines, "repair": repairs, "chosen": interpretations,
 }  # fmt: skip
 """What a parameter of this name means in every verb."""
 IN_VERB: dict[tuple[str, str], Completing] = {

@@ -34,7 +34,7 @@ GIB = Amount(min=0.25, max=1_000_000)
 
 @dataclass(frozen=True)
 class VariantOptions:
-    """Which charts are meant: a user's own model, readings, a repair, fewer assumptions."""
+    """Which charts are meant: a user's own model, interpretations, a repair, fewer assumptions."""
 
     chosen: tuple[str, ...] = ()
     repair: str | None = None
@@ -192,10 +192,12 @@ def modelling(command: Callable[..., Exit]) -> Callable[..., Exit]:
 
 
 def varying(command: Callable[..., Exit]) -> Callable[..., Exit]:
-    """The options of every verb that looks at the charts: other readings, a proposed repair."""
+    """The options of every verb that looks at the charts: other interpretations, a proposed repair."""
     return _with(
         gathered(VariantOptions, "charts")(command),
-        _reading("Read a sentence otherwise: S43=AND; S43=any leaves it open."),
+        _interpretation(
+            "Choose another interpretation of an ambiguous requirement: S43=AND; S43=any leaves it open."
+        ),
         REPAIR,
         click.option(
             "--without",
@@ -217,7 +219,7 @@ def changing(command: Callable[..., Exit]) -> Callable[..., Exit]:
     """The options that change the charts compared with; assumptions about the environment play no part."""
     return _with(
         gathered(VariantOptions, "charts")(command),
-        _reading("Read a sentence otherwise: S43=AND."),
+        _interpretation("Choose another interpretation of an ambiguous requirement: S43=AND."),
         REPAIR,
     )
 
@@ -225,8 +227,8 @@ def changing(command: Callable[..., Exit]) -> Callable[..., Exit]:
 REPAIR = click.option("--repair", metavar="NAME", help="With a proposed repair; see list repairs.")
 
 
-def _reading(help: str) -> Callable[[Verb], Verb]:
-    return click.option("--reading", "chosen", multiple=True, metavar="ID=CHOICE", help=help)
+def _interpretation(help: str) -> Callable[[Verb], Verb]:
+    return click.option("--interpret", "chosen", multiple=True, metavar="ID=CHOICE", help=help)
 
 
 def _with(command: Verb, *options: Callable[[Verb], Verb]) -> Verb:

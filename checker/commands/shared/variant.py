@@ -11,8 +11,8 @@ from rovercheck.checker.model import Model
 from rovercheck.checker.model.load import load
 from rovercheck.checker.model.variant import Variant
 from rovercheck.properties.forms import Property
+from rovercheck.spec_model.ambiguity import ANY, ambiguities
 from rovercheck.spec_model.lang.system import Assumption, System
-from rovercheck.spec_model.readings import ANY, readings
 from rovercheck.spec_model.repairs import proposals
 from rovercheck.spec_model.rover import systems
 
@@ -50,11 +50,11 @@ def pick_variant(
     if repair is None:
         return Variant(choices, None, without)
     found = pick("repair", repair, proposals())
-    return Variant({**found.readings, **choices}, found, without)
+    return Variant({**found.interpretations, **choices}, found, without)
 
 
 def _own(model: Model, chosen: Sequence[str], repair: str | None, dropped: Sequence[str]) -> Variant:
-    for option in ["--reading"] * bool(chosen) + ["--repair"] * (repair is not None):
+    for option in ["--interpret"] * bool(chosen) + ["--repair"] * (repair is not None):
         raise UsageError(f"{option} changes the rover's charts, and {model.name} is a model of your own.")
     return Variant({}, None, _dropped(dropped, model.systems), model)
 
@@ -67,11 +67,11 @@ def _dropped(ids: Sequence[str], by_name: Mapping[str, System]) -> frozenset[str
 
 
 def _choices(chosen: Sequence[str]) -> dict[str, str]:
-    """Readings and their choices from ``ID=CHOICE``."""
+    """Interpretations and their choices from ``ID=CHOICE``."""
     choices: dict[str, str] = {}
     for text in chosen:
         id, equals, choice = text.partition("=")
-        one = pick("reading", id, readings())
+        one = pick("reading", id, ambiguities())
         options = [c for c in one.choices if c not in one.not_modelled]
         if not equals or not choice:
             raise UsageError(f"{text!r} names no choice; write {id}= and one of {', '.join(options)}, {ANY}.")

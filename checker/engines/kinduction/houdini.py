@@ -64,7 +64,7 @@ class Consecution:
 
     def cubes(self, most: int) -> list[TemplateCube]:
         """The last counterexamples that struck out candidates of the last growth, made general."""
-        return [self._ticks.cube(reading, term) for reading, term in self._struck[-most:]]
+        return [self._ticks.cube(interpretation, term) for interpretation, term in self._struck[-most:]]
 
     def support(self, needed: Iterable[Expr]) -> list[Expr]:
         """The known conjuncts that make the needed ones, known themselves, inductive together."""
@@ -87,21 +87,21 @@ class Consecution:
         raise ArithmeticError(f"`{conjunct}` was inductive and no longer is")
 
     def _survivors(self, alive: dict[str, Expr]) -> dict[str, Expr]:
-        model, reading = self._ticks.solver.model(), self._ticks.reading()
-        kept = {id(c) for c in unbroken(list(alive.values()), self._runs(reading))}
+        model, interpretation = self._ticks.solver.model(), self._ticks.ambiguity()
+        kept = {id(c) for c in unbroken(list(alive.values()), self._runs(interpretation))}
         if len(kept) == len(alive):
             raise ArithmeticError("Z3 and the simulation disagree about a tick")
         refuted = (self._refuted(c) for c in alive.values() if id(c) not in kept)
-        self._struck.append((reading, next(t for t in refuted if z3.is_true(model.eval(t, True)))))
+        self._struck.append((interpretation, next(t for t in refuted if z3.is_true(model.eval(t, True)))))
         return {name: c for name, c in alive.items() if id(c) in kept}
 
     def _refuted(self, conjunct: Expr) -> Term:
         return z3.Not(self._after(conjunct))
 
-    def _runs(self, reading: TickReading) -> Columns:
+    def _runs(self, interpretation: TickReading) -> Columns:
         """States on random runs from the one of a model, the tick in the model among them."""
-        start = self._simulator.everywhere(reading.start)
-        return self._simulator.run(start, _TICKS, reading.inputs[0]).samples()
+        start = self._simulator.everywhere(interpretation.start)
+        return self._simulator.run(start, _TICKS, interpretation.inputs[0]).samples()
 
 
 def of_given(scope: Scope, candidates: Sequence[Expr]) -> Consecution:

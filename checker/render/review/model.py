@@ -47,7 +47,7 @@ class ReviewedProperty:
     cause: str = ""
     """The id of the finding whose cause this one has too; its own where the cause is its own."""
     requirements: tuple[str, ...] = ()
-    readings: tuple[str, ...] = ()
+    interpretations: tuple[str, ...] = ()
     on: str = ""
     """The system it is stated of, where the verdict is about another one."""
     quiet: bool = False
@@ -106,7 +106,7 @@ class SystemSummary:
 
 
 @dataclass(frozen=True)
-class Ambiguity:
+class InterpretationRow:
     """A sentence that can be read in several ways, the choices and the one that is taken."""
 
     id: str
@@ -209,7 +209,7 @@ class Review:
     systems: Mapping[str, SystemSummary]
     charts: Mapping[str, Chart]
     demands: tuple[RequirementRow, ...] = ()
-    readings: tuple[Ambiguity, ...] = ()
+    interpretations: tuple[InterpretationRow, ...] = ()
     assumptions: tuple[ReviewAssumption, ...] = ()
     repairs: tuple[Remedy, ...] = ()
     coverage: tuple[Covered, ...] = ()

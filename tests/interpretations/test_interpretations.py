@@ -1,4 +1,4 @@
-"""Figures alone in their files, and beside them what each other choice of a reading changes."""
+"""Figures alone in their files, and beside them what each other choice of an interpretation changes."""
 
 import ast
 from collections.abc import Iterator, Sequence
@@ -9,6 +9,7 @@ import pytest
 
 from rovercheck.spec_model.abstraction.board1 import BOARD1
 from rovercheck.spec_model.abstraction.board2 import BOARD2
+from rovercheck.spec_model.ambiguity import ambiguities, fixed
 from rovercheck.spec_model.board1.temperature import T, monitor_temperature
 from rovercheck.spec_model.interpretations import Alternative, alternative, alternatives, name_of, woven
 from rovercheck.spec_model.lang.change import formula, guard
@@ -17,9 +18,8 @@ from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import FALSE, TRUE
 from rovercheck.spec_model.lang.merge import Merge
 from rovercheck.spec_model.lang.system import System
-from rovercheck.spec_model.readings import fixed, readings
 from rovercheck.spec_model.rover import BOARDS, _systems_of
-from tests.readings.test_board2 import FIVE_DEGREES
+from tests.interpretations.test_board2 import FIVE_DEGREES
 
 ROOT = Path(__file__).parents[2] / "spec_model"
 FIGURES = [f for board in ("board1", "board2") for f in sorted((ROOT / board).glob("*.py"))]
@@ -33,7 +33,7 @@ def test_a_chart_file_is_the_figure(file: Path) -> None:
     called = {n.func.id for n in ast.walk(tree) if isinstance(n, ast.Call) and isinstance(n.func, ast.Name)}
     assert called.isdisjoint({"choose", "under"})
     imported = {n.module for n in ast.walk(tree) if isinstance(n, ast.ImportFrom)}
-    assert "rovercheck.spec_model.readings" not in imported
+    assert "rovercheck.spec_model.ambiguity" not in imported
     assert file.stem.endswith("systems") or not any("interpretations" in str(name) for name in imported)
 
 
@@ -51,17 +51,19 @@ def every(components: Sequence[Component]) -> Iterator[Component]:
             yield from every(component.components)
 
 
-@pytest.mark.parametrize("one", alternatives(), ids=lambda one: f"{one.reading}-{one.choice}-{one.part}")
+@pytest.mark.parametrize(
+    "one", alternatives(), ids=lambda one: f"{one.interpretation}-{one.choice}-{one.part}"
+)
 def test_every_alternative_has_a_part_to_change(one: Alternative) -> None:
     """Weaving has refused those that change nothing in theirs."""
     assert any(one.among(system) and one.part in names for system, names in woven_parts())
 
 
-@pytest.mark.parametrize("id", [id for id, one in readings().items() if one.scope in ("M", "MP")])
+@pytest.mark.parametrize("id", [id for id, one in ambiguities().items() if one.scope in ("M", "MP")])
 def test_every_choice_changes_a_chart_or_what_is_around_it(id: str) -> None:
-    one = readings()[id]
+    one = ambiguities()[id]
     other = {c for c in one.choices if c not in one.not_modelled and c != one.default}
-    by_chart = {alternative.choice for alternative in alternatives() if alternative.reading == id}
+    by_chart = {alternative.choice for alternative in alternatives() if alternative.interpretation == id}
     around = any(id in system.inputs for system in DRAWN)
     assert other <= by_chart or around
 

@@ -1,4 +1,4 @@
-"""Links, relay, masks and references can be checked under every choice of their readings (S34 to S66).
+"""Links, relay, masks and references can be checked under every choice of their interpretations (S34 to S66).
 
 The default choices are those of every other test.
 """
@@ -10,9 +10,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from rovercheck.spec_model.ambiguity import ambiguities
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import System
-from rovercheck.spec_model.readings import readings
 from rovercheck.spec_model.rover import systems
 from tests.profiles import examples
 from tests.strategies import input_blocks
@@ -31,15 +31,15 @@ OWN = (
     ("S65", "S65", ["temperature", "battery", "wheel_FL", *RX, *SUP]),
     ("S66", "S66", [*RX, *SUP]),
 )
-"""From which reading to which: the systems that show them."""
+"""From which interpretation to which: the systems that show them."""
 
 CHOICES = [
     (id, choice, names)
     for first, last, names in OWN
-    for id, reading in readings().items()
+    for id, interpretation in ambiguities().items()
     if first <= id <= last
-    for choice in reading.choices
-    if choice not in (reading.default, *reading.not_modelled)
+    for choice in interpretation.choices
+    if choice not in (interpretation.default, *interpretation.not_modelled)
 ]
 
 

@@ -1,4 +1,4 @@
-"""The scenarios that tell the readings of Board 2 apart (E01 to E32), for every choice of each.
+"""The scenarios that tell the interpretations of Board 2 apart (E01 to E32), for every choice of each.
 
 A case lists what is given in blocks of ms, and what a choice shows: the values of a signal from time 0
 on, each with the ms at which it begins.
@@ -12,6 +12,7 @@ import pytest
 
 from rovercheck.properties.catalogue import under
 from rovercheck.properties.reduce import reduce
+from rovercheck.spec_model.ambiguity import ambiguities, fixed
 from rovercheck.spec_model.board2.heading import headings, measured
 from rovercheck.spec_model.board2.obstacles import obstacles_n
 from rovercheck.spec_model.interpretations import woven
@@ -20,9 +21,8 @@ from rovercheck.spec_model.lang.evaluate import step
 from rovercheck.spec_model.lang.interpret import Interpreter
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import TICK_MS, System, in_order
-from rovercheck.spec_model.readings import fixed, readings
 from rovercheck.spec_model.rover import as_written, systems
-from tests.readings.scenario import BOARD1, WARM_UP, Blocks, Given, histories, shown
+from tests.interpretations.scenario import BOARD1, WARM_UP, Blocks, Given, histories, shown
 
 NOMINAL: Given = {
     **BOARD1, "Board1.powered": True, "B1-B2.arrives": "newest", "B2-B1.arrives": "newest",
@@ -42,9 +42,9 @@ FIVE_DEGREES = in_order("five degrees", obstacles_n(measured(*headings(5))))
 
 @dataclass(frozen=True)
 class Scenario:
-    """A scenario of a reading, and what each of its choices shows."""
+    """A scenario of an interpretation, and what each of its choices shows."""
 
-    reading: str
+    interpretation: str
     number: int
     given: Blocks
     watched: str
@@ -240,10 +240,10 @@ CASES = [(scenario, choice) for scenario in SCENARIOS for choice in scenario.sho
 
 
 @pytest.mark.parametrize(
-    ("scenario", "choice"), CASES, ids=[f"{s.reading}-{choice}-{s.number}" for s, choice in CASES]
+    ("scenario", "choice"), CASES, ids=[f"{s.interpretation}-{choice}-{s.number}" for s, choice in CASES]
 )
 def test_a_choice_shows_what_tells_it_apart(scenario: Scenario, choice: str) -> None:
-    system = _system(scenario.on, scenario.reading, choice)
+    system = _system(scenario.on, scenario.interpretation, choice)
     found = histories(system, scenario.given, [scenario.watched], nominal=NOMINAL, warm_up=scenario.warm_up)
     assert found == [scenario.shows[choice]]
 
@@ -254,9 +254,9 @@ def _written() -> dict[str, System]:
 
 
 @cache
-def _system(name: str, reading: str, choice: str) -> System:
+def _system(name: str, interpretation: str, choice: str) -> System:
     """A system under a choice, made without all the others."""
-    return fixed({reading: choice}).system(_written()[name])
+    return fixed({interpretation: choice}).system(_written()[name])
 
 
 @pytest.mark.parametrize(("choice", "sent"), [("B70-STOP", False), ("B70-BOTH", True), ("B70-LT", True)])
@@ -270,13 +270,13 @@ def test_E02_whether_a_moving_object_is_signalled_beside_one_at_70(choice: str, 
     assert any("send(moveToS1, B2Decisions)" in label for label in labels) is sent
 
 
-# --- readings that change what a requirement asks, not the model (E11, E12) -------------------------
+# --- interpretations that change what a requirement asks, not the model (E11, E12) -------------------------
 
 
-def broken(property_id: str, reading: str, choice: str, given: Blocks) -> bool:
+def broken(property_id: str, interpretation: str, choice: str, given: Blocks) -> bool:
     """Whether a run of the property's system breaks the property."""
-    wanted = under({reading: choice})[property_id]
-    system = _system(wanted.on, reading, choice)
+    wanted = under({interpretation: choice})[property_id]
+    system = _system(wanted.on, interpretation, choice)
     question = reduce(lower(system), [wanted])
     at: dict[str, int] = dict(question.system.init)
     seen = []
@@ -365,14 +365,16 @@ def test_E31_the_turn_while_the_rover_moves_toward_the_centre_sonar(choice: str,
 
 
 def test_every_choice_is_shown() -> None:
-    seen = {(s.reading, choice) for s, choice in CASES} | {("E11", c) for c in readings()["E11"].choices}
-    seen |= {("E12", c) for c in readings()["E12"].choices}
+    seen = {(s.interpretation, choice) for s, choice in CASES} | {
+        ("E11", c) for c in ambiguities()["E11"].choices
+    }
+    seen |= {("E12", c) for c in ambiguities()["E12"].choices}
     modelled = {
         (id, choice)
-        for id, reading in readings().items()
+        for id, interpretation in ambiguities().items()
         if id.startswith("E")
-        for choice in reading.choices
-        if choice not in reading.not_modelled
+        for choice in interpretation.choices
+        if choice not in interpretation.not_modelled
     }
     assert modelled <= seen
 

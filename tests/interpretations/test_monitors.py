@@ -1,4 +1,4 @@
-"""The scenarios that tell the readings of temperature, battery and wheels apart (S01 to S33).
+"""The scenarios that tell the interpretations of temperature, battery and wheels apart (S01 to S33).
 
 Each case is a scenario under one choice; what it shows is the whole history of a status: the values,
 each with the ms at which it begins.
@@ -10,13 +10,13 @@ from functools import cache
 
 import pytest
 
+from rovercheck.spec_model.ambiguity import ambiguities
 from rovercheck.spec_model.lang.domain import fixed
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System
-from rovercheck.spec_model.readings import readings
 from rovercheck.spec_model.rover import systems
-from tests.readings.scenario import Blocks, Given, histories
-from tests.readings.wider import widened
+from tests.interpretations.scenario import Blocks, Given, histories
+from tests.interpretations.wider import widened
 
 TENTHS, HUNDREDTHS = fixed(-20, 70, "0.1", "°C"), fixed(-1, 100, "0.01", "%")
 WIDE = {
@@ -38,12 +38,12 @@ LEVELS = {
 
 @dataclass(frozen=True)
 class Scenario:
-    """What is given, what is watched, and what each choice of the reading shows.
+    """What is given, what is watched, and what each choice of the interpretation shows.
 
     It runs on the chart alone where only its status is watched, else, or if said so, on the board.
     """
 
-    reading: str
+    interpretation: str
     number: int
     given: Blocks
     watched: Sequence[str]
@@ -60,7 +60,7 @@ def batt(percent: float) -> Given:
 
 
 def stale_temp(celsius: float, ms: int) -> Blocks:
-    """The last valid reading at 0, then none."""
+    """The last valid interpretation at 0, then none."""
     return [(20, temp(celsius)), (ms, {"temp_update": False})]
 
 
@@ -162,17 +162,17 @@ CASES = [(scenario, choice) for scenario in SCENARIOS for choice in scenario.sho
 
 
 @pytest.mark.parametrize(
-    ("scenario", "choice"), CASES, ids=[f"{s.reading}-{choice}-{s.number}" for s, choice in CASES]
+    ("scenario", "choice"), CASES, ids=[f"{s.interpretation}-{choice}-{s.number}" for s, choice in CASES]
 )
 def test_a_choice_shows_what_tells_it_apart(scenario: Scenario, choice: str) -> None:
-    system = _system(scenario.on or ALONE.get(scenario.watched[0], "board1"), scenario.reading, choice)
+    system = _system(scenario.on or ALONE.get(scenario.watched[0], "board1"), scenario.interpretation, choice)
     found = histories(system, scenario.given, scenario.watched)
     assert ", ".join(_short(history) for history in found) == scenario.shows[choice]
 
 
 @cache
-def _system(name: str, reading: str, choice: str) -> System:
-    return widened(systems({reading: choice})[name], WIDE)
+def _system(name: str, interpretation: str, choice: str) -> System:
+    return widened(systems({interpretation: choice})[name], WIDE)
 
 
 def _short(history: str) -> str:
@@ -180,10 +180,10 @@ def _short(history: str) -> str:
 
 
 def test_every_choice_is_shown() -> None:
-    mine = [id for id in readings() if id.startswith("S") and int(id[1:]) <= 33]
-    shown = {(s.reading, choice) for s in SCENARIOS for choice in s.shows}
+    mine = [id for id in ambiguities() if id.startswith("S") and int(id[1:]) <= 33]
+    shown = {(s.interpretation, choice) for s in SCENARIOS for choice in s.shows}
     modelled = {
-        (id, c) for id in mine for c in readings()[id].choices if c not in readings()[id].not_modelled
+        (id, c) for id in mine for c in ambiguities()[id].choices if c not in ambiguities()[id].not_modelled
     }
     assert modelled - shown == {("S25", "PCT")}, "S25 has one choice that can be modelled"
 

@@ -1,4 +1,4 @@
-"""Running a scenario that tells readings apart: blocks of time and what is given meanwhile.
+"""Running a scenario that tells interpretations apart: blocks of time and what is given meanwhile.
 
 Time 0 is the first step of the scenario, in ms; what is not given stays nominal.
 """

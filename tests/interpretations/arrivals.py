@@ -3,7 +3,7 @@
 from collections.abc import Iterator, Sequence
 
 from rovercheck.spec_model.lang.system import TICK_MS
-from tests.readings.scenario import Blocks
+from tests.interpretations.scenario import Blocks
 
 
 def at(stamps: Sequence[int], *, first_step: int, last_step: int, link: str = "rx") -> Blocks:

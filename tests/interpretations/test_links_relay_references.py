@@ -1,4 +1,4 @@
-"""The scenarios that tell the readings of links, relay, masks and references apart (S34 to S66).
+"""The scenarios that tell the interpretations of links, relay, masks and references apart (S34 to S66).
 
 Each case is a scenario under one choice; what it shows is the whole history of the signals watched:
 the values, each with the ms at which it begins.
@@ -9,10 +9,10 @@ from dataclasses import dataclass
 
 import pytest
 
-from rovercheck.spec_model.readings import readings
+from rovercheck.spec_model.ambiguity import ambiguities
 from rovercheck.spec_model.rover import systems
-from tests.readings.arrivals import at
-from tests.readings.scenario import WARM_UP, Blocks, Given, histories
+from tests.interpretations.arrivals import at
+from tests.interpretations.scenario import WARM_UP, Blocks, Given, histories
 
 NO_LINK: Given = {"rx_update": False, "heartbeat_update": False}
 NO_HEARTBEAT: Given = {"heartbeat_update": False}
@@ -38,9 +38,9 @@ SHORT = {
 
 @dataclass(frozen=True)
 class Scenario:
-    """What is given to which system, what is watched there, and what each choice of the reading shows."""
+    """What is given to which system, what is watched there, and what each choice shows."""
 
-    reading: str
+    interpretation: str
     number: int
     on: tuple[str, ...]
     given: Blocks
@@ -167,11 +167,11 @@ CASES = [(scenario, choice) for scenario in SCENARIOS for choice in scenario.sho
 
 
 @pytest.mark.parametrize(
-    ("scenario", "choice"), CASES, ids=[f"{s.reading}-{choice}-{s.number}" for s, choice in CASES]
+    ("scenario", "choice"), CASES, ids=[f"{s.interpretation}-{choice}-{s.number}" for s, choice in CASES]
 )
 def test_a_choice_shows_what_tells_it_apart(scenario: Scenario, choice: str) -> None:
     name, *watched = scenario.on
-    system = systems({scenario.reading: choice})[name]
+    system = systems({scenario.interpretation: choice})[name]
     found = histories(system, scenario.given, watched, warm_up=scenario.warm_up)
     assert ", ".join(_short(history) for history in found) == scenario.shows[choice]
 
@@ -181,11 +181,11 @@ def _short(history: str) -> str:
 
 
 NOTHING_TO_SHOW = {("S42", "SYNONYMS"), ("S47", "FAIL-TO-B2"), ("S53", "8")}
-"""Choices of readings that differ in names, in a board without power, or in no signal at all."""
+"""Choices of interpretations that differ in names, in a board without power, or in no signal at all."""
 
 
 def test_every_choice_is_shown() -> None:
-    mine = [r for id, r in readings().items() if "S34" <= id <= "S66"]
-    shown = {(s.reading, choice) for s in SCENARIOS for choice in s.shows}
+    mine = [r for id, r in ambiguities().items() if "S34" <= id <= "S66"]
+    shown = {(s.interpretation, choice) for s in SCENARIOS for choice in s.shows}
     modelled = {(r.id, choice) for r in mine for choice in r.choices if choice not in r.not_modelled}
     assert modelled - shown == NOTHING_TO_SHOW

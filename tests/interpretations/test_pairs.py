@@ -1,9 +1,9 @@
-"""Two readings at once: the time in the critical range adds up whatever the temperature monitor does."""
+"""Two interpretations at once: time in the critical range adds up whatever the temperature monitor does."""
 
 import pytest
 
 from rovercheck.spec_model.rover import systems
-from tests.readings.scenario import Blocks, Given, histories
+from tests.interpretations.scenario import Blocks, Given, histories
 
 STALE: Given = {"temp_update": False}
 

@@ -1,4 +1,4 @@
-"""Every system that changes with a reading of Board 2 (E01 to E32) can be checked under each choice of it."""
+"""Every system that an interpretation of Board 2 (E01 to E32) changes is checked under each choice."""
 
 from functools import cache
 
@@ -6,10 +6,10 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from rovercheck.spec_model.ambiguity import ambiguities, fixed
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import System
-from rovercheck.spec_model.readings import fixed, readings
-from rovercheck.spec_model.rover import as_written, readings_of
+from rovercheck.spec_model.rover import as_written, interpretations_of
 from tests.profiles import examples
 from tests.strategies import input_blocks
 from tests.test_lowering import compare
@@ -19,20 +19,20 @@ ALSO = ("obstacles_free", "obstacles_heading")
 
 @cache
 def _reading(id: str) -> tuple[str, ...]:
-    """The systems that change with a reading.
+    """The systems that change with an interpretation.
 
     Of the over-approximations of a system, and of its scenes, which hold the same charts, one is enough.
     """
     names = [s.name for s in as_written() if not (s.concrete or s.under) or s.name in ALSO]
     once = [name for name in names if not name.startswith("rover_")]
-    return tuple(name for name in once if id in readings_of(name))
+    return tuple(name for name in once if id in interpretations_of(name))
 
 
 @cache
 def _smallest(id: str) -> str:
-    """The system with the fewest variables among those that change with a reading."""
-    reading = [s for s in as_written() if id in readings_of(s.name)]
-    return min(reading, key=lambda s: len(s.written) + len(s.inputs)).name
+    """The system with the fewest variables among those that change with an interpretation."""
+    interpretation = [s for s in as_written() if id in interpretations_of(s.name)]
+    return min(interpretation, key=lambda s: len(s.written) + len(s.inputs)).name
 
 
 @cache
@@ -43,10 +43,10 @@ def _system(id: str, choice: str, name: str) -> System:
 
 CASES = [
     (id, choice, name)
-    for id, reading in readings().items()
+    for id, interpretation in ambiguities().items()
     if id.startswith("E")
-    for choice in reading.choices
-    if choice not in reading.not_modelled and choice != reading.default
+    for choice in interpretation.choices
+    if choice not in interpretation.not_modelled and choice != interpretation.default
     for name in _reading(id)
 ]
 

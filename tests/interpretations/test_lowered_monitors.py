@@ -1,4 +1,4 @@
-"""Temperature, battery and wheels can be checked under every choice of their readings (S01 to S33)."""
+"""Temperature, battery and wheels can be checked under every choice of their interpretations (S01 to S33)."""
 
 from collections.abc import Mapping
 from functools import cache
@@ -7,9 +7,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from rovercheck.spec_model.ambiguity import ambiguities
 from rovercheck.spec_model.lang.lower import lower
 from rovercheck.spec_model.lang.system import System
-from rovercheck.spec_model.readings import readings
 from rovercheck.spec_model.rover import systems
 from tests.profiles import examples
 from tests.strategies import input_blocks
@@ -20,7 +20,7 @@ OWN = (
     ("S15", "S26", ["battery"]),
     ("S27", "S33", ["wheel_FL", "wheel_FR", "wheel_RL", "wheel_RR"]),
 )
-"""From which reading to which: the systems of their charts."""
+"""From which interpretation to which: the systems of their charts."""
 
 BOARD = ["masks", "board1"]
 """All of them show on the board, that of S33 in the masks."""
@@ -28,10 +28,10 @@ BOARD = ["masks", "board1"]
 CASES = [
     (id, choice, (*names, *BOARD))
     for first, last, names in OWN
-    for id, reading in readings().items()
+    for id, interpretation in ambiguities().items()
     if first <= id <= last
-    for choice in reading.choices
-    if choice not in reading.not_modelled and choice != reading.default
+    for choice in interpretation.choices
+    if choice not in interpretation.not_modelled and choice != interpretation.default
 ]
 
 

@@ -1,9 +1,9 @@
-"""Readings: sentences of the source document that can be read in several ways, as switches of the model.
+"""Ambiguous sentences of the source document, whose interpretations are switches of the model.
 
 A chart is drawn under the defaults; ``spec_model.interpretations`` says what the other choices change in
-it.  What is no chart writes ``choose("S43", {"OR": a | b, "AND": a & b})`` where it depends on a reading.
-Each reading is a frozen variable; ``fixed`` says which constants to put in its place, by default the
-choices of ``readings.toml``.  The file explains every reading: what the text says, the choices, the
+it.  What is no chart writes ``choose("S43", {"OR": a | b, "AND": a & b})`` where it depends on one.
+Each interpretation is a frozen variable; ``fixed`` says which constants to put in its place, by default the
+choices of ``ambiguity.toml``.  The file explains every interpretation: what the text says, the choices, the
 scenario in which they differ, and why the default is the default.
 """
 
@@ -19,11 +19,11 @@ from rovercheck.spec_model.lang.expr import Const, Expr, Operand, Var, all_of, a
 from rovercheck.spec_model.lang.specialise import Specialiser
 
 ANY = "any"
-"""In place of a choice: the reading stays open, and a verdict holds for every choice."""
+"""In place of a choice: the interpretation stays open, and a verdict holds for every choice."""
 
 
 @dataclass(frozen=True)
-class Reading:
+class Ambiguity:
     """One ambiguous sentence.
 
     ``choices`` maps each choice to what it means; ``not_modelled`` gives the reason for those that the
@@ -42,8 +42,8 @@ class Reading:
 
     @cached_property
     def var(self) -> Var:
-        """The frozen variable of the reading."""
-        domain = enumeration(f"Reading {self.id}", list(self.choices))
+        """The frozen variable of the interpretation."""
+        domain = enumeration(f"Interpretation {self.id}", list(self.choices))
         return Var(self.id, domain, domain.raw(self.default), self.says)
 
     def value(self, choice: str) -> Const:
@@ -56,33 +56,33 @@ class Reading:
 
 
 @cache
-def readings() -> dict[str, Reading]:
-    """Every reading by id, in document order."""
+def ambiguities() -> dict[str, Ambiguity]:
+    """Every interpretation by id, in document order."""
     table = tomllib.loads(Path(__file__).with_suffix(".toml").read_text(encoding="utf-8"))
-    return {id: Reading(id, **row) for id, row in table.items()}
+    return {id: Ambiguity(id, **row) for id, row in table.items()}
 
 
-def reading(id: str) -> Reading:
-    """The reading of that id.  Raises ``ModelError`` offering near ids."""
-    if id not in readings():
-        raise ModelError(f"There is no reading {id!r}. {did_you_mean(id, readings())}")
-    return readings()[id]
+def ambiguity(id: str) -> Ambiguity:
+    """The interpretation of that id.  Raises ``ModelError`` offering near ids."""
+    if id not in ambiguities():
+        raise ModelError(f"There is no interpretation {id!r}. {did_you_mean(id, ambiguities())}")
+    return ambiguities()[id]
 
 
 @cache
 def under(id: str, *choices: str) -> Expr:
-    """The condition that a reading is one of the choices."""
-    one = reading(id)
+    """The condition that an interpretation is one of the choices."""
+    one = ambiguity(id)
     return any_of(*(one.var == one.value(choice) for choice in choices))
 
 
 def choose(id: str, meanings: Mapping[str, Operand]) -> Expr:
-    """What a formula is under each choice of a reading.
+    """What a formula is under each choice of an interpretation.
 
     Every choice that is modelled must have a meaning.  Raises ``ModelError`` for one that is missing
     or too many.
     """
-    one = reading(id)
+    one = ambiguity(id)
     modelled = [c for c in one.choices if c not in one.not_modelled]
     if set(meanings) != set(modelled):
         raise ModelError(f"{id} has the choices {', '.join(modelled)}; give each of them, and no other.")
@@ -102,14 +102,14 @@ def _sort_of(meanings: Iterable[Operand]) -> Sort:
 
 
 def fixed(choices: Mapping[str, str]) -> Specialiser:
-    """Replaces every reading by its chosen or default constant; those chosen as ``any`` stay.
+    """Replaces every interpretation by its chosen or default constant; those chosen as ``any`` stay.
 
-    Raises ``ModelError`` for an unknown reading or choice.
+    Raises ``ModelError`` for an unknown interpretation or choice.
     """
     for id in choices:
-        reading(id)
+        ambiguity(id)
     values = {}
-    for id, one in readings().items():
+    for id, one in ambiguities().items():
         choice = choices.get(id, one.default)
         if choice != ANY:
             values[id] = one.value(choice)
@@ -117,13 +117,13 @@ def fixed(choices: Mapping[str, str]) -> Specialiser:
 
 
 def left_open(choices: Mapping[str, str]) -> tuple[Var, ...]:
-    """The variables of the readings chosen as ``any``."""
-    return tuple(reading(id).var for id, choice in choices.items() if choice == ANY)
+    """The variables of the interpretations chosen as ``any``."""
+    return tuple(ambiguity(id).var for id, choice in choices.items() if choice == ANY)
 
 
 def modelled_only(choices: Mapping[str, str]) -> Expr:
-    """The condition that the open readings are choices that the charts can show."""
-    open_ = [reading(id) for id, choice in choices.items() if choice == ANY]
+    """The condition that the open interpretations are choices that the charts can show."""
+    open_ = [ambiguity(id) for id, choice in choices.items() if choice == ANY]
     return all_of(
         *(under(r.id, *(c for c in r.choices if c not in r.not_modelled)) for r in open_ if r.not_modelled)
     )

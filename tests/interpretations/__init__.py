@@ -1,0 +1,1 @@
+"""Scenarios that tell the interpretations apart."""

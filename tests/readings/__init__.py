@@ -1,1 +1,0 @@
-"""Scenarios that tell the readings apart."""
