@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, fields, replace
 from typing import Union
 
-from rovercheck.properties.pasttime import Bounded, Past, T, begins
+from rovercheck.properties.pasttime import Bounded, Implication, Past, T, begins
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError, several
 from rovercheck.spec_model.lang.expr import Expr
@@ -28,9 +28,8 @@ class Always(Bounded):
     def monitor(self, past: Past[T]) -> tuple[T, T]:
         return past.armed, past.armed & ~past(self.that)
 
-    @property
-    def wanted(self) -> Expr:
-        return self.that
+    def implication(self) -> Implication:
+        return None, self.that
 
 
 @dataclass(frozen=True)
@@ -42,9 +41,8 @@ class Never(Bounded):
     def monitor(self, past: Past[T]) -> tuple[T, T]:
         return past.armed, past.armed & past(self.that)
 
-    @property
-    def wanted(self) -> Expr:
-        return ~self.that
+    def implication(self) -> Implication:
+        return None, ~self.that
 
 
 @dataclass(frozen=True)
@@ -59,13 +57,8 @@ class Responds(Bounded):
         asked = past.armed & past(self.trigger)
         return asked, past.overdue(asked, past(self.response), self.within)
 
-    @property
-    def wanted(self) -> Expr:
-        return self.response
-
-    @property
-    def case(self) -> Expr:
-        return self.trigger
+    def implication(self) -> Implication:
+        return self.trigger, self.response
 
 
 @dataclass(frozen=True)
@@ -80,13 +73,8 @@ class HoldsAfter(Bounded):
         long = past.held(past.armed & past(self.premise), self.for_)
         return long, long & ~past(self.then)
 
-    @property
-    def wanted(self) -> Expr:
-        return self.then
-
-    @property
-    def case(self) -> Expr:
-        return held(self.premise, self.for_)
+    def implication(self) -> Implication:
+        return held(self.premise, self.for_), self.then
 
 
 @dataclass(frozen=True)
@@ -102,13 +90,8 @@ class HoldsFor(Bounded):
         started = past.armed & begins(past, start)
         return started, past.within(started, self.for_) & ~that
 
-    @property
-    def wanted(self) -> Expr:
-        return self.that
-
-    @property
-    def case(self) -> Expr:
-        return self.start
+    def implication(self) -> Implication:
+        return self.start, self.that
 
 
 @dataclass(frozen=True)
@@ -123,13 +106,8 @@ class LeavesOnlyIf(Bounded):
         left = past.armed & (past.previous(now) & ~now)
         return left, left & ~past(self.only_if)
 
-    @property
-    def wanted(self) -> Expr:
-        return self.only_if
-
-    @property
-    def case(self) -> Expr:
-        return previous(self.leaving) & ~self.leaving
+    def implication(self) -> Implication:
+        return previous(self.leaving) & ~self.leaving, self.only_if
 
 
 @dataclass(frozen=True)
@@ -143,13 +121,8 @@ class EntersOnlyIf(Bounded):
         entered = past.armed & begins(past, past(self.entering))
         return entered, entered & ~past(self.only_if)
 
-    @property
-    def wanted(self) -> Expr:
-        return self.only_if
-
-    @property
-    def case(self) -> Expr:
-        return self.entering
+    def implication(self) -> Implication:
+        return self.entering, self.only_if
 
 
 @dataclass(frozen=True)
@@ -164,13 +137,8 @@ class Precedes(Bounded):
         seen = past.once(past(self.first))
         return now & (seen | ~seen), now & ~seen  # where it is known whether it was
 
-    @property
-    def wanted(self) -> Expr:
-        return self.first
-
-    @property
-    def case(self) -> Expr:
-        return self.then
+    def implication(self) -> Implication:
+        return self.then, self.first
 
 
 @dataclass(frozen=True)
@@ -189,13 +157,8 @@ class Until(Bounded):
         required = past.since(started, past(self.release))
         return required, required & ~held
 
-    @property
-    def wanted(self) -> Expr:
-        return self.holds
-
-    @property
-    def case(self) -> Expr:
-        return self.start
+    def implication(self) -> Implication:
+        return self.start, self.holds
 
 
 @dataclass(frozen=True)
@@ -208,9 +171,8 @@ class Reachable(Bounded):
         reached = past.armed & past(self.that)
         return reached, reached
 
-    @property
-    def wanted(self) -> None:
-        return None
+    def implication(self) -> Implication:
+        return None, None
 
 
 @dataclass(frozen=True)

@@ -64,6 +64,9 @@ def begins(past: Past[T], that: T) -> T:
     return found
 
 
+Implication = tuple[Expr | None, Expr | None]
+
+
 class Bounded(ABC):
     """A form that a finite run breaks (or that it reaches): always a formula about the past."""
 
@@ -71,12 +74,15 @@ class Bounded(ABC):
     def monitor(self, past: Past[T]) -> tuple[T, T]:
         """Whether the form is put to the test in a tick, and whether it is broken (or reached) in it."""
 
-    @property
     @abstractmethod
-    def wanted(self) -> Expr | None:
-        """What is false in a tick in which the form is broken; None: it is to be reached."""
+    def implication(self) -> Implication:
+        """In which case the form asks for anything, if that is not in every tick, and what is false where it
+        is broken, if it is not to be reached."""
 
     @property
     def case(self) -> Expr | None:
-        """What has to be true in some tick, or the form asks for nothing; None: it speaks of every tick."""
-        return None
+        return self.implication()[0]
+
+    @property
+    def wanted(self) -> Expr | None:
+        return self.implication()[1]

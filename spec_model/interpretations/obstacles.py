@@ -1,7 +1,8 @@
-"""Obstacle chart of Board 2, other interpretations (E01 to E03, E05, E08, E10, E14 to E20,
-E27, E31).
+"""Obstacle chart of Board 2, non-degraded state, under other interpretations.
 
-Where the document gives a choice no words, the choice here is a modelling choice, and its text says which.
+Its ranges and stop (E01 to E03, E10, E18, E27), how an object is found (E14 to E17), which way it went
+(E05, E31), how a deviation ends (E08) and signals beside each other (E19, E20).  Where the document gives a
+choice no words, the choice here is a modelling choice, and its text says which.
 """
 
 from collections.abc import Callable

@@ -8,11 +8,14 @@ import select
 import struct
 import subprocess
 import sys
+import tempfile
 import termios
 from collections.abc import Mapping, Sequence
 from time import monotonic
 
 import pyte
+
+from tests.cli.warm import WarmProcess
 
 OWN_TERMINAL = """
 import fcntl, os, signal, sys, termios
@@ -47,20 +50,32 @@ class Terminal:
         kept: Mapping[str, str] = {
             k: v for k, v in os.environ.items() if k not in ("NO_COLOR", "FORCE_COLOR", "COLUMNS", "LINES")
         }
-        self._process = subprocess.Popen(
-            [sys.executable, "-c", OWN_TERMINAL, *command],
-            stdin=theirs,
-            stdout=theirs if stdout is None else stdout,
-            stderr=theirs if stderr is None else stderr,
-            env={**kept, "TERM": "xterm-256color", **(environment or {})},
-            start_new_session=True,
-        )
+        env = {**kept, "TERM": "xterm-256color", **(environment or {})}
+        self._process = self._started(command, theirs, stdout, stderr, env)
         os.close(theirs)
         self.seen = ""
+        self._unfed = bytearray()
         self._decoder = codecs.getincrementaldecoder("utf-8")(errors="replace")
         self._read = 0
         self._screen = pyte.HistoryScreen(columns, lines, history=100_000, ratio=1)
         self._stream = pyte.ByteStream(self._screen)
+
+    def _started(
+        self,
+        command: Sequence[str],
+        theirs: int,
+        stdout: int | None,
+        stderr: int | None,
+        env: Mapping[str, str],
+    ) -> subprocess.Popen[bytes] | WarmProcess:
+        return subprocess.Popen(
+            [sys.executable, "-c", OWN_TERMINAL, *command],
+            stdin=theirs,
+            stdout=theirs if stdout is None else stdout,
+            stderr=theirs if stderr is None else stderr,
+            env=env,
+            start_new_session=True,
+        )
 
     def __enter__(self) -> "Terminal":
         return self
@@ -121,20 +136,28 @@ class Terminal:
 
     def shown(self) -> list[str]:
         """The lines on the terminal, after those that were scrolled away, without blanks at their ends."""
-        columns = range(self._screen.columns)
-        gone = ["".join(line[x].data for x in columns) for line in self._screen.history.top]
-        return "\n".join(line.rstrip() for line in (*gone, *self._screen.display)).rstrip().split("\n")
+        screen = self._fed()
+        columns = range(screen.columns)
+        gone = ["".join(line[x].data for x in columns) for line in screen.history.top]
+        return "\n".join(line.rstrip() for line in (*gone, *screen.display)).rstrip().split("\n")
 
     @property
     def clean(self) -> bool:
         """Whether a shell can go on: the cursor is shown, at the start of an empty line."""
-        cursor = self._screen.cursor
-        return not cursor.hidden and cursor.x == 0 and not self._screen.display[cursor.y].strip()
+        screen = self._fed()
+        cursor = screen.cursor
+        return not cursor.hidden and cursor.x == 0 and not screen.display[cursor.y].strip()
 
     @property
     def cursor_hidden(self) -> bool:
         """Whether the cursor is hidden now."""
-        return bool(self._screen.cursor.hidden)
+        return bool(self._fed().cursor.hidden)
+
+    def _fed(self) -> pyte.HistoryScreen:
+        """The screen with all that was seen; it is slow, and many tests look at what was seen alone."""
+        self._stream.feed(bytes(self._unfed))
+        self._unfed.clear()
+        return self._screen
 
     def _more(self) -> bool:
         ready, _, _ = select.select([self._ours], [], [], PATIENCE)
@@ -143,5 +166,35 @@ class Terminal:
         except OSError:  # the other end is closed
             return False
         self.seen += self._decoder.decode(data)  # a letter may come in two pieces
-        self._stream.feed(data)
+        self._unfed += data
         return bool(data)
+
+
+class WarmTerminal(Terminal):
+    """Runs a command of rovercheck, given by its arguments, that begins warm."""
+
+    def _started(
+        self,
+        command: Sequence[str],
+        theirs: int,
+        stdout: int | None,
+        stderr: int | None,
+        env: Mapping[str, str],
+    ) -> WarmProcess:
+        assert stdout is None and stderr in (None, subprocess.DEVNULL)
+        name = os.ttyname(theirs)
+        return WarmProcess(command, (name, name, name if stderr is None else os.devnull), env)
+
+
+def piped(*arguments: str) -> str:
+    """What goes into a pipe, be it a result or a message, of a command that begins warm."""
+    with tempfile.TemporaryDirectory() as folder:
+        name = os.path.join(folder, "pipe")
+        os.mkfifo(name)
+        reading = os.open(name, os.O_RDONLY | os.O_NONBLOCK)  # so that opening it waits for nobody
+        os.set_blocking(reading, True)
+        process = WarmProcess(arguments, (os.devnull, name, name), os.environ)
+        with os.fdopen(reading, encoding="utf-8") as said:
+            text = said.read()
+        process.wait(PATIENCE)
+    return text

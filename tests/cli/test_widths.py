@@ -4,7 +4,6 @@ import json
 import re
 import shutil
 import subprocess
-import sys
 from pathlib import Path
 
 import pytest
@@ -12,29 +11,19 @@ from click.testing import CliRunner
 
 from rovercheck.checker.cli import app
 from rovercheck.checker.commands.shared.text_wrap import filled, fitted, plain, whole
-from tests.cli.terminal import PATIENCE, Terminal
+from tests.cli.terminal import Terminal, WarmTerminal, piped
 from tests.model_files.files import START
 
-COMMAND = [sys.executable, "-m", "rovercheck"]
 ROOT = Path(__file__).parents[2]
 BLANKS = "a folder with blanks in its long name"
 
 
 def at_terminal(columns: int, *arguments: str, stderr: int | None = None, **environment: str) -> Terminal:
     """What a terminal of so many columns has seen when the command has ended."""
-    with Terminal([*COMMAND, *arguments], columns, stderr=stderr, environment=environment) as terminal:
+    with WarmTerminal(arguments, columns, stderr=stderr, environment=environment) as terminal:
         terminal.ended()
     terminal.seen = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", terminal.seen)
     return terminal
-
-
-def piped(*arguments: str) -> str:
-    """What goes into a pipe, be it a result or a message."""
-    done = subprocess.run(
-        [*COMMAND, *arguments], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False,
-        timeout=PATIENCE,
-    )  # fmt: skip
-    return done.stdout
 
 
 def words(text: str) -> set[str]:
