@@ -25,14 +25,14 @@ TENTHS, HUNDREDTHS = fixed(-20, 70, "0.1", "°C"), fixed(-1, 100, "0.01", "%")
 @examples(5)
 @given(data=st.data())
 def test_the_values_of_the_model_show_the_same(
-    name: str, update: str, interpretation: str, value: str, few: Domain, many: Domain, data: st.DataObject
+    name: str, update: str, reading: str, value: str, few: Domain, many: Domain, data: st.DataObject
 ) -> None:
     system = systems()[name]
     values = st.sampled_from([few.show(raw) for raw in few.values])
     drawn = data.draw(
         st.lists(st.tuples(st.sampled_from([20, 500, 6000]), st.booleans(), values), max_size=5)
     )
-    blocks: Blocks = [(ms, {update: arrives, interpretation: at}) for ms, arrives, at in drawn]
+    blocks: Blocks = [(ms, {update: arrives, reading: at}) for ms, arrives, at in drawn]
     watched = [value, *system.written]
-    wide = widened(system, {interpretation: many, value: many})
+    wide = widened(system, {reading: many, value: many})
     assert list(shown(wide, blocks, watched)) == list(shown(system, blocks, watched))

@@ -25,7 +25,7 @@ TO_PAUSE = line_of('to("Pause"', HEATER)
 FILES = {
     "syntax": (
         but("heater = Chart(", "heater = Chart(("),
-        "m.py:15: this is not Python: '(' was never closed.",
+        "m.py:24: this is not Python: '(' was never closed.",
     ),
     "null byte": ("x = '\0'\n", "m.py: this is not Python: source code string cannot contain null bytes."),
     "nothing": ("x = 1\n", "m.py holds no chart and no system"),
@@ -186,7 +186,7 @@ def test_an_error_in_a_neighbour_is_shown_there(here: Path, capfd: pytest.Captur
 
 
 def test_a_neighbour_with_the_name_of_a_package(here: Path, capfd: pytest.CaptureFixture[str]) -> None:
-    (here / "properties.py").write_text("limit = 1\n")
-    (here / "m.py").write_text("from rovercheck.properties import limit\n")
+    (here / "click.py").write_text("limit = 1\n")
+    (here / "m.py").write_text("from click import limit\n")
     said = refused(capfd, "check", "--model", "m.py")
-    assert "An installed package is named properties too: write `from .properties import ...`" in said
+    assert "An installed package is named click too: write `from .click import ...`" in said

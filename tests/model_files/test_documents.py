@@ -70,7 +70,7 @@ def test_the_listing_of_the_guide_is_a_model(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     page = (ROOT / "docs" / "models.md").read_text(encoding="utf-8")
-    [listing] = [b for b in re.findall(r"(?:(?: {4}.*)?\n)+", page) if "from properties.forms" in b]
+    [listing] = [b for b in re.findall(r"(?:(?: {4}.*)?\n)+", page) if "from rovercheck import" in b]
     (tmp_path / "m.py").write_text(re.sub(r"^ {4}", "", listing, flags=re.MULTILINE), encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     assert run(["list", "properties", "--model", "m.py"]) == Exit.AS_EXPECTED

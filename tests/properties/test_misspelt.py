@@ -3,6 +3,7 @@
 import subprocess
 import sys
 from pathlib import Path
+from shutil import copy
 
 import pytest
 
@@ -24,9 +25,12 @@ AREA = "properties/areas/relay.py"
 )
 def test_a_misspelt_name_is_a_mistake_of_its_file(tmp_path: Path, right: str, wrong: str, said: str) -> None:
     """It was reported as a bug of rovercheck."""
+    house = tmp_path / "rovercheck"
     for package in ("checker", "properties", "spec_model"):
-        copied(ROOT / package, tmp_path / package)
-    file = tmp_path / AREA
+        copied(ROOT / package, house / package)
+    for module in (ROOT / "rovercheck").glob("*.py"):
+        copy(module, house)
+    file = house / AREA
     text = file.read_text(encoding="utf-8")
     assert right in text
     file.unlink()
