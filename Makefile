@@ -53,10 +53,12 @@ check-repairs: $(STAMP)
 		$(RUN) -m rovercheck check --repair "$$repair" --timers free --timeout 600 $(ARGS) || worst=$$?; \
 	done; exit $$worst
 
-test-full: SUITE := --hypothesis-profile=full
-test test-full: lint types
+test: lint types
 	@echo "Tests, in $(JOBS) processes ..."
 	@$(RUN) -m pytest -q -n $(JOBS) --dist worksteal $(SUITE) $(ARGS)
+
+test-full: SUITE := --hypothesis-profile=full
+test-full: test
 
 lint: $(STAMP)
 	@echo "Lint ..."

@@ -42,7 +42,7 @@ class Proof:
         Of parts with one name in several systems, the first that differs.
         """
         found: dict[str, tuple[Chart | Block, Chart | Block]] = {}
-        repaired = self.variant.systems()
+        repaired = _repaired(self.repair.name)
         for name, system in _specified().items():
             after = {part.name: part for part in parts(repaired[name].components)}
             for part in parts(system.components):
@@ -63,6 +63,12 @@ def proofs(record: VerdictRecord) -> tuple[Proof, ...]:
 
 
 @cache
+def _repaired(name: str) -> Mapping[str, System]:
+    repair = repairs()[name]
+    return Variant(repair.interpretations, repair).systems()
+
+
+@cache
 def _specified() -> Mapping[str, System]:
     return systems()
 
@@ -70,7 +76,7 @@ def _specified() -> Mapping[str, System]:
 def _decided(repair: Repair, record: VerdictRecord) -> Iterator[Result]:
     variant = Variant(repair.interpretations, repair)
     wanted = [prop for id in repair.fixes if not (prop := variant.properties()[id]).costly]
-    decided = record.decided(wanted, variant.systems(), LIMITS, f"{repair.name}: ")
+    decided = record.decided(wanted, _repaired(repair.name), LIMITS, f"{repair.name}: ")
     found = {r.property.id: r for r in decided}
     yield from (found[prop.id] for prop in wanted)
 
