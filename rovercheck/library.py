@@ -23,7 +23,8 @@ from rovercheck.checker.explain.explanation import explained, unexplained
 from rovercheck.checker.explain.unrolled_run import OutOfTime
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_invariants import invariants_of
-from rovercheck.checker.model.load import load, model
+from rovercheck.checker.model import load as files
+from rovercheck.checker.model.load import model
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.render import Renderer, renderers
 from rovercheck.checker.render.verdict_text import evidence
@@ -192,6 +193,11 @@ def trace(of: Model | str | Path, id: str, *, seconds: float | None = None) -> V
     return View("trace", _explained(found.verdict.because, prop, model), model.systems)
 
 
+def load(path: str | Path) -> Model:
+    """The model that a file or a folder holds.  Raises ``ModelError`` for what has no meaning."""
+    return files.load(Path(path))
+
+
 def picture(chart: Chart) -> View:
     """The picture of a chart: shown by a notebook, or written as SVG, HTML, DOT and others."""
     return View("statechart", chart)
@@ -210,7 +216,7 @@ def _explained(trace: Trace, prop: Property, model: Model) -> Trace:
 
 
 def _read(of: Model | str | Path) -> Model:
-    return of if isinstance(of, Model) else load(Path(of))
+    return of if isinstance(of, Model) else load(of)
 
 
 def _engine(name: str) -> str:

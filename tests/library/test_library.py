@@ -79,7 +79,7 @@ def test_what_is_proved_has_no_run() -> None:
 
 
 def test_a_chart_is_a_picture(tmp_path: Path) -> None:
-    chart = rovercheck.load(HEATER).charts["Heater"]
+    chart = rovercheck.load(str(HEATER)).charts["Heater"]
     drawn = rovercheck.picture(chart)
     assert drawn._repr_html_().startswith("<svg") and "Pause" in drawn._repr_html_()
     assert drawn.write(str(tmp_path / "heater.dot")).read_text().startswith("digraph")
