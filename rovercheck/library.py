@@ -22,8 +22,8 @@ from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.explain.explanation import explained, unexplained
 from rovercheck.checker.explain.unrolled_run import OutOfTime
 from rovercheck.checker.model import Model
-from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.model import load as files
+from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.model.load import model
 from rovercheck.checker.model.rover import rover
 from rovercheck.checker.render import Renderer, renderers

@@ -45,11 +45,8 @@ import os
 from contextlib import closing
 
 import pytest
-from rovercheck import own
-
-with own():  # whatever else bears the names
-    from rovercheck.checker.adapters import start
-    from rovercheck.spec_model.abstraction import boards
+from rovercheck.checker.adapters import start
+from rovercheck.spec_model.abstraction import boards
 
 CLOCK = "now_ms"
 TICK_MS = {tick_ms}
@@ -80,7 +77,7 @@ def played(board, rows):
 @pytest.mark.parametrize("name", RUNS)
 def test_outputs(name, request):
     named = request.config.getoption("--impl", None) or os.environ.get("ROVERCHECK_IMPL")
-    with own(), closing(start(named or OURS[name], board := boards()[name])) as implementation:
+    with closing(start(named or OURS[name], board := boards()[name])) as implementation:
         implementation.reset()
         for step, (inputs, required) in enumerate(played(board, RUNS[name]), start=1):
             actual = implementation.step(inputs)

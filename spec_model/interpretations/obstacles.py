@@ -12,7 +12,6 @@ from rovercheck.spec_model.interpretations import Alternative, Change, alternati
 from rovercheck.spec_model.interpretations.heading import PAIRS
 from rovercheck.spec_model.lang.action import Action, Send, assign, when
 from rovercheck.spec_model.lang.change import (
-    arrow_of,
     assigned,
     before,
     doing,
@@ -22,6 +21,7 @@ from rovercheck.spec_model.lang.change import (
     in_state,
     inside,
     then,
+    transition_of,
 )
 from rovercheck.spec_model.lang.chart import Chart, Transition, to
 from rovercheck.spec_model.lang.domain import chosen
@@ -118,7 +118,7 @@ def restart(pair: str) -> Change:
 
     def change(chart: Chart) -> Chart:
         window = f"timerSonar{pair}"
-        opening = arrow_of(chart, f"{window}.Waiting", "Fall1Detected")
+        opening = transition_of(chart, f"{window}.Waiting", "Fall1Detected")
         return also(chart, f"{window}.Fall1Detected", opening, first=True)
 
     return change
@@ -181,7 +181,7 @@ two_signals = flag("two_signals", "two signals in one step stopped the rover (E2
 
 
 def another_signal(follows: Callable[[str, str], Transition | None]) -> tuple[Change, ...]:
-    """Arrows of each deviation for a signal after its own, tested after that of an emergency."""
+    """Transitions of each deviation for a signal after its own, tested after that of an emergency."""
 
     def changed(state: str) -> Change:
         more = [arrow for signal in SIGNALS if (arrow := follows(state, signal)) is not None]
@@ -290,4 +290,4 @@ ALTERNATIVES: tuple[Alternative, ...] = (
         say_left,
         *(partial(arrows, name=state, change=opposite) for state in ("B2Decisions.Waiting", *MOVES))),
 )  # fmt: skip
-"""Those that bring arrows before those that change them."""
+"""Those that bring transitions before those that change them."""

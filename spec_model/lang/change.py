@@ -1,8 +1,8 @@
 """Changes of a chart or block that say what they replace, and raise ``ModelError`` where that is gone.
 
 Each is made with what it changes, then applied to the part: ``guard("decide", "Temp_CRIT", wider)(chart)``.
-An arrow is known by its ends, an assignment by its variable and a formula by itself, so that changes can
-follow each other: none counts the arrows that another one may have added.
+A transition is known by its ends, an assignment by its variable and a formula by itself, so that changes can
+follow each other: none counts the transitions that another one may have added.
 """
 
 from collections.abc import Callable, Sequence
@@ -11,7 +11,14 @@ from typing import TypeVar, cast
 
 from rovercheck.spec_model.lang.action import Action, Assign, If, assign, expressions
 from rovercheck.spec_model.lang.chart import Block, Chart, State, Transition
-from rovercheck.spec_model.lang.edit import arrows, begin, edit_state, in_actions, in_block, in_expressions
+from rovercheck.spec_model.lang.edit import (
+    begin,
+    edit_state,
+    edit_transitions,
+    in_actions,
+    in_block,
+    in_expressions,
+)
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.expr import TRUE, Apply, Expr, Named, Operand, Temporal, Var, When
 from rovercheck.spec_model.lang.walk import Shapes, nodes
@@ -23,7 +30,7 @@ Rewrite = Callable[[tuple[Action, ...]], tuple[Action, ...]]
 _shape = Shapes()
 
 ENTERED = ""
-"""The source of the arrow that a chart takes in its first execution."""
+"""The source of the transition that a chart takes in its first execution."""
 
 
 def formula(old: Expr | str, new: Expr | Rule) -> Callable[[Part], Part]:
@@ -130,9 +137,9 @@ def _as_before(apply: Apply, args: tuple[Expr, ...]) -> tuple[Expr, ...]:
 
 
 def guard(source: str, target: str, change: Rule) -> Callable[[Chart], Chart]:
-    """Another guard on every arrow from a state or junction to the target; one without has TRUE.
+    """Another guard on every transition from a state or junction to the target; one without has TRUE.
 
-    ``ENTERED`` is the source of the default arrows of the outermost level.
+    ``ENTERED`` is the source of the default transitions of the outermost level.
     """
 
     def guarded(found: list[Transition]) -> list[Transition]:
@@ -142,57 +149,57 @@ def guard(source: str, target: str, change: Rule) -> Callable[[Chart], Chart]:
     def changed(chart: Chart) -> Chart:
         if source == ENTERED:
             return begin(chart, guarded(list(chart.root.default)))
-        return arrows(chart, source, guarded)
+        return edit_transitions(chart, source, guarded)
 
     return changed
 
 
 def guard_of(chart: Chart, source: str, target: str) -> Expr:
-    """The guard of the arrow from a state or junction to the target."""
-    return _guard(arrow_of(chart, source, target))
+    """The guard of the transition from a state or junction to the target."""
+    return _guard(transition_of(chart, source, target))
 
 
-def arrow_of(chart: Chart, source: str, target: str) -> Transition:
-    """The arrow from a state or junction to the target."""
+def transition_of(chart: Chart, source: str, target: str) -> Transition:
+    """The transition from a state or junction to the target."""
     found: list[Transition] = []
 
     def look(drawn: list[Transition]) -> list[Transition]:
         found.extend(drawn)
         return drawn
 
-    arrows(chart, source, look)
+    edit_transitions(chart, source, look)
     return _one_of(found, source, target)
 
 
-def _guard(arrow: Transition) -> Expr:
-    return TRUE if arrow.guard is None else arrow.guard
+def _guard(transition: Transition) -> Expr:
+    return TRUE if transition.guard is None else transition.guard
 
 
 def _one_of(found: Sequence[Transition], source: str, target: str) -> Transition:
-    for arrow in found:
-        if arrow.target == target:
-            return arrow
-    raise ModelError(f"No arrow leads from {source or 'outside'} to {target} any more.")
+    for transition in found:
+        if transition.target == target:
+            return transition
+    raise ModelError(f"No transition leads from {source or 'outside'} to {target} any more.")
 
 
 def without(source: str, target: str) -> Callable[[Chart], Chart]:
-    """No arrow from a state or junction to the target."""
+    """No transition from a state or junction to the target."""
 
     def others(found: list[Transition]) -> list[Transition]:
         _one_of(found, source, target)
         return [t for t in found if t.target != target]
 
-    return lambda chart: arrows(chart, source, others)
+    return lambda chart: edit_transitions(chart, source, others)
 
 
 def doing(source: str, target: str, change: Rewrite) -> Callable[[Chart], Chart]:
-    """Other condition actions on every arrow from a state or junction to the target."""
+    """Other condition actions on every transition from a state or junction to the target."""
 
     def changed(found: list[Transition]) -> list[Transition]:
         _one_of(found, source, target)
         return [replace(t, do=change(t.do)) if t.target == target else t for t in found]
 
-    return lambda chart: arrows(chart, source, changed)
+    return lambda chart: edit_transitions(chart, source, changed)
 
 
 def in_state(

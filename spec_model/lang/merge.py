@@ -1,8 +1,8 @@
 """Two forms of a chart in one: as it was changed where a condition holds, as it was drawn elsewhere.
 
 Where the forms agree the drawing stays as it is.  The rest is told apart as close to the difference as
-it can be: at the argument of an operator, the guard of an arrow, one action of a list.  Once the condition
-is fixed, ``specialise`` leaves one form and no trace of the other.
+it can be: at the argument of an operator, the guard of a transition, one action of a list.  Once the
+condition is fixed, ``specialise`` leaves one form and no trace of the other.
 """
 
 from collections.abc import Callable, Iterator, Sequence
@@ -66,7 +66,7 @@ class Merge:
             return all_of(*(m for m in merged if m is not TRUE))
         return any_of(*merged)
 
-    # --- actions and arrows --------------------------------------------------------------------------
+    # --- actions and transitions --------------------------------------------------------------------------
 
     def actions(self, changed: Sequence[Action], drawn: Sequence[Action]) -> tuple[Action, ...]:
         """``drawn``, with what differs in conditional actions."""
@@ -91,7 +91,7 @@ class Merge:
         return drawn
 
     def arrows(self, changed: Sequence[Transition], drawn: Sequence[Transition]) -> tuple[Transition, ...]:
-        """``drawn``; an arrow that only one form has, has the condition in its guard, or its negation."""
+        """``drawn``; a transition that only one form has, has the condition in its guard, or its negation."""
         if changed is drawn or [*map(_arrow_key, changed)] == [*map(_arrow_key, drawn)]:
             return tuple(drawn)
         merged: list[Transition] = []
@@ -121,7 +121,9 @@ class Merge:
         if changed is drawn:
             return drawn
         if [s.name for s in changed.states] != [s.name for s in drawn.states]:
-            raise ModelError(f"{drawn.name} would have other states; change its arrows and actions only.")
+            raise ModelError(
+                f"{drawn.name} would have other states; change its transitions and actions only."
+            )
         before = {j.name: j for j in drawn.junctions}
         junctions = [
             Junction(j.name, self.arrows(j.transitions, before.pop(j.name, j).transitions))

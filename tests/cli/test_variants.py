@@ -10,7 +10,7 @@ from rovercheck.checker.commands.shared.codes import Exit
 WRONG = [
     (["check", "PB1-11", "--interpret", "S43=XOR"], "S43 has no choice 'XOR'. Did you mean 'OR'"),
     (["check", "PB1-11", "--interpret", "S43"], "'S43' names no choice; write S43= and one of OR, AND, any."),
-    (["check", "PB1-11", "--interpret", "S99=AND"], "There is no reading 'S99'. Did you mean"),
+    (["check", "PB1-11", "--interpret", "S99=AND"], "There is no interpretation 'S99'. Did you mean"),
     (["check", "--interpret", "S25=VOLT"], "S25=VOLT is not modelled"),
     (["check", "--repair", "safety-first"], "There is no repair 'safety-first'. Did you mean"),
     (["check", "--without", "A99"], "There is no assumption 'A99'."),

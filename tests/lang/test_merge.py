@@ -53,7 +53,7 @@ def same(one: Component, other: Component) -> bool:
 
 
 def scrambled(data: st.DataObject, chart: Chart) -> Chart:
-    """The chart with arrows turned round, dropped and negated, and actions moved, as they come."""
+    """The chart with transitions turned round, dropped and negated, and actions moved, as they come."""
 
     def arrows(found: tuple[Transition, ...]) -> tuple[Transition, ...]:
         kept = [arrow for arrow in found if data.draw(st.integers(0, 3))]
@@ -187,9 +187,9 @@ def test_changes_meet_what_they_name() -> None:
     [
         (formula(x > 7, a), "C has no formula `x > 7` any more."),
         (formula("early", a), "C has no formula `early` any more."),
-        (guard("S", "S", lambda g: g), "No arrow leads from S to S any more."),
-        (without("J", "T"), "No arrow leads from J to T any more."),
-        (doing("T", "J", then()), "No arrow leads from T to J any more."),
+        (guard("S", "S", lambda g: g), "No transition leads from S to S any more."),
+        (without("J", "T"), "No transition leads from J to T any more."),
+        (doing("T", "J", then()), "No transition leads from T to J any more."),
         (guard("J", "S", at_once), "`x > 3` is no duration."),
         (guard("J", "S", inside(a, b)), "`x > 3` has no formula `a` any more."),
         (guard("U", "S", lambda g: g), "C has no state 'U'."),

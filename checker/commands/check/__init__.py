@@ -238,7 +238,7 @@ def _premises(options: CheckOptions, variant: "Variant", search: "SearchSettings
 
 def _again(options: str, chosen: tuple[str, ...], repair: str | None, dropped: tuple[str, ...]) -> str:
     """The options that let another command speak of the same charts."""
-    interpretations, without = [f"--interpretation {c}" for c in chosen], [f"--without {d}" for d in dropped]
+    interpretations, without = [f"--interpret {c}" for c in chosen], [f"--without {d}" for d in dropped]
     return " ".join(
         filter(None, [options, *interpretations, f"--repair {repair}" if repair else "", *without])
     )

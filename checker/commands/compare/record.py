@@ -1,8 +1,8 @@
 """Keeps the runs that the model checker found as inputs for the cross-check; run as a module after a change.
 
-``python -m rovercheck.commands.compare.record [FILE]`` decides every violated property that is quick to
-decide, and writes its run on each board that it concerns; into another file than that of the project if one
-is named.
+``python -m rovercheck.checker.commands.compare.record [FILE]`` decides every violated property that is
+quick to decide, and writes its run on each board that it concerns; into another file than that of the
+project if one is named.
 """
 
 import sys

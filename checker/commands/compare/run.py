@@ -25,8 +25,8 @@ from rovercheck.spec_model.lang.errors import did_you_mean
 
 SCHEMA = 1
 OURS: Mapping[str, str] = {
-    "board1": "python:supervisor.board1:Board1",
-    "board2": "python:supervisor.board2.board:Board2",
+    "board1": "python:rovercheck.supervisor.board1:Board1",
+    "board2": "python:rovercheck.supervisor.board2.board:Board2",
 }
 """The supervisors of the project, which are checked unless another is named."""
 

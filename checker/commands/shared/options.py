@@ -148,7 +148,7 @@ def searching(command: Callable[..., Exit]) -> Callable[..., Exit]:
             "--timeout",
             type=SECONDS,
             metavar="SEC",
-            help="Seconds per search. One that ignores them is killed when a quarter more and 5 s are over.",
+            help="Seconds per search. One that ignores them is killed when a tenth more and 2 s are over.",
         ),
         click.option(
             "--timers",

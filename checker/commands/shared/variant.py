@@ -71,7 +71,7 @@ def _choices(chosen: Sequence[str]) -> dict[str, str]:
     choices: dict[str, str] = {}
     for text in chosen:
         id, equals, choice = text.partition("=")
-        one = pick("reading", id, ambiguities())
+        one = pick("interpretation", id, ambiguities())
         options = [c for c in one.choices if c not in one.not_modelled]
         if not equals or not choice:
             raise UsageError(f"{text!r} names no choice; write {id}= and one of {', '.join(options)}, {ANY}.")

@@ -5,7 +5,10 @@ from collections.abc import Mapping, Sequence
 from rovercheck.checker.testgen.formats.expected_outputs import ExpectedRow, ExpectedTest, rows
 from rovercheck.spec_model.abstraction import Board
 
-OURS = {"board1": "python:supervisor.board1:Board1", "board2": "python:supervisor.board2.board:Board2"}
+OURS = {
+    "board1": "python:rovercheck.supervisor.board1:Board1",
+    "board2": "python:rovercheck.supervisor.board2.board:Board2",
+}
 """The implementation that is run unless another is named."""
 
 HEAD = '''"""Covering tests of {board}, made by `rovercheck generate-tests`.
@@ -14,14 +17,11 @@ Run them against an implementation with `pytest {file} --impl KIND:WHAT`, by def
 """
 
 import pytest
-from rovercheck import own
+from rovercheck.checker.adapters import start
+from rovercheck.checker.testgen.scripts import steps, unfolded
+from rovercheck.spec_model.abstraction import boards
 
-with own():  # whatever else bears the names
-    from rovercheck.checker.adapters import start
-    from rovercheck.checker.testgen.scripts import steps, unfolded
-    from rovercheck.spec_model.abstraction import boards
-
-    BOARD = boards()["{board}"]
+BOARD = boards()["{board}"]
 OURS = "{ours}"
 NEAR = 1e-6  # in the unit, or as a part of the value: single precision will do
 
@@ -35,8 +35,7 @@ TAIL = """}
 
 @pytest.fixture(scope="module")
 def implementation(request):
-    with own():
-        run = start(request.config.getoption("--impl", None) or OURS, BOARD)
+    run = start(request.config.getoption("--impl", None) or OURS, BOARD)
     yield run
     run.close()
 
