@@ -55,7 +55,7 @@ def examples() -> list[Example]:
     found = [example(*roverlite(comp, k)) for comp, k in ((4, 25), (3, 50), (20, 50))]
     found.append(example(*held_counter()))
 
-    @settings(max_examples=100, phases=[Phase.generate], database=None, derandomize=True)
+    @settings(max_examples=200, phases=[Phase.generate], database=None, derandomize=True)
     @given(transition_systems())
     def collect(system: TransitionSystem) -> None:
         found.append(example(system, goals(system)))

@@ -139,7 +139,7 @@ def test_a_proof_under_another_reading_is_derived_under_it(tmp_path: Path) -> No
     path = written(tmp_path, *WHEEL, interpretations={"S27": "OK"})
     assert read(path).origin.interpretations == {"S27": "OK"}
     assert certify([path], SOLVER, None, False) is Exit.AS_EXPECTED
-    otherwise = changed(path, tmp_path, lambda document: document["origin"].update(interpretations={}))
+    otherwise = changed(path, tmp_path, lambda document: document["origin"].update(readings={}))
     assert certify([otherwise], SOLVER, None, False) is Exit.FAILED
 
 

@@ -63,7 +63,7 @@ def test_an_origin_that_does_not_exist_is_rejected(
         lambda d: d["origin"].update(system="nowhere"),
         lambda d: d["origin"].update(system="relay"),
         lambda d: d["origin"].update(repair="none"),
-        lambda d: d["origin"].update(interpretations={"S0": "x"}),
+        lambda d: d["origin"].update(readings={"S0": "x"}),
         lambda d: d["origin"].update(timers="none"),
         lambda d: d["origin"].update(properties=["PX-1"], proved=["PX-1"]),
     ]

@@ -39,7 +39,7 @@ def offered(*words: str) -> list[str]:
         (("explore", "Mon"), {"Monitor_battery", "Monitors_2"}),
         (("explore", "--model", str(LIFT), "Do"), {"Door"}),
         (("check", "--engine", "b"), {"bdd", "bmc"}),
-        (("check", "--rea"), {"--interpret"}),
+        (("check", "--inter"), {"--interpret"}),
     ],
 )
 def test_names_that_begin_so_are_offered(words: tuple[str, ...], some: set[str]) -> None:

@@ -105,7 +105,7 @@ def test_the_command_holds_what_differs_from_the_defaults() -> None:
     with verb.make_context("report", line) as context:
         shown = command(context)
     assert shown == (
-        "rovercheck report B-1 --output FILE --full --interpret S43=AND --interpret S44=any --timeout 5.0"
+        "rovercheck report B-1 --full --output FILE --interpret S43=AND --interpret S44=any --timeout 5.0"
     )
 
 

@@ -73,7 +73,7 @@ def test_a_verdict_is_read_as_it_was_found(rows: dict[str, Row], id: str, kept: 
 
 
 def test_the_answer_to_the_same_question_is_not_searched_for(rows: dict[str, Row]) -> None:
-    assert "all 7 valuations" in evidence(
+    assert "all 7 reachable states" in evidence(
         decided(VerdictRecord({EXHAUSTED: forged(rows[EXHAUSTED])}), EXHAUSTED)
     )
 
@@ -87,7 +87,7 @@ def test_it_is_where_all_is_searched_for_anew(rows: dict[str, Row]) -> None:
 def test_of_other_charts_it_is_searched_for(rows: dict[str, Row]) -> None:
     slip = edited("safety", "Safety_state", lambda chart: drop(chart, "critical_1", 2))
     record = VerdictRecord({EXHAUSTED: forged(rows[EXHAUSTED])})
-    assert "all 7 valuations" not in evidence(decided(record, EXHAUSTED, slip))
+    assert "all 7 reachable states" not in evidence(decided(record, EXHAUSTED, slip))
     assert record.now[EXHAUSTED]["question"] != rows[EXHAUSTED]["question"]
 
 

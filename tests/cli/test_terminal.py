@@ -187,7 +187,7 @@ def test_no_color_leaves_the_progress_line() -> None:
 LONG = [
     sys.executable,
     "-m",
-    "checker",
+    "rovercheck",
     "check",
     "PSY-17b",
     "REACH-B2-TURN",

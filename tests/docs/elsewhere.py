@@ -168,7 +168,13 @@ SHOWN = {
 PROGRAMS = {
     ("docs/adapters.md", "class Supervisor:"): "python",
     ("docs/adapters.md", "import json, sys"): "python",
-    ("docs/compare.md", "from rovercheck.checker.compare import cross_check, quick_check"): "imports",
-    ("docs/models.md", "from rovercheck.properties.forms import always"): "model",
+    ("docs/library.md", "import rovercheck"): "python",
+    ("docs/library.md", 'run = rovercheck.trace("heater.py", "HEAT-3")'): "python",
+    (
+        "docs/library.md",
+        "from rovercheck import Chart, State, after, always, assign, flag, implies, model, picture, sec, to",
+    ): "python",
+    ("docs/compare.md", "from rovercheck.checker.compare import cross_check, effort, quick_check"): "imports",
+    ("docs/models.md", "from rovercheck import ("): "model",
 }
 """Python of a page: compiled; its imports executed; or read as a model."""

@@ -127,7 +127,7 @@ def said(house: Path, *command: str, code: int = 0) -> str:
 def test_a_property(house: Path) -> None:
     area = house / "properties" / "areas" / "temperature.py"
     area.write_text(area.read_text(encoding="utf-8") + ALWAYS, encoding="utf-8")
-    assert "TEMP-X is violated, on record is proved." in said(house, "check", "TEMP-X", code=1)
+    assert "TEMP-X is violated; expected: proved." in said(house, "check", "TEMP-X", code=1)
 
 
 def test_a_repair(house: Path) -> None:

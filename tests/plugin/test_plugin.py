@@ -129,7 +129,7 @@ def test_what_is_not_decided_fails_with_the_reason(project: pytest.Pytester) -> 
 
 
 def test_what_takes_long_is_skipped_unless_wanted(project: pytest.Pytester) -> None:
-    text = HEATER.replace("import always,", "import always, costly,") + "HEAT_2 = costly(HEAT_2)\n"
+    text = HEATER.replace("    always,\n", "    always,\n    costly,\n") + "HEAT_2 = costly(HEAT_2)\n"
     (project.path / "heater.py").write_text(text)
     result = project.runpytest_inprocess(*PLUGIN, "heater.py::HEAT-2", "-rs")
     result.assert_outcomes(skipped=1)

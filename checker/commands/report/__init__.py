@@ -45,6 +45,7 @@ class PageOptions:
 
 
 @click.command(short_help="Write one page with all verdicts, for reviewers.")
+@selecting
 @click.option(
     "--output",
     "-o",
@@ -53,7 +54,6 @@ class PageOptions:
     metavar=FILE,
     help="The HTML file to write.",
 )
-@selecting
 @click.option("--certify", is_flag=True, help="Check every proof again, without the engine that found it.")
 @click.option("--no-repairs", is_flag=True, help="Without deciding the proposed repairs.")
 @click.option("--premises", is_flag=True, help="Also whether the premises of proofs occur.")
