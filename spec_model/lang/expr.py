@@ -1,7 +1,7 @@
 """Expressions: a small closed language of typed formulas over finite variables.
 
 ``Var``, ``Const``, ``Apply`` of an ``Op``, ``Named`` (a formula with a name, transparent to every reader) and
-``Temporal`` (removed by lowering and by property reduction).  Arithmetic is on raw integers, as sorts explain.
+``Temporal`` (removed by lowering and property reduction).  Arithmetic is on raw integers, as sorts explain.
 """
 
 from collections.abc import Callable
