@@ -14,7 +14,7 @@ from pathlib import Path
 from time import process_time
 from typing import overload
 
-from rovercheck.checker.commands.shared.codes import UsageError
+from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import write
 from rovercheck.checker.commands.shared.select import pick, pick_engine, pick_properties
 from rovercheck.checker.commands.trace.formats import exit_written
@@ -31,7 +31,7 @@ from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.checker.verify.certificates import Certification
-from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings, events
+from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings, events, worst
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.chart import Chart
@@ -108,8 +108,11 @@ class Results(Sequence[CheckedProperty]):
 
     @property
     def as_expected(self) -> bool:
-        """Whether every verdict is the one that is expected, "proved" unless a baseline says otherwise."""
-        return all(one.as_expected for one in self.found)
+        """Whether every verdict is the one that is expected, "proved" unless a baseline says otherwise.
+
+        It is not where a proof was checked again and rejected.
+        """
+        return worst(self.found) is Exit.AS_EXPECTED
 
     def __len__(self) -> int:
         return len(self.found)
@@ -157,7 +160,7 @@ def check(
     ``of`` is a ``Model`` or the path of one; ``seconds`` and ``depth`` (ticks) limit each search, and what
     they cut short is unknown, never proved.  ``certify``: every proof is checked again without the engine
     that found it.  Properties that are marked as costly are decided when they are named.  Raises
-    ``ModelError`` for a model or a name without meaning.
+    ``ModelError`` for a model or a name without meaning, and where nothing is left to check.
 
     >>> from rovercheck import Block, always, assign, check, flag, in_order, model
     >>> lamp, on = flag("lamp"), flag("on")
@@ -176,7 +179,7 @@ def check(
         for one in events(properties, model.systems, search)
         if isinstance(one, Result)
     }
-    return Results(tuple(found[prop.id] for prop in properties if prop.id in found))
+    return Results(tuple(found[prop.id] for prop in properties))
 
 
 def trace(of: Model | str | Path, id: str, *, seconds: float | None = None) -> View:
@@ -235,9 +238,14 @@ def _one(id: str, model: Model) -> Property:
 
 def _chosen(model: Model, ids: Sequence[str]) -> list[Property]:
     try:
-        return pick_properties(ids, (), model.stated(), among=model.systems)
+        found = pick_properties(ids, (), model.stated(), among=model.systems)
     except UsageError as error:
         raise ModelError(str(error)) from error
+    if not found:
+        raise ModelError(
+            f"Nothing to check: all properties of {model.name} are costly; name those that you want."
+        )
+    return found
 
 
 __all__ = [

@@ -23,7 +23,6 @@ from rovercheck.spec_model.lang.system import System
 if TYPE_CHECKING:
     from rovercheck.checker.verify.certificates import Certification
 
-
 NO_LIMITS = Limits()
 
 

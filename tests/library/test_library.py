@@ -5,6 +5,7 @@ import json
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 from shutil import copy
 from types import ModuleType
@@ -13,6 +14,7 @@ import pytest
 
 import rovercheck
 from rovercheck import language, library
+from rovercheck.checker.certify.outcome import Rejected
 from rovercheck.spec_model.lang.errors import ModelError
 from tests.model_files.files import START
 
@@ -127,3 +129,19 @@ def test_the_page_is_true(tmp_path: Path) -> None:
     assert done.stdout.startswith("HEAT-1 proved\nHEAT-2 proved\nHEAT-3 violated\nHeater: 4 ticks")
     assert "\nLAMP-1 proved (" in done.stdout
     assert {"heat-3.html", "lamp.svg"} <= {file.name for file in tmp_path.iterdir()}
+
+
+def test_a_rejected_proof_is_not_as_expected() -> None:
+    found = rovercheck.check(HEATER, "HEAT-1")
+    [one] = found
+    rejected = replace(one.result, certificate=Rejected("consecution", "a state"))
+    assert found.as_expected and not rovercheck.Results((replace(one, result=rejected),)).as_expected
+
+
+def test_nothing_to_check_is_no_pass() -> None:
+    chart = rovercheck.Chart("Lamp", [rovercheck.State("Off")], default="Off")
+    dark = chart.active("Off")
+    said = rovercheck.reachable("LAMP-1", "It is dark.", that=dark, covers=["R1"], on=chart)
+    costly = rovercheck.model(chart, rovercheck.costly(said))
+    with pytest.raises(ModelError, match="Nothing to check"):
+        rovercheck.check(costly)

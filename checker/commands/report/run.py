@@ -21,7 +21,6 @@ from rovercheck.checker.commands.shared.codes import Exit, UsageError
 from rovercheck.checker.commands.shared.output import counted, err, out, write
 from rovercheck.checker.commands.shared.text_wrap import whole
 from rovercheck.checker.commands.shared.verdicts import results
-from rovercheck.checker.engines import Limits
 from rovercheck.checker.model import Model
 from rovercheck.checker.model.kept_runs import file_of, read
 from rovercheck.checker.model.variant import Variant
@@ -32,7 +31,6 @@ from rovercheck.properties.forms import Property
 
 PACKAGES = ("rovercheck", "z3-solver", "bitwuzla", "llvmlite", "python-sat", "oxidd", "numpy", "networkx")
 """The tool, its solvers, and what else a verdict may rest on."""
-NO_LIMITS = Limits()
 MEANINGS = {
     Exit.AS_EXPECTED: "every verdict is as expected",
     Exit.FAILED: "a verdict is not as expected",
