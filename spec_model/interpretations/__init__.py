@@ -136,8 +136,11 @@ def _woven(
 def _part(drawn: Component, chosen: Alternatives) -> tuple[Component, ...]:
     """What becomes of one part, one part for all systems that share it."""
     made: tuple[Component, ...] = (drawn,)
+    names = {name_of(drawn)}
     for one in chosen:
-        made = tuple(new for old in made for new in _applied(one, old))
+        if one.part in names:
+            made = tuple(new for old in made for new in _applied(one, old))
+            names.update(map(name_of, made))
     return made
 
 

@@ -129,8 +129,9 @@ def _searched(
     asked: Sequence[Property], systems: Mapping[str, System], search: SearchSettings, quiet: bool
 ) -> Iterator[Result]:
     """What came of searching for cases; where none is found on the rover, on the system that was searched."""
-    free = {name: replace(system, over=False, concrete="") for name, system in systems.items()}
-    first = {name: system if system.concrete else free[name] for name, system in systems.items()}
+    wanted = {name: systems[name] for name in {case.on for case in asked}}
+    free = {name: replace(system, over=False, concrete="") for name, system in wanted.items()}
+    first = {name: system if system.concrete else free[name] for name, system in wanted.items()}
     again = list[Property]()
     for one in results(asked, first, search, quiet) if asked else ():
         if not isinstance(one.verdict, Proved) and first[one.property.on].over:
