@@ -31,8 +31,9 @@ from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.checker.verify.certificates import Certification
-from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings, events, worst
+from rovercheck.checker.verify.checked import CheckedProperty, worst
 from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.searches import SearchSettings, events
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError

@@ -26,7 +26,8 @@ from rovercheck.checker.commands.shared.text_wrap import plain
 from rovercheck.checker.engines import Limits
 from rovercheck.checker.model import kept_runs
 from rovercheck.checker.model.rover import rover
-from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase, SearchSettings
+from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase
+from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.spec_model.rover import systems

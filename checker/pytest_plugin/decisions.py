@@ -14,7 +14,8 @@ from rovercheck.checker.engines import Limits
 from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.process.faults import Fault, listening
 from rovercheck.checker.render.verdict_text import evidence, recorded
-from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings
+from rovercheck.checker.verify.checked import CheckedProperty
+from rovercheck.checker.verify.searches import SearchSettings
 
 if TYPE_CHECKING:
     from rovercheck.checker.pytest_plugin.item import PropertyItem

@@ -5,13 +5,19 @@ from contextlib import closing
 from dataclasses import dataclass
 from itertools import groupby
 
-from rovercheck.checker.engines import AUTO, Limits
+from rovercheck.checker.engines import Limits
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Proved, Unknown, Verdict, Violated
 from rovercheck.checker.system.instrument.goals import CoverGoal, GoalKind, Watched
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen.scripts import Script, script
-from rovercheck.checker.verify.searches import MachineWarning, SearchActivity, SearchEnd, searches
+from rovercheck.checker.verify.searches import (
+    MachineWarning,
+    SearchActivity,
+    SearchEnd,
+    SearchSettings,
+    searches,
+)
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.forms import Property, reachable
 from rovercheck.spec_model.abstraction import Board
@@ -129,7 +135,9 @@ def _verdicts(
         Task(looked.system, tuple(_property(found[g.id, g.text], system) for g in together))
         for together in _together(same)
     ]
-    with closing(searches(todo, {system.name: looked.system}, AUTO, limits, jobs)) as heard:
+    with closing(
+        searches(todo, {system.name: looked.system}, SearchSettings(limits=limits, jobs=jobs))
+    ) as heard:
         for one in heard:
             match one:
                 case SearchActivity(task, line):

@@ -1,51 +1,19 @@
 """Checked properties: a verdict beside the one that is expected, which every output shows."""
 
-from collections.abc import Generator, Mapping, Sequence
-from contextlib import closing
-from dataclasses import dataclass, field, replace
+from collections.abc import Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from rovercheck.checker.certify.outcome import Rejected
-from rovercheck.checker.engines import AUTO, Limits
-from rovercheck.checker.model.kept_invariants import Invariants
 from rovercheck.checker.model.kept_runs import KeptRun
 from rovercheck.checker.results.exit_code import Exit
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Proved, Unknown, Verdict, Violated
-from rovercheck.checker.system.formula_json import Tree
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.searches import TaskEvent, searches
-from rovercheck.checker.verify.tasks import Task, tasks
 from rovercheck.properties.expected import Expected
-from rovercheck.properties.forms import Property
-from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from rovercheck.checker.verify.certificates import Certification
-
-NO_LIMITS = Limits()
-
-
-@dataclass(frozen=True)
-class SearchSettings:
-    """How properties are decided: by which engine, within which limits, by how many searches at a time.
-
-    ``engine`` is the name of one, ``auto`` or ``all``; ``jobs`` is None for one search per processor.
-    ``invariants`` of earlier proofs are tried first; ``certifying`` says what to do with proofs.
-    """
-
-    engine: str = AUTO
-    limits: Limits = NO_LIMITS
-    jobs: int | None = None
-    invariants: Invariants = field(default_factory=dict)
-    certifying: "Certification | None" = None
-
-
-@dataclass(frozen=True)
-class SearchesPlanned:
-    """How many searches there will be."""
-
-    searches: int
+    pass
 
 
 @dataclass(frozen=True)
@@ -133,46 +101,3 @@ def worst(found: Sequence[CheckedProperty]) -> Exit:
         if code in codes:
             return code
     return Exit.AS_EXPECTED
-
-
-def events(
-    properties: Sequence[Property], systems: Mapping[str, System], search: SearchSettings
-) -> Generator[SearchesPlanned | TaskEvent, None, None]:
-    """Decide properties, several searches at a time: what these do, and results as they are found.
-
-    Raises what ``searches`` raises.  Closing the generator ends all searches.
-    """
-    # The largest first, so that no long search is left for the end; those of one system together.
-    planned = (replace(t, recorded=on_record(t, search.invariants)) for t in tasks(properties, systems))
-    todo = sorted(planned, key=lambda t: (-t.size, t.system.name, t.title))
-    yield SearchesPlanned(len(todo))
-    with closing(
-        searches(todo, systems, search.engine, search.limits, search.jobs, search.certifying)
-    ) as heard:
-        for one in heard:
-            yield limited(one, systems) if isinstance(one, Result) else one
-
-
-def limited(one: Result, systems: Mapping[str, System]) -> Result:
-    """The result with what it is limited to by the system that it is about."""
-    system = systems.get(one.system, systems[one.property.on])
-    return replace(one, in_part=_in_part(one, system), limited_to=_limited_to(one, system))
-
-
-def on_record(task: Task, invariants: Invariants) -> tuple[Tree, ...] | None:
-    """The conjuncts of all recorded proofs of the properties of a task; None if there is none."""
-    known = [invariants[p.id] for p in task.properties if p.id in invariants]
-    return tuple(tree for trees in known for tree in trees) if known else None
-
-
-def _in_part(result: Result, system: System) -> bool:
-    """Whether a search of too few runs was exhausted; a run found in it is a run of the rover."""
-    verdict = result.verdict
-    return system.under and not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace)
-
-
-def _limited_to(result: Result, system: System) -> str:
-    """What is said of the system beside a proof; a run is one of the rover whatever was left out."""
-    verdict = result.verdict
-    rests_on_all = not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace)
-    return system.limited_to if rests_on_all else ""

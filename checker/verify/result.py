@@ -1,10 +1,11 @@
 """Results: an answer about a goal taken home as a verdict on a property."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
 from rovercheck.checker.certify.outcome import Outcome
+from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import (
     Answer,
     Open,
@@ -20,7 +21,7 @@ from rovercheck.checker.verify.runs.domains import leaves, stray
 from rovercheck.properties.forms import Property
 from rovercheck.properties.reduce import Goal
 from rovercheck.spec_model.lang.expr import Var
-from rovercheck.spec_model.lang.system import TransitionSystem
+from rovercheck.spec_model.lang.system import System, TransitionSystem
 
 Answers = Found
 """An answer for each goal and the name of the engine that gave it."""
@@ -92,3 +93,22 @@ def _none_before(answer: Answer, tick: int) -> bool:
             return depth >= tick - 1
         case _:
             return True
+
+
+def limited(one: Result, systems: Mapping[str, System]) -> Result:
+    """The result with what it is limited to by the system that it is about."""
+    system = systems.get(one.system, systems[one.property.on])
+    return replace(one, in_part=_in_part(one, system), limited_to=_limited_to(one, system))
+
+
+def _in_part(result: Result, system: System) -> bool:
+    """Whether a search of too few runs was exhausted; a run found in it is a run of the rover."""
+    verdict = result.verdict
+    return system.under and not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace)
+
+
+def _limited_to(result: Result, system: System) -> str:
+    """What is said of the system beside a proof; a run is one of the rover whatever was left out."""
+    verdict = result.verdict
+    rests_on_all = not isinstance(verdict, Unknown) and not isinstance(verdict.because, Trace)
+    return system.limited_to if rests_on_all else ""

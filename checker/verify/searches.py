@@ -3,35 +3,58 @@
 import os
 from collections.abc import Generator, Iterable, Iterator, Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
-from time import monotonic
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
-from rovercheck.checker.cache.listeners import CachedCodeUse, CacheRefused, listening
+from rovercheck.checker.cache.listeners import CachedCodeUse, CacheRefused
 from rovercheck.checker.cache.places import VARIABLE, chosen
-from rovercheck.checker.certify.outcome import Outcome, Undecided
-from rovercheck.checker.engines import Engine, Limits, Stage
-from rovercheck.checker.process.faults import Fault, described, is_fault, report
-from rovercheck.checker.process.faults import listening as attending
-from rovercheck.checker.process.isolate import Send
-from rovercheck.checker.process.pool import GrantedTime, Order, Pool, PoolEvent
-from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Unknown, Verdict, Violated
+from rovercheck.checker.certify.outcome import Undecided
+from rovercheck.checker.engines import AUTO, Engine, Limits, Stage
+from rovercheck.checker.model.kept_invariants import Invariants
+from rovercheck.checker.process.faults import Fault, report
+from rovercheck.checker.process.pool import Order, Pool, PoolEvent
+from rovercheck.checker.results.verdict import Proved, Unknown, Verdict
 from rovercheck.checker.system.formula_json import Tree
-from rovercheck.checker.system.lowering_cache import lowered
-from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.tasks import Task
+from rovercheck.checker.verify.result import Result, limited
+from rovercheck.checker.verify.search_worker import (
+    PropertyCertified,
+    PropertyDecided,
+    SearchWorker,
+    StaysInDomains,
+)
+from rovercheck.checker.verify.tasks import Task, tasks
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.errors import ModelError
 from rovercheck.spec_model.lang.system import System
 
 if TYPE_CHECKING:
-    from rovercheck.checker.certify.certificate import Certificate
     from rovercheck.checker.verify.certificates import Certification
-    from rovercheck.checker.verify.portfolio.question import Found, PortfolioQuestion
 
+NO_LIMITS = Limits()
 SLACK = 2 << 30
 """Bytes of address space that a child needs besides what an engine may store: code, libraries, formulas."""
-_PAUSE = 0.5
+
+
+@dataclass(frozen=True)
+class SearchSettings:
+    """How properties are decided: by which engine, within which limits, by how many searches at a time.
+
+    ``engine`` is the name of one, ``auto`` or ``all``; ``jobs`` is None for one search per processor.
+    ``invariants`` of earlier proofs are tried first; ``certifying`` says what to do with proofs.
+    """
+
+    engine: str | Engine = AUTO
+    limits: Limits = NO_LIMITS
+    jobs: int | None = None
+    invariants: Invariants = field(default_factory=dict)
+    certifying: "Certification | None" = None
+
+
+@dataclass(frozen=True)
+class SearchesPlanned:
+    """How many searches there will be."""
+
+    searches: int
 
 
 @dataclass(frozen=True)
@@ -50,28 +73,6 @@ class SearchEnd:
 
 
 @dataclass(frozen=True)
-class _Decided:
-    """What travels of a result: the property by its id."""
-
-    id: str
-    verdict: Verdict
-    system: str
-
-
-@dataclass(frozen=True)
-class _Stays:
-    """No run of the system of the task leaves a domain."""
-
-
-@dataclass(frozen=True)
-class _Certified:
-    """What travels of a certificate: the property by its id, and what came of checking it."""
-
-    id: str
-    outcome: Outcome
-
-
-@dataclass(frozen=True)
 class MachineWarning:
     """What the user should know of the machine: no verdict is other for it."""
 
@@ -86,13 +87,26 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
+def events(
+    properties: Sequence[Property], systems: Mapping[str, System], search: SearchSettings
+) -> Generator[SearchesPlanned | TaskEvent, None, None]:
+    """Decide properties, several searches at a time: what these do, and results as they are found.
+
+    Raises what ``searches`` raises.  Closing the generator ends all searches.
+    """
+    # The largest first, so that no long search is left for the end; those of one system together.
+    planned = (replace(t, recorded=on_record(t, search.invariants)) for t in tasks(properties, systems))
+    todo = sorted(planned, key=lambda t: (-t.size, t.system.name, t.title))
+    yield SearchesPlanned(len(todo))
+    with closing(searches(todo, systems, search)) as heard:
+        for one in heard:
+            yield limited(one, systems) if isinstance(one, Result) else one
+
+
 def searches(
     todo: Sequence[Task],
     systems: Mapping[str, System],
-    engine: str | Engine,
-    limits: Limits,
-    jobs: int | None = None,
-    certifying: "Certification | None" = None,
+    search: SearchSettings,
 ) -> Generator[TaskEvent, None, None]:
     """Search the tasks in order, as many at once as there are ``jobs`` (by default processors).
 
@@ -105,8 +119,9 @@ def searches(
     A proof waits until it is known that its system leaves no domain, or not found out by any of its searches:
     nothing is proved of a system that is then refused.
     """
-    needed = _needed(todo, systems)
-    pool = Pool(jobs or cores(), _Deciding, (needed, engine, limits, certifying), limits.memory + SLACK)
+    needed, limits, certifying = _needed(todo, systems), search.limits, search.certifying
+    settings = needed, search.engine, limits, certifying
+    pool = Pool(search.jobs or cores(), SearchWorker, settings, limits.memory + SLACK)
     orders = [Order((task.system.name, task.properties, task.recorded), task.system.name) for task in todo]
     waiting = certifying is not None and certifying.again
     returns = [_Returns(task, waiting, limits.seconds) for task in todo]
@@ -129,7 +144,7 @@ def searches(
 
 
 def _passed(
-    gates: Mapping[str, "_Gate"], asked: str, events: Iterable["TaskEvent | _Stays"]
+    gates: Mapping[str, "_Gate"], asked: str, events: Iterable["TaskEvent | StaysInDomains"]
 ) -> Iterator[TaskEvent]:
     """What passes the gate of the system that was asked about, and of the one that a verdict is about."""
     for one in gates[asked].passed(events):
@@ -147,13 +162,13 @@ class _Gate:
         self._left = searches
         self._open = False
 
-    def passed(self, events: Iterable[TaskEvent | _Stays]) -> Iterator[TaskEvent]:
+    def passed(self, events: Iterable[TaskEvent | StaysInDomains]) -> Iterator[TaskEvent]:
         """What may go on of what is events, and what is no longer held back after it."""
         for one in events:
             match one:
                 case Result(verdict=Proved()) if not self._open:
                     self.held.append(one)
-                case _Stays():
+                case StaysInDomains():
                     yield from self._opened()
                 case _:
                     yield one
@@ -194,7 +209,7 @@ class _Returns:
         asked = self.task.system.name, self.task.properties, self.task.recorded, True
         return Order(asked, self.task.system.name)
 
-    def on_event(self, event: PoolEvent) -> Iterator[TaskEvent | _Stays]:
+    def on_event(self, event: PoolEvent) -> Iterator[TaskEvent | StaysInDomains]:
         """What an event brings.  Raises the error that is one."""
         if event.done:
             return self.rest(event)
@@ -202,7 +217,7 @@ class _Returns:
             return iter([MachineWarning(_crashed(self.task, event.failure))])
         return self.on_message(event.message)
 
-    def on_message(self, message: object) -> Iterator[TaskEvent | _Stays]:
+    def on_message(self, message: object) -> Iterator[TaskEvent | StaysInDomains]:
         """What a message brings.  Raises the error that is one."""
         match message:
             case Exception() as error:
@@ -210,7 +225,7 @@ class _Returns:
             case str(line):
                 self._doing = line
                 yield SearchActivity(self.task, line)
-            case _Stays():
+            case StaysInDomains():
                 yield message
             case Fault():
                 report(message)
@@ -218,11 +233,11 @@ class _Returns:
                 self._taken = True
             case CacheRefused(why):
                 yield MachineWarning(f"Compiled searches are compiled every time: there is no cache. {why}")
-            case _Certified(id, outcome) if id in self._held:
+            case PropertyCertified(id, outcome) if id in self._held:
                 yield self._report(replace(self._held.pop(id), certificate=outcome))
-            case _Decided(id, verdict) if id in self._reported:
+            case PropertyDecided(id, verdict) if id in self._reported:
                 self._same(id, verdict)
-            case _Decided(id, verdict, system):
+            case PropertyDecided(id, verdict, system):
                 result = Result(self._left.pop(id), verdict, system)
                 if self._waiting and self._certified(verdict):
                     self._held[id] = result
@@ -283,116 +298,7 @@ def _needed(todo: Sequence[Task], systems: Mapping[str, System]) -> dict[str, Sy
     return found
 
 
-# --- in a child -------------------------------------------------------------------------------------
-# What decides is imported here only: the parent hands out tasks, and is ready at once.
-
-
-class _Deciding:
-    """Decides one task after the other about systems that are sent once."""
-
-    def __init__(
-        self,
-        systems: Mapping[str, System],
-        engine: str | Engine,
-        limits: Limits,
-        certifying: "Certification | None",
-    ) -> None:
-        self._systems = systems
-        self._engine = engine
-        self._limits = limits
-        self._certifying = certifying
-
-    def __call__(
-        self,
-        send: Send,
-        name: str,
-        properties: tuple[Property, ...],
-        recorded: tuple[Tree, ...] | None = None,
-        anew: bool = False,
-    ) -> None:
-        from rovercheck.checker.certify.file import Unwritable
-        from rovercheck.checker.verify.portfolio import Disagreement
-        from rovercheck.checker.verify.runs.replay import ReplayError
-
-        try:
-            with listening(send, anew=anew), attending(send):
-                self._search(send, Task(self._systems[name], properties, recorded))
-        except (ModelError, ReplayError) as error:
-            send(next(kind for kind in (ModelError, ReplayError) if isinstance(error, kind))(str(error)))
-        except (Disagreement, Unwritable) as error:
-            send(error)
-        except Exception as error:  # what is left of the task stays open
-            if is_fault(error):
-                send(Fault("the search", name, described(error)))
-            raise
-
-    def _search(self, send: Send, task: Task) -> None:
-        from rovercheck.checker.certify.record import Recorder
-        from rovercheck.checker.verify.decide import decide
-        from rovercheck.checker.verify.portfolio import Callbacks
-        from rovercheck.checker.verify.portfolio.question import stays
-
-        recorder, results, deadline = Recorder(), list[Result](), self._limits.deadline()
-        send(GrantedTime(self._limits.seconds, firm=True))
-        send(Stage(f"lowering {task.system.name}"))
-        if not any(
-            lowered(self._systems[name]).checks for name in (task.system.name, task.system.concrete) if name
-        ):
-            send(_Stays())
-
-        def answered(question: "PortfolioQuestion", found: "Found") -> None:
-            if self._certifying is not None:
-                recorder.answered(question, found)
-            if (
-                task.system.name == question.system.name
-                and not task.system.concrete
-                and stays(question, found)
-            ):
-                send(_Stays())
-
-        callbacks = Callbacks(_Calm(send), lambda seconds: send(GrantedTime(seconds)), answered)
-        for one in decide(
-            task, self._systems, self._engine, self._limits, callbacks.progress, callbacks, deadline
-        ):
-            results.append(replace(one, verdict=_light(one.verdict)))
-            send(_Decided(one.property.id, results[-1].verdict, one.system))
-        callbacks.on_budget(None)
-        if self._certifying is not None:
-            self._certify(send, self._certifying, task, results, recorder.made)
-
-    def _certify(
-        self,
-        send: Send,
-        certifying: "Certification",
-        task: Task,
-        results: Sequence[Result],
-        made: Sequence["Certificate"],
-    ) -> None:
-        certifying.written(task, self._limits, results, made)
-        progress = _Calm(send)
-        for id, outcome in certifying.outcomes(
-            task, self._systems, self._limits, results, made, progress
-        ).items():
-            send(_Certified(id, outcome))
-
-
-class _Calm:
-    """A progress that passes on a line now and then."""
-
-    def __init__(self, send: Send) -> None:
-        self._send = send
-        self._last = float("-inf")
-
-    def __call__(self, line: str) -> None:
-        if isinstance(line, Stage) or monotonic() - self._last >= _PAUSE:
-            self._last = monotonic()
-            self._send(line)
-
-
-def _light(verdict: Verdict) -> Verdict:
-    """The verdict without the states that an exhausted search kept."""
-    if isinstance(verdict, Proved | Violated) and isinstance(verdict.because, Exhausted | Inductive):
-        from rovercheck.checker.verify.portfolio.question import light_evidence
-
-        return replace(verdict, because=light_evidence(verdict.because))
-    return verdict
+def on_record(task: Task, invariants: Invariants) -> tuple[Tree, ...] | None:
+    """The conjuncts of all recorded proofs of the properties of a task; None if there is none."""
+    known = [invariants[p.id] for p in task.properties if p.id in invariants]
+    return tuple(tree for trees in known for tree in trees) if known else None

@@ -4,7 +4,7 @@ import pytest
 
 from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.results.verdict import Proved
-from rovercheck.checker.verify.checked import SearchSettings
+from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.forms import always, never
 from rovercheck.spec_model.lang.action import assign
 from rovercheck.spec_model.lang.chart import Block

@@ -19,11 +19,12 @@ from rovercheck.checker.engines import Engine, Limits, Progress, explicit
 from rovercheck.checker.process.pool import PoolEvent
 from rovercheck.checker.results.verdict import Answer, Exhausted, Proved, Unknown, Violated
 from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.search_worker import PropertyDecided
 from rovercheck.checker.verify.searches import (
     MachineWarning,
     SearchEnd,
+    SearchSettings,
     TaskEvent,
-    _Decided,
     _Returns,
     searches,
 )
@@ -60,7 +61,7 @@ def heard(engine: str | Engine = "explicit", tasks: int = 1) -> list[TaskEvent]:
     """What is heard of a search in a child."""
     known = {task.system.name: task.system for task in work()[:tasks]}
     todo = work()[:tasks]
-    with closing(searches(todo, known, engine, Limits(memory=1 << 30), 1)) as said:
+    with closing(searches(todo, known, SearchSettings(engine, Limits(memory=1 << 30), 1))) as said:
         return [one for one in said if isinstance(one, Result | MachineWarning | SearchEnd)]
 
 
@@ -143,14 +144,18 @@ def test_what_was_said_before_a_crash_is_searched_again_and_must_be_so(folder: P
     back = _Returns(task, False, None)
     visited = Exhausted(1, 1, 1, ("a",))
     proved, run = Proved(visited, "explicit"), Unknown("late", 0, "none")
-    told = [_Decided("one-a", proved, "one"), CachedCodeUse("key"), _Decided("one-b", proved, "one")]
+    told = [
+        PropertyDecided("one-a", proved, "one"),
+        CachedCodeUse("key"),
+        PropertyDecided("one-b", proved, "one"),
+    ]
     assert [len(list(back.on_event(PoolEvent(0, message)))) for message in told] == [1, 0, 1]
     order = back.again()
     assert order is not None and order.args == ("one", task.properties, task.recorded, True)
-    assert not list(back.on_event(PoolEvent(0, _Decided("one-a", proved, "one"))))
-    assert not list(back.on_event(PoolEvent(0, _Decided("one-a", run, "one"))))
+    assert not list(back.on_event(PoolEvent(0, PropertyDecided("one-a", proved, "one"))))
+    assert not list(back.on_event(PoolEvent(0, PropertyDecided("one-a", run, "one"))))
     with pytest.raises(AssertionError, match="with code compiled anew it is violated"):
-        list(back.on_event(PoolEvent(0, _Decided("one-b", Violated(visited, "explicit"), "one"))))
+        list(back.on_event(PoolEvent(0, PropertyDecided("one-b", Violated(visited, "explicit"), "one"))))
     assert back.again() is None, "once"
 
 

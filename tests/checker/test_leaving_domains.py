@@ -30,7 +30,7 @@ from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.runs.domains import LeavesDomain, stray
 from rovercheck.checker.verify.runs.minimise import minimise_inputs
 from rovercheck.checker.verify.runs.replay import replay
-from rovercheck.checker.verify.searches import TaskEvent, searches
+from rovercheck.checker.verify.searches import SearchSettings, TaskEvent, searches
 from rovercheck.properties import forms
 from rovercheck.properties.forms import Form, Property
 from rovercheck.properties.reduce import reduce
@@ -241,7 +241,7 @@ def test_a_proof_waits_for_the_searches_of_the_system_that_it_is_about() -> None
     results: list[Result] = []
     with pytest.raises(ModelError, match=r"every: x := .* in tick 4 of a run"):
         for one in searches(
-            todo, {s.name: s for s in (real, larger)}, engine, Limits(memory=1 << 30), jobs=1
+            todo, {s.name: s for s in (real, larger)}, SearchSettings(engine, Limits(memory=1 << 30), 1)
         ):
             results += [one] if isinstance(one, Result) else []
     assert not results
@@ -249,7 +249,7 @@ def test_a_proof_waits_for_the_searches_of_the_system_that_it_is_about() -> None
 
 def heard(system: System, engine: Engine, *properties: Property) -> Iterator[TaskEvent]:
     todo = [Task(system, (p,)) for p in properties]
-    yield from searches(todo, {system.name: system}, engine, Limits(memory=1 << 30), jobs=1)
+    yield from searches(todo, {system.name: system}, SearchSettings(engine, Limits(memory=1 << 30), 1))
 
 
 def test_a_proof_waits_for_the_other_searches_of_its_system() -> None:

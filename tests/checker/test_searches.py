@@ -12,7 +12,7 @@ from rovercheck.checker.engines import Limits, Progress, explicit
 from rovercheck.checker.process.faults import Fault, listening
 from rovercheck.checker.results.verdict import Answer, Proved, Unknown, Violated
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.searches import SearchEnd, searches
+from rovercheck.checker.verify.searches import SearchEnd, SearchSettings, searches
 from rovercheck.checker.verify.tasks import MOST, Task, tasks
 from rovercheck.properties.catalogue import catalogue
 from rovercheck.properties.forms import Always, Never, Property
@@ -80,7 +80,7 @@ def decided(what: str, seconds: float | None = None) -> dict[str, Result]:
     limits = Limits(seconds=seconds, memory=1 << 30)
     faults: list[Fault] = []
     with listening(faults.append):
-        heard = list(searches(work(), KNOWN, Erratic("two", what), limits, 2))
+        heard = list(searches(work(), KNOWN, SearchSettings(Erratic("two", what), limits, 2)))
     assert [(f.who, f.system) for f in faults] == ([("erratic", "two")] if what == "raise" else [])
     assert sum(isinstance(one, SearchEnd) for one in heard) == len(KNOWN)
     return {one.property.id: one for one in heard if isinstance(one, Result)}
@@ -112,7 +112,9 @@ def test_a_mistake_in_the_model_ends_everything() -> None:
 def test_a_result_is_about_the_property_that_was_asked() -> None:
     todo = work()
     asked = {id(p) for task in todo for p in task.properties}
-    found = [one for one in searches(todo, KNOWN, "explicit", Limits(), 2) if isinstance(one, Result)]
+    found = [
+        one for one in searches(todo, KNOWN, SearchSettings("explicit", jobs=2)) if isinstance(one, Result)
+    ]
     assert {id(one.property) for one in found} == asked
     assert all(one.system == one.property.on for one in found)
 

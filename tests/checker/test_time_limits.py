@@ -11,7 +11,7 @@ from rovercheck.checker.engines import AUTO, Limits
 from rovercheck.checker.results.verdict import Unknown
 from rovercheck.checker.verify.certificates import Certification
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.searches import SearchEnd, searches
+from rovercheck.checker.verify.searches import SearchEnd, SearchSettings, searches
 from rovercheck.checker.verify.tasks import Task
 from rovercheck.properties.forms import Always, Property
 from rovercheck.spec_model.lang.action import assign
@@ -57,7 +57,8 @@ def heard(*functions: str, certify: bool = False) -> tuple[Result, float]:
     prop = Property("LAMP", "", Always(lamp | ~lamp), (), "lamp")
     certifying = Certification(again=True) if certify else None
     began = time.monotonic()
-    work = searches([Task(system, (prop,))], {"lamp": system}, AUTO, Limits(seconds=SECONDS), 1, certifying)
+    settings = SearchSettings(AUTO, Limits(seconds=SECONDS), 1, certifying=certifying)
+    work = searches([Task(system, (prop,))], {"lamp": system}, settings)
     found = list(work)
     took = time.monotonic() - began
     [result] = [one for one in found if isinstance(one, Result)]

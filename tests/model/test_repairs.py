@@ -6,7 +6,7 @@ from rovercheck.checker.commands.shared.verdicts import results
 from rovercheck.checker.engines import Limits, Timers
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.render.drawing.changes import changes
-from rovercheck.checker.verify.checked import SearchSettings
+from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.catalogue import baseline, catalogue, expected
 from rovercheck.spec_model.lang.chart import Chart, parts, to
 from rovercheck.spec_model.lang.edit import also, begin

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from rovercheck.checker.commands.check.premises import PremiseSearch
     from rovercheck.checker.commands.check.run import ResultDelivery
     from rovercheck.checker.model.variant import Variant
-    from rovercheck.checker.verify.checked import SearchSettings
+    from rovercheck.checker.verify.searches import SearchSettings
 
 
 @dataclass(frozen=True)
@@ -166,7 +166,7 @@ def _settings(search: SearchOptions, options: CheckOptions, variant: "Variant") 
     from rovercheck.checker.commands.shared.select import pick_engine
     from rovercheck.checker.commands.shared.variant import certifying as certify
     from rovercheck.checker.model.kept_invariants import invariants_of
-    from rovercheck.checker.verify.checked import SearchSettings
+    from rovercheck.checker.verify.searches import SearchSettings
 
     limits = search.limits(options.memory)
     engine = _engine_choice(pick_engine(search.engine), options.all_engines)

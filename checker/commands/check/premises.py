@@ -13,9 +13,10 @@ from rovercheck.checker.model.kept_runs import INVARIANTS, PREMISES, KeptRun, fi
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.trace import counted_ticks
 from rovercheck.checker.results.verdict import Proved, Unknown
-from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase, SearchSettings
+from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase
 from rovercheck.checker.verify.result import Result
 from rovercheck.checker.verify.runs.known_runs import reached, run_of
+from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.forms import Property
 from rovercheck.properties.premise import premise
 from rovercheck.spec_model.lang.system import System

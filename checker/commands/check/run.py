@@ -26,7 +26,8 @@ from rovercheck.checker.process.faults import Fault, has_listener, listening, re
 from rovercheck.checker.render.verdict_text import in_short, recorded
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Violated
-from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings, worst
+from rovercheck.checker.verify.checked import CheckedProperty, worst
+from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.catalogue import expected
 from rovercheck.properties.expected import Expected
 from rovercheck.properties.forms import Property

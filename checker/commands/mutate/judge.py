@@ -16,7 +16,7 @@ from rovercheck.checker.mutate.plan import Plan, PlannedMutant, rounds
 from rovercheck.checker.mutate.relevance import as_it_is
 from rovercheck.checker.mutate.workers import MutantJudged, MutantProgress, fates
 from rovercheck.checker.results.verdict import Run
-from rovercheck.checker.verify.checked import SearchSettings
+from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.forms import Property, Reachable, Unbounded
 
 UNKILLED = (Fate.SURVIVOR, Fate.NOTICED, Fate.UNKNOWN)

@@ -23,7 +23,7 @@ from rovercheck.checker.mutate.fate import Fate
 from rovercheck.checker.mutate.mutants import Mutant, mutants
 from rovercheck.checker.mutate.plan import homes
 from rovercheck.checker.mutate.relevance import as_it_is
-from rovercheck.checker.verify.checked import SearchSettings
+from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.spec_model.lang.chart import parts
 from rovercheck.spec_model.lang.system import System
 

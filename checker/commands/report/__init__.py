@@ -95,7 +95,7 @@ def report(
         from rovercheck.checker.commands.shared.select import pick_engine
         from rovercheck.checker.commands.shared.variant import askable, certifying
         from rovercheck.checker.model.kept_invariants import invariants_of
-        from rovercheck.checker.verify.checked import SearchSettings
+        from rovercheck.checker.verify.searches import SearchSettings
 
         variant = charts.variant()
         properties = selection.properties(variant)

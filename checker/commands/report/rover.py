@@ -14,8 +14,9 @@ from rovercheck.checker.system.instrument.goals import GoalKind
 from rovercheck.checker.system.instrument.watch import watched
 from rovercheck.checker.testgen import kept_text
 from rovercheck.checker.testgen.keep import kept_of
-from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings
+from rovercheck.checker.verify.checked import CheckedProperty
 from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.catalogue import expected, read_by
 from rovercheck.spec_model.abstraction import boards
 from rovercheck.spec_model.ambiguity import Ambiguity, ambiguities

@@ -26,7 +26,8 @@ from rovercheck.checker.model.kept_runs import file_of, read
 from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.render.review import render
 from rovercheck.checker.render.review.model import ReviewOrigin
-from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase, SearchSettings, worst
+from rovercheck.checker.verify.checked import CheckedProperty, PremiseCase, worst
+from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.forms import Property
 
 PACKAGES = ("rovercheck", "z3-solver", "bitwuzla", "llvmlite", "python-sat", "oxidd", "numpy", "networkx")

@@ -20,11 +20,11 @@ from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Unk
 from rovercheck.checker.system.formula_json import Unreadable, formula, written
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.system.text import SystemText
-from rovercheck.checker.verify.checked import SearchSettings, limited, on_record
 from rovercheck.checker.verify.liveness.loops import hunt, repeated
-from rovercheck.checker.verify.result import Result
+from rovercheck.checker.verify.result import Result, limited
 from rovercheck.checker.verify.runs.known_runs import run_in
 from rovercheck.checker.verify.runs.replay import ReplayError, replay
+from rovercheck.checker.verify.searches import SearchSettings, on_record
 from rovercheck.checker.verify.tasks import Task, tasks
 from rovercheck.properties.forms import Property
 from rovercheck.properties.reduce import reduce

@@ -12,7 +12,8 @@ from rovercheck.checker.io.printable import json_text
 from rovercheck.checker.model.kept_invariants import invariants_of
 from rovercheck.checker.model.load import load
 from rovercheck.checker.model.rover import rover
-from rovercheck.checker.verify.checked import CheckedProperty, SearchSettings, worst
+from rovercheck.checker.verify.checked import CheckedProperty, worst
+from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.coverage import RequirementCoverage, matrix
 from rovercheck.properties.forms import Property, Reachable
 

@@ -5,9 +5,15 @@ from contextlib import closing
 
 from rovercheck.checker.commands.shared.output import err
 from rovercheck.checker.commands.shared.progress import Watch
-from rovercheck.checker.verify.checked import SearchesPlanned, SearchSettings, events
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.searches import MachineWarning, SearchActivity, SearchEnd
+from rovercheck.checker.verify.searches import (
+    MachineWarning,
+    SearchActivity,
+    SearchEnd,
+    SearchesPlanned,
+    SearchSettings,
+    events,
+)
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.system import System
 

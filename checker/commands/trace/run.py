@@ -22,7 +22,7 @@ from rovercheck.checker.render.trace_markdown import SPECIAL
 from rovercheck.checker.render.verdict_text import evidence
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
-from rovercheck.checker.verify.checked import SearchSettings
+from rovercheck.checker.verify.searches import SearchSettings
 from rovercheck.properties.forms import Property, Unbounded
 from rovercheck.spec_model.lang.system import System
 
