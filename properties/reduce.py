@@ -31,7 +31,7 @@ class Goal:
     ``memory`` names the monitor variables that outlive a tick.
 
     No single tick breaks a ``LeadsTo`` or a ``Settles``, but a loop: ``var`` is true in every tick of
-    it, and each of ``recurs`` in some (see ``checker.verify.liveness.lasso``).  For a ``Recoverable``,
+    it, and each of ``recurs`` in some (see ``checker.verify.liveness.loops``).  For a ``Recoverable``,
     ``var`` is true in the ticks to come back to.
     """
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from importlib.metadata import version
 
 from rovercheck.checker.export.names import one_line
-from rovercheck.checker.verify.liveness.loops import hunt
+from rovercheck.checker.verify.liveness.loops import loop_query
 from rovercheck.properties.forms import LeadsTo, Property, Recoverable, Settles
 from rovercheck.properties.reduce import reduce
 from rovercheck.spec_model.lang.errors import ModelError
@@ -51,7 +51,7 @@ def problem(system: TransitionSystem, prop: Property, about: Sequence[str] = ())
     """The property as a question of reachability on the lowered system.
 
     A property about infinite runs becomes the question whether a loop closes that breaks it
-    (``checker.verify.liveness.lasso``).  Raises ``ModelError`` for a ``Recoverable``, which is no such
+    (``checker.verify.liveness.loops``).  Raises ``ModelError`` for a ``Recoverable``, which is no such
     question, and for a property that does not fit the system.
     """
     if isinstance(prop.form, Recoverable):
@@ -63,7 +63,7 @@ def problem(system: TransitionSystem, prop: Property, about: Sequence[str] = ())
     goal = question.goals[0]
     checked, var, meaning = question.system, goal.var, _meaning(prop, goal.reach)
     if isinstance(prop.form, LeadsTo | Settles):
-        lasso = hunt(question, goal).lasso
+        lasso = loop_query(question, goal).lasso
         checked, var, meaning = lasso.system, lasso.goal, f"a loop closes that violates {prop.id}"
     checks = (Bad(check, f"{UNDEFINED}: {text}") for check, text in checked.checks)
     text = f"property {prop.id}: {prop.text}"

@@ -123,30 +123,30 @@ def judged(
     if before is None and all(same(lowered(case.original), lowered(case.mutant)) for case in cases):
         return MutantFate(Fate.NO_CHANGE, why="both are lowered to the same step")
     deadline = limits.deadline()
-    hunt = _Hunt(cases, limits, deadline, progress)
+    kills = _KillSearch(cases, limits, deadline, progress)
     try:
-        killed = hunt.killed_by_runs()
+        killed = kills.killed_by_runs()
         if killed is not None:
             return killed
         if before is None and equal_in_every_step(lowered(first.original), lowered(first.mutant)):
             begun = [described(lowered(s).variables) for s in (first.original, first.mutant)]
             why = EQUAL_STEPS if begun[0] == begun[1] else OVERWRITTEN
-            return MutantFate(Fate.EQUIVALENT, why=why, asked=hunt.asked)
+            return MutantFate(Fate.EQUIVALENT, why=why, asked=kills.asked)
         if not search:
-            return before or MutantFate(Fate.UNKNOWN, why=NOT_SEARCHED, asked=hunt.asked)
-        killed = hunt.killed()
+            return before or MutantFate(Fate.UNKNOWN, why=NOT_SEARCHED, asked=kills.asked)
+        killed = kills.killed()
         if killed is not None:
             return killed
         if before is not None:
-            return _still(before, hunt)
-        return _compared(first, hunt, limits.until(deadline), progress)
+            return _still(before, kills)
+        return _compared(first, kills, limits.until(deadline), progress)
     except LeavesDomain as error:
-        return MutantFate(Fate.KILLED, DOMAINS, hunt.on, why=str(error).splitlines()[0])
+        return MutantFate(Fate.KILLED, DOMAINS, kills.on, why=str(error).splitlines()[0])
     except ModelError as error:
-        return MutantFate(Fate.KILLED, REFUSED, hunt.on, why=str(error).splitlines()[0])
+        return MutantFate(Fate.KILLED, REFUSED, kills.on, why=str(error).splitlines()[0])
 
 
-class _Hunt:
+class _KillSearch:
     """Asks properties about a mutant until one notices it."""
 
     def __init__(
@@ -257,27 +257,27 @@ class _Hunt:
         return isinstance(found.verdict, Proved) is case.proved[prop.id]
 
 
-def _still(before: MutantFate, hunt: _Hunt) -> MutantFate:
+def _still(before: MutantFate, kills: _KillSearch) -> MutantFate:
     """What a mutant that nothing killed in its own system is after others were looked at."""
-    asked, left = before.asked + hunt.asked, len(hunt.open)
+    asked, left = before.asked + kills.asked, len(kills.open)
     if before.fate is not Fate.SURVIVOR:
         return replace(before, asked=asked, open=before.open + left)
-    if hunt.gone is not None:
-        return hunt.gone
+    if kills.gone is not None:
+        return kills.gone
     if not left:
         return replace(before, asked=asked)
-    why = f"{left} of {asked + left} properties are not decided; {hunt.open[0]}"
+    why = f"{left} of {asked + left} properties are not decided; {kills.open[0]}"
     return replace(before, fate=Fate.UNKNOWN, why=why, asked=asked, open=left)
 
 
-def _compared(case: MutantCase, hunt: _Hunt, limits: Limits, progress: Progress) -> MutantFate:
+def _compared(case: MutantCase, kills: _KillSearch, limits: Limits, progress: Progress) -> MutantFate:
     """The fate of a mutant that no property kills."""
     original, mutant, deadline = lowered(case.original), lowered(case.mutant), limits.deadline()
-    asked, left = hunt.asked, len(hunt.open)
+    asked, left = kills.asked, len(kills.open)
 
     def equivalent(why: str) -> MutantFate:
         why += f"; {original.name} has fewer runs" if case.original.under else ""
-        return hunt.gone or MutantFate(Fate.EQUIVALENT, why=why, asked=asked, open=left)
+        return kills.gone or MutantFate(Fate.EQUIVALENT, why=why, asked=asked, open=left)
 
     seen = observable(case.original, case.named, case.abroad)
     seen |= observable(case.mutant, case.named, case.abroad)
@@ -297,13 +297,13 @@ def _compared(case: MutantCase, hunt: _Hunt, limits: Limits, progress: Progress)
         case Unreachable(because):
             return equivalent(f"{by}: {because.how}")
         case Open(reason, _):
-            return hunt.gone or MutantFate(Fate.UNKNOWN, why=reason, asked=asked, open=left)
+            return kills.gone or MutantFate(Fate.UNKNOWN, why=reason, asked=asked, open=left)
         case Reached(run, shortest):
             apart = difference(original, mutant, both, run, shortest)
-            if hunt.gone is not None:
-                return hunt.gone
-            if hunt.open:
-                why = f"{left} of {asked + left} properties are not decided; {hunt.open[0]}"
+            if kills.gone is not None:
+                return kills.gone
+            if kills.open:
+                why = f"{left} of {asked + left} properties are not decided; {kills.open[0]}"
                 return MutantFate(Fate.UNKNOWN, why=why, asked=asked, open=left, difference=apart)
             return MutantFate(Fate.SURVIVOR, asked=asked, difference=apart)
 

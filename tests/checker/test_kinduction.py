@@ -8,7 +8,7 @@ from hypothesis import given
 
 from benchmarks.roverlite import roverlite
 from rovercheck.checker.engines import Limits, engines, kinduction, quiet
-from rovercheck.checker.engines.kinduction.hunt import InvariantHunt
+from rovercheck.checker.engines.kinduction.invariant_search import InvariantSearch
 from rovercheck.checker.engines.kinduction.search import search
 from rovercheck.checker.results.verdict import Answer, Inductive, Open, Reached, Unreachable
 from rovercheck.checker.search import (
@@ -113,7 +113,7 @@ def test_a_state_that_is_never_entered_is_excluded() -> None:
 
 def test_simple_paths_where_no_invariant_is_found(monkeypatch: pytest.MonkeyPatch) -> None:
     """Waiting may last for ever, but not along a simple path."""
-    monkeypatch.setattr(InvariantHunt, "phases", lambda self: iter(()))
+    monkeypatch.setattr(InvariantSearch, "phases", lambda self: iter(()))
     because = proved(waiting())
     assert because.simple and not because.conjuncts
 
@@ -122,7 +122,7 @@ def test_simple_paths_are_simple_in_all_that_the_goal_is_written_with(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     """``turn`` is simplified away, and states that differ in it alone are different to who checks."""
-    monkeypatch.setattr(InvariantHunt, "phases", lambda self: iter(()))
+    monkeypatch.setattr(InvariantSearch, "phases", lambda self: iter(()))
     turn, plain = var("turn", integer(0, 1)), waiting()
     step = (*plain.step, Assign(GOAL, GOAL | (turn > 1)), Assign(turn, 1 - turn))
     system = replace(plain, variables=(*plain.variables, turn), step=step)

@@ -7,7 +7,7 @@ import pytest
 from rovercheck.checker.encode.bitvector import Term
 from rovercheck.checker.encode.cone import Slice
 from rovercheck.checker.encode.terms import Terms
-from rovercheck.checker.engines.kinduction import houdini, hunt, search
+from rovercheck.checker.engines.kinduction import houdini, invariant_search, search
 from rovercheck.checker.engines.kinduction import search as induction
 from rovercheck.checker.engines.kinduction.ticks import Ticks
 from rovercheck.checker.results.verdict import Inductive
@@ -101,7 +101,7 @@ def test_simple_paths_that_are_too_simple(monkeypatch: pytest.MonkeyPatch) -> No
         yield from ()
 
     monkeypatch.setattr(search, "SIMULATED", 10)
-    monkeypatch.setattr(hunt.InvariantHunt, "phases", no_phases)
+    monkeypatch.setattr(invariant_search.InvariantSearch, "phases", no_phases)
     assert claims(system) == ["no claim"]
     monkeypatch.setattr(induction, "_differ", differ)
     assert "safety" in claims(system)

@@ -3,7 +3,7 @@
 from rovercheck.checker.encode.bits import circuit
 from rovercheck.checker.encode.bits.simulate import BitSimulation
 from rovercheck.checker.engines import quiet
-from rovercheck.checker.verify.liveness.loops import LoopHunt, hunt, looped
+from rovercheck.checker.verify.liveness.loops import LoopQuery, loop_query, looped
 from rovercheck.checker.verify.liveness.repetition import repeating_loop
 from rovercheck.properties.forms import settles
 from rovercheck.properties.reduce import reduce
@@ -32,25 +32,25 @@ calendar = in_order(
 """A year that goes round; once locked, what is wet stays wet."""
 
 
-def hunted(then: Expr) -> LoopHunt:
+def loop_of(then: Expr) -> LoopQuery:
     prop = settles("DRY", "It dries.", premise=~rain & (day >= 0), then=then, covers=["X"], on="calendar")
     question = reduce(lower(calendar), [prop])
-    return hunt(question, question.goals[0])
+    return loop_query(question, question.goals[0])
 
 
 def test_a_loop_of_a_year_is_found_and_replays() -> None:
-    found = repeating_loop(hunted(~wet), quiet, runs=64)
+    found = repeating_loop(loop_of(~wet), quiet, runs=64)
     assert found is not None and not found.shortest
-    trace = looped(hunted(~wet), found.run)
+    trace = looped(loop_of(~wet), found.run)
     assert trace.loop is not None and len(trace) - trace.loop == DAYS
 
 
 def test_the_same_question_has_the_same_answer() -> None:
-    assert repeating_loop(hunted(~wet), quiet, runs=64) == repeating_loop(hunted(~wet), quiet, runs=64)
+    assert repeating_loop(loop_of(~wet), quiet, runs=64) == repeating_loop(loop_of(~wet), quiet, runs=64)
 
 
 def test_nothing_is_found_where_there_is_no_loop() -> None:
-    assert repeating_loop(hunted(~wet | locked), quiet, runs=32) is None
+    assert repeating_loop(loop_of(~wet | locked), quiet, runs=32) is None
 
 
 def test_runs_of_a_simulation_are_independent() -> None:

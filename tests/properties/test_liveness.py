@@ -19,7 +19,7 @@ from rovercheck.checker.results.verdict import Exhausted, Proved, Reached, Unkno
 from rovercheck.checker.verify.decide import AUTO, Task, decide, tasks
 from rovercheck.checker.verify.liveness import verdicts
 from rovercheck.checker.verify.liveness import verdicts as recover
-from rovercheck.checker.verify.liveness.loops import hunt, looped
+from rovercheck.checker.verify.liveness.loops import loop_query, looped
 from rovercheck.checker.verify.liveness.verdicts import NO_LOOP, Trap, trapped
 from rovercheck.checker.verify.result import Result
 from rovercheck.properties import forms
@@ -93,11 +93,11 @@ def _prop(form: Form) -> Property:
 
 def _has_loop(system: TransitionSystem, form: Form, engine: str = "explicit") -> bool:
     question = reduce(system, [_prop(form)])
-    hunted = hunt(question, question.goals[0])
-    [goal] = [hunted.lasso.goal]
-    match engines()[engine].check(hunted.lasso.system, [goal], Limits(), quiet)[goal.name]:
+    asked = loop_query(question, question.goals[0])
+    [goal] = [asked.lasso.goal]
+    match engines()[engine].check(asked.lasso.system, [goal], Limits(), quiet)[goal.name]:
         case Reached(run):
-            trace = looped(hunted, run)
+            trace = looped(asked, run)
             assert trace.loop is not None and trace.loop < len(trace) == len(run)
             return True
         case Unreachable():

@@ -20,7 +20,7 @@ from rovercheck.checker.results.verdict import Exhausted, Inductive, Proved, Unk
 from rovercheck.checker.system.formula_json import Unreadable, formula, written
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.system.text import SystemText
-from rovercheck.checker.verify.liveness.loops import hunt, repeated
+from rovercheck.checker.verify.liveness.loops import loop_query, repeated
 from rovercheck.checker.verify.result import Result, limited
 from rovercheck.checker.verify.runs.known_runs import run_in
 from rovercheck.checker.verify.runs.replay import ReplayError, replay
@@ -167,7 +167,9 @@ def _result(one: Row, prop: Property, systems: Systems) -> Result:
         there = reduce(lowered(systems[name]), [replace(prop, on=name)])
         [goal], run = there.goals, kept(one["run"], MOST_TICKS).run
         again = "loop" in one
-        trace = repeated(hunt(there, goal), run, one["loop"]) if again else replay(there.system, goal, run)
+        trace = (
+            repeated(loop_query(there, goal), run, one["loop"]) if again else replay(there.system, goal, run)
+        )
         because, prop = replace(trace, shortest=one["shortest"]), goal.property
     elif "conjuncts" in one:
         on = systems.get(name, systems[prop.on])  # a system with free timers is made by who searches it

@@ -15,7 +15,7 @@ from rovercheck.checker.encode.simulate import Simulator, Trail
 from rovercheck.checker.encode.symbolic import transition
 from rovercheck.checker.encode.unrolling import Outside, Unrolling, literal, satisfiable
 from rovercheck.checker.engines.kinduction.houdini import Consecution, of_given
-from rovercheck.checker.engines.kinduction.hunt import InvariantHunt
+from rovercheck.checker.engines.kinduction.invariant_search import InvariantSearch
 from rovercheck.checker.engines.kinduction.ticks import GaveUp, Scope, Ticks, excluded
 from rovercheck.checker.results.verdict import Inductive, Run
 from rovercheck.checker.search import (
@@ -248,15 +248,15 @@ class InductionGroup:
             yield from self._with_invariants(trail)
 
     def _with_invariants(self, trail: Trail) -> Iterator[SearchEvent]:
-        hunt = InvariantHunt(self._scope, trail)
-        for text in hunt.phases():
+        found = InvariantSearch(self._scope, trail)
+        for text in found.phases():
             yield SearchPhase(text)
-            yield from self._attempts(hunt.invariant, min(WINDOW, self.deep), hunt.note)
+            yield from self._attempts(found.invariant, min(WINDOW, self.deep), found.note)
             if not self.open:
                 return
-        self._reason += f", {hunt.answered} counterexamples to induction answered"
+        self._reason += f", {found.answered} counterexamples to induction answered"
         yield SearchPhase("k-induction along simple paths")
-        yield from self._attempts(hunt.invariant, self.deep, simple=True)
+        yield from self._attempts(found.invariant, self.deep, simple=True)
 
     def _attempts(
         self,

@@ -16,7 +16,7 @@ from rovercheck.checker.encode.bits.simulate import BitSimulation, Values
 from rovercheck.checker.engines import Progress
 from rovercheck.checker.results.verdict import Reached, Run
 from rovercheck.checker.system.partition import conjuncts, partitions
-from rovercheck.checker.verify.liveness.loops import LoopHunt
+from rovercheck.checker.verify.liveness.loops import LoopQuery
 from rovercheck.spec_model.lang.evaluate import admissible, step
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TransitionSystem
@@ -49,9 +49,9 @@ class _Batch:
         return {name: self.random.choices(of, k=self.simulation.runs) for name, of in chosen.items()}
 
 
-def repeating_loop(hunt: LoopHunt, progress: Progress, runs: int = RUNS) -> Reached | None:
+def repeating_loop(asked: LoopQuery, progress: Progress, runs: int = RUNS) -> Reached | None:
     """A run of the lasso system that closes a loop which breaks the property; None if none was found."""
-    system, goal = hunt.question.system, hunt.goal
+    system, goal = asked.question.system, asked.goal
     wanted = [goal.var.name, *(v.name for v in goal.recurs)]
     made = circuit(system, wanted)
     if system.frozen:
@@ -60,7 +60,7 @@ def repeating_loop(hunt: LoopHunt, progress: Progress, runs: int = RUNS) -> Reac
         progress(f"loops: {runs} random runs with constant inputs after {ticks} ticks")
         batch = _batch(system, made, runs, number)
         for run in _candidates(batch, ticks, wanted):
-            found = _followed(hunt, run)
+            found = _followed(asked, run)
             if found is not None:
                 return Reached(found, shortest=False)
     return None
@@ -162,9 +162,9 @@ def _constant_inputs(batch: _Batch, values: Values, condition: str) -> tuple[Val
 # --- one run ---------------------------------------------------------------------------------------
 
 
-def _followed(hunt: LoopHunt, inputs: Sequence[Mapping[str, int]]) -> Run | None:
+def _followed(asked: LoopQuery, inputs: Sequence[Mapping[str, int]]) -> Run | None:
     """The run of the lasso system that these inputs, the last of them kept, lead round a loop."""
-    system, goal = hunt.question.system, hunt.goal
+    system, goal = asked.question.system, asked.goal
     at, ticks = dict(system.init), list(inputs)
     seen: dict[tuple[int, ...], int] = {}
     good: list[dict[str, int]] = []
@@ -176,20 +176,20 @@ def _followed(hunt: LoopHunt, inputs: Sequence[Mapping[str, int]]) -> Run | None
             return None
         at = {**at, **step(system, at, tick)}
         good.append({v.name: at[v.name] for v in (goal.var, *goal.recurs)})
-        key = tuple(at[v.name] for v in hunt.lasso.kept)
-        if key in seen and _breaks(hunt, good[seen[key] + 1 :]):
-            return _saved(hunt, ticks[: number + 1], seen[key] + 1)
+        key = tuple(at[v.name] for v in asked.lasso.kept)
+        if key in seen and _breaks(asked, good[seen[key] + 1 :]):
+            return _saved(asked, ticks[: number + 1], seen[key] + 1)
         seen.setdefault(key, number)
     return None
 
 
-def _breaks(hunt: LoopHunt, loop: Sequence[Mapping[str, int]]) -> bool:
+def _breaks(asked: LoopQuery, loop: Sequence[Mapping[str, int]]) -> bool:
     """Whether the condition is true in every tick of the loop, and in some tick each that must recur."""
-    lasting = all(at[hunt.goal.var.name] for at in loop)
-    return lasting and all(any(at[v.name] for at in loop) for v in hunt.goal.recurs)
+    lasting = all(at[asked.goal.var.name] for at in loop)
+    return lasting and all(any(at[v.name] for at in loop) for v in asked.goal.recurs)
 
 
-def _saved(hunt: LoopHunt, ticks: Sequence[Mapping[str, int]], start: int) -> Run:
+def _saved(asked: LoopQuery, ticks: Sequence[Mapping[str, int]], start: int) -> Run:
     """The run of the lasso system that saves its state before the tick with which the loop starts."""
-    save = hunt.lasso.save.name
+    save = asked.lasso.save.name
     return Run({}, tuple({**tick, save: int(n == start)} for n, tick in enumerate(ticks)))

@@ -24,7 +24,7 @@ from rovercheck.checker.results.verdict import (
 )
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.system.slice import check_way_back, sliced
-from rovercheck.checker.verify.liveness.loops import LoopHunt, hunt, looped
+from rovercheck.checker.verify.liveness.loops import LoopQuery, loop_query, looped
 from rovercheck.checker.verify.liveness.repetition import repeating_loop
 from rovercheck.checker.verify.portfolio.question import PortfolioQuestion, Prior
 from rovercheck.checker.verify.portfolio.shape import VAST, shape
@@ -216,14 +216,14 @@ def _bounded(prop: Property, systems: Systems) -> tuple[Form, Span] | None:
 
 def _by_loop(prop: Property, systems: Systems, query: EngineQuery, progress: Progress) -> Result:
     system = systems[prop.on]
-    hunted, answer, by = _hunted(prop, system, query, progress)
+    asked, answer, by = _loop_answer(prop, system, query, progress)
     if not (isinstance(answer, Reached) and system.over):
-        return _result(hunted, answer, by)
+        return _result(asked, answer, by)
     if not system.concrete:
         reason = only_there(system.name, len(answer.run))
         return Result(prop, Unknown(reason, len(answer.run) - 1, by), system.name)
     there = systems[system.concrete]
-    result = _result(*_hunted(replace(prop, on=there.name), there, query, progress))
+    result = _result(*_loop_answer(replace(prop, on=there.name), there, query, progress))
     if isinstance(result.verdict, Unknown):
         reason = (
             f"a loop of {system.name}, an over-approximation, was found "
@@ -233,33 +233,31 @@ def _by_loop(prop: Property, systems: Systems, query: EngineQuery, progress: Pro
     return result
 
 
-def _hunted(
+def _loop_answer(
     prop: Property, system: System, query: EngineQuery, progress: Progress
-) -> tuple[LoopHunt, Answer, str]:
+) -> tuple[LoopQuery, Answer, str]:
     question = reduce(lowered(system), [prop])
-    hunted = hunt(question, question.goals[0])
-    loop = (
-        attempted(SETTLING, system.name, lambda: repeating_loop(hunted, progress)) if _vast(hunted) else None
-    )
+    asked = loop_query(question, question.goals[0])
+    loop = attempted(SETTLING, system.name, lambda: repeating_loop(asked, progress)) if _vast(asked) else None
     if isinstance(loop, Reached):
         if question.system.checks and shape(PortfolioQuestion(question.system, ())).enumerable:
             check_domains(question.system, query(question.system, []))
-        return hunted, loop, SETTLING
-    found = query(hunted.lasso.system, [hunted.lasso.goal], Prior.SHORT)
-    check_domains(hunted.lasso.system, found)
-    return hunted, *found[hunted.lasso.goal.name]
+        return asked, loop, SETTLING
+    found = query(asked.lasso.system, [asked.lasso.goal], Prior.SHORT)
+    check_domains(asked.lasso.system, found)
+    return asked, *found[asked.lasso.goal.name]
 
 
-def _vast(hunted: LoopHunt) -> bool:
+def _vast(asked: LoopQuery) -> bool:
     """Whether pairs of states are too wide to enumerate, so that a long loop is best met by chance."""
-    return shape(PortfolioQuestion(hunted.lasso.system, (hunted.lasso.goal,))).bits > VAST
+    return shape(PortfolioQuestion(asked.lasso.system, (asked.lasso.goal,))).bits > VAST
 
 
-def _result(hunted: LoopHunt, answer: Answer, by: str) -> Result:
-    prop, name = hunted.goal.property, hunted.question.system.name
+def _result(asked: LoopQuery, answer: Answer, by: str) -> Result:
+    prop, name = asked.goal.property, asked.question.system.name
     match answer:
         case Reached(run):
-            return Result(prop, Violated(looped(hunted, run), by), name)
+            return Result(prop, Violated(looped(asked, run), by), name)
         case Unreachable(because):
             return Result(prop, Proved(because, by, NO_LOOP), name)
         case Open(reason, depth):

@@ -1,4 +1,4 @@
-"""The hunt for invariants: cheap templates first, then whatever excludes a counterexample to induction.
+"""The search for invariants: cheap templates first, then whatever excludes a counterexample to induction.
 
 Of the rich templates only those candidates are tried that exclude the states a counterexample
 stands for, or the states that lead there when the first ones are not inductive alone.
@@ -26,7 +26,7 @@ _BRANCHES = 6
 """Counterexamples to the candidates of one answer that are answered in turn."""
 
 
-class InvariantHunt:
+class InvariantSearch:
     """An inductive invariant that grows, and the counterexamples still to be answered.
 
     ``invariant`` is what is known so far; ``answered`` counts those to which clauses were tried.
