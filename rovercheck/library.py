@@ -8,6 +8,7 @@ rovercheck.trace("heater.py", "HEAT-3").write("heat-3.html")
 """
 
 import html
+import warnings
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -33,7 +34,7 @@ from rovercheck.checker.results.verdict import Unknown
 from rovercheck.checker.verify.certificates import Certification
 from rovercheck.checker.verify.checked import CheckedProperty, worst
 from rovercheck.checker.verify.result import Result
-from rovercheck.checker.verify.searches import SearchSettings, events
+from rovercheck.checker.verify.searches import MachineWarning, SearchSettings, events
 from rovercheck.properties.forms import Property
 from rovercheck.spec_model.lang.chart import Chart
 from rovercheck.spec_model.lang.errors import ModelError
@@ -177,10 +178,18 @@ def check(
     search = SearchSettings(_engine(engine), limits, None, invariants_of(model), certifying)
     found = {
         one.property.id: CheckedProperty(one, model.expected(one.property.id))
-        for one in events(properties, model.systems, search)
-        if isinstance(one, Result)
+        for one in _results(properties, model, search)
     }
     return Results(tuple(found[prop.id] for prop in properties))
+
+
+def _results(properties: Sequence[Property], model: Model, search: SearchSettings) -> Iterator[Result]:
+    """The results as they are found; what is wrong with the machine is a Python warning."""
+    for one in events(properties, model.systems, search):
+        if isinstance(one, Result):
+            yield one
+        elif isinstance(one, MachineWarning):
+            warnings.warn(one.text, RuntimeWarning, stacklevel=3)
 
 
 def trace(of: Model | str | Path, id: str, *, seconds: float | None = None) -> View:
@@ -191,7 +200,7 @@ def trace(of: Model | str | Path, id: str, *, seconds: float | None = None) -> V
     model = _read(of)
     prop = _one(id, model)
     search = SearchSettings(limits=Limits(None, seconds))
-    [found] = (r for r in events([prop], model.systems, search) if isinstance(r, Result))
+    [found] = _results([prop], model, search)
     if isinstance(found.verdict, Unknown) or not isinstance(found.verdict.because, Trace):
         raise NoTrace(f"{prop.id} is {found.verdict.word} and has no trace: {evidence(found)}.")
     return View("trace", _explained(found.verdict.because, prop, model), model.systems)

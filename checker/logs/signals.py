@@ -40,13 +40,6 @@ class Vocabulary:
         """What the charts see of the inputs, by the name of the chart's variable."""
         return {s.var.name: s for s in _SEEN[self.board.name]}
 
-    @cached_property
-    def seen_of(self) -> dict[str, tuple[SignalView, ...]]:
-        """What the charts see of each signal."""
-        return {
-            name: tuple(s for s in self.sights.values() if s.signal.name == name) for name in self.signals
-        }
-
 
 def _board1() -> tuple[SignalView, ...]:
     stamps = {s.name: s for s in board1.STAMPS}

@@ -141,7 +141,7 @@ def check(
         options.possible()
         settings = _settings(search, options, variant)
         guide = Guide(variant.options, selection.again, variant.model.by_gravity, causes(variant))
-        deliver = _delivering(options, variant, charts)
+        deliver = _delivering(options, variant)
         further = _further(options, variant, settings, chains)
         return run(
             CheckRequest(
@@ -177,7 +177,7 @@ def _settings(search: SearchOptions, options: CheckOptions, variant: "Variant") 
     return SearchSettings(engine, limits, options.jobs, invariants_of(variant.model), certifying)
 
 
-def _delivering(options: CheckOptions, variant: "Variant", charts: VariantOptions) -> "ResultDelivery":
+def _delivering(options: CheckOptions, variant: "Variant") -> "ResultDelivery":
     """Writes the reports that are asked for.  Raises ``UsageError`` where one cannot be written."""
     from rovercheck.checker.commands.check.run import undelivered
 
@@ -185,14 +185,13 @@ def _delivering(options: CheckOptions, variant: "Variant", charts: VariantOption
         return undelivered
     from rovercheck.checker.commands.check.ci import Reports
 
-    charted = _again(variant.model.options, charts.chosen, charts.repair, charts.dropped)
     reports = Reports(
         variant.systems(),
         options.junit,
         options.sarif,
         options.annotations or "",
         variant.name,
-        charted,
+        variant.options,
         options.as_json,
     )
     reports.possible()
@@ -234,14 +233,6 @@ def _premises(options: CheckOptions, variant: "Variant", search: "SearchSettings
     if keep:
         recordable(model, variant.name)
     return PremiseSearch(model, variant.systems(), read(file_of(model)), search, options.quiet, keep)
-
-
-def _again(options: str, chosen: tuple[str, ...], repair: str | None, dropped: tuple[str, ...]) -> str:
-    """The options that let another command speak of the same charts."""
-    interpretations, without = [f"--interpret {c}" for c in chosen], [f"--without {d}" for d in dropped]
-    return " ".join(
-        filter(None, [options, *interpretations, f"--repair {repair}" if repair else "", *without])
-    )
 
 
 def _engine_choice(engine: str, every: bool) -> str:
