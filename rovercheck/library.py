@@ -222,7 +222,7 @@ def _explained(trace: Trace, prop: Property, model: Model) -> Trace:
         return trace
     try:
         return explained(
-            trace, prop, model.systems[trace.system], over=lambda: process_time() - start > EXPLAINED_FOR
+            trace, prop, model.systems[trace.system.name], over=lambda: process_time() - start > EXPLAINED_FOR
         )
     except OutOfTime:
         return trace

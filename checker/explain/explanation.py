@@ -5,9 +5,9 @@ from dataclasses import replace
 from random import Random
 
 from rovercheck.checker.engines import Progress, quiet
-from rovercheck.checker.explain.necessary_inputs import NecessaryInputs, forcing
+from rovercheck.checker.explain.necessary_inputs import forcing
 from rovercheck.checker.explain.unrolled_run import Over, never
-from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.trace import NecessaryInputs, Trace
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.system.lowering_cache import lowered
 from rovercheck.checker.system.partition import partitions
@@ -137,4 +137,4 @@ def explained(
     found = forcing(question.system, goal.var, run, progress, over)
     progress("replaying other runs with the same needed inputs")
     check(question.system, goal.var, run, found)
-    return replace(trace, needed=found.needed, minimal=found.minimal, smallest=found.smallest)
+    return replace(trace, necessary=found)

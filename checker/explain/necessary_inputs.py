@@ -8,7 +8,6 @@ called minimal (subset-minimal).  Whether there is one with fewer members is loo
 
 from collections.abc import Iterable, Sequence
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import partial
 
 from rovercheck.checker.encode.bits import Circuit, circuit
@@ -17,7 +16,7 @@ from rovercheck.checker.explain.backwards import ExplanationTooLarge, backwards
 from rovercheck.checker.explain.fewest import fewest, indispensable, simulated
 from rovercheck.checker.explain.unrolled_run import Over, Place, Unrolled, never
 from rovercheck.checker.explain.value_ranges import widened
-from rovercheck.checker.results.trace import Needed
+from rovercheck.checker.results.trace import NecessaryInputs, Needed
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.system.partition import Partition, partitions
 from rovercheck.checker.system.slice import sliced
@@ -31,19 +30,6 @@ LARGE = 200_000
 """Nodes of a circuit, times ticks, from which on a run is not unrolled if there is another way."""
 WIDE = 12_000
 """Nodes of a circuit for which there is no use in trying that way."""
-
-
-@dataclass(frozen=True)
-class NecessaryInputs:
-    """Inputs that force the end of a run of this length with these frozen values.
-
-    ``minimal``: none of them can be left out; otherwise the search was cut short, and some may not matter.
-    ``smallest``: no set with fewer inputs of the run forces its end.
-    """
-
-    needed: tuple[Needed, ...]
-    minimal: bool
-    smallest: bool = False
 
 
 def forcing(

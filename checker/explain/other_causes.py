@@ -70,7 +70,7 @@ def _watching(run: Trace, number: int, inputs: Sequence[Var]) -> Iterator[Assign
     """For each number of ticks, most first: whether the last so many are as the first of the run must be."""
     known = {v.name: v for v in inputs}
     needed: dict[int, list[Expr]] = {}
-    for one in run.needed or ():
+    for one in run.needed():
         needed.setdefault(one.number, []).append(_one_of(known[one.name], one.values))
     likes = [Var(f"as run {number}: {k}", boolean, 0, hidden=True) for k in range(1, len(run) + 1)]
     for tick in range(len(run), 0, -1):

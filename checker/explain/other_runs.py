@@ -67,7 +67,9 @@ class OtherRuns:
     def __init__(self, first: Trace, prop: Property, system: System, looked: Watched | None = None) -> None:
         self._plain = reduce(lowered(system), [replace(prop, on=system.name)])
         looked = looked or watched(system, (GoalKind.TRANSITIONS,))
-        self.transitions = tuple(transition for transition in looked.goals if transition.part in first.charts)
+        self.transitions = tuple(
+            transition for transition in looked.goals if transition.part in first.property.charts
+        )
         question = reduce(lowered(looked.system), [replace(prop, on=system.name)])
         self._question, self._memories = _remembering(question, self.transitions)
         run = _run_of(first, self._plain)
@@ -126,7 +128,9 @@ class OtherRuns:
 
 def _transitions_shown(trace: Trace) -> list[str]:
     """The transitions that fired, as a trace shows them, in order of their first time."""
-    return list(dict.fromkeys(str(a) for t in trace.ticks for a in t.transitions if a.chart in trace.charts))
+    return list(
+        dict.fromkeys(str(a) for t in trace.ticks for a in t.transitions if a.chart in trace.property.charts)
+    )
 
 
 def _difference(taken: Sequence[str], earlier: Sequence[str]) -> str:

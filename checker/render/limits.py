@@ -34,13 +34,13 @@ def timer(trace: Trace, name: str) -> Timer | None:
     if found is None:
         return None
     chart_name, *path = found["place"].split(".")
-    chart = trace.statecharts.get(chart_name)
+    chart = trace.system.statecharts.get(chart_name)
     words = list(_words(chart, tuple(path), When(found["word"]))) if chart else []
     if not words:
         return None
     if found["number"]:
         words = words[int(found["number"]) - 1 :][:1]
-    return _timer(words, trace.variables[name].domain.high)
+    return _timer(words, trace.system.variables[name].domain.high)
 
 
 def _timer(words: list[Temporal], top: int) -> Timer | None:
@@ -84,10 +84,10 @@ def _guards(chart: Chart, path: tuple[str, ...]) -> Iterator[Expr]:
 def bounds(trace: Trace) -> Mapping[str, tuple[tuple[int, str], ...]]:
     """What guards compare numbers with: for each variable values, ascending, and how it is written."""
     found: dict[str, dict[int, str]] = {}
-    for chart in trace.statecharts.values():
+    for chart in trace.system.statecharts.values():
         for node in nodes(*chart.expressions):
             for name, raw, shown in _compared(node):
-                if name in trace.variables:
+                if name in trace.system.variables:
                     found.setdefault(name, {}).setdefault(raw, shown)
     return {name: tuple(sorted(of.items())) for name, of in found.items()}
 

@@ -42,9 +42,9 @@ def reasons(trace: Trace, regular: bool = False) -> tuple[Reason, ...]:
     With ``regular``, single ticks at one distance from each other are together, too.
     """
     ticks: dict[tuple[str, frozenset[int]], list[int]] = {}
-    for one in trace.needed or ():
+    for one in trace.needed():
         ticks.setdefault((one.name, one.values), []).append(one.number)
-    order = {name: i for i, name in enumerate(trace.inputs)}
+    order = {name: i for i, name in enumerate(trace.system.inputs)}
     found = [
         ((first, last, order.get(name, len(order))), Reason(first, last, ends, what, every))
         for (name, values), numbers in ticks.items()
@@ -76,7 +76,7 @@ def in_reason(trace: Trace, earlier: Trace) -> str:
 def _before_the_end(trace: Trace) -> dict[str, set[tuple[int, frozenset[int]]]]:
     """For each needed input how long before the end it is needed, with which values."""
     found: dict[str, set[tuple[int, frozenset[int]]]] = {}
-    for one in trace.needed or ():
+    for one in trace.needed():
         found.setdefault(one.name, set()).add((len(trace) - one.number, one.values))
     return found
 
@@ -101,7 +101,7 @@ def _stretches(numbers: Sequence[int], regular: bool) -> Iterator[tuple[int, int
 
 def _allowed(trace: Trace, name: str, values: frozenset[int]) -> str:
     """``d1 >= 71 cm``, ``mode = SAFE``, ``cmd != STOP``, ``y in 0.1..0.5``."""
-    var = trace.variables[name]
+    var = trace.system.variables[name]
     others = [v for v in var.domain.values if v not in values]
     if len(values) == 1:
         return f"{var.name} = {value(trace, var.name, min(values))}"
@@ -148,12 +148,13 @@ def cause(trace: Trace) -> str:
 
 def meaning(trace: Trace) -> str:
     """What the reasons mean, in one sentence; empty for a run whose inputs were not examined."""
-    if trace.needed is None:
+    found = trace.necessary
+    if found is None:
         return ""
     fixed = " with what is fixed as here" if start_values(trace) else ""
     runs = f"every run of {counted_ticks(len(trace))}{fixed}"
-    if not trace.needed:
+    if not found.needed:
         return f"Nothing but time: {runs} ends like this, whatever its inputs."
-    size = "minimal and smallest" if trace.smallest else "minimal"
-    least = f"The set is {size}." if trace.minimal else "Not minimised: some may not matter."
+    size = "minimal and smallest" if found.smallest else "minimal"
+    least = f"The set is {size}." if found.minimal else "Not minimised: some may not matter."
     return f"Whatever the other inputs are, {runs} ends like this. {least}"

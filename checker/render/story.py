@@ -114,14 +114,14 @@ Row = StoryEvent | Quiet | Repeats
 
 def value(trace: Trace, name: str, raw: int) -> str:
     """A value with its unit, as a person writes it."""
-    sort = trace.variables[name].sort
+    sort = trace.system.variables[name].sort
     unit = str(sort.unit) if isinstance(sort, Num) else ""
     return f"{trace.show(name, raw)} {unit}".rstrip()
 
 
 def of_model(trace: Trace, name: str) -> bool:
     """Whether a reader knows the variable from the model; others are bookkeeping, of the property too."""
-    return name != trace.property and not trace.variables[name].hidden and not RISING.search(name)
+    return name != trace.property.id and not trace.system.variables[name].hidden and not RISING.search(name)
 
 
 def rows(trace: Trace) -> Iterator[Row]:
@@ -166,7 +166,7 @@ def _repeats(transition: TakenTransition, before: Tick | None) -> bool:
 
 def _implies(trace: Trace, name: str, told: set[str]) -> bool:
     """Whether a transition that is told implies this change of a location."""
-    sort = trace.variables[name].sort
+    sort = trace.system.variables[name].sort
     if not isinstance(sort, Enum) or not sort.name.startswith("states of "):
         return False
     return any(name == chart or name.startswith(f"{chart}.") for chart in told)
@@ -174,7 +174,7 @@ def _implies(trace: Trace, name: str, told: set[str]) -> bool:
 
 def _counts(trace: Trace, at: list[dict[str, int]], name: str, i: int) -> bool:
     """Whether the change in the i-th tick is one step of a steady count."""
-    if not isinstance(trace.variables[name].sort, Num) or name not in at[i]:
+    if not isinstance(trace.system.variables[name].sort, Num) or name not in at[i]:
         return False
     step = at[i + 1][name] - at[i][name]
     if TIMER.search(name):
@@ -192,7 +192,7 @@ class _Telling:
         self.at = [dict(trace.before), *({**t.after, **t.inputs} for t in trace.ticks)]
         """The states before the first tick and after each one."""
         self._bounds = bounds(trace)
-        self._needed = {(one.number, one.name) for one in trace.needed or ()}
+        self._needed = {(one.number, one.name) for one in trace.needed()}
 
     def quiet(self, start: int, end: int) -> Quiet:
         names = [n for n in _changed(self.trace, self.at[start], self.at[end]) if n in self.at[start]]
@@ -211,7 +211,9 @@ class _Telling:
             return self._counted(name, i, i + 1)
         shown = value(trace, name, old[name]) if name in old else ""
         needed = (trace.ticks[i].number, name) in self._needed
-        return StoryChange(name, shown, value(trace, name, new[name]), name in trace.inputs, needed=needed)
+        return StoryChange(
+            name, shown, value(trace, name, new[name]), name in trace.system.inputs, needed=needed
+        )
 
     def _counted(self, name: str, start: int, end: int) -> StoryChange:
         """A count that went on, with the limit that it has yet to pass; of a timer, as times."""
@@ -221,13 +223,15 @@ class _Telling:
             return StoryChange(name, known.shown(old), known.shown(new), False, known.limit if new else "")
         ahead = [text for raw, text in self._bounds.get(name, ()) if raw >= new > old]
         shown = value(self.trace, name, old), value(self.trace, name, new)
-        return StoryChange(name, *shown, name in self.trace.inputs, ahead[0] if ahead else "")
+        return StoryChange(name, *shown, name in self.trace.system.inputs, ahead[0] if ahead else "")
 
 
 def start_values(trace: Trace) -> tuple[tuple[str, str], ...]:
     """The frozen choices of the run: those that it names, and values that no tick holds as its own."""
     frozen = [
-        n for n in trace.before if n in trace.frozen or not trace.ticks or n not in trace.ticks[0].after
+        n
+        for n in trace.before
+        if n in trace.system.frozen or not trace.ticks or n not in trace.ticks[0].after
     ]
     return tuple((n, value(trace, n, trace.before[n])) for n in frozen)
 
@@ -240,14 +244,14 @@ def false_parts(trace: Trace) -> tuple[Conjunct, ...]:
 def conjuncts(trace: Trace) -> tuple[Conjunct, ...]:
     """All conjuncts of the property, where more than those that are false are known."""
     at = {**trace.ticks[-1].after, **trace.ticks[-1].inputs} if trace.ticks else dict(trace.before)
-    return tuple(_conjunct(trace, expr, at) for expr in trace.parts or trace.false_parts)
+    return tuple(_conjunct(trace, expr, at) for expr in trace.property.parts or trace.property.false_parts)
 
 
 def _conjunct(trace: Trace, expr: Expr, at: Mapping[str, int]) -> Conjunct:
-    names = [n for n in variables(expr) if n in at and n in trace.variables]
+    names = [n for n in variables(expr) if n in at and n in trace.system.variables]
     values = tuple((n, value(trace, n, at[n])) for n in names)
     shown = text(expr, unfold=True)
-    true = all(expr is not false for false in trace.false_parts)
+    true = all(expr is not false for false in trace.property.false_parts)
     return Conjunct(expr.name if isinstance(expr, Named) else "", shown, values, trace.since(expr), true)
 
 
@@ -257,8 +261,8 @@ OMITTED = "Omitted: running counters, repeated self-transitions, monitor variabl
 def heading(trace: Trace) -> str:
     """One line about the whole run."""
     count = len(trace)
-    ticks = counted_ticks(count) if trace.ends else f"{counted_ticks(count)} of {trace.tick_ms} ms"
-    return f"{trace.system}: {ticks}, {duration(trace.ms(count))}{repeating(trace)}"
+    ticks = counted_ticks(count) if trace.ends else f"{counted_ticks(count)} of {trace.system.tick_ms} ms"
+    return f"{trace.system.name}: {ticks}, {duration(trace.ms(count))}{repeating(trace)}"
 
 
 def repeating(trace: Trace) -> str:

@@ -43,8 +43,8 @@ def render(trace: Trace) -> str:
 def _about(trace: Trace, runs: tuple[BoardRun, ...]) -> str:
     other = "".join(f"   -DBOARD={n} for {_plain(r.board)}\n" for n, r in enumerate(runs, 1) if len(runs) > 1)
     return (
-        f"/* {_plain(trace.property or trace.system)}: {_plain(trace.text)}\n"
-        f"   A run of {_plain(trace.system)}, written by `rovercheck trace`.\n"
+        f"/* {_plain(trace.property.id or trace.system.name)}: {_plain(trace.property.text)}\n"
+        f"   A run of {_plain(trace.system.name)}, written by `rovercheck trace`.\n"
         "   The outputs required are those of the charts.\n"
         "   Compile with your supervisor and the four functions below:\n"
         f"   cc -std=c99 THIS.c your_supervisor.c -lm\n{other}*/\n"
@@ -132,7 +132,9 @@ def _compare(run: BoardRun) -> str:
 
 
 def _main(trace: Trace, run: BoardRun) -> str:
-    title = _plain(trace.property or trace.system).replace("\\", "/").replace('"', "'").replace("%", "%%")
+    title = (
+        _plain(trace.property.id or trace.system.name).replace("\\", "/").replace('"', "'").replace("%", "%%")
+    )
     return MAIN.replace("TITLE", f"{title} on {run.board}")
 
 

@@ -25,8 +25,8 @@ LAST = "arrows"
 def render(trace: Trace) -> str:
     """The table with a row of names; inputs come first, then what the charts computed."""
     held = {*trace.before, *(n for t in trace.ticks for n in t.after)}
-    others = [n for n in trace.variables if n in held and n not in trace.inputs]
-    names = [*trace.inputs, *others]
+    others = [n for n in trace.system.variables if n in held and n not in trace.system.inputs]
+    names = [*trace.system.inputs, *others]
     out = StringIO()
     table = csv.writer(out, lineterminator="\n")
     table.writerow([*FIRST, *map(csv_cell, _apart(names)), LAST])

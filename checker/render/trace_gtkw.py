@@ -31,7 +31,7 @@ def render(trace: Trace, dump: str = "") -> str:
     out = StringIO()
     save = GTKWSave(out)
     end = trace.ms(len(trace))
-    save.dumpfile(dump or f"{_plain(trace.property or trace.system)}.vcd", abspath=False)
+    save.dumpfile(dump or f"{_plain(trace.property.id or trace.system.name)}.vcd", abspath=False)
     save.timestart(0)
     loop = {"a": trace.ms(trace.loop + 1)} if trace.loop is not None else {}
     save.zoom_markers(min(0.0, -math.log2(max(1, end) / _WIDTH)), end, **loop)
@@ -45,7 +45,7 @@ def render(trace: Trace, dump: str = "") -> str:
 
 
 def _property(save: GTKWSave, trace: Trace) -> None:
-    with save.group(_plain(trace.property) or WaveGroup.PROPERTY.value):
+    with save.group(_plain(trace.property.id) or WaveGroup.PROPERTY.value):
         colour = GTKWColor.red if outcome(trace) == "violated" else GTKWColor.green
         save.trace(f"{WaveGroup.PROPERTY}.{outcome(trace)}", color=colour, datafmt="bin")
         if trace.loop is not None:
@@ -65,7 +65,7 @@ def _group(save: GTKWSave, name: str, found: list[Wave], closed: bool = False) -
 
 
 def _matters(trace: Trace, wave: Wave) -> bool:
-    return not trace.relevant or wave.name in trace.relevant
+    return not trace.property.relevant or wave.name in trace.property.relevant
 
 
 def _plain(name: str) -> str:

@@ -17,17 +17,17 @@ LANDSCAPE = "@page{size:landscape;margin:12mm}"
 
 def render(trace: Trace, everything: bool = False) -> str:
     """The page; ``everything``: also what the property does not depend on."""
-    title = trace.property or trace.system
+    title = trace.property.id or trace.system.name
     parts = [timeline.part(trace, everything=everything)]
     parts += [_heading("What happened"), timeline.story_part(trace, everything=everything)]
-    if trace.statecharts:
+    if trace.system.statecharts:
         parts += [_heading("Played on the charts"), player.part(trace, everything=everything, printed=False)]
     return page(f"{title}: {_verdict(trace)}", [_head(trace, title), together(parts)])
 
 
 def _head(trace: Trace, title: str) -> Part:
     body = Markup("<h1>{}</h1><p>{}</p><p><b>{}</b> in {}</p>").format(
-        title, trace.text, _verdict(trace).capitalize(), heading(trace)
+        title, trace.property.text, _verdict(trace).capitalize(), heading(trace)
     )
     return Part(body, (LANDSCAPE,))
 
@@ -36,7 +36,7 @@ def _verdict(trace: Trace) -> str:
     """What the run is: of a property one of two, or a run of nothing in particular."""
     if trace.breaks():
         return "counterexample"
-    return "witness" if trace.violated is False else "run"
+    return "witness" if trace.property.violated is False else "run"
 
 
 def _heading(text: str) -> Part:

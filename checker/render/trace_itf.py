@@ -31,8 +31,8 @@ def render(trace: Trace) -> str:
 
 def document(trace: Trace) -> dict[str, Any]:
     """The trace as plain lists and dictionaries."""
-    held = {*trace.before, *trace.inputs, *(n for t in trace.ticks for n in t.after)}
-    names = [n for n in trace.variables if n in held]
+    held = {*trace.before, *trace.system.inputs, *(n for t in trace.ticks for n in t.after)}
+    names = [n for n in trace.system.variables if n in held]
     fixed = {n for n in trace.before if trace.ticks and n not in trace.ticks[0].after}
     start = dict(trace.before)
     return {
@@ -48,14 +48,14 @@ def document(trace: Trace) -> dict[str, Any]:
 
 
 def _about(trace: Trace, names: list[str]) -> dict[str, Any]:
-    sorts = {n: trace.variables[n].sort for n in names}
+    sorts = {n: trace.system.variables[n].sort for n in names}
     scaled = {n: s for n, s in sorts.items() if isinstance(s, Num) and (s.resolution != 1 or str(s.unit))}
     return {
         "format": "ITF",
         "format-description": "https://apalache-mc.org/docs/adr/015adr-trace.html",
-        "source": trace.system,
-        "description": f"{trace.property}: {trace.text}" if trace.property else "",
-        "tick_ms": trace.tick_ms,
+        "source": trace.system.name,
+        "description": f"{trace.property.id}: {trace.property.text}" if trace.property.id else "",
+        "tick_ms": trace.system.tick_ms,
         **shows(trace),
         "varTypes": {_written(n): _type(trace, n) for n in names},
         "steps": {_written(n): f"{show(s.resolution)} {s.unit}".rstrip() for n, s in scaled.items()},
@@ -68,7 +68,7 @@ def _written(name: str) -> str:
 
 
 def _type(trace: Trace, name: str) -> str:
-    match trace.variables[name].sort:
+    match trace.system.variables[name].sort:
         case Bool():
             return "Bool"
         case Enum():
@@ -83,7 +83,7 @@ def _state(trace: Trace, names: list[str], index: int, at: Mapping[str, int]) ->
 
 
 def _value(trace: Trace, name: str, raw: int) -> bool | str | dict[str, str]:
-    match trace.variables[name].sort:
+    match trace.system.variables[name].sort:
         case Bool():
             return bool(raw)
         case Enum():

@@ -28,15 +28,16 @@ def render(trace: Trace, indent: int = 1) -> str:
 
 def document(trace: Trace) -> dict[str, Any]:
     """The trace as plain lists and dictionaries."""
+    stated = trace.property
     return {
-        "#meta": {"format": "rovercheck-trace", "version": VERSION, "system": trace.system,
-                  "property": trace.property, "text": trace.text, "place": _place(trace.place),
-                  "tick_ms": trace.tick_ms, "ticks": len(trace), **shows(trace)},
+        "#meta": {"format": "rovercheck-trace", "version": VERSION, "system": trace.system.name,
+                  "property": stated.id, "text": stated.text, "place": _place(stated.place),
+                  "tick_ms": trace.system.tick_ms, "ticks": len(trace), **shows(trace)},
         "params": [n for n in trace.before if trace.ticks and n not in trace.ticks[0].after],
-        "vars": [_variable(n, v, n in trace.inputs) for n, v in trace.variables.items()],
+        "vars": [_variable(n, v, n in trace.system.inputs) for n, v in trace.system.variables.items()],
         "before": _values(trace, trace.before),
         "states": [_state(trace, tick) for tick in trace.ticks],
-        "needed": None if trace.needed is None else [_needed(trace, one) for one in trace.needed],
+        "needed": None if trace.necessary is None else [_needed(trace, one) for one in trace.needed()],
         **({"loop": trace.loop} if trace.loop is not None else {}),
         **({"trapped": trace.trapped} if trace.trapped is not None else {}),
         "false": [
@@ -51,7 +52,7 @@ def shows(trace: Trace) -> dict[str, bool | None]:
     ``violated`` is None where no property, or nothing of it, is known; ``shortest`` is False where a shorter
     run may exist.
     """
-    of_none = trace.violated is None and not trace.breaks()
+    of_none = trace.property.violated is None and not trace.breaks()
     return {"violated": None if of_none else trace.breaks(), "shortest": trace.shortest}
 
 
@@ -76,13 +77,17 @@ def _state(trace: Trace, tick: Tick) -> dict[str, Any]:
 
 
 def _values(trace: Trace, at: Mapping[str, int]) -> dict[str, dict[str, Any]]:
-    return {n: {"value": _value(trace, n, raw), "raw": raw} for n, raw in at.items() if n in trace.variables}
+    return {
+        n: {"value": _value(trace, n, raw), "raw": raw}
+        for n, raw in at.items()
+        if n in trace.system.variables
+    }
 
 
 def _value(trace: Trace, name: str, raw: int) -> bool | int | str:
     """A truth value, a whole number, else text: a member's name or an exact decimal."""
     shown = trace.show(name, raw)
-    if isinstance(trace.variables[name].sort, Bool):
+    if isinstance(trace.system.variables[name].sort, Bool):
         return bool(raw)
     return int(shown) if shown.lstrip("-").isdigit() else shown
 

@@ -43,7 +43,7 @@ def render(trace: Trace) -> str:
         lines += ["", f"which stands for {_code(part.formula)}"] if part.name else []
         lines += ["", "with " + ", ".join(_code(f"{n} = {v}") for n, v in part.values)] if part.values else []
     if said := reasons_table(trace):
-        lines += ["", *([f"**{cause(trace)}**", ""] if trace.needed else []), *said]
+        lines += ["", *([f"**{cause(trace)}**", ""] if trace.needed() else []), *said]
     return "\n".join([*lines, ""])
 
 

@@ -14,10 +14,10 @@ SUMMARY = "page that plays the run on its charts, transition by transition; fetc
 
 def render(trace: Trace, *, everything: bool = False) -> str:
     """The page; ``everything`` shows also charts and values that the property does not depend on."""
-    title = trace.property or trace.system
+    title = trace.property.id or trace.system.name
     heading = Markup("<h1>{}</h1>{}").format(title, _sentence(trace))
     return page(f"{title}: played on its charts", [Part(heading), part(trace, everything=everything)])
 
 
 def _sentence(trace: Trace) -> Markup:
-    return Markup("<p>{}</p>").format(trace.text) if trace.text else Markup("")
+    return Markup("<p>{}</p>").format(trace.property.text) if trace.property.text else Markup("")

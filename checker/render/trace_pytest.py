@@ -90,13 +90,13 @@ def test_outputs(name, request):
 def render(trace: Trace) -> str:
     """The text of the file.  Raises ``ModelError`` for a run that is not known as a board sees it."""
     runs = required(trace)
-    title = trace.property or trace.system
+    title = trace.property.id or trace.system.name
     names = [run.board for run in runs]
     broken = outcome(trace) == "violated"
     return TEMPLATE.format(
         title=_quotable(title),
         shows="breaks" if broken else "shows",
-        text=_wrapped(_quotable(trace.text) or "A run of the model."),
+        text=_wrapped(_quotable(trace.property.text) or "A run of the model."),
         note=_wrapped(NOTE + (BROKEN if broken else ".")),
         s="s" * (len(names) > 1),
         names=" and ".join(names),
@@ -112,8 +112,8 @@ def required(trace: Trace) -> tuple[BoardRun, ...]:
     """The run as the boards see it.  Raises ``ModelError`` where it was not worked out."""
     if not trace.concrete:
         raise ModelError(
-            f"This run of {trace.system} is not known as the inputs of a supervisor; use the format csv or "
-            "json, or a property of a board."
+            f"This run of {trace.system.name} is not known as the inputs of a supervisor; use the format "
+            "csv or json, or a property of a board."
         )
     return trace.concrete
 

@@ -67,7 +67,7 @@ def _parts(trace: Trace) -> Iterator[Part]:
             yield from ((Text("    "), Text(line)) for line in _explained(part))
     if said := meaning(trace):
         yield none, Text(cause(trace), style="bold")
-        if trace.needed:
+        if trace.needed():
             yield from _reasons(trace)
         yield none, Text(said)
 

@@ -47,16 +47,16 @@ def render(trace: Trace) -> str:
                 writer.change(again, now, 1)
         if trace.ticks:
             writer.change(mark, end, 1)
-        writer.close(end + trace.tick_ms)
+        writer.close(end + trace.system.tick_ms)
     return out.getvalue()
 
 
 def _comment(trace: Trace) -> str:
     """What the dump shows, and the units of its numbers."""
-    sorts = {wave.full: trace.variables[wave.name].sort for wave in waves(trace)}
+    sorts = {wave.full: trace.system.variables[wave.name].sort for wave in waves(trace)}
     units = [f"{name} in {s.unit}" for name, s in sorts.items() if isinstance(s, Num) and str(s.unit)]
-    told = [f"rovercheck trace of {trace.system}", f"{trace.property}: {trace.text}"]
-    return "\n".join(_ascii(line) for line in (*(told if trace.property else told[:1]), *units))
+    told = [f"rovercheck trace of {trace.system.name}", f"{trace.property.id}: {trace.property.text}"]
+    return "\n".join(_ascii(line) for line in (*(told if trace.property.id else told[:1]), *units))
 
 
 def _ascii(text: str) -> str:
@@ -74,7 +74,7 @@ def _first(trace: Trace, wave: Wave) -> str | float:
 
 
 def _value(trace: Trace, wave: Wave, raw: int) -> str | float:
-    match trace.variables[wave.name].sort:
+    match trace.system.variables[wave.name].sort:
         case Num(resolution, _):
             return float(raw * resolution)
     if wave.sort is Sort.WIRE:

@@ -49,7 +49,7 @@ def waves(trace: Trace) -> tuple[Wave, ...]:
     held = {*trace.before, *(n for t in trace.ticks for n in (*t.inputs, *t.after))}
     groups = list(WaveGroup)
     names = sorted(
-        (n for n in trace.variables if n in held or n in trace.inputs),
+        (n for n in trace.system.variables if n in held or n in trace.system.inputs),
         key=lambda n: groups.index(_group(trace, n)),
     )
     taken: set[tuple[str, ...]] = {(WaveGroup.PROPERTY, word) for word in ("violated", "reached", "repeats")}
@@ -67,10 +67,10 @@ def outcome(trace: Trace) -> str:
 
 
 def _group(trace: Trace, name: str) -> WaveGroup:
-    sort = trace.variables[name].sort
-    if name in trace.inputs:
+    sort = trace.system.variables[name].sort
+    if name in trace.system.inputs:
         return WaveGroup.INPUTS
-    if trace.variables[name].hidden or name == trace.property:
+    if trace.system.variables[name].hidden or name == trace.property.id:
         return WaveGroup.HIDDEN
     if TIMER.search(name):
         return WaveGroup.TIMERS
@@ -80,7 +80,7 @@ def _group(trace: Trace, name: str) -> WaveGroup:
 
 
 def _sort(trace: Trace, name: str) -> Sort:
-    match trace.variables[name].sort:
+    match trace.system.variables[name].sort:
         case Bool():
             return Sort.WIRE
         case Enum():

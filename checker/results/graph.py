@@ -219,10 +219,10 @@ def with_trace(graph: StateGraph, trace: Trace) -> StateGraph:
 
     Raises ``ModelError`` when the trace lacks a variable, or passes what is no node or edge of the graph.
     """
-    missing = [name for name in graph.variables if name not in trace.variables]
+    missing = [name for name in graph.variables if name not in trace.system.variables]
     if missing:
         raise ModelError(
-            f"The trace is one of {trace.system}, which has no {', '.join(missing)}. "
+            f"The trace is one of {trace.system.name}, which has no {', '.join(missing)}. "
             "Project on variables that it has, too."
         )
     numbers = {node.raw: node.number for node in graph.nodes}
@@ -232,17 +232,17 @@ def with_trace(graph: StateGraph, trace: Trace) -> StateGraph:
         shown = ", ".join(f"{n} = {trace.show(n, at[n])}" for n in graph.variables)
         if raw not in numbers:
             why = f"the exploration is cut: {graph.cut}" if graph.cut else f"{graph.title} never reaches that"
-            raise ModelError(f"The trace of {trace.system} passes {shown}, which is no node: {why}.")
+            raise ModelError(f"The trace of {trace.system.name} passes {shown}, which is no node: {why}.")
         path.append(numbers[raw])
     edges = {(e.source, e.target) for e in graph.edges}
     for tick, ends in enumerate(pairwise(path), start=1):
         if ends not in edges:
             raise ModelError(
-                f"Tick {tick} of the trace of {trace.system} is no edge of {graph.title}. "
+                f"Tick {tick} of the trace of {trace.system.name} is no edge of {graph.title}. "
                 "Use a trace of the same system."
             )
-    bad = frozenset(path[-1:]) if trace.false_parts else frozenset[int]()
-    return replace(graph, path=tuple(path), path_of=trace.property, bad=graph.bad | bad)
+    bad = frozenset(path[-1:]) if trace.property.false_parts else frozenset[int]()
+    return replace(graph, path=tuple(path), path_of=trace.property.id, bad=graph.bad | bad)
 
 
 MOST_NODES = 150

@@ -9,6 +9,7 @@ if TYPE_CHECKING:
     from rovercheck.spec_model.lang.chart import Chart, Component
     from rovercheck.spec_model.lang.expr import Expr, Var
     from rovercheck.spec_model.lang.place import Place
+    from rovercheck.spec_model.lang.system import TransitionSystem
 
 
 def counted_ticks(count: int) -> str:
@@ -62,110 +63,159 @@ class Needed:
 
 
 @dataclass(frozen=True)
-class Trace:
-    """A run with everything a reader needs.
+class NecessaryInputs:
+    """Inputs that force the end of a run of this length with these frozen values; others may be any.
 
-    ``before`` is the state before the first tick (frozen variables included); ``false_parts``
-    are the conjuncts of the property that are false after the last tick (for a witness, empty).
-    ``relevant`` and ``charts`` name the variables and the charts the property depends on.
+    ``minimal``: none of them can be left out; otherwise the search was cut short, and some may not matter.
+    ``smallest``: no set with fewer inputs of the run forces its end.
+    """
+
+    needed: tuple[Needed, ...]
+    minimal: bool
+    smallest: bool = False
+
+
+@dataclass(frozen=True)
+class TracedSystem:
+    """What a reader needs of the system that a run is of.
+
+    ``variables`` are all by name, inputs and frozen ones too; ``frozen`` names the choices that are fixed for
+    the whole run.  ``statecharts`` are the charts that executed, by name, as drawn, and ``components`` all
+    that executes in a tick, in order.
+    """
+
+    name: str
+    tick_ms: int
+    variables: Mapping[str, "Var"]
+    inputs: tuple[str, ...] = ()
+    frozen: tuple[str, ...] = ()
+    statecharts: Mapping[str, "Chart"] = field(default_factory=dict, compare=False, repr=False)
+    components: tuple["Component", ...] = field(default=(), compare=False, repr=False)
+
+    @staticmethod
+    def of(system: "TransitionSystem") -> "TracedSystem":
+        """Of a lowered system, with the charts from which it was lowered."""
+        source = system.source
+        return TracedSystem(
+            system.name,
+            system.tick_ms,
+            {v.name: v for v in (*system.variables, *system.inputs, *system.frozen)},
+            tuple(v.name for v in system.inputs),
+            tuple(v.name for v in system.frozen),
+            {c.name: c for c in source.charts} if source else {},
+            source.components if source else (),
+        )
+
+
+@dataclass(frozen=True)
+class TracedProperty:
+    """What a run says of a property: its ``id`` and sentence, stated at ``place``, blank for a run of none.
+
+    ``relevant`` and ``charts`` name the variables and the charts it depends on.  ``parts`` are all its
+    conjuncts, and ``truths`` has for each of them whether it is true after each tick; ``false_parts`` are
+    those that are false after the last (for a witness, none).  ``violated`` tells whether the run breaks it;
+    None for a run of no property, and for one of which only the parts that it makes false are known.
+    """
+
+    id: str = ""
+    text: str = ""
+    relevant: frozenset[str] = frozenset()
+    charts: frozenset[str] = frozenset()
+    false_parts: tuple["Expr", ...] = ()
+    parts: tuple["Expr", ...] = ()
+    truths: tuple[tuple[bool, ...], ...] = ()
+    violated: bool | None = None
+    place: "Place | None" = field(default=None, compare=False, repr=False)
+
+
+NO_PROPERTY = TracedProperty()
+
+
+@dataclass(frozen=True)
+class Trace:
+    """A run of a system, and what it says of a property.
+
+    ``before`` is the state before the first tick (frozen variables included).  ``ends`` has the ms at the end
+    of each tick, where ticks last unlike times.  ``shortest``: no shorter run ends so.
 
     ``loop`` is set for a run without end: after the last tick all that the property depends on is as
     after that tick (0: as before the first), and the ticks in between repeat for ever.  ``trapped``
     is set for a run after which something is out of reach: it counts the states still reached.
 
-    ``property`` and ``text`` are the id and the sentence of the property, which is written at ``place``;
-    ``statecharts`` are the charts that executed, by name, as drawn, and ``components`` all that executes in a
-    tick, in order.  ``concrete`` is the run as the boards see it, where it was asked for.  ``parts`` are all
-    conjuncts of the property, and ``truths`` has for each of them whether it is true after each tick.
-
-    ``needed`` are the inputs that force the end of the run, in any run of its length with its frozen values:
-    the others may be anything that is admissible.  It is None for a run whose inputs were not examined.
-    ``minimal``: none of those needed can be left out; otherwise the search for such a set was cut short.
-    ``smallest``: no set with fewer of the run's inputs forces its end.
-
-    ``violated`` tells whether the run breaks the property; it is None for a run of no property, and for one
-    of which only the parts that it makes false are known.  ``shortest``: no shorter run ends so.
-    ``again`` is the command that shows the run, where it is known.  ``frozen`` names the choices that are
-    fixed for the whole run.  ``ends`` has the ms at the end of each tick, where ticks last unlike times.
+    ``necessary`` are the inputs that force its end; None for a run whose inputs were not examined.
+    ``concrete`` is the run as the boards see it, where it was asked for; ``again`` is the command that shows
+    the run, where it is known.
     """
 
-    system: str
-    tick_ms: int
-    variables: Mapping[str, "Var"]
-    inputs: tuple[str, ...]
+    system: TracedSystem
     before: Mapping[str, int]
     ticks: tuple[Tick, ...]
-    false_parts: tuple["Expr", ...] = ()
-    relevant: frozenset[str] = frozenset()
-    charts: frozenset[str] = frozenset()
+    property: TracedProperty = NO_PROPERTY
+    ends: tuple[int, ...] = ()
     loop: int | None = None
     trapped: int | None = None
-    property: str = ""
-    text: str = ""
-    statecharts: Mapping[str, "Chart"] = field(default_factory=dict, compare=False, repr=False)
-    components: tuple["Component", ...] = field(default=(), compare=False, repr=False)
-    parts: tuple["Expr", ...] = ()
-    truths: tuple[tuple[bool, ...], ...] = ()
-    needed: tuple[Needed, ...] | None = None
-    minimal: bool = False
-    smallest: bool = False
-    place: "Place | None" = field(default=None, compare=False, repr=False)
-    concrete: tuple["BoardRun", ...] = field(default=(), compare=False, repr=False)
-    violated: bool | None = None
     shortest: bool = False
+    necessary: NecessaryInputs | None = None
+    concrete: tuple["BoardRun", ...] = field(default=(), compare=False, repr=False)
     again: str = field(default="", compare=False, repr=False)
-    frozen: tuple[str, ...] = ()
-    ends: tuple[int, ...] = ()
+
+    def needed(self) -> tuple[Needed, ...]:
+        """The inputs that force its end, as far as they were examined."""
+        return () if self.necessary is None else self.necessary.needed
 
     def clock(self) -> int | tuple[int, ...]:
         """The length of each tick in ms; where they differ, the time at the end of each, from tick 0 on."""
-        return (0, *self.ends) if self.ends else self.tick_ms
+        return (0, *self.ends) if self.ends else self.system.tick_ms
 
     def ms(self, tick: int) -> int:
         """The time in ms at the end of a tick, from the start of the run; 0 of tick 0."""
-        return self.ends[tick - 1] if tick and self.ends else tick * self.tick_ms
+        return self.ends[tick - 1] if tick and self.ends else tick * self.system.tick_ms
 
     def __len__(self) -> int:
         return len(self.ticks)
 
     def breaks(self) -> bool:
         """Whether it is a counterexample, not a witness nor a run of no property."""
-        if self.violated is not None:
-            return self.violated
-        return bool(self.false_parts) or self.loop is not None or self.trapped is not None
+        if self.property.violated is not None:
+            return self.property.violated
+        return bool(self.property.false_parts) or self.loop is not None or self.trapped is not None
 
     def since(self, part: "Expr") -> int:
         """The tick since which a conjunct of the property has been as it is after the last one.
 
         Without ``truths``, the last tick.
         """
-        if not self.truths:
+        if not self.property.truths:
             return len(self)
-        values = next(v for p, v in zip(self.parts, self.truths, strict=True) if p is part)
+        values = next(v for p, v in zip(self.property.parts, self.property.truths, strict=True) if p is part)
         return next((k + 1 for k in range(len(values) - 1, 0, -1) if values[k - 1] != values[-1]), 1)
 
     def focused(self) -> "Trace":
         """The same run with only what the property depends on, bookkeeping left out."""
-        shown = {n for n in self.relevant if n in self.variables and not self.variables[n].hidden}
+        shown = {
+            n
+            for n in self.property.relevant
+            if n in self.system.variables and not self.system.variables[n].hidden
+        }
         ticks = (
             Tick(
                 t.number,
                 {n: v for n, v in t.inputs.items() if n in shown},
                 {n: v for n, v in t.after.items() if n in shown},
-                tuple(a for a in t.transitions if a.chart in self.charts),
+                tuple(a for a in t.transitions if a.chart in self.property.charts),
             )
             for t in self.ticks
         )
         return replace(
             self,
-            inputs=tuple(n for n in self.inputs if n in shown),
+            system=replace(self.system, inputs=tuple(n for n in self.system.inputs if n in shown)),
             before={n: v for n, v in self.before.items() if n in shown},
             ticks=tuple(ticks),
         )
 
     def show(self, name: str, raw: int) -> str:
         """A value as a person writes it."""
-        return self.variables[name].domain.show(raw)
+        return self.system.variables[name].domain.show(raw)
 
     def changes(self) -> Iterator[tuple[Tick, dict[str, int]]]:
         """Each tick with the variables and inputs whose value differs from the tick before."""

@@ -7,6 +7,7 @@ from playwright.sync_api import Browser, Page
 
 from rovercheck.checker.render import timeline, trace_html
 from rovercheck.checker.render.page import page as whole
+from tests import traces
 from tests.browser.conftest import Show
 from tests.render.test_timeline import drawn
 
@@ -100,9 +101,9 @@ def test_print_has_all_and_no_controls(opened: Page) -> None:
 
 
 def test_what_never_changes_is_printed_too(show: Show) -> None:
-    trace = replace(drawn(), relevant=frozenset({"mode", "level", "speed"}))
+    trace = traces.changed(drawn(), relevant=frozenset({"mode", "level", "speed"}))
     still = replace(trace, ticks=tuple(replace(t, after={**t.after, "speed": 0}) for t in trace.ticks))
-    page = show(trace_html.render(replace(still, false_parts=still.false_parts[:1])))
+    page = show(trace_html.render(traces.changed(still, false_parts=still.property.false_parts[:1])))
     told = page.locator(".tl-same p")
     assert not told.is_visible()
     page.evaluate("window.dispatchEvent(new Event('beforeprint'))")
@@ -137,7 +138,7 @@ CONTRAST = """() => {
 
 
 def test_thousands_of_ticks_stay_usable(show: Show) -> None:
-    page = show(trace_html.render(replace(drawn(5000), property="LONG")))
+    page = show(trace_html.render(traces.changed(drawn(5000), id="LONG")))
     assert page.locator(".tl-plot rect").count() < 200
     page.locator(".tl-frame").focus()
     page.keyboard.press("ArrowLeft")

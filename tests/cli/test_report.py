@@ -25,6 +25,7 @@ from rovercheck.properties.catalogue import catalogue, expected
 from rovercheck.spec_model.rover import systems
 from tests.render.test_page import Reader
 from tests.render.zoo import long_trace
+from tests.traces import changed
 
 ROOT = Path(__file__).parents[2]
 CHEAP = ["PB1-15", "PB1-11"]
@@ -238,7 +239,7 @@ def test_a_proof_about_nothing_is_a_finding(tmp_path: Path) -> None:
 
 def on_relay(limits: Limits) -> tuple[list[StateGraphView], dict[str, str]]:
     """The state graphs of two systems, one of them with a finding whose run is of neither."""
-    finding = Result(catalogue()["PB1-15"], Violated(replace(long_trace(), variables={}), "bmc"), "relay")
+    finding = Result(catalogue()["PB1-15"], Violated(changed(long_trace(), variables={}), "bmc"), "relay")
     both = [systems()["relay"], systems()["board1"]]
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(reviewing_graphs, "LIMITS", limits)

@@ -33,6 +33,7 @@ from rovercheck.spec_model.rover import systems
 from tests.render.test_exits_ci import cases, commands, locations, valid
 from tests.render.test_exits_data import VCDVCD, dumped
 from tests.render.zoo import long_trace
+from tests.traces import changed
 
 ROOT = Path(__file__).parents[2]
 BOARD_C = """
@@ -247,12 +248,12 @@ def test_why_a_run_cannot_be_given_to_a_supervisor() -> None:
     known = systems()
     fine = next(s for s in known.values() if s.tick_ms != 20)
     with pytest.raises(ModelError, match=r"advances by 1 ms.*cannot be given to one\. The run can"):
-        concrete(replace(long_trace(1), system=fine.name), fine)
+        concrete(changed(long_trace(1), name=fine.name), fine)
     bare = replace(known["relay"], name="bare", components=())
     with pytest.raises(ModelError, match="executes no chart and no block of a board"):
-        concrete(replace(long_trace(1), system="bare"), bare)
+        concrete(changed(long_trace(1), name="bare"), bare)
     with pytest.raises(ModelError, match="Nothing of what PB1-15 depends on is computed by board1"):
-        concrete(replace(pb1_15(), relevant=frozenset()), known["board1"])
+        concrete(changed(pb1_15(), relevant=frozenset()), known["board1"])
     at = pb1_15().ticks[6]
     other = replace(at, after={**at.after, "give_b2_actuation": 0})
     forged = replace(pb1_15(), ticks=(*pb1_15().ticks[:6], other))

@@ -82,14 +82,14 @@ def test_when_interrupted_the_run_is_shown_all_the_same(
         raise KeyboardInterrupt
 
     monkeypatch.setattr("rovercheck.checker.explain.explanation.explained", interrupted)
-    assert trace_of(ExplanationOptions()).needed is None
+    assert trace_of(ExplanationOptions()).necessary is None
     assert "Interrupted: the run is shown without its cause." in capfd.readouterr().err
 
 
 def test_an_explanation_that_takes_too_long_is_left_out(capfd: pytest.CaptureFixture[str]) -> None:
-    assert trace_of(ExplanationOptions(seconds=-1)).needed is None
+    assert trace_of(ExplanationOptions(seconds=-1)).necessary is None
     assert "Wait for it with --explain." in capfd.readouterr().err
-    assert trace_of(ExplanationOptions.chosen(True)).needed
+    assert trace_of(ExplanationOptions.chosen(True)).needed()
 
 
 def test_a_run_without_end_says_why_it_is_not_explained(capfd: pytest.CaptureFixture[str]) -> None:

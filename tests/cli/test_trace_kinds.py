@@ -30,14 +30,15 @@ from rovercheck.properties.forms import Property, reachable
 from rovercheck.properties.reduce import reduce
 from rovercheck.spec_model.lang.system import System
 from tests.explain.test_others import CHART, ENDS, SYSTEM, first, left
+from tests.traces import changed
 
-PARTLESS = replace(first(), false_parts=(), parts=(), truths=())
+PARTLESS = changed(first(), false_parts=(), parts=(), truths=())
 """Of a violated property of which no part is false after the last tick, such as one about several ticks."""
 QUIET = ExplanationOptions(wanted=False)
 
 
 def test_a_counterexample_without_a_false_part_is_one_in_every_exit() -> None:
-    assert PARTLESS.violated and PARTLESS.breaks() and outcome(PARTLESS) == "violated"
+    assert PARTLESS.property.violated and PARTLESS.breaks() and outcome(PARTLESS) == "violated"
     [finding] = of_trace(PARTLESS).findings
     assert (finding.word, finding.level) == ("violated", FindingLevel.FAILED)
     shown = {name: str(renderers("trace")[name].render(PARTLESS)) for name in ("junit", "sarif", "html")}
@@ -52,7 +53,7 @@ LEFT = tuple({"left": 1, "right": 0, "quick": 0} for _ in range(3))
 def test_a_witness_is_no_counterexample() -> None:
     prop = reachable("T-2", "The end can be reached.", that=CHART.active("End"), covers=["R"], on="way")
     found = reached(Reached(Run({}, LEFT), shortest=True), prop)
-    assert found.violated is False and not found.breaks() and outcome(found) == "reached"
+    assert found.property.violated is False and not found.breaks() and outcome(found) == "reached"
     assert of_trace(found).findings[0].level is FindingLevel.PASSED
     assert "<title>T-2: witness</title>" in str(renderers("trace")["html"].render(found))
 

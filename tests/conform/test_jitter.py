@@ -45,7 +45,7 @@ def run_of(id: str) -> Trace:
 
 def given(board: Board, trace: Trace) -> list[Mapping[str, bool | int | float]]:
     """The measurements and stamps of the run, step by step."""
-    system = systems()[trace.system]
+    system = systems()[trace.system.name]
     return list(board.run(in_steps_of(board, system, {**t.inputs, **t.after}) for t in trace.ticks))
 
 
@@ -59,6 +59,6 @@ def test_a_violation_by_jitter_is_one_of_the_supervisor(id: str) -> None:
     did = [firmware.step(one) for one in inputs]
     required = [step.expected for step in rerun(board, inputs)]
     assert not any(differs(one, other, set()) for one, other in zip(required, did, strict=True))
-    domain = trace.variables[in_model].domain
+    domain = trace.system.variables[in_model].domain
     shown = [units(domain, tick.after[in_model]) for tick in trace.ticks]
     assert [one[in_supervisor] for one in did] == shown

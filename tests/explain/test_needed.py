@@ -10,9 +10,9 @@ from hypothesis import assume, given
 from rovercheck.checker.engines.bdd.space import DDMemoryError, Overdrawn
 from rovercheck.checker.explain import backwards, fewest, necessary_inputs
 from rovercheck.checker.explain.explanation import check
-from rovercheck.checker.explain.necessary_inputs import NecessaryInputs, forcing
+from rovercheck.checker.explain.necessary_inputs import forcing
 from rovercheck.checker.explain.unrolled_run import OutOfTime, Unrolled
-from rovercheck.checker.results.trace import Needed
+from rovercheck.checker.results.trace import NecessaryInputs, Needed
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.verify.runs.replay import ReplayError
 from rovercheck.spec_model.lang.action import Assign

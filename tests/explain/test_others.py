@@ -66,8 +66,8 @@ def test_a_search_that_gives_up_proves_nothing() -> None:
 
 def test_explained_by_the_inputs_that_decide_the_way() -> None:
     found = explained(first(), ENDS, SYSTEM)
-    assert [(n.number, n.name, set(n.values)) for n in found.needed or ()] == [(2, "left", {1})]
-    assert found.minimal
+    assert [(n.number, n.name, set(n.values)) for n in found.needed()] == [(2, "left", {1})]
+    assert found.necessary is not None and found.necessary.minimal
 
 
 def test_runs_without_an_end_are_left_as_they_are() -> None:
@@ -92,7 +92,7 @@ def test_another_reason_is_found_and_that_there_is_no_third() -> None:
     second = unlike.next(known, "bdd", Limits())
     assert isinstance(second, Trace)
     known.append(explained(second, ENDS, BOTH))
-    assert [(n.number, n.name, set(n.values)) for n in known[1].needed or ()] == [(2, "right", {1})]
+    assert [(n.number, n.name, set(n.values)) for n in known[1].needed()] == [(2, "right", {1})]
     assert in_reason(known[1], known[0]) == "needs right; does not need left"
     third = unlike.next(known, "bdd", Limits())
     assert isinstance(third, NoOtherRun) and third.proved, "to wait for left or right is no other reason"

@@ -10,6 +10,7 @@ from rovercheck.spec_model.lang.expr import flag, var
 from rovercheck.spec_model.lang.place import Place
 from tests.render import zoo
 from tests.render.zoo import long_trace, relay
+from tests.traces import changed, trace_of
 
 HERE = Place("models/relay & co.py", 7)
 
@@ -20,8 +21,8 @@ def told(trace: Trace) -> Trace:
         replace(t, transitions=tuple(replace(a, place=Place(HERE.file, 10 + a.order)) for a in t.transitions))
         for t in trace.ticks
     )
-    return replace(
-        trace, ticks=ticks, property="TOY-1", text="It stays safe.", place=HERE, statecharts={"Relay": relay}
+    return changed(
+        trace, ticks=ticks, id="TOY-1", text="It stays safe.", place=HERE, statecharts={"Relay": relay}
     )
 
 
@@ -31,7 +32,7 @@ def lasso() -> Trace:
 
 
 def witness() -> Trace:
-    return replace(told(long_trace(1)), false_parts=())
+    return changed(told(long_trace(1)), false_parts=())
 
 
 def odd() -> Trace:
@@ -45,7 +46,7 @@ def odd() -> Trace:
     transition = TakenTransition('Ätze "<&>"', "so la", "a,b", 'go [x > "3" && "%::*/" != \x1b\x00]', 1)
     tick = Tick(1, {"#count": -3}, {**at, "Ätze.Ort": 3, "previous(x > 3)": 1}, (transition,))
     text = 'Nothing, 100% "of" it: <b>&\n::error::\\ */ is """so""" ]]> ≤ é 日\x85$end\r.'
-    return Trace("sys/tem: 1", 20, table, ("#count",), at, (tick,), (word,), property='"ODD"/1%\n', text=text)
+    return trace_of("sys/tem: 1", 20, table, ("#count",), at, (tick,), (word,), id='"ODD"/1%\n', text=text)
 
 
 @cache
@@ -56,12 +57,12 @@ def huge(ticks: int = 5_000) -> Trace:
     made = tuple(
         Tick(k, {"level": 100 * (k % 2)}, {"Relay": 1 + k % 2}, (transition,)) for k in range(1, ticks + 1)
     )
-    table = {n: v for n, v in zoo.TRACES["long"].variables.items() if n in ("Relay", "level")}
-    return told(Trace("huge", 20, table, ("level",), at, made, (flag("never"),)))
+    table = {n: v for n, v in zoo.TRACES["long"].system.variables.items() if n in ("Relay", "level")}
+    return told(trace_of("huge", 20, table, ("level",), at, made, (flag("never"),)))
 
 
 def needed() -> Trace:
-    return replace(told(long_trace(2)), needed=(Needed(2, "level", frozenset({100, 101})),))
+    return changed(told(long_trace(2)), needed=(Needed(2, "level", frozenset({100, 101})),))
 
 
 TRACES = {**zoo.TRACES, "lasso": lasso(), "witness": witness(), "odd": odd(), "needed": needed()}

@@ -9,6 +9,7 @@ from rovercheck.checker.render.trace_markdown import render as markdown
 from rovercheck.checker.render.trace_table import render as table
 from rovercheck.checker.results.trace import Tick, Trace
 from rovercheck.spec_model.lang.expr import flag
+from tests.traces import trace_of
 
 BEEP = flag("beep")
 
@@ -16,7 +17,7 @@ BEEP = flag("beep")
 def run(beeps: str) -> Trace:
     """A tick for each character: whether it beeps."""
     ticks = tuple(Tick(i, {}, {"beep": int(c == "x")}) for i, c in enumerate(beeps, 1))
-    return Trace("alarm", 20, {"beep": BEEP}, (), {"beep": 0}, ticks)
+    return trace_of("alarm", 20, {"beep": BEEP}, (), {"beep": 0}, ticks)
 
 
 def test_what_is_repeated_is_told_once() -> None:

@@ -295,7 +295,7 @@ class TestGithub(TraceSuite):
     def test_odd_text_comes_back_whole(self) -> None:
         [(_, properties, message)] = commands(self.shown("odd"))
         assert properties["title"] == '"ODD"/1%\n is violated'
-        assert message.startswith(odd().text)
+        assert message.startswith(odd().property.text)
 
 
 def test_annotations_of_a_check() -> None:

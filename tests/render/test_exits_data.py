@@ -4,7 +4,6 @@ import csv
 import json
 import math
 import signal
-from dataclasses import replace
 from importlib import import_module
 from io import BytesIO, StringIO
 from typing import Any
@@ -21,6 +20,7 @@ from rovercheck.spec_model.lang.expr import var
 from tests.render.conformance import Suite
 from tests.render.exits_zoo import TRACES, huge, lasso, needed, odd, witness
 from tests.render.zoo import long_trace
+from tests.traces import changed, trace_of
 
 
 def _reader() -> Any:
@@ -34,8 +34,8 @@ def _reader() -> Any:
 VCDVCD = _reader()
 
 SHOWN = [
-    (replace(witness(), violated=False, shortest=True), (False, True)),
-    (replace(long_trace(1), violated=True, shortest=True), (True, True)),
+    (changed(witness(), violated=False, shortest=True), (False, True)),
+    (changed(long_trace(1), violated=True, shortest=True), (True, True)),
     (lasso(), (True, False)),
     (witness(), (None, False)),
 ]
@@ -127,7 +127,7 @@ class TestGtkw(TraceSuite):
         assert marks[1:3] == ["120", "60"]
 
     def test_what_the_property_does_not_depend_on_is_closed(self) -> None:
-        shown = trace_gtkw.render(replace(long_trace(1), relevant=frozenset({"Relay", "level"})), "a b.vcd")
+        shown = trace_gtkw.render(changed(long_trace(1), relevant=frozenset({"Relay", "level"})), "a b.vcd")
         assert '[dumpfile] "a b.vcd"' in shown
         kept, rest = shown.split("-not of the property\n", 1)
         assert "charts.Relay" in kept and "values.alarm" in rest
@@ -156,7 +156,7 @@ class TestCsv(TraceSuite):
         mode = var("=HYPERLINK(1)", enumeration("Mode", {"+off": 0, "-": 1}))
         level, other = var("@level", integer(-5, 5)), var("-x", integer(0, 1))
         own = {v.name: v for v in (mode, level, other)}
-        trace = Trace(
+        trace = trace_of(
             "t", 20, own, (), {mode.name: 0, level.name: -5, other.name: 0},
             (Tick(1, {}, {mode.name: 1, level.name: 5, other.name: 1}, ()),), (), frozenset(), frozenset(),
         )  # fmt: skip
@@ -167,7 +167,7 @@ class TestCsv(TraceSuite):
     def test_no_two_columns_have_one_name(self) -> None:
         own = {n: var(n, integer(0, 1)) for n in ("tick", "tick_", "time_ms", "arrows", "'=1", "=1")}
         held = dict.fromkeys(own, 0)
-        trace = Trace("t", 20, own, (), held, (Tick(1, {}, held, ()),), (), frozenset(), frozenset())
+        trace = trace_of("t", 20, own, (), held, (Tick(1, {}, held, ()),), (), frozenset(), frozenset())
         names, *_ = csv.reader(StringIO(trace_csv.render(trace)))
         assert names == [
             "tick", "time_ms", "tick__", "tick_", "time_ms_", "arrows_", "''=1", "'=1", "arrows"

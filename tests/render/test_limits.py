@@ -1,7 +1,5 @@
 """What counts wait for: the limits of all timers of the rover, against the lowering that makes them."""
 
-from dataclasses import replace
-
 import pytest
 
 from rovercheck.checker.render.limits import Timer, bounds, timer
@@ -11,6 +9,7 @@ from rovercheck.spec_model.lang.expr import When
 from rovercheck.spec_model.lang.lower.timers import ChartTimers
 from rovercheck.spec_model.rover import charts
 from tests.render.zoo import long_trace, relay
+from tests.traces import changed
 
 
 @pytest.mark.parametrize("chart", charts().values(), ids=lambda chart: chart.name)
@@ -20,7 +19,7 @@ def test_each_timer_has_the_limit_that_it_was_made_for(chart: Chart) -> None:
     words |= {v.name: w for w, v in made.helds.values()}
     after = {v.name: v for v in made.after.values()}
     variables = {v.name: v for v in made.variables}
-    trace = replace(long_trace(), statecharts={chart.name: chart}, variables=variables)
+    trace = changed(long_trace(), statecharts={chart.name: chart}, variables=variables)
     for name, word in words.items():
         found = timer(trace, name)
         assert found is not None and found.step_ms == 20
@@ -45,7 +44,7 @@ def test_some_charts_have_timers() -> None:
 
 
 def test_a_timer_is_told_as_a_time_with_its_limit() -> None:
-    trace = replace(long_trace(), statecharts={"Relay": relay})
+    trace = changed(long_trace(), statecharts={"Relay": relay})
     [quiet] = [row for row in rows(trace) if isinstance(row, Quiet)]
     assert str(quiet.counters[0]) == "Relay.Theirs.duration1: 20 ms → 3 s, limit > 3 s"
 
@@ -56,5 +55,5 @@ def test_times_are_read_easily() -> None:
 
 
 def test_numbers_have_the_bounds_of_the_guards() -> None:
-    trace = replace(long_trace(), statecharts={"Relay": relay})
+    trace = changed(long_trace(), statecharts={"Relay": relay})
     assert bounds(trace)["level"] == ((5, "< 5"), (100, ">= 100"))

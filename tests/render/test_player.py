@@ -24,6 +24,7 @@ from rovercheck.spec_model.rover import systems
 from tests.render.conformance import Suite
 from tests.render.exits_zoo import TRACES, lasso
 from tests.render.zoo import CHARTS, alarm, level, relay
+from tests.traces import changed, trace_of
 
 lamp = Chart("Lamp", [
     State("Sensor", default="Dark", states=[
@@ -59,9 +60,9 @@ def run(system: System, inputs: Sequence[Mapping[str, int]]) -> Trace:
         after = {n: v for n, v in interpreter.valuation().items() if n not in given}
         ticks.append(Tick(number, given, after, made))
     known = frozenset(variables | places)
-    return Trace(
+    return trace_of(
         system.name, system.tick_ms, {**variables, **places}, tuple(system.inputs), before, tuple(ticks),
-        (~alarm,), known, frozenset(c.name for c in system.charts), property="TOY-2", text="It stays dark.",
+        (~alarm,), known, frozenset(c.name for c in system.charts), id="TOY-2", text="It stays dark.",
         statecharts={c.name: c for c in system.charts},
     )  # fmt: skip
 
@@ -89,7 +90,7 @@ class TestSteps:
 
     def test_only_charts_that_matter(self) -> None:
         trace = shining()
-        some = Trace(**{**vars(trace), "charts": frozenset({"Relay"})})
+        some = changed(trace, charts=frozenset({"Relay"}))
         assert [c.name for c in shown_charts(some)] == ["Relay"]
         assert [c.name for c in shown_charts(some, everything=True)] == ["Lamp", "Relay"]
 
@@ -167,7 +168,7 @@ class TestPlay(Suite):
 
     def test_what_the_end_needs_and_where_it_returns(self) -> None:
         trace = shining()
-        needed = Trace(**{**vars(trace), "needed": (Needed(3, "level", frozenset({150, 151})),)})
+        needed = changed(trace, needed=(Needed(3, "level", frozenset({150, 151})),))
         found = data(trace_play.render(needed))
         assert '"forced":["level = 150 or 151"]' in json.dumps(found, separators=(",", ":"))
         again = data(trace_play.render(lasso()))

@@ -160,9 +160,9 @@ def test_a_page_with_graphs_and_no_run_needs_no_gallery() -> None:
 
 def test_equal_charts_become_one_object() -> None:
     other = pickle.loads(pickle.dumps(RUN))
-    assert other.statecharts["Relay"] is not RUN.statecharts["Relay"]
+    assert other.system.statecharts["Relay"] is not RUN.system.statecharts["Relay"]
     runs = shared({"a": other, "b": pickle.loads(pickle.dumps(other))})
-    assert runs["a"].statecharts["Relay"] is runs["b"].statecharts["Relay"]
+    assert runs["a"].system.statecharts["Relay"] is runs["b"].system.statecharts["Relay"]
 
 
 def test_the_page_escapes_what_it_shows(document: str) -> None:

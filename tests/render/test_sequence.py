@@ -23,6 +23,7 @@ from rovercheck.spec_model.lang.system import System, in_order
 from rovercheck.spec_model.lang.words import minimum
 from tests.render.conformance import Suite
 from tests.render.zoo import TRACES
+from tests.traces import changed, trace_of
 
 press, wanted, sent, came, heard = map(flag, ("press", "wanted", "sent", "came", "heard"))
 passes, open_ = flag("passes"), flag("open")
@@ -78,12 +79,12 @@ def trace(components: tuple[Component, ...] = BOARDS, quiet: int = 3) -> Trace:
          (TakenTransition("Panel", "Asked", "Idle", "[!press]", 1),)),
     ]  # fmt: skip
     ticks = []
-    for number, (inputs, changed, transitions) in enumerate(steps, 1):
-        at = at | changed
+    for number, (inputs, differ, transitions) in enumerate(steps, 1):
+        at = at | differ
         ticks.append(Tick(number, inputs, at, transitions))
     before = dict.fromkeys(at, 0)
     charts = {"Panel": panel, "Door": door}
-    return Trace(
+    return trace_of(
         "door", 20, VARIABLES, ("press", "passes"), before, tuple(ticks), (~open_ | wanted,),
         statecharts=charts, components=components,
     )  # fmt: skip
@@ -132,7 +133,7 @@ class TestFlow:
 
 def _of(system: System) -> Trace:
     """A run without ticks, for what a system says of who talks to whom."""
-    return Trace(system.name, 20, {}, tuple(system.inputs), {}, (), components=system.components)
+    return trace_of(system.name, 20, {}, tuple(system.inputs), {}, (), components=system.components)
 
 
 class TestMessages:
@@ -165,13 +166,13 @@ class TestMessages:
         idle = Chart("Spare", [State("Off")], default="Off")
         first = trace().ticks[0]
         started = replace(first, transitions=(*first.transitions, TakenTransition("Spare", "", "Off", "", 0)))
-        shown = replace(trace(), components=(*ALONE, idle), ticks=(started, *trace().ticks[1:]))
+        shown = changed(trace(), components=(*ALONE, idle), ticks=(started, *trace().ticks[1:]))
         sequence = message_sequence(shown)
         assert sequence.idle == ("Spare",) and "Spare" not in sequence.lifelines
         assert "Not drawn, as they only start: Spare" in trace_sequence.render(shown)
 
     def test_nobody_talks(self) -> None:
-        silent = replace(trace(), components=(), statecharts={})
+        silent = changed(trace(), components=(), statecharts={})
         with pytest.raises(ModelError, match="Use the format svg"):
             message_sequence(silent)
 

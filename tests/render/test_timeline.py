@@ -26,15 +26,16 @@ from rovercheck.spec_model.lang.expr import Var, const, flag, var
 from rovercheck.spec_model.lang.words import absolute, named, once
 from tests.render.conformance import Suite
 from tests.render.zoo import TRACES, level, long_trace, relay, short_trace
+from tests.traces import changed, trace_of
 
 SVG = "{http://www.w3.org/2000/svg}"
 
 
 def drawn(quiet: int = 150) -> Trace:
     """The long toy with its chart, so that the limits of the chart are known."""
-    return replace(
+    return changed(
         long_trace(quiet),
-        property="TOY-1",
+        id="TOY-1",
         text="It is <never> & ever critical.",
         statecharts={"Relay": relay},
         needed=(Needed(2, "level", frozenset({100})),),
@@ -45,7 +46,7 @@ def counted(values: list[int], domain: int = 300) -> Trace:
     """One number over time."""
     number = var("n", integer(0, domain, "ms"))
     ticks = tuple(Tick(i, {}, {"n": v}) for i, v in enumerate(values, 1))
-    return Trace("count", 20, {"n": number}, (), {"n": 0}, ticks)
+    return trace_of("count", 20, {"n": number}, (), {"n": 0}, ticks)
 
 
 def lane(shown: Timeline, name: str) -> Lane:
@@ -78,9 +79,9 @@ class TestLanes:
         ]  # fmt: skip
 
     def test_a_number_that_never_changes_is_a_line_only_beside_its_limits(self) -> None:
-        still = replace(counted([7, 7, 7]), false_parts=(var("n", integer(0, 300, "ms")) != 7,))
+        still = changed(counted([7, 7, 7]), false_parts=(var("n", integer(0, 300, "ms")) != 7,))
         assert lane(timeline(still), "n").kind is LaneKind.BAND
-        compared = replace(still, false_parts=(var("n", integer(0, 300, "ms")) > 9,))
+        compared = changed(still, false_parts=(var("n", integer(0, 300, "ms")) > 9,))
         assert lane(timeline(compared), "n").kind is LaneKind.LINE
 
     def test_needed_inputs_come_first_and_are_marked(self) -> None:
@@ -111,12 +112,12 @@ class TestLanes:
         still = flag("still")
         trace = drawn(5)
         ticks = tuple(replace(t, after={**t.after, "still": 1}) for t in trace.ticks)
-        shown = timeline(replace(trace, ticks=ticks, variables={**trace.variables, "still": still}))
+        shown = timeline(changed(trace, ticks=ticks, variables={**trace.system.variables, "still": still}))
         assert ("still", "true") in shown.constant
         assert "still" not in [one.name for one in shown.lanes]
 
     def test_only_what_the_property_depends_on(self) -> None:
-        trace = replace(drawn(), relevant=frozenset({"level", "mode"}), charts=frozenset({"Relay"}))
+        trace = changed(drawn(), relevant=frozenset({"level", "mode"}), charts=frozenset({"Relay"}))
         names = [one.name for one in timeline(trace).lanes if one.group is not LaneGroup.PROPERTY]
         assert names == ["level", "mode"]
         assert "Relay" in [one.name for one in timeline(trace, everything=True).lanes]
@@ -134,7 +135,7 @@ class TestLimits:
 
     def test_those_of_function_blocks_too(self) -> None:
         block = Block("Near", [when(level <= 42, [assign(flag("near"), True)])])
-        shown = timeline(replace(long_trace(), components=(block,)))
+        shown = timeline(changed(long_trace(), components=(block,)))
         assert [limit.label for limit in lane(shown, "level").limits] == ["42"]
 
     def test_an_absolute_value_has_two(self) -> None:
@@ -145,7 +146,7 @@ class TestLimits:
     def test_a_span_in_the_steps_of_its_counter(self, top: int, limits: list[int]) -> None:
         trace = drawn()
         counter = var("Relay.Theirs.duration1", integer(0, top))
-        found = time_limits(replace(trace, variables={**trace.variables, counter.name: counter}))
+        found = time_limits(changed(trace, variables={**trace.system.variables, counter.name: counter}))
         assert [int(limit.value) for limit in found.get(counter.name, ())] == limits
 
 
@@ -222,7 +223,7 @@ ZOO = {
     "labelled": drawn(10),
     "shortened": drawn(400),
     "loop": replace(drawn(400), loop=200),
-    "witness": replace(short_trace(), false_parts=()),
+    "witness": changed(short_trace(), false_parts=()),
 }
 
 
@@ -301,30 +302,30 @@ class TestHtml(Suite):
 class TestNeeds:
     def test_ticks_in_a_row_are_marked_once(self) -> None:
         same = tuple(Needed(k, "level", frozenset({0})) for k in (3, 4, 6))
-        shown = lane(timeline(replace(drawn(), needed=same)), "level")
+        shown = lane(timeline(changed(drawn(), needed=same)), "level")
         assert shown.needed == (NeededTicks(3, 4, "level = 0"), NeededTicks(6, 6, "level = 0"))
 
     def test_reasons_are_told_by_tick(self) -> None:
         page = story_part(drawn()).body
         assert "<li>tick 2 (40 ms): <code>level = 100</code></li>" in page
         assert (
-            "Not minimised" in page and "Not minimised" not in story_part(replace(drawn(), minimal=True)).body
+            "Not minimised" in page and "Not minimised" not in story_part(changed(drawn(), minimal=True)).body
         )
 
     def test_not_examined_is_not_nothing(self) -> None:
         assert "Cause: the inputs" not in story_part(long_trace()).body
-        assert "whatever its inputs" in story_part(replace(drawn(), needed=())).body
+        assert "whatever its inputs" in story_part(changed(drawn(), needed=())).body
 
 
 class TestTruths:
     def test_known_truths_are_taken(self) -> None:
         trace = drawn(1)
-        part = trace.false_parts[0]
-        known = replace(trace, parts=(part,), truths=((False, True, True, False),))
+        part = trace.property.false_parts[0]
+        known = changed(trace, parts=(part,), truths=((False, True, True, False),))
         shown = next(one for one in timeline(known).of(LaneGroup.PROPERTY) if one.name == "never_critical")
         assert [run.label for run in shown.runs] == ["false", "true", "false"]
 
     def test_a_part_about_the_past_is_known_at_the_end(self) -> None:
-        trace = replace(drawn(1), false_parts=(once(level > 300),))
+        trace = changed(drawn(1), false_parts=(once(level > 300),))
         [shown] = timeline(trace).of(LaneGroup.PROPERTY)
         assert [(run.first, run.label) for run in shown.runs] == [(4, "false")]

@@ -12,6 +12,7 @@ from rovercheck.checker.render.story import Quiet, StoryEvent, conjuncts, false_
 from rovercheck.checker.results.trace import Needed, Trace
 from tests.render.conformance import Suite
 from tests.render.zoo import TRACES, long_trace
+from tests.traces import changed
 
 
 class TestStory:
@@ -43,20 +44,20 @@ class TestStory:
     def test_names_that_are_no_identifiers_are_told_unless_they_are_of_the_property(self) -> None:
         """A name with a hyphen was left out: the frames that arrive (``B2-B1.arrives``) were never shown."""
         trace = long_trace()
-        plain, own = trace.variables["speed"], "P.waiting"
+        plain, own = trace.system.variables["speed"], "P.waiting"
         wide = {
-            **trace.variables,
+            **trace.system.variables,
             "A-B.speed": plain,
             own: replace(plain, hidden=True),
-            trace.property: plain,
+            trace.property.id: plain,
         }
         ticks = [
-            replace(t, after={**t.after, **dict.fromkeys(("A-B.speed", own, trace.property), n % 2)})
+            replace(t, after={**t.after, **dict.fromkeys(("A-B.speed", own, trace.property.id), n % 2)})
             for n, t in enumerate(trace.ticks)
         ]
-        changed = {c.name for e in rows(replace(trace, variables=wide, ticks=tuple(ticks)))
+        seen = {c.name for e in rows(changed(trace, variables=wide, ticks=tuple(ticks)))
                    if isinstance(e, StoryEvent) for c in e.changes}  # fmt: skip
-        assert "A-B.speed" in changed and not changed & {own, trace.property}
+        assert "A-B.speed" in seen and not seen & {own, trace.property.id}
 
     def test_a_last_tick_without_a_change_breaks_the_property(self) -> None:
         trace = long_trace()
@@ -74,7 +75,7 @@ class TestStory:
 
 
 def explained(*needed: Needed, minimal: bool = True, smallest: bool = False) -> Trace:
-    return replace(long_trace(2), needed=needed, minimal=minimal, smallest=smallest)
+    return changed(long_trace(2), needed=needed, minimal=minimal, smallest=smallest)
 
 
 LOW, HIGH = frozenset(range(5)), frozenset(range(100, 301))
@@ -126,7 +127,9 @@ class TestConjuncts:
     def test_each_says_since_when(self) -> None:
         trace = long_trace(2)
         truths = ((True, True, False, False, False), (False, True, True, True, True))
-        trace = replace(trace, parts=trace.false_parts, truths=truths, false_parts=trace.false_parts[:1])
+        trace = changed(
+            trace, parts=trace.property.false_parts, truths=truths, false_parts=trace.property.false_parts[:1]
+        )
         assert [c.verdict for c in conjuncts(trace)] == ["False since tick 3", "True since tick 2"]
         assert [c.since for c in false_parts(trace)] == [3]
         table = trace_table.render(trace)
@@ -134,7 +137,7 @@ class TestConjuncts:
 
     def test_what_never_changed_is_so_since_the_first_tick(self) -> None:
         trace = long_trace(2)
-        trace = replace(trace, parts=trace.false_parts, truths=((False,) * 5,) * 2)
+        trace = changed(trace, parts=trace.property.false_parts, truths=((False,) * 5,) * 2)
         assert {c.since for c in conjuncts(trace)} == {1}
 
 

@@ -44,4 +44,4 @@ def test_every_format_tells_them() -> None:
 
 def test_a_test_of_a_supervisor_has_steps_of_one_length() -> None:
     with pytest.raises(ModelError, match="has steps that last unlike times"):
-        concrete(run(), systems()[run().system])
+        concrete(run(), systems()[run().system.name])

@@ -19,14 +19,15 @@ from rovercheck.checker.render.review.model import (
 )
 from tests import toys
 from tests.render.zoo import CHARTS, long_trace
+from tests.traces import changed
 
 EVIL = "</script><script>document.title='broken into'</script><img src=x onerror=alert(1)> & \"'"
 
-RUN = replace(
+RUN = changed(
     long_trace(),
-    property="T-1",
+    id="T-1",
     charts=frozenset({"Relay"}),
-    relevant=frozenset(long_trace().variables),
+    relevant=frozenset(long_trace().system.variables),
     statecharts={"Relay": CHARTS["Relay"]},
 )
 

@@ -10,6 +10,7 @@ from rovercheck.spec_model.lang.domain import enumeration, fixed, integer
 from rovercheck.spec_model.lang.expr import Var, flag, var
 from rovercheck.spec_model.lang.time import sec
 from rovercheck.spec_model.lang.words import after, duration, named, rising
+from tests.traces import trace_of
 
 level = var("level", integer(0, 300), 0, "how high <it> stands & more")
 speed = var("speed", fixed(-1, 1, 0.1, "m/s"))
@@ -172,18 +173,18 @@ def long_trace(quiet: int = 150) -> Trace:
         ticks.append(_tick(3 + k, at, level=0, Relay=2, alarm=1, speed=-5, timer=k + 1))
     ticks.append(_tick(3 + quiet, at, back, level=0, Relay=1, mode=1))
     parts = (named("never_critical", mode == "SAFE"), (speed > 0) | alarm)
-    return Trace("toy", 20, VARIABLES, ("level",), at, tuple(ticks), parts)
+    return trace_of("toy", 20, VARIABLES, ("level",), at, tuple(ticks), parts)
 
 
 def short_trace() -> Trace:
     at = {v.name: v.init for v in VARIABLES.values() if v is not level}
-    return Trace("toy", 20, VARIABLES, ("level",), at, (_tick(1, at, level=3),))
+    return trace_of("toy", 20, VARIABLES, ("level",), at, (_tick(1, at, level=3),))
 
 
 TRACES = {
     "long": long_trace(),
     "short": short_trace(),
-    "empty": Trace("toy", 20, VARIABLES, ("level",), {}, ()),
+    "empty": trace_of("toy", 20, VARIABLES, ("level",), {}, ()),
 }
 
 

@@ -24,8 +24,8 @@ def _trace(explorer: Explorer, rest: str) -> None:
     prop = pick("property", rest, known)
     systems = explorer.variant.systems()
     trace = _decided(prop, explorer.variant)
-    if trace.system != explorer.session.simulation.system.name:
-        explorer.session = Session(systems[trace.system])
+    if trace.system.name != explorer.session.simulation.system.name:
+        explorer.session = Session(systems[trace.system.name])
         explorer.introduce()
     explorer.session.play(trace.before, [tick.inputs for tick in trace.ticks])
     explorer.say(f"{prop.id}: {prop.text}", "bold")

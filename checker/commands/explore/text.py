@@ -114,7 +114,7 @@ def timers(trace: Trace, at: Mapping[str, int], only: str = "") -> Iterator[str]
     for name, raw in at.items():
         known = timer(trace, name) if TIMER.search(name) and name.startswith(only) and raw else None
         if known is not None:
-            done = min(BAR, BAR * raw // max(1, trace.variables[name].domain.high))
+            done = min(BAR, BAR * raw // max(1, trace.system.variables[name].domain.high))
             yield f"{name} {known.shown(raw)} of {known.limit}  {'█' * done}{'░' * (BAR - done)}"
 
 

@@ -33,7 +33,7 @@ def _with_reason(compared: CheckedProperty, systems: Mapping[str, System], watch
     if run is None:
         return compared
     task = f"{prop.id}: what forces it"
-    forced = explained(run, prop, systems[run.system], lambda line: watch.say(task, line))
+    forced = explained(run, prop, systems[run.system.name], lambda line: watch.say(task, line))
     watch.finished(task)
     verdict = Violated(forced, compared.verdict.engine)
     return replace(compared, result=replace(compared.result, verdict=verdict))

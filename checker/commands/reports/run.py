@@ -160,7 +160,7 @@ def _picture(compared: CheckedProperty) -> Pages:
     verdict = compared.verdict
     if isinstance(verdict, Unknown) or not isinstance(verdict.because, Trace):
         return {}
-    drawn = renderers("trace")["svg"].render(replace(verdict.because, needed=None))
+    drawn = renderers("trace")["svg"].render(replace(verdict.because, necessary=None))
     return {str(Path(_page(compared)).with_suffix(".svg")): _text(drawn)}
 
 
@@ -258,7 +258,7 @@ def _finding(compared: CheckedProperty, proved: Sequence[Proof]) -> str:
     if isinstance(verdict.because, Trace):
         lines += [LONG_RUN if compared.expected.depth is None else RUN, ""]
         lines += [f"![{prop.id} over time]({prop.id}.svg)", ""]
-        shown = replace(verdict.because.focused(), needed=None)
+        shown = replace(verdict.because.focused(), necessary=None)
         lines += [_text(renderers("trace")["markdown"].render(shown)), *_cause(verdict.because)]
         names = dict.fromkeys(a.chart for t in verdict.because.ticks for a in t.transitions)
         lines += ["", "## Charts", "", *(f"- [{n}](../charts/{n}.svg)" for n in names)]

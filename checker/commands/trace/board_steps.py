@@ -26,13 +26,13 @@ def concrete(trace: Trace, system: System) -> Trace:
     """
     if system.tick_ms != TICK_MS:
         raise ModelError(
-            f"{trace.system} advances by {system.tick_ms} ms and lets every task start at any phase; a "
+            f"{trace.system.name} advances by {system.tick_ms} ms and lets every task start at any phase; a "
             f"supervisor is executed every {TICK_MS} ms, so this run cannot be given to one. {ASK}"
         )
     if system.elapsed is not None:
         raise ModelError(
-            f"{trace.system} has steps that last unlike times; a supervisor is given steps of {TICK_MS} ms, "
-            f"so this run cannot be given to one. {ASK}"
+            f"{trace.system.name} has steps that last unlike times; a supervisor is given steps of "
+            f"{TICK_MS} ms, so this run cannot be given to one. {ASK}"
         )
     runs, reasons = [], []
     for board in boards().values():
@@ -53,8 +53,8 @@ def _parts(system: System) -> set[str]:
 def _foreign(trace: Trace, system: System) -> str:
     found = ", ".join(sorted(_parts(system)))
     return (
-        f"{trace.system} executes no chart and no block of a board (only {found}), so there is no supervisor "
-        f"to give this run to. {ASK}"
+        f"{trace.system.name} executes no chart and no block of a board (only {found}), so there is no "
+        f"supervisor to give this run to. {ASK}"
     )
 
 
@@ -84,7 +84,7 @@ def _same(board: Board, trace: Trace, tick: Tick, names: Sequence[str], valuatio
         there, here = tick.after.get(name), valuation[name]
         if there is not None and there != here:
             raise ModelError(
-                f"This is a run of {trace.system}, not of {board.name}: in tick {tick.number} {name} is "
+                f"This is a run of {trace.system.name}, not of {board.name}: in tick {tick.number} {name} is "
                 f"{trace.show(name, there)} there, and {trace.show(name, here)} when the charts of the whole "
                 f"board run on the measurements and messages that the run gives it. {ASK}"
             )
@@ -93,10 +93,10 @@ def _same(board: Board, trace: Trace, tick: Tick, names: Sequence[str], valuatio
 def _shared(board: Board, trace: Trace) -> list[str]:
     """What the property depends on and the board computes.  Raises ``ModelError`` if that is nothing."""
     known = {**board.system.written, **{v.name: v for c in board.system.charts for v in c.locations}}
-    names = sorted(trace.relevant & known.keys() & trace.variables.keys())
-    found = [n for n in names if trace.variables[n].domain == known[n].domain]
+    names = sorted(trace.property.relevant & known.keys() & trace.system.variables.keys())
+    found = [n for n in names if trace.system.variables[n].domain == known[n].domain]
     if not found:
-        raise ModelError(f"Nothing of what {trace.property} depends on is computed by {board.name}. {ASK}")
+        raise ModelError(f"Nothing of what {trace.property.id} depends on is computed by {board.name}. {ASK}")
     return found
 
 

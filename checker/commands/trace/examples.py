@@ -52,13 +52,8 @@ class TraceRequest:
         run = Run(frozen, tuple(tick.inputs for tick in trace.ticks))
         ticks, _ = followed(system, run, self.property.id)
         before = {**system.init, **frozen}
-        return replace(
-            trace,
-            before=before,
-            ticks=ticks,
-            statecharts=_charts(self.plain),
-            components=self.plain.components,
-        )
+        of = replace(trace.system, statecharts=_charts(self.plain), components=self.plain.components)
+        return replace(trace, system=of, before=before, ticks=ticks)
 
 
 def trace_request(

@@ -49,7 +49,7 @@ class ExplanationOptions:
                 return explained(
                     trace,
                     prop,
-                    systems[trace.system],
+                    systems[trace.system.name],
                     lambda line: watch.say(task, line),
                     lambda: self.seconds is not None and process_time() - start > self.seconds,
                 )

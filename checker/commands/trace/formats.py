@@ -28,7 +28,7 @@ def exit_written(
     if getattr(renderer, "CONCRETE", False):
         from rovercheck.checker.commands.trace.board_steps import concrete
 
-        trace = concrete(trace, systems[trace.system])
+        trace = concrete(trace, systems[trace.system.name])
     render = fitted(renderer, output)
     if "everything" in signature(render).parameters:
         render = partial(render, everything=everything)

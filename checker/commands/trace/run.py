@@ -153,14 +153,14 @@ def _several(
     from rovercheck.checker.explain.other_causes import OtherCauses
     from rovercheck.checker.explain.other_runs import NoOtherRun, OtherRuns
 
-    prop, system = wanted.property, wanted.systems[first.system]
+    prop, system = wanted.property, wanted.systems[first.system.name]
     limits = limits if limits.seconds is not None else replace(limits, seconds=SECONDS)
     runs = [showing.explaining(first, prop, wanted.systems)]
     yield _heading("Run 1", [], showing) + _rendered(wanted.drawn(runs[0]), showing)
     by_transitions = OtherRuns(first, prop, system, wanted.watched) if showing.by == "transitions" else None
     by_reason = OtherCauses(prop, system)
     for number in range(2, showing.runs + 1):
-        if by_transitions is None and runs[-1].needed is None:
+        if by_transitions is None and runs[-1].necessary is None:
             unknown = (
                 f"The cause of run {number - 1} is not known, so that no other cause can be told from it."
             )

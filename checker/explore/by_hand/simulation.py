@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from rovercheck.checker.explore.by_hand.admissible_inputs import broken, conjuncts
 from rovercheck.checker.explore.by_hand.value_syntax import RefusedInput, outside
-from rovercheck.checker.results.trace import Tick, Trace
+from rovercheck.checker.results.trace import Tick, Trace, TracedProperty, TracedSystem
 from rovercheck.checker.verify.runs.replay import ReplayError, ends, transition_of
 from rovercheck.spec_model.lang.chart import Path, Transition
 from rovercheck.spec_model.lang.evaluate import step
@@ -161,12 +161,17 @@ class HandSimulation:
         """The ticks from ``first`` up to the one that is looked at, as a trace of nothing in particular."""
         drawn = {c.name: c for c in self.system.charts}
         before = self.state(first - 1) | (self.given(first - 1) if first > 1 else {})
-        return Trace(
-            self.system.name, self.lowered.tick_ms, self.variables, tuple(self.inputs), before,
-            tuple(self._ticks(first)), relevant=frozenset(self.variables), charts=frozenset(drawn),
-            statecharts=drawn, components=self.system.components,
-            ends=ends(self.lowered, tuple(self._ticks(1))),
-        )  # fmt: skip
+        of = TracedSystem(
+            self.system.name,
+            self.lowered.tick_ms,
+            self.variables,
+            tuple(self.inputs),
+            statecharts=drawn,
+            components=self.system.components,
+        )
+        none = TracedProperty(relevant=frozenset(self.variables), charts=frozenset(drawn))
+        every = tuple(self._ticks(1))
+        return Trace(of, before, tuple(self._ticks(first)), none, ends(self.lowered, every))
 
     def _ticks(self, first: int) -> Iterator[Tick]:
         for number in range(first, self.at + 1):

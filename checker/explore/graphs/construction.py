@@ -9,7 +9,7 @@ from rovercheck.checker.engines import Limits, Progress, quiet
 from rovercheck.checker.explore.graphs.projection import project
 from rovercheck.checker.explore.graphs.search import Exploration, checks_of, explore
 from rovercheck.checker.results.graph import GraphWay, StateGraph
-from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.trace import Trace, TracedProperty, TracedSystem
 from rovercheck.checker.system.partition import Partition
 from rovercheck.checker.system.slice import sliced
 from rovercheck.checker.verify.reachable import ticks
@@ -98,18 +98,16 @@ class BuiltGraph:
         exploration, system = self.exploration, self.exploration.system
         run = exploration.run(place)
         ticks, _ = followed(system, run, self.graph.title)
-        table = {v.name: v for v in (*system.variables, *system.inputs, *system.frozen)}
+        of = TracedSystem.of(system)
         part = exploration.task.system
         relevant = {v.name for v in (*part.inputs, *part.frozen, *part.variables, *part.temps)}
-        drawn = system.source.charts if system.source else ()
-        charts = {c.name for c in drawn if relevant & {*c.written, *(v.name for v in c.locations)}}
-        trace = Trace(
-            system.name, system.tick_ms, table, tuple(v.name for v in system.inputs),
-            {**system.init, **run.frozen}, ticks, (), frozenset(relevant), frozenset(charts),
-            statecharts={c.name: c for c in drawn}, ends=ends(system, ticks),
-        )  # fmt: skip
+        charts = (
+            c.name for c in of.statecharts.values() if relevant & {*c.written, *(v.name for v in c.locations)}
+        )
+        none = TracedProperty(relevant=frozenset(relevant), charts=frozenset(charts))
+        trace = Trace(of, {**system.init, **run.frozen}, ticks, none, ends(system, ticks))
         at = exploration.explored.at(place)
-        shown = ((n, table[n].domain.show(raw)) for n, raw in at.items() if not table[n].hidden)
+        shown = ((n, of.variables[n].domain.show(raw)) for n, raw in at.items() if not of.variables[n].hidden)
         return GraphWay(tuple(shown), trace.focused())
 
 

@@ -120,13 +120,13 @@ def of_trace(trace: Trace) -> CiReport:
     count = len(trace)
     evidence = f"{'counterexample' if broken else 'witness'} of {count} tick{'s' * (count != 1)}"
     one = CiFinding(
-        id=trace.property or trace.system,
-        text=trace.text,
-        system=trace.system,
+        id=trace.property.id or trace.system.name,
+        text=trace.property.text,
+        system=trace.system.name,
         word="violated" if broken else "proved",
         level=FindingLevel.FAILED if broken else FindingLevel.PASSED,
-        evidence=f"{evidence} on {trace.system}",
-        place=trace.place,
+        evidence=f"{evidence} on {trace.system.name}",
+        place=trace.property.place,
         trace=trace,
         details={"ticks": str(count)},
     )
@@ -138,7 +138,7 @@ def explained(finding: CiFinding) -> str:
     told = [finding.text, f"Why: {finding.because}" if finding.because else "", finding.evidence]
     lines = [line for text in told for line in wrap(text, 80, break_long_words=False)]
     if finding.trace is not None:
-        shown = finding.trace.focused() if finding.trace.relevant else finding.trace
+        shown = finding.trace.focused() if finding.trace.property.relevant else finding.trace
         lines += ["", trace_table.render(shown).rstrip("\n"), "", f"Again: {finding.shown_with}"]
     return "\n".join(lines)
 

@@ -53,7 +53,7 @@ def _physical(place: Place) -> Location:
 def code_flow(finding: CiFinding) -> tuple[list[Location], str]:
     """The run as the list of its one code flow, and a sentence where steps had to be left out."""
     assert finding.trace is not None
-    trace = finding.trace.focused() if finding.trace.relevant else finding.trace
+    trace = finding.trace.focused() if finding.trace.property.relevant else finding.trace
     steps = list(_steps(trace, finding))
     if not steps:
         return [], ""

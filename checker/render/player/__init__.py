@@ -101,7 +101,7 @@ def _transition(transition: TakenTransition, chart: Chart | None) -> dict[str, A
 
 def _forced(trace: Trace, tick: int) -> Iterator[str]:
     """The inputs that had to be so in a tick, as a person writes them."""
-    for need in trace.needed or ():
+    for need in trace.needed():
         if need.number == tick:
             yield f"{need.name} = {' or '.join(value(trace, need.name, raw) for raw in sorted(need.values))}"
 

@@ -38,8 +38,8 @@ class Script:
 
 def shown_charts(trace: Trace, *, everything: bool = False) -> tuple[Chart, ...]:
     """The charts on which the property depends, as far as they are known; with ``everything`` all."""
-    every = tuple(trace.statecharts.values())
-    named = tuple(chart for chart in every if chart.name in trace.charts)
+    every = tuple(trace.system.statecharts.values())
+    named = tuple(chart for chart in every if chart.name in trace.property.charts)
     return every if everything else named or every
 
 

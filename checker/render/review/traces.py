@@ -20,10 +20,11 @@ def shared(runs: Mapping[str, Trace], charts: Iterable[Chart] = ()) -> dict[str,
     def one(chart: Chart) -> Chart:
         return known.setdefault(pickle.dumps(chart), chart)
 
-    return {
-        id: replace(run, statecharts={name: one(chart) for name, chart in run.statecharts.items()})
-        for id, run in runs.items()
-    }
+    def shared(run: Trace) -> Trace:
+        charts = {name: one(chart) for name, chart in run.system.statecharts.items()}
+        return replace(run, system=replace(run.system, statecharts=charts))
+
+    return {id: shared(run) for id, run in runs.items()}
 
 
 def story(trace: Trace) -> Part:

@@ -140,12 +140,14 @@ def _top(piece: FlowPiece) -> str:
 
 def flow(trace: Trace, *, everything: bool = False) -> SequenceFlow:
     """The flow between the parts that the property depends on, where that is known, or between all."""
-    components = trace.components or tuple(trace.statecharts.values())
+    components = trace.system.components or tuple(trace.system.statecharts.values())
     boards = any(isinstance(c, Enabled) and c.name for c in _nested(components))
     pieces = list(_pieces(components, "", boards, frozenset()))
-    if trace.relevant and not everything:
-        pieces = [p for p in pieces if p.part.name in trace.charts or p.writes & trace.relevant]
-    return SequenceFlow(tuple(_with_devices(pieces)), frozenset(trace.inputs))
+    if trace.property.relevant and not everything:
+        pieces = [
+            p for p in pieces if p.part.name in trace.property.charts or p.writes & trace.property.relevant
+        ]
+    return SequenceFlow(tuple(_with_devices(pieces)), frozenset(trace.system.inputs))
 
 
 def _nested(components: Sequence[Component]) -> Iterator[Component]:

@@ -87,13 +87,13 @@ def picture(trace: Trace, sequence: MessageSequence) -> str:
     body += _loop(columns, loop, y) if loop else []
     lines = [line for name in columns.names for line in _lifeline(columns.x(name), start, y, pauses)]
     end, bottom = _end(trace, sequence, columns, y)
-    name = f"{trace.property or trace.system}: messages"
+    name = f"{trace.property.id or trace.system.name}: messages"
     return document(wide, bottom + 12, STYLE, name, [*titles, *lines, *heads, *body, *end])
 
 
 def _titles(trace: Trace, wide: int) -> Piece:
-    shown = [(trace.property, "title", 15)] if trace.property else []
-    shown += [(line, "sentence", 13) for line in wrap(trace.text, round(wide / 8))]
+    shown = [(trace.property.id, "title", 15)] if trace.property.id else []
+    shown += [(line, "sentence", 13) for line in wrap(trace.property.text, round(wide / 8))]
     shown.append((heading(trace), "soft" if shown else "title", 12 if shown else 15))
     drawn, y = [], 8
     for line, class_, size in shown:
@@ -254,7 +254,7 @@ def _end(trace: Trace, sequence: MessageSequence, columns: SequenceColumns, y: i
         ]
     lines += [(line, "") for line in (*wrap(determined_by(trace), letters), *wrap(ending(trace), letters))]
     lines = lines or [(f"Tick {len(trace)} shows it.", "")]
-    tall, class_ = LINE * len(lines) + 12, "end" if trace.false_parts else "head"
+    tall, class_ = LINE * len(lines) + 12, "end" if trace.property.false_parts else "head"
     box = tag("rect", x=MARGIN, y=y + 4, width=columns.right - MARGIN, height=tall, class_=class_)
     shown = [text(MARGIN + 8, y + 9 + LINE * i + SIZE, line, kind) for i, (line, kind) in enumerate(lines)]
     told = f"Not drawn, as they only start: {', '.join(sequence.idle)}" if sequence.idle else ""

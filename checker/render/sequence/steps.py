@@ -73,7 +73,7 @@ def message_sequence(trace: Trace, *, everything: bool = False) -> MessageSequen
 
     Raises ``ModelError`` for a run in which nobody talks to anybody.
     """
-    shown = trace if everything or not trace.relevant else trace.focused()
+    shown = trace if everything or not trace.property.relevant else trace.focused()
     between = flow(trace, everything=everything)
     story = list(rows(shown))
     steps, used = _steps(shown, between, story, apart=True)
@@ -83,7 +83,7 @@ def message_sequence(trace: Trace, *, everything: bool = False) -> MessageSequen
         isinstance(item, Message) for step in steps if isinstance(step, SequenceStep) for item in step.items
     ):
         raise ModelError(
-            f"In this run of {trace.system} nothing is handed from one chart or board to another, "
+            f"In this run of {trace.system.name} nothing is handed from one chart or board to another, "
             "so there is no message to draw. Use the format svg, which shows every value over time."
         )
     idle = tuple(name for name in used if name not in _busy(steps))
@@ -196,7 +196,7 @@ def _notes(trace: Trace, between: SequenceFlow, event: StoryEvent) -> Iterator[t
         if transition.chart in owners and transition.source != transition.target:
             owner = owners[transition.chart]
             told.setdefault(owner, []).append((places[transition.chart], _fired(transition, owner)))
-    asked = {name for expr in trace.false_parts for name in variables(expr)}
+    asked = {name for expr in trace.property.false_parts for name in variables(expr)}
     for change in event.changes:
         for owner in between.origins(change.name) - {ENVIRONMENT}:
             if change.name in asked and not between.readers(change.name) - {owner}:

@@ -107,7 +107,7 @@ def _node(graph: StateGraph, node: GraphNode) -> dict[str, Any]:
         "example": list(way.valuation) if way else [],
         "way": rows(way) if way else [],
         "ticks": len(way.trace) if way else 0,
-        "tick_ms": way.trace.tick_ms if way else 0,
+        "tick_ms": way.trace.system.tick_ms if way else 0,
     }
 
 

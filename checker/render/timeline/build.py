@@ -19,7 +19,7 @@ from rovercheck.checker.render.timeline.model import (
     TimelineRun,
 )
 from rovercheck.checker.render.timeline.runs import Values, runs, stretches
-from rovercheck.checker.results.trace import Trace
+from rovercheck.checker.results.trace import NecessaryInputs, Trace
 from rovercheck.spec_model.lang.action import expressions
 from rovercheck.spec_model.lang.chart import NOWHERE, Block
 from rovercheck.spec_model.lang.chart import parts as components
@@ -34,9 +34,13 @@ from rovercheck.spec_model.lang.walk import nodes, variables
 
 def parts(trace: Trace) -> Iterator[Lane]:
     """The conjuncts of the property that are false in some tick, those false at the end first."""
-    ended = {id(expr) for expr in trace.false_parts}
-    others = [e for e, v in zip(trace.parts, trace.truths, strict=False) if id(e) not in ended and not all(v)]
-    for expr in (*trace.false_parts, *others):
+    ended = {id(expr) for expr in trace.property.false_parts}
+    others = [
+        e
+        for e, v in zip(trace.property.parts, trace.property.truths, strict=False)
+        if id(e) not in ended and not all(v)
+    ]
+    for expr in (*trace.property.false_parts, *others):
         truths = _truths(trace, expr)
         runs = [
             TimelineRun(first + 1, last + 1, "true" if truths[first] else "false",
@@ -54,7 +58,7 @@ def _truths(trace: Trace, expr: Expr) -> Values:
     None where that is not known: where a variable has no value, or, in a trace without ``truths``, before
     the last tick if the conjunct speaks of the past.
     """
-    for part, known in zip(trace.parts, trace.truths, strict=False):
+    for part, known in zip(trace.property.parts, trace.property.truths, strict=False):
         if part is expr:
             return [int(value) for value in known]
     if any(isinstance(node, Temporal) for node in nodes(expr)):
@@ -77,14 +81,14 @@ def timeline(trace: Trace, *, everything: bool = False) -> Timeline:
 
     Bookkeeping of the property and of charts is never drawn.
     """
-    shown = trace if everything or not trace.relevant else trace.focused()
+    shown = trace if everything or not trace.property.relevant else trace.focused()
     values = {name: _values(shown, name) for name in _names(shown)}
     still = _constant(shown, values)
     limits, spans = thresholds(_compared(trace)), time_limits(trace)
     lanes = [_lane(shown, n, v, limits, spans) for n, v in values.items() if n not in still]
     return Timeline(
-        property=trace.property,
-        text=trace.text,
+        property=trace.property.id,
+        text=trace.property.text,
         heading=heading(trace),
         ticks=len(trace),
         clock=trace.clock(),
@@ -100,8 +104,8 @@ def timeline(trace: Trace, *, everything: bool = False) -> Timeline:
 
 def _names(trace: Trace) -> list[str]:
     """Variables a reader knows, inputs first, without the memory of a chart that it was entered."""
-    found = dict.fromkeys((*trace.inputs, *trace.before, *(n for t in trace.ticks for n in t.after)))
-    entered = {chart.entered.name for chart in trace.statecharts.values()}
+    found = dict.fromkeys((*trace.system.inputs, *trace.before, *(n for t in trace.ticks for n in t.after)))
+    entered = {chart.entered.name for chart in trace.system.statecharts.values()}
     return [n for n in found if of_model(trace, n) and n not in entered]
 
 
@@ -116,15 +120,15 @@ def _constant(trace: Trace, values: Mapping[str, Values]) -> dict[str, int]:
 
     Without knowing which inputs are needed, a few that never change are not left out either.
     """
-    kept = {n for expr in trace.false_parts for n in variables(expr)}
-    kept |= {needed.name for needed in trace.needed or ()}
+    kept = {n for expr in trace.property.false_parts for n in variables(expr)}
+    kept |= {needed.name for needed in trace.needed()}
     found: dict[str, int] = {}
     for name, raws in values.items():
         seen = set(raws if len(raws) > 1 else [trace.before.get(name), *raws]) - {None}
         if len(seen) == 1 and name not in kept:
             found[name] = next(raw for raw in raws if raw is not None)
-    still = [name for name in trace.inputs if name in found]
-    if trace.needed is None and len(still) <= CONSTANTS:
+    still = [name for name in trace.system.inputs if name in found]
+    if trace.necessary is None and len(still) <= CONSTANTS:
         return {n: raw for n, raw in found.items() if n not in still}
     return found
 
@@ -139,12 +143,12 @@ def _unchanging(trace: Trace, still: Mapping[str, int]) -> Iterator[tuple[str, s
 
 def _compared(trace: Trace) -> Iterator[Expr]:
     """Every formula of the charts, of the function blocks, and of what is false at the end."""
-    for chart in trace.statecharts.values():
+    for chart in trace.system.statecharts.values():
         yield from chart.expressions
-    for block in components(trace.components):
+    for block in components(trace.system.components):
         if isinstance(block, Block):
             yield from expressions(block.do)
-    yield from trace.false_parts
+    yield from trace.property.false_parts
 
 
 def _lane(trace: Trace, name: str, values: Values, limits: Limits, spans: Limits) -> Lane:
@@ -166,7 +170,7 @@ def _lane(trace: Trace, name: str, values: Values, limits: Limits, spans: Limits
         limits=bounds,
         needed=tuple(_needs(trace, name)),
         shots=tuple(_shots(trace, name)),
-        doc=trace.variables[name].doc,
+        doc=trace.system.variables[name].doc,
     )
 
 
@@ -187,13 +191,13 @@ def _flat(trace: Trace, name: str, values: Values, limits: Sequence[Limit]) -> b
 
 def _needs(trace: Trace, name: str) -> Iterator[NeededTicks]:
     """Where an input had to be so, in the words of the story."""
-    mine = tuple(needed for needed in trace.needed or () if needed.name == name)
-    for reason in reasons(replace(trace, needed=mine)):
+    mine = tuple(needed for needed in trace.needed() if needed.name == name)
+    for reason in reasons(replace(trace, necessary=NecessaryInputs(mine, minimal=False))):
         yield NeededTicks(reason.first, reason.last, reason.what)
 
 
 def _kind(trace: Trace, name: str) -> LaneKind:
-    domain = trace.variables[name].domain
+    domain = trace.system.variables[name].domain
     if not isinstance(domain.sort, Num):
         return LaneKind.BAND
     if TIMER.search(name):
@@ -204,12 +208,12 @@ def _kind(trace: Trace, name: str) -> LaneKind:
 
 def is_location(trace: Trace, name: str) -> bool:
     """Whether the variable holds the active state of a chart."""
-    sort = trace.variables[name].sort
+    sort = trace.system.variables[name].sort
     return isinstance(sort, Enum) and sort.name.startswith("states of ")
 
 
 def _group(trace: Trace, name: str) -> LaneGroup:
-    if name in trace.inputs:
+    if name in trace.system.inputs:
         return LaneGroup.INPUTS
     return LaneGroup.CHARTS if is_location(trace, name) or TIMER.search(name) else LaneGroup.VALUES
 
@@ -217,7 +221,7 @@ def _group(trace: Trace, name: str) -> LaneGroup:
 def _place(trace: Trace) -> Callable[[Lane], tuple[int, bool, int, bool, int]]:
     """Needed inputs first; charts as they execute, each above its timers; else as the trace names them."""
     order = {name: i for i, name in enumerate(_names(trace))}
-    groups, charts = list(LaneGroup), {name: i for i, name in enumerate(trace.statecharts)}
+    groups, charts = list(LaneGroup), {name: i for i, name in enumerate(trace.system.statecharts)}
 
     def place(lane: Lane) -> tuple[int, bool, int, bool, int]:
         chart = charts.get(lane.name.partition(".")[0], -1) if lane.group is LaneGroup.CHARTS else -1

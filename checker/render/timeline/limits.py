@@ -61,12 +61,14 @@ def _inside(term: Expr) -> tuple[Expr, bool]:
 def time_limits(trace: Trace) -> Limits:
     """By the name of a counter, the spans of ``after``, ``duration`` and ``held``, in its own steps."""
     steps = {
-        name.partition(".")[0]: known.step_ms for name in trace.variables if (known := timer(trace, name))
+        name.partition(".")[0]: known.step_ms
+        for name in trace.system.variables
+        if (known := timer(trace, name))
     }
     found: dict[str, set[tuple[Fraction, str]]] = {}
     for chart, step_ms in steps.items():
-        for counter, word in _timed(trace.statecharts[chart], step_ms):
-            mine = trace.variables.get(counter.name)
+        for counter, word in _timed(trace.system.statecharts[chart], step_ms):
+            mine = trace.system.variables.get(counter.name)
             if word.span is not None and mine is not None and mine.domain == counter.domain:
                 limit = (Fraction(word.span.ticks(step_ms)), str(word.span))
                 found.setdefault(counter.name, set()).add(limit)

@@ -20,7 +20,7 @@ Values = Sequence[int | None]
 
 def runs(trace: Trace, name: str, values: Values, kind: LaneKind) -> Iterator[TimelineRun]:
     """Equal values in a row are one run; so is a steady count of a number."""
-    sort = trace.variables[name].sort
+    sort = trace.system.variables[name].sort
     scale = sort.resolution if isinstance(sort, Num) else Fraction(1)
     for first, last in stretches(values, steady=kind in (LaneKind.LINE, LaneKind.RAMP)):
         start, end = values[first], values[last]

@@ -14,7 +14,7 @@ from rovercheck.checker.results.trace import Trace
 
 def story_part(trace: Trace, *, everything: bool = False) -> Part:
     """The table with the same rows as that of the terminal, and the reasons where they were examined."""
-    shown = trace if everything or not trace.relevant else trace.focused()
+    shown = trace if everything or not trace.property.relevant else trace.focused()
     by_ticks = groupby(reasons(trace, regular=True), key=lambda reason: f"{reason.when} ({reason.ms})")
     body = TEMPLATES.get_template("story.html").render(
         chosen=start_values(shown),

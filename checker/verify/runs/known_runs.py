@@ -22,7 +22,7 @@ def run_of(verdict: Verdict) -> Run | None:
 
 def run_in(trace: Trace) -> Run:
     """The run of a trace, as it is replayed."""
-    return Run({n: trace.before[n] for n in trace.frozen}, tuple(tick.inputs for tick in trace.ticks))
+    return Run({n: trace.before[n] for n in trace.system.frozen}, tuple(tick.inputs for tick in trace.ticks))
 
 
 def reached(mutant: System, properties: Sequence[Property], runs: Sequence[Run]) -> dict[str, Run]:

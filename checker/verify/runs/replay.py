@@ -7,7 +7,7 @@ trace that both produce is evidence about the charts.
 from collections.abc import Iterator, Mapping, Sequence
 from itertools import accumulate
 
-from rovercheck.checker.results.trace import TakenTransition, Tick, Trace
+from rovercheck.checker.results.trace import TakenTransition, Tick, Trace, TracedProperty, TracedSystem
 from rovercheck.checker.results.verdict import Run
 from rovercheck.checker.system.slice import sliced
 from rovercheck.checker.verify.runs.domains import leaves, stayed, stray
@@ -36,19 +36,12 @@ def replay(system: TransitionSystem, goal: Goal, run: Run) -> Trace:
         raise ReplayError(f"{goal.var.name}: the run of {len(ticks)} ticks does not reach the goal.")
     shown, truths = tuple(part for part, _ in goal.parts), tuple(_truths(goal, ticks))
     false = tuple(part for part, true in zip(shown, truths, strict=True) if not true[-1])
-    table = {v.name: v for v in (*system.variables, *system.inputs, *system.frozen)}
-    names = tuple(v.name for v in system.inputs)
-    relevant = _relevant(system, goal)
-    drawn = system.source.charts if system.source else ()
-    charts = frozenset(c.name for c in drawn if _of(c) & relevant)
-    before = {**system.init, **run.frozen}
-    return Trace(
-        system.name, system.tick_ms, table, names, before, ticks, false, relevant, charts,
-        property=goal.property.id, text=goal.property.text, statecharts={c.name: c for c in drawn},
-        place=goal.property.place, components=system.source.components if system.source else (),
-        parts=shown, truths=truths, violated=not goal.reach, frozen=tuple(v.name for v in system.frozen),
-        ends=ends(system, ticks),
-    )  # fmt: skip
+    of, prop, relevant = TracedSystem.of(system), goal.property, _relevant(system, goal)
+    charts = frozenset(name for name, chart in of.statecharts.items() if _of(chart) & relevant)
+    stated = TracedProperty(
+        prop.id, prop.text, relevant, charts, false, shown, truths, not goal.reach, prop.place
+    )
+    return Trace(of, {**system.init, **run.frozen}, ticks, stated, ends(system, ticks))
 
 
 def ends(system: TransitionSystem, ticks: Sequence[Tick]) -> tuple[int, ...]:
