@@ -83,9 +83,9 @@ class View:
         known = renderers(self.kind)
         if format is not None:
             return pick(f"{self.kind} format", format, known)
-        fitting = [name for name, one in known.items() if place.name.endswith(one.SUFFIX)]
+        fitting = [name for name, one in known.items() if place.name.endswith(one.FORMAT.suffix)]
         if not fitting:
-            suffixes = ", ".join(sorted({one.SUFFIX for one in known.values()}))
+            suffixes = ", ".join(sorted({one.FORMAT.suffix for one in known.values()}))
             raise ModelError(f"{place} has no suffix of a format; write one of {suffixes}.")
         return known[next((name for name in USUAL if name in fitting), fitting[0])]
 

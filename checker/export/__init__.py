@@ -1,10 +1,8 @@
 """Problems written for other model checkers: one file per format.
 
-The formats are discovered automatically: every module of this folder with a ``NAME``.
-
-A format has a ``NAME`` (what users type), a file ``SUFFIX``, a one-line ``SUMMARY`` and ``export(problem)``,
-which returns text or bytes that are the same from run to run.  It raises ``ModelError`` for what its
-format cannot say.
+The formats are discovered automatically: every module of this folder with a record ``FORMAT``
+and ``export(problem)``, which returns text or bytes that are the same from run to run.  It raises
+``ModelError`` for what its format cannot say.
 """
 
 import importlib
@@ -12,14 +10,13 @@ import pkgutil
 from typing import Any, Protocol
 
 from rovercheck.checker.export.problem import Bad, Problem, problem
+from rovercheck.checker.results.format import Format
 
 
 class Exporter(Protocol):
     """A format that some other model checker reads."""
 
-    NAME: str
-    SUFFIX: str
-    SUMMARY: str
+    FORMAT: Format
 
     def export(self, problem: Problem, /) -> str | bytes: ...
 
@@ -29,8 +26,8 @@ def exporters() -> dict[str, Exporter]:
     found: dict[str, Exporter] = {}
     for entry in sorted(pkgutil.iter_modules(__path__), key=lambda e: e.name):
         module: Any = importlib.import_module(f"{__name__}.{entry.name}")
-        if hasattr(module, "NAME"):
-            found[module.NAME] = module
+        if hasattr(module, "FORMAT"):
+            found[module.FORMAT.name] = module
     return found
 
 

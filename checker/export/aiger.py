@@ -5,10 +5,9 @@ Armin Biere, Keijo Heljanko, Siert Wieringa: AIGER 1.9 and Beyond, 2011.
 
 from rovercheck.checker.export.netlist import netlist
 from rovercheck.checker.export.problem import Problem
+from rovercheck.checker.results.format import Format
 
-NAME = "aiger"
-SUFFIX = "aig"
-SUMMARY = "AIGER 1.9, binary: for ABC, and every bit-level model checker"
+FORMAT = Format("aiger", "problem", ".aig", "AIGER 1.9, binary: for ABC, and every bit-level model checker")
 
 
 def export(problem: Problem) -> bytes:

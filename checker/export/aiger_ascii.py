@@ -2,10 +2,9 @@
 
 from rovercheck.checker.export.netlist import netlist
 from rovercheck.checker.export.problem import Problem
+from rovercheck.checker.results.format import Format
 
-NAME = "aag"
-SUFFIX = "aag"
-SUMMARY = "AIGER 1.9, ASCII: the same circuit as text"
+FORMAT = Format("aag", "problem", ".aag", "AIGER 1.9, ASCII: the same circuit as text")
 
 
 def export(problem: Problem) -> str:

@@ -9,14 +9,15 @@ from dataclasses import dataclass
 from rovercheck.checker.export.machine import ExportMachine, machine, meaning
 from rovercheck.checker.export.names import one_line, symbols
 from rovercheck.checker.export.problem import Problem
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.system.intervals import Interval, interval, postorder
 from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from rovercheck.spec_model.lang.operators import Op
 
-NAME = "btor2"
-SUFFIX = "btor2"
-SUMMARY = "BTOR2: words, for AVR, Pono, BtorMC and other word-level model checkers"
+FORMAT = Format(
+    "btor2", "problem", ".btor2", "BTOR2: words, for AVR, Pono, BtorMC and other word-level model checkers"
+)
 
 
 def export(problem: Problem) -> str:

@@ -11,14 +11,13 @@ from rovercheck.checker.export.machine import meaning
 from rovercheck.checker.export.names import identifiers, one_line
 from rovercheck.checker.export.problem import Problem
 from rovercheck.checker.export.statements import Text
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.system.slice import sliced
 from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.system import TransitionSystem
 
-NAME = "promela"
-SUFFIX = "pml"
-SUMMARY = "Promela: statements, for SPIN"
+FORMAT = Format("promela", "problem", ".pml", "Promela: statements, for SPIN")
 
 LISTED = 64
 """Domains of at most this many values are chosen from a list, others by counting."""

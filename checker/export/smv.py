@@ -10,15 +10,14 @@ from rovercheck.checker.export.infix import Operand, Row, between, raised, whole
 from rovercheck.checker.export.machine import ExportMachine, machine, meaning
 from rovercheck.checker.export.names import identifiers, one_line
 from rovercheck.checker.export.problem import Problem
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.system.intervals import intervals, postorder
 from rovercheck.spec_model.lang.domain import Bool
 from rovercheck.spec_model.lang.expr import Apply, Const, Expr, Named, Var
 from rovercheck.spec_model.lang.operators import Op
 from rovercheck.spec_model.lang.walk import children
 
-NAME = "smv"
-SUFFIX = "smv"
-SUMMARY = "SMV: ranges and definitions, for nuXmv and NuSMV"
+FORMAT = Format("smv", "problem", ".smv", "SMV: ranges and definitions, for nuXmv and NuSMV")
 
 LONG = 60
 """Formulas of more characters get a name, also when they occur once."""

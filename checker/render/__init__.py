@@ -1,26 +1,21 @@
 """From traces, charts and graphs to what people read: one file per format.
 
 The formats are discovered automatically: every module of this folder whose name begins with its kind.
-A format has a ``NAME`` (what users type), a ``KIND`` ("statechart", "graph" or "trace"), a file
-``SUFFIX``, a one-line ``SUMMARY`` and ``render(thing, **options)``, which returns text or bytes that
-are the same from run to run.  It raises ``ModelError`` for what its format cannot show.
-
-A format of a trace may ask for more: ``CONCRETE = True`` for the run as the boards see it, and
-``BESIDE = "vcd"`` for a file of that format beside its own, whose name it is given as ``dump``.
+It has a record ``FORMAT`` and ``render(thing, **options)``, which returns text or bytes that are the same
+from run to run.  It raises ``ModelError`` for what its format cannot show.
 """
 
 import importlib
 import pkgutil
 from typing import Any, Protocol
 
+from rovercheck.checker.results.format import Format
+
 
 class Renderer(Protocol):
-    """A format: ``thing`` is a ``Chart``, a ``StateGraph`` or a ``Trace``, as ``KIND`` says."""
+    """Writes a ``Chart``, a ``StateGraph`` or a ``Trace``, as the kind of its format says."""
 
-    NAME: str
-    KIND: str
-    SUFFIX: str
-    SUMMARY: str
+    FORMAT: Format
 
     def render(self, thing: Any, /) -> str | bytes: ...
 
@@ -36,7 +31,7 @@ def renderers(kind: str) -> dict[str, Renderer]:
     for entry in sorted(pkgutil.iter_modules(__path__), key=lambda e: e.name):
         module = _loaded(entry.name, kind) if entry.name.startswith(f"{kind}_") else None
         if module is not None:
-            found[module.NAME] = module
+            found[module.FORMAT.name] = module
     return found
 
 
@@ -44,11 +39,11 @@ def named(kind: str, name: str) -> Renderer | None:
     """The format of that name, None if there is none; the others, and what they need, are not loaded."""
     if f"{kind}_{name}" in (entry.name for entry in pkgutil.iter_modules(__path__)):
         module = _loaded(f"{kind}_{name}", kind)
-        if module is not None and name == module.NAME:
+        if module is not None and name == module.FORMAT.name:
             return module
     return renderers(kind).get(name)
 
 
 def _loaded(name: str, kind: str) -> Renderer | None:
     module: Any = importlib.import_module(f"{__name__}.{name}")
-    return module if getattr(module, "KIND", None) == kind else None
+    return module if hasattr(module, "FORMAT") and module.FORMAT.kind == kind else None

@@ -2,12 +2,10 @@
 
 from rovercheck.checker.render.statechart_dot import quoted
 from rovercheck.checker.render.stategraph.words import behind, example, ticks, values
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.graph import GraphEdge, GraphNode, StateGraph
 
-NAME = "dot"
-KIND = "graph"
-SUFFIX = ".dot"
-SUMMARY = "Graphviz source with counts and example inputs"
+FORMAT = Format("dot", "graph", ".dot", "Graphviz source with counts and example inputs")
 
 
 def render(graph: StateGraph) -> str:

@@ -4,12 +4,10 @@ import networkx as nx
 
 from rovercheck.checker.render.statechart_graphml import graphml
 from rovercheck.checker.render.stategraph.words import ticks
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.graph import StateGraph
 
-NAME = "graphml"
-KIND = "graph"
-SUFFIX = ".graphml"
-SUMMARY = "GraphML with values, counts and components as attributes"
+FORMAT = Format("graphml", "graph", ".graphml", "GraphML with values, counts and components as attributes")
 
 
 def render(graph: StateGraph) -> str:

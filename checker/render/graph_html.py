@@ -2,14 +2,17 @@
 
 from rovercheck.checker.render.page import page
 from rovercheck.checker.render.stategraph.fragment import part
+from rovercheck.checker.results.format import Format, Need, Option
 from rovercheck.checker.results.graph import MOST_NODES, StateGraph, drawable
 
-NAME = "html"
-KIND = "graph"
-PICTURE = True
-WAYS = True
-SUFFIX = ".html"
-SUMMARY = "page to pan, zoom and search; a click shows a state and a run to it"
+FORMAT = Format(
+    "html",
+    "graph",
+    ".html",
+    "page to pan, zoom and search; a click shows a state and a run to it",
+    needs=frozenset({Need.STATE_RUNS}),
+    takes=frozenset({Option.MOST}),
+)
 
 
 def render(graph: StateGraph, most: int = MOST_NODES) -> str:

@@ -3,12 +3,10 @@
 import json
 from typing import Any
 
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.graph import ProjectionKind, StateGraph
 
-NAME = "json"
-KIND = "graph"
-SUFFIX = ".json"
-SUMMARY = "nodes, edges and what is known about them, with schema version"
+FORMAT = Format("json", "graph", ".json", "nodes, edges and what is known about them, with schema version")
 
 VERSION = 2
 

@@ -2,13 +2,12 @@
 
 from rovercheck.checker.render.statechart_mermaid import escaped
 from rovercheck.checker.render.stategraph.words import behind, example, ticks, values
+from rovercheck.checker.results.format import Format, Option
 from rovercheck.checker.results.graph import MOST_NODES, StateGraph, drawable
 
-NAME = "mermaid"
-KIND = "graph"
-PICTURE = True
-SUFFIX = ".mmd"
-SUMMARY = "Mermaid flowchart of a small projected graph"
+FORMAT = Format(
+    "mermaid", "graph", ".mmd", "Mermaid flowchart of a small projected graph", takes=frozenset({Option.MOST})
+)
 
 
 def render(graph: StateGraph, most: int = MOST_NODES) -> str:

@@ -5,13 +5,16 @@ from rovercheck.checker.render.drawing.text import LINE, wrap
 from rovercheck.checker.render.stategraph.findings import findings
 from rovercheck.checker.render.stategraph.picture import drawn
 from rovercheck.checker.render.stategraph.words import LEGEND
+from rovercheck.checker.results.format import Format, Option
 from rovercheck.checker.results.graph import MOST_NODES, StateGraph, drawable
 
-NAME = "svg"
-KIND = "graph"
-PICTURE = True
-SUFFIX = ".svg"
-SUMMARY = "picture of a small projected graph; refuses what cannot be read"
+FORMAT = Format(
+    "svg",
+    "graph",
+    ".svg",
+    "picture of a small projected graph; refuses what cannot be read",
+    takes=frozenset({Option.MOST}),
+)
 
 MARGIN = 24
 NARROWEST = 860

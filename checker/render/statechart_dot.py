@@ -11,12 +11,10 @@ from rovercheck.checker.render.drawing.labels import (
     label_parts,
 )
 from rovercheck.checker.render.drawing.text import wrap
+from rovercheck.checker.results.format import Format
 from rovercheck.spec_model.lang.chart import Chart, Path
 
-NAME = "dot"
-KIND = "statechart"
-SUFFIX = ".dot"
-SUMMARY = "Graphviz source with a cluster per composite"
+FORMAT = Format("dot", "statechart", ".dot", "Graphviz source with a cluster per composite")
 
 
 def render(chart: Chart) -> str:

@@ -5,12 +5,10 @@ from io import BytesIO
 import networkx as nx
 
 from rovercheck.checker.render.drawing.labels import arrows, execution_order, label
+from rovercheck.checker.results.format import Format
 from rovercheck.spec_model.lang.chart import Chart, Path
 
-NAME = "graphml"
-KIND = "statechart"
-SUFFIX = ".graphml"
-SUMMARY = "GraphML with the hierarchy as attributes"
+FORMAT = Format("graphml", "statechart", ".graphml", "GraphML with the hierarchy as attributes")
 
 
 def render(chart: Chart) -> str:

@@ -4,12 +4,10 @@ from markupsafe import Markup
 
 from rovercheck.checker.render import statechart_svg
 from rovercheck.checker.render.page import Part, page
+from rovercheck.checker.results.format import Format
 from rovercheck.spec_model.lang.chart import Chart
 
-NAME = "html"
-KIND = "statechart"
-SUFFIX = ".html"
-SUMMARY = "the picture as a page of its own; no outside resources"
+FORMAT = Format("html", "statechart", ".html", "the picture as a page of its own; no outside resources")
 STYLE = ".drawn{overflow-x:auto}.drawn svg{max-width:none}"
 
 

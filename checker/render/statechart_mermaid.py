@@ -8,13 +8,13 @@ is refused rather than drawn wrong.  Names of regions are not shown.
 from collections.abc import Iterator
 
 from rovercheck.checker.render.drawing.labels import ChartArrow, action_lines, arrows, identifiers, label
+from rovercheck.checker.results.format import Format
 from rovercheck.spec_model.lang.chart import Chart, Path
 from rovercheck.spec_model.lang.errors import ModelError
 
-NAME = "mermaid"
-KIND = "statechart"
-SUFFIX = ".mmd"
-SUMMARY = "Mermaid stateDiagram-v2, for charts without nested parallel states"
+FORMAT = Format(
+    "mermaid", "statechart", ".mmd", "Mermaid stateDiagram-v2, for charts without nested parallel states"
+)
 
 _OTHERS = "Use svg, dot or graphml for this chart."
 

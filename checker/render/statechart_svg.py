@@ -9,13 +9,16 @@ from rovercheck.checker.render.drawing.labels import arrows, explained
 from rovercheck.checker.render.drawing.nested_layout import picture
 from rovercheck.checker.render.drawing.picture import Box, PicturePiece, Spot
 from rovercheck.checker.render.drawing.text import LINE, width, wrap
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import TakenTransition
 from rovercheck.spec_model.lang.chart import Chart
 
-NAME = "svg"
-KIND = "statechart"
-SUFFIX = ".svg"
-SUMMARY = "picture with nested boxes, labelled transitions and priorities; no outside resources"
+FORMAT = Format(
+    "svg",
+    "statechart",
+    ".svg",
+    "picture with nested boxes, labelled transitions and priorities; no outside resources",
+)
 
 MARGIN = 24
 STYLE = """

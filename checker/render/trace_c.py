@@ -8,13 +8,16 @@ from collections.abc import Iterable
 
 from rovercheck.checker.render.trace_pytest import required
 from rovercheck.checker.results.board_steps import BoardRun, SignalKind, StepSignal, Value, held
+from rovercheck.checker.results.format import Format, Need
 from rovercheck.checker.results.trace import Trace
 
-NAME = "c"
-KIND = "trace"
-SUFFIX = ".c"
-SUMMARY = "C99 program: the run given to your board functions, outputs compared"
-CONCRETE = True
+FORMAT = Format(
+    "c",
+    "trace",
+    ".c",
+    "C99 program: the run given to your board functions, outputs compared",
+    needs=frozenset({Need.BOARD_STEPS}),
+)
 """Shows the run as the boards see it."""
 
 _TYPES = {

@@ -11,12 +11,10 @@ from collections.abc import Mapping, Sequence
 from io import StringIO
 
 from rovercheck.checker.io.files import csv_cell
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Trace
 
-NAME = "csv"
-KIND = "trace"
-SUFFIX = ".csv"
-SUMMARY = "one row per tick: time, inputs, variables, transitions that fired"
+FORMAT = Format("csv", "trace", ".csv", "one row per tick: time, inputs, variables, transitions that fired")
 
 FIRST = ("tick", "time_ms")
 LAST = "arrows"

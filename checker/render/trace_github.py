@@ -2,12 +2,10 @@
 
 from rovercheck.checker.render.ci import of_trace
 from rovercheck.checker.render.ci.github import annotation, annotations
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Trace
 
-NAME = "github"
-KIND = "trace"
-SUFFIX = ".txt"
-SUMMARY = "GitHub workflow commands: an annotation, and the run in the log"
+FORMAT = Format("github", "trace", ".txt", "GitHub workflow commands: an annotation, and the run in the log")
 
 
 def render(trace: Trace) -> str:

@@ -11,14 +11,16 @@ from io import StringIO
 from vcd.gtkw import GTKWColor, GTKWFlag, GTKWSave
 
 from rovercheck.checker.render.waves import Sort, Wave, WaveGroup, outcome, waves
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Trace
 
-NAME = "gtkw"
-KIND = "trace"
-SUFFIX = ".gtkw"
-SUMMARY = "save file that shows the dump (vcd) in GTKWave, grouped and marked"
-BESIDE = "vcd"
-"""The format of the file that this one shows: it is written beside it, under the same name."""
+FORMAT = Format(
+    "gtkw",
+    "trace",
+    ".gtkw",
+    "save file that shows the dump (vcd) in GTKWave, grouped and marked",
+    beside="vcd",
+)
 
 _WIDTH = 1200
 """Pixels that the whole run shall take at first sight."""

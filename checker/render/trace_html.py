@@ -5,12 +5,16 @@ from markupsafe import Markup
 from rovercheck.checker.render import player, timeline
 from rovercheck.checker.render.page import Part, page, together
 from rovercheck.checker.render.story import heading
+from rovercheck.checker.results.format import Format, Option
 from rovercheck.checker.results.trace import Trace
 
-NAME = "html"
-KIND = "trace"
-SUFFIX = ".html"
-SUMMARY = "page with a timeline to explore, the run played on its charts, and the story; fetches nothing"
+FORMAT = Format(
+    "html",
+    "trace",
+    ".html",
+    "page with a timeline to explore, the run played on its charts, and the story; fetches nothing",
+    takes=frozenset({Option.EVERYTHING}),
+)
 
 LANDSCAPE = "@page{size:landscape;margin:12mm}"
 

@@ -10,13 +10,13 @@ from collections.abc import Mapping
 from typing import Any
 
 from rovercheck.checker.render.trace_json import shows
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Trace
 from rovercheck.spec_model.lang.domain import Bool, Enum, Num, show
 
-NAME = "itf"
-KIND = "trace"
-SUFFIX = ".itf.json"
-SUMMARY = "Informal Trace Format (Apalache, Quint), all variables in all states"
+FORMAT = Format(
+    "itf", "trace", ".itf.json", "Informal Trace Format (Apalache, Quint), all variables in all states"
+)
 
 _UNSET = {"#unserializable": "an input before the first tick"}
 

@@ -8,15 +8,13 @@ from collections.abc import Mapping
 from typing import Any
 
 from rovercheck.checker.render.story import false_parts
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Needed, TakenTransition, Tick, Trace
 from rovercheck.spec_model.lang.domain import Bool, Enum
 from rovercheck.spec_model.lang.expr import Var
 from rovercheck.spec_model.lang.place import Place
 
-NAME = "json"
-KIND = "trace"
-SUFFIX = ".json"
-SUMMARY = "all values of all ticks, readable and raw, with schema version"
+FORMAT = Format("json", "trace", ".json", "all values of all ticks, readable and raw, with schema version")
 
 VERSION = 3
 

@@ -2,12 +2,10 @@
 
 from rovercheck.checker.render.ci import of_trace
 from rovercheck.checker.render.ci.junit import junit
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Trace
 
-NAME = "junit"
-KIND = "trace"
-SUFFIX = ".junit.xml"
-SUMMARY = "JUnit XML: a test case that fails with the explained run"
+FORMAT = Format("junit", "trace", ".junit.xml", "JUnit XML: a test case that fails with the explained run")
 
 
 def render(trace: Trace) -> str:

@@ -17,12 +17,10 @@ from rovercheck.checker.render.story import (
     start_of,
     start_values,
 )
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Trace
 
-NAME = "markdown"
-KIND = "trace"
-SUFFIX = ".md"
-SUMMARY = "Markdown table with the same rows as the terminal table"
+FORMAT = Format("markdown", "trace", ".md", "Markdown table with the same rows as the terminal table")
 
 SPECIAL = str.maketrans({c: f"\\{c}" for c in "\\`*_{}[]<>|#"})
 

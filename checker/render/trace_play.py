@@ -4,12 +4,16 @@ from markupsafe import Markup
 
 from rovercheck.checker.render.page import Part, page
 from rovercheck.checker.render.player import part
+from rovercheck.checker.results.format import Format, Option
 from rovercheck.checker.results.trace import Trace
 
-NAME = "play"
-KIND = "trace"
-SUFFIX = ".html"
-SUMMARY = "page that plays the run on its charts, transition by transition; fetches nothing"
+FORMAT = Format(
+    "play",
+    "trace",
+    ".html",
+    "page that plays the run on its charts, transition by transition; fetches nothing",
+    takes=frozenset({Option.EVERYTHING}),
+)
 
 
 def render(trace: Trace, *, everything: bool = False) -> str:

@@ -10,14 +10,17 @@ from collections.abc import Mapping
 
 from rovercheck.checker.render.waves import outcome
 from rovercheck.checker.results.board_steps import BoardRun, Value, held
+from rovercheck.checker.results.format import Format, Need
 from rovercheck.checker.results.trace import Trace
 from rovercheck.spec_model.lang.errors import ModelError
 
-NAME = "pytest"
-KIND = "trace"
-SUFFIX = ".py"
-SUMMARY = "pytest file: the run given to a supervisor, its outputs compared"
-CONCRETE = True
+FORMAT = Format(
+    "pytest",
+    "trace",
+    ".py",
+    "pytest file: the run given to a supervisor, its outputs compared",
+    needs=frozenset({Need.BOARD_STEPS}),
+)
 """Shows the run as the boards see it."""
 
 WIDTH = 106

@@ -2,12 +2,10 @@
 
 from rovercheck.checker.render.ci import of_trace
 from rovercheck.checker.render.ci.sarif import sarif
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Trace
 
-NAME = "sarif"
-KIND = "trace"
-SUFFIX = ".sarif"
-SUMMARY = "SARIF 2.1.0: a code flow through the lines of the charts"
+FORMAT = Format("sarif", "trace", ".sarif", "SARIF 2.1.0: a code flow through the lines of the charts")
 
 
 def render(trace: Trace) -> str:

@@ -1,12 +1,16 @@
 """A trace as a picture over time: lanes of values, limits and timers, readable on paper too."""
 
 from rovercheck.checker.render.timeline import picture, timeline
+from rovercheck.checker.results.format import Format, Option
 from rovercheck.checker.results.trace import Trace
 
-NAME = "svg"
-KIND = "trace"
-SUFFIX = ".svg"
-SUMMARY = "a picture over time: states as bands, numbers as lines with their limits, timers as ramps"
+FORMAT = Format(
+    "svg",
+    "trace",
+    ".svg",
+    "a picture over time: states as bands, numbers as lines with their limits, timers as ramps",
+    takes=frozenset({Option.EVERYTHING}),
+)
 
 
 def render(trace: Trace, everything: bool = False) -> str:

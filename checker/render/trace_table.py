@@ -22,12 +22,16 @@ from rovercheck.checker.render.story import (
     start_of,
     start_values,
 )
+from rovercheck.checker.results.format import Format, Option
 from rovercheck.checker.results.trace import TakenTransition, Trace
 
-NAME = "table"
-KIND = "trace"
-SUFFIX = ".txt"
-SUMMARY = "table for the terminal: per tick only what changed and what fired"
+FORMAT = Format(
+    "table",
+    "trace",
+    ".txt",
+    "table for the terminal: per tick only what changed and what fired",
+    takes=frozenset({Option.WIDTH}),
+)
 
 
 INPUT, NEEDED = "in  ", "in* "

@@ -13,13 +13,11 @@ from unicodedata import normalize
 from vcd import VCDWriter
 
 from rovercheck.checker.render.waves import Sort, Wave, WaveGroup, outcome, waves
+from rovercheck.checker.results.format import Format
 from rovercheck.checker.results.trace import Trace
 from rovercheck.spec_model.lang.domain import Num
 
-NAME = "vcd"
-KIND = "trace"
-SUFFIX = ".vcd"
-SUMMARY = "value change dump for wave viewers, time in ms"
+FORMAT = Format("vcd", "trace", ".vcd", "value change dump for wave viewers, time in ms")
 
 _UNKNOWN: dict[Sort, str | float] = {Sort.WIRE: "x", Sort.TEXT: "?", Sort.NUMBER: math.nan}
 """What stands before the first tick for an input, which has no value yet."""

@@ -11,6 +11,7 @@ from rovercheck import checker
 from rovercheck.checker.cli import run
 from rovercheck.checker.commands.list import LISTS
 from rovercheck.checker.commands.list.document import IN_SCHEMA
+from rovercheck.checker.commands.list.run import formats
 from rovercheck.checker.commands.shared.codes import Exit
 from rovercheck.checker.engines import engines
 from rovercheck.properties.catalogue import catalogue
@@ -41,6 +42,7 @@ ALL = [
     ("interpretations", ambiguities()),
     ("repairs", proposals()),
     ("engines", (*engines(), "auto", "all")),
+    ("formats", {one.name for one in formats()}),
     ("charts", {chart.name for system in systems().values() for chart in system.charts}),
     ("assumptions", {one.id for system in systems().values() for one in system.assumptions}),
 ]

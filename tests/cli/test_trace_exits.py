@@ -89,7 +89,7 @@ def pb1_15() -> Trace:
 
 def written(name: str, folder: Path) -> Path:
     """The run in a format, as ``rovercheck trace --format NAME --output FILE`` writes it."""
-    file = folder / f"run{renderers('trace')[name].SUFFIX}"
+    file = folder / f"run{renderers('trace')[name].FORMAT.suffix}"
     exit_written(renderers("trace")[name], TraceDisplay(name).cut(pb1_15()), systems(), file)
     return file
 

@@ -21,6 +21,7 @@ from rovercheck.checker.engines import Limits
 from rovercheck.checker.render import renderers
 from rovercheck.checker.render.ci import FindingLevel, of_trace
 from rovercheck.checker.render.waves import outcome
+from rovercheck.checker.results.format import Format, Option
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Reached, Run, Unknown, Violated
 from rovercheck.checker.system.lowering_cache import lowered
@@ -115,7 +116,7 @@ def test_what_a_property_does_not_depend_on_is_shown_by_exits_that_can(tmp_path:
     asked_for: list[bool] = []
 
     class Whole:
-        NAME, KIND, SUFFIX, SUMMARY = "whole", "trace", ".txt", "for this test"
+        FORMAT = Format("whole", "trace", ".txt", "for this test", takes=frozenset({Option.EVERYTHING}))
 
         @staticmethod
         def render(_: Trace, /, everything: bool = False) -> str:

@@ -49,21 +49,20 @@ def check(system, goals, limits, progress):
 RENDERER = '''
 """How long a run is."""
 
-NAME = "length"
-KIND = "trace"
-SUFFIX = ".len"
-SUMMARY = "the number of its ticks"
+from rovercheck.checker.results.format import Format
+
+FORMAT = Format("length", "trace", ".len", "the number of its ticks")
 
 
 def render(trace):
-    return f"{len(trace)} ticks of {trace.system}\\n"
+    return f"{len(trace)} ticks of {trace.system.name}\\n"
 '''
 EXPORT = '''
 """The name of the problem."""
 
-NAME = "name"
-SUFFIX = "name"
-SUMMARY = "its name, for whoever needs no more"
+from rovercheck.checker.results.format import Format
+
+FORMAT = Format("name", "problem", ".name", "its name, for whoever needs no more")
 
 
 def export(problem):

@@ -42,7 +42,7 @@ def test_every_promised_format_is_there() -> None:
 def test_a_file_says_where_it_comes_from_and_names_our_variables(format: str, tmp_path: Path) -> None:
     assert run(["export", "PB1-15", "--format", format, "--output", str(tmp_path)]) == Exit.AS_EXPECTED
     [file] = tmp_path.iterdir()
-    assert file.name == f"PB1-15.{exporters()[format].SUFFIX}"
+    assert file.name == f"PB1-15{exporters()[format].FORMAT.suffix}"
     text = file.read_bytes().decode(errors="replace")
     for wanted in ("rovercheck", "system: relay", "property PB1-15: With reception", "give_b2_actuation"):
         assert wanted in text

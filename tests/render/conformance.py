@@ -1,10 +1,12 @@
 """What every renderer promises; the test of a renderer inherits the suite of its kind."""
 
+from inspect import signature
 from typing import Any, ClassVar
 
 import pytest
 
 from rovercheck.checker.render import Renderer, renderers
+from rovercheck.checker.results.format import Option
 from rovercheck.spec_model.lang.errors import ModelError
 
 
@@ -28,9 +30,13 @@ class Suite:
         raise NotImplementedError
 
     def test_describes_itself(self) -> None:
-        assert self.renderer.KIND == self.KIND
-        assert self.renderer.SUFFIX.startswith(".")
-        assert self.renderer.SUMMARY and "\n" not in self.renderer.SUMMARY
+        shown = self.renderer.FORMAT
+        assert (shown.kind, shown.name) == (self.KIND, self.NAME)
+        assert shown.suffix.startswith(".")
+        assert shown.summary and "\n" not in shown.summary
+        parameters = signature(self.renderer.render).parameters
+        assert shown.takes == {o for o in Option if o.value in parameters}
+        assert bool(shown.beside) == ("dump" in parameters)
 
     def test_reads_back(self, name: str) -> None:
         self.parse(self.shown(name))

@@ -130,7 +130,8 @@ def _searched(
     asked: Sequence[Property], systems: Mapping[str, System], search: SearchSettings, quiet: bool
 ) -> Iterator[Result]:
     """What came of searching for cases; where none is found on the rover, on the system that was searched."""
-    wanted = {name: systems[name] for name in {case.on for case in asked}}
+    named = dict.fromkeys(name for case in asked for name in (case.on, systems[case.on].concrete) if name)
+    wanted = {name: systems[name] for name in named}
     free = {name: replace(system, over=False, concrete="") for name, system in wanted.items()}
     first = {name: system if system.concrete else free[name] for name, system in wanted.items()}
     again = list[Property]()

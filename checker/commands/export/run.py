@@ -79,7 +79,7 @@ def _exported(prop: Property, system: System, exporter: Exporter, variant: str) 
 
 def file_name(id: str, exporter: Exporter) -> str:
     """The name of the file of a property: its id, with what no file system minds, and the suffix."""
-    return f"{re.sub(r'[^A-Za-z0-9._-]', '_', id)}.{exporter.SUFFIX}"
+    return f"{re.sub(r'[^A-Za-z0-9._-]', '_', id)}{exporter.FORMAT.suffix}"
 
 
 def _folder(place: Path) -> None:

@@ -19,6 +19,7 @@ from rovercheck.checker.model.variant import Variant
 from rovercheck.checker.render import Renderer, renderers
 from rovercheck.checker.render.stategraph.findings import findings_text
 from rovercheck.checker.render.verdict_text import evidence
+from rovercheck.checker.results.format import Need, Option
 from rovercheck.checker.results.graph import MOST_NODES, StateGraph, drawable, with_trace
 from rovercheck.checker.results.trace import Trace
 from rovercheck.checker.results.verdict import Unknown
@@ -125,14 +126,14 @@ def _renderer(kind: str, format: str | None, known: Mapping[str, Renderer], outp
     """
     wanted = pick(kind, format, known) if format is not None else None
     suffix = output.suffix.lower() if output is not None else ""
-    said = next((r for r in known.values() if r.SUFFIX == suffix), None)
+    said = next((r for r in known.values() if r.FORMAT.suffix == suffix), None)
     if said is None and suffix and wanted is None:
-        of = ", ".join(sorted(r.SUFFIX for r in known.values()))
+        of = ", ".join(sorted(r.FORMAT.suffix for r in known.values()))
         raise UsageError(f"{whole(output)} is of no {kind}: these are {of}. Choose one, or say --format.")
-    if wanted is not None and said is not None and wanted.NAME != said.NAME:
+    if wanted is not None and said is not None and wanted.FORMAT.name != said.FORMAT.name:
         raise UsageError(
-            f"--format {wanted.NAME} and {whole(output)} say two things. Name a file "
-            f"with {wanted.SUFFIX}, or leave --format out for {said.NAME}."
+            f"--format {wanted.FORMAT.name} and {whole(output)} say two things. Name a file "
+            f"with {wanted.FORMAT.suffix}, or leave --format out for {said.FORMAT.name}."
         )
     return wanted or said or known[DEFAULT]
 
@@ -242,7 +243,8 @@ def _trace(prop: Property, systems: Mapping[str, System]) -> Trace | None:
 
 def _shown(found: BuiltGraph, trace: Trace | None, renderer: Renderer, view: View) -> StateGraph:
     """The graph with all that the format shows."""
-    ways = getattr(renderer, "WAYS", False) and not view.summary and len(found.graph.nodes) <= view.most
+    ways = Need.STATE_RUNS in renderer.FORMAT.needs and not view.summary
+    ways = ways and len(found.graph.nodes) <= view.most
     graph = found.with_ways() if ways else found.graph
     return with_trace(graph, trace) if trace else graph
 
@@ -251,7 +253,7 @@ def _picture(
     renderer: Renderer, found: BuiltGraph, graph: StateGraph, view: View, options: str
 ) -> str | bytes:
     """What the renderer makes of it.  Raises ``UsageError`` that shows how to project a graph too large."""
-    if not getattr(renderer, "PICTURE", False):
+    if Option.MOST not in renderer.FORMAT.takes:
         return renderer.render(graph)
     try:
         drawable(graph, view.most)

@@ -16,6 +16,7 @@ LISTS = (
     "repairs",
     "assumptions",
     "engines",
+    "formats",
 )
 
 
@@ -26,7 +27,8 @@ LISTS = (
 @click.option("--json", "as_json", is_flag=True, help="The list as JSON (checker/schemas/list-1.json).")
 @modelling
 def list_(what: str, ids: tuple[str, ...], english: bool, as_json: bool, model: Path | None) -> Exit:
-    """List properties, systems, charts, requirements, interpretations, repairs, assumptions or engines."""
+    """List properties, systems, charts, requirements, interpretations, repairs, assumptions, engines or
+    formats."""
     from rovercheck.checker.commands.list.run import listing
 
     return listing(what, ids, english, model, as_json)

@@ -147,6 +147,15 @@ def _engines() -> list[Item]:
     ]
 
 
+def _formats() -> list[Item]:
+    from rovercheck.checker.commands.list.run import formats
+
+    return [
+        {"name": f.name, "of": f.kind, "suffix": f.suffix, "text": f.summary, "needs": sorted(f.needs)}
+        for f in formats()
+    ]
+
+
 OF_MODEL: Mapping[str, Callable[[Model], list[Item]]] = {
     "systems": _systems,
     "charts": _charts,
@@ -157,4 +166,5 @@ ITEMS: Mapping[str, Callable[[], list[Item]]] = {
     "interpretations": _interpretations,
     "repairs": _repairs,
     "engines": _engines,
+    "formats": _formats,
 }

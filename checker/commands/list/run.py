@@ -10,6 +10,7 @@ from rovercheck.checker.commands.shared.tables import listed
 from rovercheck.checker.commands.shared.text_wrap import filled
 from rovercheck.checker.engines import ALL, AUTO, engines
 from rovercheck.checker.io.printable import json_text
+from rovercheck.checker.results.format import KINDS, Format
 
 if TYPE_CHECKING:  # each list reads only what is in it
     from rovercheck.checker.model import Model
@@ -102,6 +103,23 @@ def list_engines() -> None:
     listed(("name", "what it does"), rows)
 
 
+def formats() -> list[Format]:
+    """Every format in which something is written, by what it shows."""
+    from rovercheck.checker.export import exporters
+    from rovercheck.checker.render import KINDS as RENDERED
+    from rovercheck.checker.render import renderers
+
+    shown = (one.FORMAT for kind in RENDERED for one in renderers(kind).values())
+    return [*shown, *(one.FORMAT for one in exporters().values())]
+
+
+def list_formats() -> None:
+    listed(
+        ("name", "written by", "file", "what it is"),
+        [(f.name, KINDS[f.kind], f.suffix, f.summary) for f in formats()],
+    )
+
+
 LISTS: dict[str, Callable[["Model"], None]] = {
     "systems": list_systems,
     "charts": list_charts,
@@ -112,6 +130,7 @@ OTHERS: dict[str, Callable[[], None]] = {
     "interpretations": list_interpretations,
     "repairs": list_repairs,
     "engines": list_engines,
+    "formats": list_formats,
 }
 
 
@@ -132,7 +151,7 @@ def listing(
             f"Ids and --english choose among properties; write `rovercheck list {what}` without them, "
             "or `rovercheck list properties [ID]... --english`."
         )
-    if path is not None and what in OTHERS and what != "engines":
+    if path is not None and what in OTHERS and what not in ("engines", "formats"):
         raise UsageError(f"No model of your own has {what}; write `rovercheck list {what}` without --model.")
     model = None if what in OTHERS else _model(path)
     chosen = _chosen(ids, model) if model and what == "properties" else []

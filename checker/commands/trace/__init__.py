@@ -46,7 +46,7 @@ class TraceOptions:
     default="table",
     show_default=True,
     metavar="FORMAT",
-    help="How: table, markdown, html, svg, vcd, json and more.",
+    help="How: table, markdown, html, svg, vcd, json and more; see rovercheck list formats.",
 )
 @click.option("--all", "everything", is_flag=True, help="Also what the property does not depend on.")
 @click.option(

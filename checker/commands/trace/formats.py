@@ -2,12 +2,12 @@
 
 from collections.abc import Mapping
 from functools import partial
-from inspect import signature
 from pathlib import Path
 from typing import Any
 
 from rovercheck.checker.commands.shared.output import text_width, write
 from rovercheck.checker.render import Renderer, named
+from rovercheck.checker.results.format import Need, Option
 from rovercheck.checker.results.trace import Trace
 from rovercheck.spec_model.lang.system import System
 
@@ -22,24 +22,24 @@ def exit_written(
     """Write the trace to a file or to standard output; the further files that this made, if any.
 
     ``everything``: also what the property does not depend on, where the format would leave it out.
-    A format with ``CONCRETE`` is given the run as the boards see it, one with ``BESIDE`` writes a file of
-    that format under the same name.  Raises ``ModelError`` for a run that the format cannot show.
+    A format that needs it is given the run as the boards see it; one with another ``beside`` it writes a
+    file of that under the same name.  Raises ``ModelError`` for a run that the format cannot show.
     """
-    if getattr(renderer, "CONCRETE", False):
+    if Need.BOARD_STEPS in renderer.FORMAT.needs:
         from rovercheck.checker.commands.trace.board_steps import concrete
 
         trace = concrete(trace, systems[trace.system.name])
     render = fitted(renderer, output)
-    if "everything" in signature(render).parameters:
+    if Option.EVERYTHING in renderer.FORMAT.takes:
         render = partial(render, everything=everything)
-    beside = getattr(renderer, "BESIDE", "")
+    beside = renderer.FORMAT.beside
     other = named("trace", beside) if beside else None
     if other is None or output is None:
         write(render(trace), output)
         return []
-    there = output.with_suffix(other.SUFFIX)
+    there = output.with_suffix(other.FORMAT.suffix)
     if there == output:
-        there = output.with_name(output.name + other.SUFFIX)
+        there = output.with_name(output.name + other.FORMAT.suffix)
     contents = other.render(trace), render(trace, dump=there.name)
     for place, content in zip((there, output), contents, strict=True):
         write(content, place)
@@ -49,6 +49,6 @@ def exit_written(
 def fitted(renderer: Renderer, output: Path | None) -> Any:
     """What renders; a text that is laid out in columns and goes to a terminal is as narrow as that."""
     render: Any = renderer.render
-    if output is None and "width" in signature(render).parameters:
+    if output is None and Option.WIDTH in renderer.FORMAT.takes:
         render = partial(render, width=text_width())
     return render
